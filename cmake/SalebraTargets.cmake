@@ -1,0 +1,16 @@
+# salebra_library(NAME): a library target with the project's warnings, the alias salebra::NAME and an installed header set.
+# A header of a library belongs to the file set HEADERS, so that CMake can compile each one alone.
+function(salebra_library target alias)
+  add_library(${target})
+  add_library(salebra::${alias} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${alias} VERIFY_INTERFACE_HEADER_SETS ON
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  salebra_warnings(${target})
+  set_property(GLOBAL APPEND PROPERTY SALEBRA_LIBRARIES ${target})
+endfunction()
+
+function(salebra_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+    -Woverloaded-virtual -Wnull-dereference -Wdouble-promotion $<$<BOOL:${SALEBRA_WERROR}>:-Werror>)
+endfunction()

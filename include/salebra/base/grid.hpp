@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+namespace salebra {
+
+using Index = Eigen::Index;
+
+/// Scalar field on a Grid2D: (nx, ny), x first, y contiguous, so that field(ix, iy) is the value in cell (ix, iy).
+using Field = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Regular grid of nx × ny cells on a rectangle of lx × ly metres.
+/// Point (ix, iy) lies at x = ix·dx, y = iy·dy; lx = nx·dx is the period where the surface is periodic.
+struct Grid2D {
+  Index nx = 0;
+  Index ny = 0;
+  double lx = 0;  ///< m
+  double ly = 0;  ///< m
+
+  double dx() const { return lx / static_cast<double>(nx); }
+  double dy() const { return ly / static_cast<double>(ny); }
+  Index points() const { return nx * ny; }
+  double area() const { return lx * ly; }            ///< m²
+  double cell_area() const { return dx() * dy(); }  ///< m²
+  bool operator==(const Grid2D&) const = default;
+
+  /// Throws InvalidInput unless nx, ny >= 1 and lx, ly are finite and > 0.
+  void validate() const;
+};
+
+/// Heights of the rough side. A hill is positive; hills touch first.
+struct Surface {
+  Grid2D grid;
+  Field heights;          ///< (nx, ny), m; NaN where the instrument has no value
+  bool periodic = false;  ///< generated surfaces are, measured ones are not
+  std::string origin;     ///< file, or generator with its seed: for provenance only
+
+  /// Number of NaN heights. Cost: one pass.
+  Index undefined_points() const;
+  /// Throws InvalidInput unless the grid is valid, heights has its shape and every height is finite.
+  /// `purpose` completes "undefined points cannot be used in <purpose>".
+  void require_complete(const std::string& purpose) const;
+};
+
+}  // namespace salebra

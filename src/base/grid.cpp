@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <salebra/base/grid.hpp>
+
+#include <cmath>
+#include <salebra/base/error.hpp>
+
+namespace salebra {
+
+void Grid2D::validate() const {
+  require(nx >= 1, "nx", nx, "must be >= 1");
+  require(ny >= 1, "ny", ny, "must be >= 1");
+  require_positive(lx, "size_x");
+  require_positive(ly, "size_y");
+}
+
+Index Surface::undefined_points() const { return heights.isNaN().count(); }
+
+void Surface::require_complete(const std::string& purpose) const {
+  grid.validate();
+  require(heights.rows() == grid.nx && heights.cols() == grid.ny, "heights",
+          std::to_string(heights.rows()) + " x " + std::to_string(heights.cols()),
+          "must have the shape of the grid, " + std::to_string(grid.nx) + " x " +
+              std::to_string(grid.ny));
+  const Index undefined = undefined_points();
+  require(undefined == 0, "heights", undefined,
+          "undefined points cannot be used in " + purpose + "; fill or crop them first");
+  require(heights.isFinite().all(), "heights", "infinity", "cannot be used in " + purpose);
+}
+
+}  // namespace salebra
