@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Quantities as people write them, "10 µm", "20kHz", "1e-7", and back. Everything inside salebra
+/// is in SI units.
+namespace salebra {
+
+enum class Dimension {
+  dimensionless,
+  length,                  ///< m
+  length_squared,          ///< m²
+  inverse_length_squared,  ///< m⁻²; spectral moment 4 and the inverse of an area
+  pressure,                ///< Pa
+  force,                   ///< N
+  stiffness,               ///< N/m
+  curvature,               ///< N/m², F''
+  damping,                 ///< N s/m
+  mass,                    ///< kg
+  angle,                   ///< rad
+  frequency,               ///< Hz
+  angular_frequency,       ///< rad/s
+  velocity,                ///< m/s
+  time,                    ///< s
+  energy,                  ///< J
+  power,                   ///< W
+};
+
+/// The SI unit as written into files: "m", "rad/s", "1/m^2", …; "1" for numbers without a
+/// dimension.
+std::string_view si_unit(Dimension dimension);
+
+/// A number in SI units from "<number>[ ]<unit>", such as "10um", "115 GPa", "90deg", "0.1". A bare
+/// number is SI. Units take the prefixes f p n u µ m c k M G T where they make sense; lengths also
+/// "Å", angles "deg" and "°", pressures "bar" and "N/mm^2", pure numbers "%". Powers are written
+/// mm2, mm^2 or mm². field   names the option or key in errors throws  InvalidInput for anything
+/// but one finite number with a unit of the dimension
+double parse_quantity(std::string_view text, Dimension dimension, std::string_view field);
+
+/// One value, a list "a,b,c", or a range "from:to:count" of count >= 2 values in geometric
+/// progression that hit both ends exactly (from, to > 0, not equal). A unit after `to` holds for
+/// `from` too where that has none: "1:100MPa:5".
+std::vector<double> parse_values(std::string_view text, Dimension dimension,
+                                 std::string_view field);
+
+/// The number with `digits` significant digits and an SI prefix where the dimension takes one:
+/// "1.234 µm", "115 GPa", "n/a" for NaN.
+std::string format_quantity(double value, Dimension dimension, int digits = 4);
+
+}  // namespace salebra

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
+
+namespace salebra {
+namespace {
+
+struct Prefix {
+  std::string_view symbol;
+  int exponent;
+};
+// Two code points look like a mu: the micro sign and the Greek letter.
+constexpr std::array prefixes{Prefix{"f", -15}, Prefix{"p", -12},     Prefix{"n", -9},
+                              Prefix{"u", -6},  Prefix{"\u00b5", -6}, Prefix{"\u03bc", -6},
+                              Prefix{"m", -3},  Prefix{"c", -2},      Prefix{"k", 3},
+                              Prefix{"M", 6},   Prefix{"G", 9},       Prefix{"T", 12}};
+
+/// One way to write a unit: prefix + stem + tail, where the prefix counts `power` times.
+struct Spelling {
+  Dimension dimension;
+  std::string_view head;
+  std::string_view stem;
+  std::string_view tail;
+  double factor = 1;  ///< SI value of the unit without a prefix
+  int power = 1;      ///< of the prefix; 0 where the unit takes none
+};
+
+constexpr double degree = std::numbers::pi / 180;
+using enum Dimension;
+constexpr std::array spellings{
+    Spelling{dimensionless, "", "1", "", 1, 0},
+    Spelling{dimensionless, "", "%", "", 0.01, 0},
+    Spelling{length, "", "m", ""},
+    Spelling{length, "", "\u00c5", "", 1e-10, 0},
+    Spelling{length, "", "angstrom", "", 1e-10, 0},
+    Spelling{length_squared, "", "m", "\u00b2", 1, 2},
+    Spelling{length_squared, "", "m", "^2", 1, 2},
+    Spelling{length_squared, "", "m", "2", 1, 2},
+    Spelling{inverse_length_squared, "1/", "m", "\u00b2", 1, -2},
+    Spelling{inverse_length_squared, "1/", "m", "^2", 1, -2},
+    Spelling{inverse_length_squared, "1/", "m", "2", 1, -2},
+    Spelling{inverse_length_squared, "/", "m", "2", 1, -2},
+    Spelling{inverse_length_squared, "/", "m", "^2", 1, -2},
+    Spelling{inverse_length_squared, "/", "m", "\u00b2", 1, -2},
+    Spelling{inverse_length_squared, "", "m", "^-2", 1, -2},
+    Spelling{inverse_length_squared, "", "m", "-2", 1, -2},
+    Spelling{pressure, "", "Pa", ""},
+    Spelling{pressure, "", "bar", "", 1e5},
+    Spelling{pressure, "N/", "m", "2", 1, -2},
+    Spelling{pressure, "N/", "m", "^2", 1, -2},
+    Spelling{pressure, "N/", "m", "\u00b2", 1, -2},
+    Spelling{force, "", "N", ""},
+    Spelling{stiffness, "", "N", "/m"},
+    Spelling{curvature, "", "N", "/m^2"},
+    Spelling{damping, "", "N", " s/m"},
+    Spelling{damping, "", "N", "s/m"},
+    Spelling{mass, "", "g", "", 1e-3},
+    Spelling{angle, "", "rad", ""},
+    Spelling{angle, "", "deg", "", degree, 0},
+    Spelling{angle, "", "\u00b0", "", degree, 0},
+    Spelling{frequency, "", "Hz", ""},
+    Spelling{frequency, "", "1/s", "", 1, 0},
+    Spelling{angular_frequency, "", "rad/s", ""},
+    Spelling{angular_frequency, "", "1/s", "", 1, 0},
+    Spelling{velocity, "", "m", "/s"},
+    Spelling{Dimension::time, "", "s", ""},
+    Spelling{energy, "", "J", ""},
+    Spelling{power, "", "W", ""},
+};
+
+struct About {
+  Dimension dimension;
+  std::string_view unit;
+  std::string_view example;
+  bool takes_prefix;  ///< when printed
+};
+constexpr std::array abouts{
+    About{dimensionless, "1", "0.1", false},
+    About{length, "m", "10um", true},
+    About{length_squared, "m^2", "1um2", false},
+    About{inverse_length_squared, "1/m^2", "1/um2", false},
+    About{pressure, "Pa", "115GPa", true},
+    About{force, "N", "1mN", true},
+    About{stiffness, "N/m", "1kN/m", true},
+    About{curvature, "N/m^2", "1N/m^2", false},
+    About{damping, "N s/m", "1Ns/m", true},
+    About{mass, "kg", "1kg", false},
+    About{angle, "rad", "90deg", false},
+    About{frequency, "Hz", "20kHz", true},
+    About{angular_frequency, "rad/s", "1e5rad/s", false},
+    About{velocity, "m/s", "1mm/s", true},
+    About{Dimension::time, "s", "1ms", true},
+    About{energy, "J", "1nJ", true},
+    About{Dimension::power, "W", "1uW", true},
+};
+
+const About& about(Dimension dimension) {
+  return *std::ranges::find(abouts, dimension, &About::dimension);
+}
+
+std::string_view trim(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::optional<double> factor_of(std::string_view unit, const Spelling& spelling) {
+  if (!unit.starts_with(spelling.head)) return {};
+  unit.remove_prefix(spelling.head.size());
+  if (!unit.ends_with(spelling.tail)) return {};
+  unit.remove_suffix(spelling.tail.size());
+  if (!unit.ends_with(spelling.stem)) return {};
+  unit.remove_suffix(spelling.stem.size());
+  if (unit.empty()) return spelling.factor;
+  if (spelling.power == 0) return {};
+  for (const Prefix& prefix : prefixes) {
+    if (prefix.symbol == unit) {
+      return spelling.factor * std::pow(10.0, prefix.exponent * spelling.power);
+    }
+  }
+  return {};
+}
+
+std::optional<double> factor_of(std::string_view unit, Dimension dimension) {
+  for (const Spelling& spelling : spellings) {
+    if (spelling.dimension != dimension) continue;
+    if (const auto factor = factor_of(unit, spelling)) return factor;
+  }
+  return {};
+}
+
+struct Written {
+  double number;
+  std::string_view unit;
+};
+
+Written split(std::string_view text, Dimension dimension, std::string_view field) {
+  std::string_view rest = trim(text);
+  if (rest.starts_with('+')) rest.remove_prefix(1);
+  double number = 0;
+  const auto [end, status] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  require(status == std::errc{} && std::isfinite(number), field, "'" + std::string(text) + "'",
+          fmt::format("is not a finite number; write for example {}", about(dimension).example));
+  return {number, trim(rest.substr(std::size_t(end - rest.data())))};
+}
+
+double unit_factor(std::string_view unit, Dimension dimension, std::string_view text,
+                   std::string_view field) {
+  if (unit.empty()) return 1;
+  const auto factor = factor_of(unit, dimension);
+  require(factor.has_value(), field, "'" + std::string(text) + "'",
+          fmt::format("has a unit that is not understood here, '{}'; write for example {}", unit,
+                      about(dimension).example));
+  return *factor;
+}
+
+std::vector<std::string_view> split_at(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (auto at = text.find(separator); at != std::string_view::npos; at = text.find(separator)) {
+    parts.push_back(text.substr(0, at));
+    text.remove_prefix(at + 1);
+  }
+  parts.push_back(text);
+  return parts;
+}
+
+std::vector<double> geometric(std::string_view text, Dimension dimension, std::string_view field) {
+  const auto parts = split_at(text, ':');
+  const std::string quoted = "'" + std::string(text) + "'";
+  require(parts.size() == 3, field, quoted, "is not a range; write from:to:count");
+  const Written to_written = split(parts[1], dimension, field);
+  Written from_written = split(parts[0], dimension, field);
+  if (from_written.unit.empty()) from_written.unit = to_written.unit;
+  const double from = from_written.number * unit_factor(from_written.unit, dimension, text, field);
+  const double to = to_written.number * unit_factor(to_written.unit, dimension, text, field);
+  const std::string_view count_text = trim(parts[2]);
+  int count = 0;
+  const auto [end, status] =
+      std::from_chars(count_text.data(), count_text.data() + count_text.size(), count);
+  require(status == std::errc{} && end == count_text.data() + count_text.size() && count >= 2 &&
+              count <= 1'000'000,
+          field, quoted,
+          "needs a whole number from 2 to 1000000 as its count; write from:to:count");
+  require(from > 0 && to > 0 && from != to, field, quoted,
+          "must run between two different numbers > 0, for its steps are logarithmic; write a "
+          "list a,b,c instead");
+  std::vector<double> values;
+  const double step = std::log(to / from) / (count - 1);
+  for (int i = 0; i < count - 1; ++i) values.push_back(from * std::exp(step * i));
+  values.push_back(to);
+  return values;
+}
+
+}  // namespace
+
+std::string_view si_unit(Dimension dimension) { return about(dimension).unit; }
+
+double parse_quantity(std::string_view text, Dimension dimension, std::string_view field) {
+  const Written written = split(text, dimension, field);
+  return written.number * unit_factor(written.unit, dimension, text, field);
+}
+
+std::vector<double> parse_values(std::string_view text, Dimension dimension,
+                                 std::string_view field) {
+  if (text.find(':') != std::string_view::npos) return geometric(text, dimension, field);
+  std::vector<double> values;
+  for (const std::string_view part : split_at(text, ',')) {
+    values.push_back(parse_quantity(part, dimension, field));
+  }
+  return values;
+}
+
+std::string format_quantity(double value, Dimension dimension, int digits) {
+  if (std::isnan(value)) return "n/a";
+  const std::string_view unit = si_unit(dimension);
+  if (!about(dimension).takes_prefix || value == 0 || std::isinf(value)) {
+    return unit == "1" ? fmt::format("{:.{}g}", value, digits)
+                       : fmt::format("{:.{}g} {}", value, digits, unit);
+  }
+  constexpr std::array engineering{
+      Prefix{"f", -15}, Prefix{"p", -12}, Prefix{"n", -9}, Prefix{"\u00b5", -6}, Prefix{"m", -3},
+      Prefix{"", 0},    Prefix{"k", 3},   Prefix{"M", 6},  Prefix{"G", 9},       Prefix{"T", 12}};
+  // Rounding to the digits shown comes first, so that 999.96 nm reads 1 µm.
+  const double rounded = std::stod(fmt::format("{:.{}e}", std::abs(value), digits - 1));
+  const int exponent = static_cast<int>(std::floor(std::log10(rounded) + 1e-12));
+  const Prefix* best = &engineering.front();
+  for (const Prefix& prefix : engineering) {
+    if (prefix.exponent <= exponent) best = &prefix;
+  }
+  if (exponent < best->exponent || exponent > best->exponent + 5) {
+    return fmt::format("{:.{}g} {}", value, digits, unit);
+  }
+  return fmt::format("{:.{}g} {}{}", value / std::pow(10.0, best->exponent), digits, best->symbol,
+                     unit);
+}
+
+}  // namespace salebra

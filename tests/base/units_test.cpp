@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
+
+using namespace salebra;
+
+TEST_CASE("Quantities are read with and without units", "[units]") {
+  struct Case {
+    const char* text;
+    Dimension dimension;
+    double value;
+  };
+  const auto [text, dimension, value] = GENERATE(values<Case>({
+      {"10um", Dimension::length, 1e-5},
+      {"10 \u00b5m", Dimension::length, 1e-5},
+      {"10 \u03bcm", Dimension::length, 1e-5},
+      {"2mm", Dimension::length, 2e-3},
+      {"3 m", Dimension::length, 3},
+      {"5\u00c5", Dimension::length, 5e-10},
+      {"1e-7", Dimension::length, 1e-7},
+      {"+.5nm", Dimension::length, 5e-10},
+      {"20kHz", Dimension::frequency, 2e4},
+      {"115GPa", Dimension::pressure, 1.15e11},
+      {"2 N/mm^2", Dimension::pressure, 2e6},
+      {"90deg", Dimension::angle, std::numbers::pi / 2},
+      {"-45\u00b0", Dimension::angle, -std::numbers::pi / 4},
+      {"10mrad", Dimension::angle, 0.01},
+      {"0.1", Dimension::dimensionless, 0.1},
+      {"3%", Dimension::dimensionless, 0.03},
+      {"5mm/s", Dimension::velocity, 5e-3},
+      {"1krad/s", Dimension::angular_frequency, 1e3},
+      {"4/um2", Dimension::inverse_length_squared, 4e12},
+      {"4 1/mm\u00b2", Dimension::inverse_length_squared, 4e6},
+      {"4um^-2", Dimension::inverse_length_squared, 4e12},
+      {"7mN", Dimension::force, 7e-3},
+      {"2kg", Dimension::mass, 2},
+      {"1kN/m", Dimension::stiffness, 1e3},
+      {"5us", Dimension::time, 5e-6},
+  }));
+  INFO(text);
+  // A parsed decimal and a power of ten: two roundings.
+  CHECK(parse_quantity(text, dimension, "--x") == Approx(value).epsilon(4e-16).margin(0));
+}
+
+TEST_CASE("What is not a quantity of the dimension is refused with the option's name", "[units]") {
+  const auto [text, dimension] = GENERATE(table<const char*, Dimension>({
+      {"", Dimension::length},
+      {"um", Dimension::length},
+      {"10 kg", Dimension::length},
+      {"10 Pa", Dimension::length},
+      {"1e", Dimension::length},
+      {"1,5", Dimension::length},
+      {"nan", Dimension::length},
+      {"inf", Dimension::length},
+      {"1e400", Dimension::length},
+      {"0x10", Dimension::length},
+      {"10kdeg", Dimension::angle},
+      {"20 kHz", Dimension::angular_frequency},
+      {"1 2", Dimension::dimensionless},
+      {"--1", Dimension::dimensionless},
+  }));
+  INFO(text);
+  CHECK_THROWS_WITH(parse_quantity(text, dimension, "--size-x"),
+                    Catch::StartsWith("--size-x: '" + std::string(text) + "' "));
+  CHECK_THROWS_AS(parse_quantity(text, dimension, "--size-x"), InvalidInput);
+}
+
+TEST_CASE("Values are one number, a list or a logarithmic range", "[units]") {
+  CHECK(parse_values("3kPa", Dimension::pressure, "--p") == std::vector{3e3});
+  CHECK(parse_values("1,2kPa, 3 MPa", Dimension::pressure, "--p") == std::vector{1., 2e3, 3e6});
+
+  const auto range = parse_values("1:100MPa:5", Dimension::pressure, "--p");
+  REQUIRE(range.size() == 5);
+  CHECK(range.front() == 1e6);
+  CHECK(range.back() == 1e8);
+  for (std::size_t i = 0; i < 5; ++i) {
+    CHECK(range[i] == Approx(1e6 * std::pow(10, 0.5 * double(i))).epsilon(1e-14));
+  }
+  const auto falling = parse_values("1e-2:1e-4:3", Dimension::length, "--p");
+  CHECK(falling[1] == Approx(1e-3).epsilon(1e-14));
+
+  for (const char* bad :
+       {"1:2", "1:2:1", "1:2:x", "0:2:5", "-1:2:5", "2:2:5", "1:2:3:4", "1,,2", "1:2:2.5"}) {
+    INFO(bad);
+    CHECK_THROWS_AS(parse_values(bad, Dimension::length, "--p"), InvalidInput);
+  }
+}
+
+TEST_CASE(
+    "A number written with a prefixed unit is the number times the prefix, for random numbers",
+    "[units]") {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> mantissa(-10, 10);
+  std::uniform_int_distribution<int> exponent(-30, 30);
+  for (int repeat = 0; repeat < 500; ++repeat) {
+    const double number = mantissa(random) * std::pow(10.0, exponent(random));
+    const std::string text = fmt::format("{}", number);  // shortest text that reads back exactly
+    CHECK(parse_quantity(text, Dimension::length, "--x") == number);
+    CHECK(parse_quantity(text + " nm", Dimension::length, "--x") ==
+          Approx(number * 1e-9).epsilon(4e-16).margin(0));
+  }
+}
+
+TEST_CASE("A formatted quantity reads back to the digits shown, for random numbers", "[units]") {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> mantissa(1, 10);
+  std::uniform_int_distribution<int> exponent(-20, 18);
+  for (int repeat = 0; repeat < 500; ++repeat) {
+    const double number = mantissa(random) * std::pow(10.0, exponent(random));
+    for (const Dimension dimension : {Dimension::length, Dimension::pressure, Dimension::velocity,
+                                      Dimension::angle, Dimension::dimensionless}) {
+      const std::string text = format_quantity(number, dimension);
+      INFO(text);
+      // Four digits: half a unit of the fourth, at worst 5e-4 relative.
+      CHECK(parse_quantity(text, dimension, "--x") == Approx(number).epsilon(5.1e-4).margin(0));
+    }
+  }
+  CHECK(format_quantity(1.2344e-6, Dimension::length) == "1.234 \u00b5m");
+  CHECK(format_quantity(9.99996e-7, Dimension::length) == "1 \u00b5m");
+  CHECK(format_quantity(std::nan(""), Dimension::length) == "n/a");
+}
