@@ -62,9 +62,13 @@ class ExponentialLaw final : public ContactLaw {
   double reference_force_, decay_length_;
 };
 
-/// A computed or measured curve. ln F against δ is interpolated by a monotone cubic through the samples (Steffen), with K, and K_t
-/// where the curve has it, interpolated likewise in its own right, so that F' = K holds to the interpolation error only.
-/// Samples that did not converge are left out. Throws InvalidInput for fewer than four usable samples or F not growing with δ.
+/// A computed or measured curve. ln F against δ is interpolated by one monotone cubic, whose slopes at the nodes are K/F where
+/// every sample has K and four-point differences otherwise; K = F' and K' = F'' are its exact derivatives, of order 4, 3 and 2
+/// in the spacing of the samples (K' jumps at the samples). K_t: where every sample has one, ln K_t is interpolated likewise and
+/// modulus_ratio is not used; otherwise (G*/E*)K.
+/// δ is the samples' indentation, or −ū where any of them lacks it: the laws differ by a shift of δ only.
+/// Samples that did not converge or have F = 0 are left out. Throws InvalidInput for fewer than four usable samples or F not
+/// growing with δ.
 class TabulatedLaw final : public ContactLaw {
  public:
   TabulatedLaw(const ForceCurve& curve, double modulus_ratio);
