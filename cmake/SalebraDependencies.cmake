@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Every third-party library comes from the system; nothing is downloaded at configure time.
 # scripts/install-dependencies names the Debian packages.
 find_package(Threads REQUIRED)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # salebra_library(NAME): a library target with the project's warnings, the alias salebra::NAME and an installed header set.
 # A header of a library belongs to the file set HEADERS, so that CMake can compile each one alone.
 function(salebra_library target alias)

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# cmake -D ROOT=<tree> -P CheckLayers.cmake: fails where a file includes a header of a higher layer than its own, or one
+# of the three contact models includes another. A file's layer is the folder that it stands in.
+cmake_minimum_required(VERSION 3.25)
+set(layers base generators surface contact damping io study apps)
+set(strangers contact/greenwood_williamson contact/half_space contact/normal contact/mdr)  # normal may use half_space
+
+file(GLOB_RECURSE files RELATIVE ${ROOT}
+  ${ROOT}/include/*.[hc]pp ${ROOT}/src/*.[hc]pp ${ROOT}/generators/*.[hc]pp ${ROOT}/apps/*.[hc]pp)
+list(FILTER files EXCLUDE REGEX "^generators/tests/")  # tests may look at anything
+set(seen 0)
+
+# layer_of(path out): the first layer named by a folder of the path, and its rank.
+function(layer_of path out)
+  string(REPLACE "/" ";" folders "${path}")
+  foreach(folder IN LISTS folders)
+    list(FIND layers "${folder}" rank)
+    if(rank GREATER_EQUAL 0)
+      set(${out} ${rank} PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+  set(${out} -1 PARENT_SCOPE)
+endfunction()
+
+# model_of(path out): which of the contact models the path belongs to, or empty; all files of normal* are one model.
+function(model_of path out)
+  set(${out} "" PARENT_SCOPE)
+  foreach(model IN LISTS strangers)
+    if(path MATCHES "${model}[._a-z0-9]*[.][hc]pp$")
+      string(REPLACE "half_space" "normal" model "${model}")
+      set(${out} ${model} PARENT_SCOPE)
+    endif()
+  endforeach()
+endfunction()
+
+foreach(file IN LISTS files)
+  layer_of(${file} here)
+  if(here EQUAL -1)
+    message(SEND_ERROR "${file} stands in no layer (${layers})")
+    continue()
+  endif()
+  model_of(${file} this_model)
+  get_filename_component(folder ${file} DIRECTORY)
+  file(STRINGS ${ROOT}/${file} lines REGEX "^[ \t]*#[ \t]*include")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "[<\"](salebra/[^>\"]+)[>\"]")
+      set(target ${CMAKE_MATCH_1})
+    elseif(line MATCHES "\"([^\"]+)\"")
+      # A private header: relative to the file, else to src/ ("contact/x.hpp").
+      set(target ${CMAKE_MATCH_1})
+      if(NOT target MATCHES "^[a-z]+/" OR EXISTS ${ROOT}/${folder}/${target})
+        cmake_path(SET target NORMALIZE "${folder}/${target}")
+      else()
+        set(target src/${target})
+      endif()
+    else()
+      continue()
+    endif()
+    math(EXPR seen "${seen} + 1")
+    layer_of(${target} there)
+    if(there GREATER here)
+      message(SEND_ERROR "${file} must not ${line}: layers only look down (${layers})")
+    endif()
+    model_of(${target} that_model)
+    if(this_model AND that_model AND NOT this_model STREQUAL that_model)
+      message(SEND_ERROR "${file} must not ${line}: contact models never include each other")
+    endif()
+  endforeach()
+endforeach()
+if(seen EQUAL 0)
+  message(SEND_ERROR "no include of the project was found below ${ROOT}: nothing was checked")
+endif()
