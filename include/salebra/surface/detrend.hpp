@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/base/grid.hpp>
+
+namespace salebra {
+
+/// What is subtracted from the heights before anything is measured on them.
+enum class Detrend {
+  none,
+  mean,   ///< the mean of the defined heights
+  plane,  ///< the least-squares plane a + b·x + c·y through the defined heights
+};
+
+/// The plane for a measured surface, which carries the tilt of its stage; the mean for a periodic
+/// one, where a plane would break the period.
+Detrend customary_detrend(const Surface& surface);
+
+/// The surface less its trend. Undefined points stay undefined and take no part in the fit; where
+/// they, or a grid of one row, leave the plane undetermined, the smallest tilt that fits is
+/// subtracted. Throws InvalidInput if the heights have not the shape of the grid or no height is
+/// defined. Cost: two passes.
+Surface detrended(Surface surface, Detrend method);
+
+}  // namespace salebra

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/base/grid.hpp>
+
+namespace salebra {
+
+/// Moments of the height distribution over all defined points; undefined points take no part.
+/// The divisor is the number of points (population moments), and no filter is applied.
+struct HeightStatistics {
+  Index defined_points = 0;
+  double minimum = 0;     ///< m
+  double maximum = 0;     ///< m
+  double mean = 0;        ///< ⟨h⟩, m
+  double rms_height = 0;  ///< √⟨(h − ⟨h⟩)²⟩, m
+  double skewness = 0;    ///< ⟨(h − ⟨h⟩)³⟩/rms_height³; NaN for a flat surface
+  double kurtosis =
+      0;  ///< ⟨(h − ⟨h⟩)⁴⟩/rms_height⁴, 3 for a Gaussian surface; NaN for a flat surface
+};
+
+/// Throws InvalidInput if the heights have not the shape of the grid, hold an infinity, or none of
+/// them is defined. Cost: two passes. Same bits for every thread count.
+HeightStatistics height_statistics(const Surface& surface);
+
+/// Profile moments along both axes and their means, which are those of any direction if the surface
+/// is isotropic.
+struct SpectralMoments {
+  double moment0 = 0;    ///< m0 = ⟨h²⟩ of the heights less their mean, m²
+  double moment2_x = 0;  ///< ⟨(∂h/∂x)²⟩
+  double moment2_y = 0;  ///< ⟨(∂h/∂y)²⟩
+  double moment4_x = 0;  ///< ⟨(∂²h/∂x²)²⟩, 1/m²
+  double moment4_y = 0;  ///< ⟨(∂²h/∂y²)²⟩, 1/m²
+
+  double moment2() const { return (moment2_x + moment2_y) / 2; }  ///< m2
+  double moment4() const { return (moment4_x + moment4_y) / 2; }  ///< m4, 1/m²
+  double rms_slope() const;  ///< h' = √⟨|∇h|²⟩ = √(2 m2), exact for an anisotropic surface too
+  double nayak() const;  ///< α = m0 m4/m2²; at least 1.5 for a Gaussian isotropic surface
+};
+
+/// Moments of a periodic surface from its spectrum (PHYSICS convention h_rms² = ∫C d²q):
+///     m2_x = Σ q_x² |ĥ|²/N², m4_x = Σ q_x⁴ |ĥ|²/N² over the full spectrum, q = 0 left out,
+/// which are those of the trigonometric interpolant; a Nyquist mode counts once, with |q| = π/dx.
+/// Throws InvalidInput unless the surface is periodic and complete. Cost: one FFT.
+SpectralMoments spectral_moments(const Surface& surface);
+
+/// Moments by finite differences of neighbouring points:
+///     m2_x = ⟨((h_{i+1} − h_i)/dx)²⟩, m4_x = ⟨((h_{i+1} − 2h_i + h_{i−1})/dx²)²⟩,
+/// each a mean over all stencils on the grid (with wrap where the surface is periodic) that touch
+/// no undefined point. Where the surface has structure at the scale of the grid they are smaller
+/// than the spectral moments: a mode of wave number q counts with (2 sin(q dx/2)/dx)² in place of
+/// q². The rms slope is SurfaceTopography's for a non-periodic surface. Throws InvalidInput if an
+/// axis has fewer than three points or a moment has no stencil left. Cost: one pass.
+SpectralMoments difference_moments(const Surface& surface);
+
+/// spectral_moments of a periodic surface, difference_moments of any other.
+SpectralMoments surface_moments(const Surface& surface);
+
+}  // namespace salebra

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/base/grid.hpp>
+#include <vector>
+
+namespace salebra {
+
+/// A local maximum and the paraboloid that osculates it.
+struct Summit {
+  double x = 0;           ///< m; of the paraboloid's vertex, within one cell of the highest point
+  double y = 0;           ///< m
+  double height = 0;      ///< m, of the vertex, from the zero of the heights
+  double curvature1 = 0;  ///< the larger principal curvature, 1/m; > 0
+  double curvature2 = 0;  ///< the smaller one, 1/m; >= 0
+
+  double mean_radius() const { return 2 / (curvature1 + curvature2); }  ///< 1/(mean curvature), m
+};
+
+struct SummitList {
+  std::vector<Summit> summits;
+  double searched_area = 0;  ///< m²: cells whose eight neighbours exist and are defined
+};
+
+/// Every point that is higher than its eight neighbours (of equal neighbours the last in row order
+/// counts, so that a pair of equal points is one summit). The paraboloid is the least-squares one
+/// through the 3 × 3 points; where that is not a cap with its vertex within one cell (structure at
+/// the scale of the grid), the point itself and the second differences along x and y stand in for
+/// it. Points without any curvature are no summits. The neighbourhood wraps where the surface is
+/// periodic; elsewhere the border is not searched, nor are points beside undefined ones. Throws
+/// InvalidInput for fewer than 3 × 3 points. Cost: one pass.
+SummitList find_summits(const Surface& surface);
+
+/// Of an ensemble, as the Greenwood–Williamson theory uses it.
+struct SummitStatistics {
+  double density = 0;      ///< summits per searched area, 1/m²
+  double mean_height = 0;  ///< from the zero of the heights, m; NaN without summits
+  double rms_height = 0;   ///< standard deviation of the summit heights, m; NaN without summits
+  double mean_radius =
+      0;  ///< 1/⟨mean curvature⟩, m, which is (3/8)√(π/m4) for a Gaussian isotropic surface
+};
+
+SummitStatistics summit_statistics(const SummitList& list);
+
+}  // namespace salebra

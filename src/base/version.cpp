@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <salebra/base/version.hpp>
+
+namespace salebra {
+
+std::string_view version() { return SALEBRA_VERSION; }
+
+}  // namespace salebra
