@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <span>
 
-/// Random numbers without a state: each is a function of a seed and of the lattice point (i, j) that it belongs to, so that it
-/// does not depend on the order of drawing, the number of threads or the size of the grid.
+/// Random numbers without a state: each is a function of a seed and of the lattice point (i, j)
+/// that it belongs to, so that it does not depend on the order of drawing, the number of threads or
+/// the size of the grid.
 ///
-/// The bits are those of Philox4x32 with 10 rounds [Salmon2011, doi:10.1145/2063384.2063405]: key = the two halves of the seed,
-/// counter = (i, j, stream, 0), i and j in two's complement. Different streams of one seed are independent. Logarithm, sine and
-/// cosine are computed here, to about 2 units in the last place, without fused operations: the numbers have the same bits on every
+/// The bits are those of Philox4x32 with 10 rounds [Salmon2011, doi:10.1145/2063384.2063405]: key =
+/// the two halves of the seed, counter = (i, j, stream, 0), i and j in two's complement. Different
+/// streams of one seed are independent. Logarithm, sine and cosine are computed here, to about 2
+/// units in the last place, without fused operations: the numbers have the same bits on every
 /// machine with IEEE arithmetic.
 namespace salebra {
 
@@ -29,7 +31,8 @@ std::array<std::uint32_t, 4> random_bits(std::uint64_t seed, std::int32_t i, std
 RandomPair uniform_pair(std::uint64_t seed, std::int32_t i, std::int32_t j,
                         std::uint32_t stream = 0);
 
-/// Standard normal, from uniform_pair by Box and Muller: √(−2 ln u₁) (cos 2πu₂, sin 2πu₂). Largest value: 8.57.
+/// Standard normal, from uniform_pair by Box and Muller: √(−2 ln u₁) (cos 2πu₂, sin 2πu₂). Largest
+/// value: 8.57.
 RandomPair gaussian_pair(std::uint64_t seed, std::int32_t i, std::int32_t j,
                          std::uint32_t stream = 0);
 
@@ -37,7 +40,8 @@ RandomPair gaussian_pair(std::uint64_t seed, std::int32_t i, std::int32_t j,
 void fill_gaussian(std::uint64_t seed, std::int32_t i, std::int32_t j,
                    std::span<std::complex<double>> pairs, std::uint32_t stream = 0);
 
-/// factors[k] = exp(2πi u₂) with the u₂ of uniform_pair(seed, i + k, j), vectorised: the phases of fill_gaussian.
+/// factors[k] = exp(2πi u₂) with the u₂ of uniform_pair(seed, i + k, j), vectorised: the phases of
+/// fill_gaussian.
 void fill_phase_factors(std::uint64_t seed, std::int32_t i, std::int32_t j,
                         std::span<std::complex<double>> factors, std::uint32_t stream = 0);
 
