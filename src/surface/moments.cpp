@@ -74,10 +74,6 @@ HeightStatistics height_statistics(const Surface& surface) {
   return result;
 }
 
-double SpectralMoments::rms_slope() const { return std::sqrt(moment2_x + moment2_y); }
-
-double SpectralMoments::nayak() const { return moment0 * moment4() / (moment2() * moment2()); }
-
 SpectralMoments spectral_moments(const Surface& surface) {
   surface.require_complete("spectral moments");
   require(surface.periodic, "surface", surface.origin.empty() ? "not periodic" : surface.origin,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <salebra/base/grid.hpp>
+#include <salebra/base/spectral_moments.hpp>
 
 namespace salebra {
 
@@ -21,21 +22,6 @@ struct HeightStatistics {
 /// Throws InvalidInput if the heights have not the shape of the grid, hold an infinity, or none of
 /// them is defined. Cost: two passes. Same bits for every thread count.
 HeightStatistics height_statistics(const Surface& surface);
-
-/// Profile moments along both axes and their means, which are those of any direction if the surface
-/// is isotropic.
-struct SpectralMoments {
-  double moment0 = 0;    ///< m0 = ⟨h²⟩ of the heights less their mean, m²
-  double moment2_x = 0;  ///< ⟨(∂h/∂x)²⟩
-  double moment2_y = 0;  ///< ⟨(∂h/∂y)²⟩
-  double moment4_x = 0;  ///< ⟨(∂²h/∂x²)²⟩, 1/m²
-  double moment4_y = 0;  ///< ⟨(∂²h/∂y²)²⟩, 1/m²
-
-  double moment2() const { return (moment2_x + moment2_y) / 2; }  ///< m2
-  double moment4() const { return (moment4_x + moment4_y) / 2; }  ///< m4, 1/m²
-  double rms_slope() const;  ///< h' = √⟨|∇h|²⟩ = √(2 m2), exact for an anisotropic surface too
-  double nayak() const;  ///< α = m0 m4/m2²; at least 1.5 for a Gaussian isotropic surface
-};
 
 /// Moments of a periodic surface from its spectrum (PHYSICS convention h_rms² = ∫C d²q):
 ///     m2_x = Σ q_x² |ĥ|²/N², m4_x = Σ q_x⁴ |ĥ|²/N² over the full spectrum, q = 0 left out,
