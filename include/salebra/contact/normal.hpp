@@ -3,10 +3,10 @@
 
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
+#include <salebra/contact/half_space.hpp>
 
 namespace salebra {
 
-enum class Boundary { periodic, free };
 /// mixed: transforms in float, residuals and acceptance in double.
 enum class Precision { mixed, full };
 

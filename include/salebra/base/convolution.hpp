@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <salebra/base/grid.hpp>
+
+namespace salebra {
+
+/// What a kernel does under x → −x, and separately under y → −y.
+enum class Parity { even, odd };
+
+/// Convolution of real fields with real kernels, by one real transform forward and one backward:
+///     y_a = Σ_b K_ab * x_b,   a, b < components (1 or 2),   K_ab = K_ba.
+/// A field (nx, ny) fills the first points of a period (period_x, period_y) and the rest is zero: with period = n the
+/// convolution is circular, with period >= 2n − 1 it is that of isolated fields. Three passes over memory: rows, then blocks of
+/// columns that stay in cache while they are transformed, multiplied by the symbols and transformed back, then rows.
+/// The result has the same bits for every thread count. One object may run in one thread at a time.
+/// Memory for each point of the period: a half-spectrum of sizeof(Real) bytes a component, and a quarter of that for each symbol.
+template <class Real>
+class Convolution2D {
+ public:
+  struct Shape {
+    Index nx = 0, ny = 0;              ///< of the fields
+    Index period_x = 0, period_y = 0;  ///< of the transform; >= nx, ny
+  };
+  /// The kernel's transform Σ_ab K(a, b) exp(−2πi(ia/period_x + jb/period_y)) for 0 <= i <= period_x/2, 0 <= j <= period_y/2.
+  /// It is real for either parity, and parity says what it is at negative i, j.
+  using Symbol = std::function<double(Index i, Index j)>;
+
+  explicit Convolution2D(const Shape& shape, int components = 1);
+  Convolution2D(Convolution2D&&) noexcept;
+  Convolution2D& operator=(Convolution2D&&) noexcept;
+  ~Convolution2D();
+
+  const Shape& shape() const;
+  /// K_ab and K_ba. Symbols are zero until set. `symbol` is called from several threads.
+  void set_symbol(int a, int b, const Symbol& symbol, Parity parity = Parity::even);
+
+  /// One component. result may be field itself.
+  void apply(const Real* field, Real* result);
+  /// Two components.
+  void apply(const std::array<const Real*, 2>& fields, const std::array<Real*, 2>& results);
+
+ private:
+  struct Passes;
+  std::unique_ptr<Passes> passes_;
+};
+
+extern template class Convolution2D<float>;
+extern template class Convolution2D<double>;
+
+/// Least n >= size of the form 2^a 3^b 5^c (even if size > 1): transforms of such lengths are fast.
+Index fast_transform_size(Index size);
+
+}  // namespace salebra

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <fftw3.h>
+
+#include <complex>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <salebra/base/error.hpp>
+#include <type_traits>
+
+namespace salebra::detail {
+
+// FFTW's planner, and only its planner, is shared state: one lock around making and destroying plans.
+std::mutex& fftw_planner_mutex();
+
+// The two precisions of FFTW behind one set of names.
+template <class Real>
+struct Fftw;
+
+template <>
+struct Fftw<double> {
+  using Plan = fftw_plan;
+  using Complex = fftw_complex;
+  static constexpr auto plan_r2c_2d = fftw_plan_dft_r2c_2d;
+  static constexpr auto plan_c2r_2d = fftw_plan_dft_c2r_2d;
+  static constexpr auto plan_many_r2c = fftw_plan_many_dft_r2c;
+  static constexpr auto plan_many_c2r = fftw_plan_many_dft_c2r;
+  static constexpr auto plan_many = fftw_plan_many_dft;
+  static constexpr auto execute_r2c = fftw_execute_dft_r2c;
+  static constexpr auto execute_c2r = fftw_execute_dft_c2r;
+  static constexpr auto execute = fftw_execute_dft;
+  static constexpr auto destroy = fftw_destroy_plan;
+  static constexpr auto allocate = fftw_malloc;
+  static constexpr auto release = fftw_free;
+};
+
+template <>
+struct Fftw<float> {
+  using Plan = fftwf_plan;
+  using Complex = fftwf_complex;
+  static constexpr auto plan_r2c_2d = fftwf_plan_dft_r2c_2d;
+  static constexpr auto plan_c2r_2d = fftwf_plan_dft_c2r_2d;
+  static constexpr auto plan_many_r2c = fftwf_plan_many_dft_r2c;
+  static constexpr auto plan_many_c2r = fftwf_plan_many_dft_c2r;
+  static constexpr auto plan_many = fftwf_plan_many_dft;
+  static constexpr auto execute_r2c = fftwf_execute_dft_r2c;
+  static constexpr auto execute_c2r = fftwf_execute_dft_c2r;
+  static constexpr auto execute = fftwf_execute_dft;
+  static constexpr auto destroy = fftwf_destroy_plan;
+  static constexpr auto allocate = fftwf_malloc;
+  static constexpr auto release = fftwf_free;
+};
+
+template <class Real>
+struct DestroyPlan {
+  void operator()(typename Fftw<Real>::Plan plan) const {
+    const std::scoped_lock lock(fftw_planner_mutex());
+    Fftw<Real>::destroy(plan);
+  }
+};
+
+template <class Real>
+using FftwPlan = std::unique_ptr<std::remove_pointer_t<typename Fftw<Real>::Plan>, DestroyPlan<Real>>;
+
+// Runs `make` under the planner's lock.
+template <class Real, class Make>
+FftwPlan<Real> plan(Make make) {
+  typename Fftw<Real>::Plan made = nullptr;
+  {
+    const std::scoped_lock lock(fftw_planner_mutex());
+    made = make();
+  }
+  if (!made) throw Error("fft: FFTW could not make a plan");
+  return FftwPlan<Real>(made);
+}
+
+template <class Real>
+struct ReleaseFftw {
+  void operator()(void* memory) const { Fftw<Real>::release(memory); }
+};
+
+// Memory aligned as FFTW's SIMD code wants it; not initialised, so that the thread that writes a page first also owns it.
+template <class Real, class Element = Real>
+using FftwArray = std::unique_ptr<Element[], ReleaseFftw<Real>>;
+
+template <class Real, class Element = Real>
+FftwArray<Real, Element> fftw_array(std::size_t size) {
+  auto* memory = static_cast<Element*>(Fftw<Real>::allocate(size * sizeof(Element)));
+  if (!memory) throw std::bad_alloc();
+  return FftwArray<Real, Element>(memory);
+}
+
+}  // namespace salebra::detail

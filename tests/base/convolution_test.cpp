@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <salebra/base/convolution.hpp>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <salebra/base/parallel.hpp>
+
+using namespace salebra;
+
+namespace {
+
+struct Case {
+  Index nx, ny, period_x, period_y;
+};
+
+// Kernels with an exactly known transform: sums of a few cosines or sines.
+double even_symbol(Index i, Index j, Index px, Index py) {
+  return 3 + std::cos(2 * M_PI * double(i) / double(px)) * std::cos(4 * M_PI * double(j) / double(py));
+}
+double odd_symbol(Index i, Index j, Index px, Index py) {
+  return -std::sin(2 * M_PI * double(i) / double(px)) * std::sin(2 * M_PI * double(j) / double(py));
+}
+
+// The kernels of those symbols, point by point: 3δ + ¼ Σ δ(a±1, b±2) and ¼ Σ ±δ(a±1, b±1).
+double circular(const Field& field, const Case& shape, Index a, Index b) {
+  const Index i = (a % shape.period_x + shape.period_x) % shape.period_x;
+  const Index j = (b % shape.period_y + shape.period_y) % shape.period_y;
+  return i < shape.nx && j < shape.ny ? field(i, j) : 0;
+}
+double by_hand_even(const Field& field, const Case& shape, Index a, Index b) {
+  double sum = 3 * field(a, b);
+  for (const int x : {-1, 1})
+    for (const int y : {-2, 2}) sum += 0.25 * circular(field, shape, a + x, b + y);
+  return sum;
+}
+double by_hand_odd(const Field& field, const Case& shape, Index a, Index b) {
+  double sum = 0;
+  for (const int x : {-1, 1})
+    for (const int y : {-1, 1}) sum += 0.25 * x * y * circular(field, shape, a - x, b - y);
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("A convolution equals the sum over the kernel's points, circular and zero-padded", "[convolution]") {
+  const Case shape = GENERATE(Case{16, 64, 16, 64}, Case{7, 45, 7, 45}, Case{1, 5, 1, 5}, Case{33, 20, 66, 40},
+                              Case{5, 6, 12, 15});
+  const Field field = Field::Random(shape.nx, shape.ny), second = Field::Random(shape.nx, shape.ny);
+  const auto even = [&](Index i, Index j) { return even_symbol(i, j, shape.period_x, shape.period_y); };
+  const auto odd = [&](Index i, Index j) { return odd_symbol(i, j, shape.period_x, shape.period_y); };
+  const Convolution2D<double>::Shape periods{shape.nx, shape.ny, shape.period_x, shape.period_y};
+  Convolution2D<double> scalar(periods);
+  scalar.set_symbol(0, 0, even);
+  Field result(shape.nx, shape.ny);
+  scalar.apply(field.data(), result.data());
+
+  Convolution2D<double> vector(periods, 2);
+  vector.set_symbol(0, 0, even);
+  vector.set_symbol(0, 1, odd, Parity::odd);
+  Field x(shape.nx, shape.ny), y(shape.nx, shape.ny);
+  vector.apply({field.data(), second.data()}, {x.data(), y.data()});
+  for (Index a = 0; a < shape.nx; ++a)
+    for (Index b = 0; b < shape.ny; ++b) {
+      // Rounding of two transforms of numbers of order 1.
+      CHECK(result(a, b) == Approx(by_hand_even(field, shape, a, b)).margin(1e-13));
+      CHECK(x(a, b) == Approx(by_hand_even(field, shape, a, b) + by_hand_odd(second, shape, a, b)).margin(1e-13));
+      CHECK(y(a, b) == Approx(by_hand_odd(field, shape, a, b)).margin(1e-13));
+    }
+}
+
+TEST_CASE("A convolution has the same bits for one thread and for two, and may work in place", "[convolution]") {
+  const Index n = 96;
+  const Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> field =
+      Field::Random(n, n).cast<float>();
+  auto one = field, two = field, in_place = field;
+  Convolution2D<float> convolution({n, n, n, n});
+  convolution.set_symbol(0, 0, [](Index i, Index j) { return 1 / (1.0 + double(i * i + j * j)); });
+  parallel::set_threads(1);
+  convolution.apply(field.data(), one.data());
+  parallel::set_threads(2);
+  convolution.apply(field.data(), two.data());
+  convolution.apply(in_place.data(), in_place.data());
+  parallel::set_threads(0);
+  CHECK((one == two).all());
+  CHECK((one == in_place).all());
+}
+
+TEST_CASE("Fast transform sizes have no prime factor above 5 and are even", "[convolution]") {
+  CHECK(fast_transform_size(1) == 1);
+  CHECK(fast_transform_size(2) == 2);
+  CHECK(fast_transform_size(7) == 8);
+  CHECK(fast_transform_size(257) == 270);
+  CHECK(fast_transform_size(1024) == 1024);
+}
