@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "quadrature.hpp"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_integration.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <new>
+#include <salebra/base/error.hpp>
+#include <vector>
+
+namespace salebra::detail {
+namespace {
+
+using Workspace =
+    std::unique_ptr<gsl_integration_workspace, decltype(&gsl_integration_workspace_free)>;
+
+// GSL is C: an exception must not unwind through its frames.
+struct Guarded {
+  const std::function<double(double)>& f;
+  std::exception_ptr failure;
+
+  static double call(double x, void* self) {
+    auto& guarded = *static_cast<Guarded*>(self);
+    if (guarded.failure) return 0;
+    try {
+      return guarded.f(x);
+    } catch (...) {
+      guarded.failure = std::current_exception();
+      return 0;
+    }
+  }
+};
+
+}  // namespace
+
+Integral integrate(const std::function<double(double)>& f, std::span<const double> points,
+                   double relative_tolerance, double absolute_tolerance) {
+  static const auto previous_handler = gsl_set_error_handler_off();
+  static_cast<void>(previous_handler);
+  std::vector<double> distinct;
+  for (const double point : points)
+    if (distinct.empty() || point > distinct.back()) distinct.push_back(point);
+  if (distinct.size() < 2) return {.converged = true};
+
+  constexpr std::size_t most_intervals = 2000;
+  const Workspace workspace(gsl_integration_workspace_alloc(most_intervals),
+                            &gsl_integration_workspace_free);
+  if (!workspace) throw std::bad_alloc();
+  Guarded guarded{f, nullptr};
+  const gsl_function function{&Guarded::call, &guarded};
+  Integral result;
+  const int status = gsl_integration_qagp(&function, distinct.data(), distinct.size(),
+                                          absolute_tolerance, relative_tolerance, most_intervals,
+                                          workspace.get(), &result.value, &result.error);
+  if (guarded.failure) std::rethrow_exception(guarded.failure);
+  // Round-off ends the refinement with a status of its own when the tolerance is nearly reached; the estimate decides.
+  const double goal = std::max(absolute_tolerance, relative_tolerance * std::abs(result.value));
+  result.converged =
+      std::isfinite(result.value) && (status == GSL_SUCCESS || result.error <= 10 * goal);
+  return result;
+}
+
+double find_root(const std::function<double(double)>& f, double low, double high) {
+  // The zero lies between `best` and `bound`; `last` is the point before `best`, for the interpolation.
+  double best = high, bound = low, last = low;
+  double f_best = f(best), f_bound = f(bound), f_last = f_bound;
+  if (f_bound == 0) return bound;
+  if (f_best == 0) return best;
+  if (std::signbit(f_best) == std::signbit(f_bound) || std::isnan(f_best) || std::isnan(f_bound))
+    throw NotConverged("find_root: the function does not change sign over the interval");
+  double fraction = 0.5;
+  for (int step = 0; step < 400; ++step) {
+    const double trial = best + fraction * (bound - best);
+    const double f_trial = f(trial);
+    if (std::signbit(f_trial) == std::signbit(f_best)) {
+      last = best, f_last = f_best;
+    } else {
+      last = bound, f_last = f_bound;
+      bound = best, f_bound = f_best;
+    }
+    best = trial, f_best = f_trial;
+    const double width = std::abs(bound - best);
+    const double resolution =
+        2 * std::numeric_limits<double>::epsilon() * std::max(std::abs(best), std::abs(bound));
+    if (f_best == 0 || width <= resolution) break;
+    // Chandrupatla's criterion: interpolate only where the three points lie on a monotone parabola.
+    const double position = (best - bound) / (last - bound);
+    const double value = (f_best - f_bound) / (f_last - f_bound);
+    fraction = 0.5;
+    if (value * value < position && (1 - value) * (1 - value) < 1 - position)
+      fraction = f_best / (f_bound - f_best) * f_last / (f_bound - f_last) +
+                 (last - best) / (bound - best) * f_best / (f_last - f_best) * f_bound /
+                     (f_last - f_bound);
+    const double least = resolution / width;
+    fraction = std::clamp(fraction, std::min(least, 0.5), std::max(1 - least, 0.5));
+  }
+  return std::abs(f_best) < std::abs(f_bound) ? best : bound;
+}
+
+}  // namespace salebra::detail
