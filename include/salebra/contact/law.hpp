@@ -22,8 +22,8 @@ class ContactLaw {
   /// K_t(δ); (G*/E*)K unless the law was given a K_t of its own.
   virtual double tangential_stiffness(double indentation) const;
   virtual double tangential_curvature(double indentation) const;  ///< K_t'(δ)
-  virtual double lowest_indentation() const;                      ///< −∞ unless the law is a table
-  virtual double highest_indentation() const;                     ///< +∞ unless the law is a table
+  virtual double lowest_indentation() const;   ///< −∞ unless the law is a table
+  virtual double highest_indentation() const;  ///< +∞ unless the law is a table
   /// Inverse of force(): δ with F(δ) = force > 0. Throws InvalidInput where the law does not reach that force.
   virtual double indentation_of(double force) const = 0;
 
