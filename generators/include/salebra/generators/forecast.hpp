@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <salebra/generators/spectrum.hpp>
+#include <string>
+#include <vector>
+
+namespace salebra {
+
+/// What can be said of a generated surface before it is made.
+struct Forecast {
+  SpectralMoments target;             ///< of the continuum: what was asked
+  SpectralMoments lattice;            ///< what surfaces on this grid have in the mean
+  std::size_t memory = 0;             ///< peak memory of the generation, bytes, heights included
+  std::vector<std::string> warnings;  ///< sentences for the user; empty if there is nothing to say
+};
+
+/// Warns of fewer than eight cells in the shortest wavelength (contact areas come out too large, PHYSICS section 7), of a lattice
+/// rms height more than 5 % from the target, and of a roll-off longer than an eighth of the cell (realisations scatter).
+/// Throws as Spectrum::require_carried_by.
+Forecast forecast(const Grid2D& grid, const Spectrum& spectrum);
+
+/// Peak memory of filtered_noise and random_phase on this grid, bytes, heights included.
+std::size_t generation_memory(const Grid2D& grid);
+
+}  // namespace salebra

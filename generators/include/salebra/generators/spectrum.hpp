@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <salebra/base/grid.hpp>
+#include <salebra/base/spectral_moments.hpp>
+#include <string>
+
+namespace salebra {
+
+/// Power spectral density of a random surface,
+///     C(q) = (2π)⁻² ∫⟨h(0)h(x)⟩ e^{−iq·x} d²x,   so that h_rms² = ∫C d²q.
+/// On a grid of size lx × ly, the mode of wave vector (i, j), q = 2π(i/lx, j/ly), has the mean power C(q)·(2π)²/(lx ly).
+class Spectrum {
+ public:
+  virtual ~Spectrum() = default;
+
+  /// C(q), m⁴; q_x, q_y in rad/m. Even: C(−q) = C(q). Not asked at q = 0, since a surface has zero mean.
+  virtual double density(double qx, double qy) const = 0;
+  /// C vanishes for |q| beyond this, rad/m.
+  virtual double highest_wavenumber() const = 0;
+  /// Moments of the continuum: m0 = ∫C d²q, m2_x = ∫q_x²C d²q, m4_x = ∫q_x⁴C d²q.
+  virtual SpectralMoments moments() const = 0;
+  /// One line for provenance.
+  virtual std::string description() const = 0;
+
+  /// Moments that surfaces on this grid have in the mean: the same integrals as sums over the modes that the grid carries, without
+  /// the zero mode; a mode on a Nyquist line counts once.
+  /// Throws as require_carried_by. Cost: one evaluation of C for each pair of modes within highest_wavenumber.
+  SpectralMoments lattice_moments(const Grid2D& grid) const;
+
+  /// Throws InvalidInput where the cells are larger than half the shortest wavelength, so that the grid would fold short waves
+  /// into long ones, or where the shortest wavelength does not fit into the cell at all.
+  void require_carried_by(const Grid2D& grid) const;
+};
+
+/// What defines a self-affine spectrum. Wavelengths λ = 2π/q, m.
+struct SelfAffineParameters {
+  double hurst = 0.8;  ///< H, 0 < H <= 1
+  std::optional<double> long_cutoff =
+      {};                              ///< λ_L; none: no limit, every wave that the cell carries
+  std::optional<double> rolloff = {};  ///< λ_r <= λ_L; none: λ_L, that is, no plateau
+  double short_cutoff = 0;             ///< λ_s, 0 < λ_s <= λ_r
+  std::optional<double> rms_height = {};  ///< m; exactly one of rms_height and rms_slope
+  std::optional<double> rms_slope = {};   ///< √⟨|∇h|²⟩
+};
+
+/// Self-affine spectrum with a plateau:
+///     C = C0                        q_L <= q < q_r
+///     C = C0 (q/q_r)^{−2(1+H)}      q_r <= q <= q_s
+///     C = 0                         elsewhere.
+/// C0 is set so that the *continuum* has the rms height (or slope) asked. It does not depend on the grid, hence long waves are the
+/// same at every resolution; what a given cell has of it, some of the longest waves being left out or counted whole, is
+/// lattice_moments(grid). A wave on a limit belongs to the spectrum, to a relative tolerance of 1e-9 for the rounding of 2π/λ.
+class SelfAffineSpectrum final : public Spectrum {
+ public:
+  /// Throws InvalidInput that names the parameter unless 0 < H <= 1, λ_L >= λ_r >= λ_s > 0, one of λ_L and λ_r is given, and exactly
+  /// one of rms_height and rms_slope is given and > 0. λ_L > λ_s or a plateau is needed: a spectrum of zero width has no power.
+  explicit SelfAffineSpectrum(const SelfAffineParameters& parameters);
+
+  double density(double qx, double qy) const override;
+  double highest_wavenumber() const override { return q_short_; }
+  /// Closed form; continuous in H up to H = 1, where m2 has a logarithm.
+  SpectralMoments moments() const override;
+  std::string description() const override;
+
+  const SelfAffineParameters& parameters() const { return parameters_; }
+  double plateau() const { return plateau_; }  ///< C0, m⁴
+
+ private:
+  /// ∫ q^order C/C0 d²q in closed form.
+  double unscaled_integral(int order) const;
+
+  SelfAffineParameters parameters_;
+  double q_long_ = 0, q_rolloff_ = 0, q_short_ = 0;  // rad/m
+  double plateau_ = 0;
+};
+
+}  // namespace salebra

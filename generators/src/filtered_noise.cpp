@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <salebra/generators/filtered_noise.hpp>
+
+#include "synthesis.hpp"
+
+namespace salebra {
+
+Surface filtered_noise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed) {
+  const detail::Modes modes(grid, spectrum, seed, detail::Chance::gaussian_amplitude);
+  return {grid, detail::synthesise(grid, modes), true,
+          "filtered noise, seed " + std::to_string(seed) + ", " + spectrum.description()};
+}
+
+}  // namespace salebra

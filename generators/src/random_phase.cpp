@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <salebra/generators/random_phase.hpp>
+
+#include "synthesis.hpp"
+
+namespace salebra {
+
+Surface random_phase(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed) {
+  const detail::Modes modes(grid, spectrum, seed, detail::Chance::phase);
+  return {grid, detail::synthesise(grid, modes), true,
+          "random phase, seed " + std::to_string(seed) + ", " + spectrum.description()};
+}
+
+}  // namespace salebra

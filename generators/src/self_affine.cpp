@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/generators/spectrum.hpp>
+#include <sstream>
+
+namespace salebra {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double limit_tolerance = 1e-9;
+
+// ∫_1^ratio t^{exponent−1} dt, without loss of digits as the exponent goes through 0.
+double power_integral(double ratio, double exponent) {
+  const double log_ratio = std::log(ratio);
+  return exponent == 0 ? log_ratio : std::expm1(exponent * log_ratio) / exponent;
+}
+
+void validate(const SelfAffineParameters& p) {
+  require(p.hurst > 0 && p.hurst <= 1, "hurst", p.hurst, "must lie in 0 < hurst <= 1");
+  require_positive(p.short_cutoff, "short_cutoff");
+  require(p.rolloff || p.long_cutoff, "rolloff", "none",
+          "and no long_cutoff; give one of them, such as the size of the cell");
+  if (p.long_cutoff) require_positive(*p.long_cutoff, "long_cutoff");
+  if (p.rolloff) require_positive(*p.rolloff, "rolloff");
+  if (p.long_cutoff && p.rolloff)
+    require(*p.rolloff <= *p.long_cutoff, "rolloff", *p.rolloff,
+            "must not exceed long_cutoff (wavelengths); exchange them");
+  const double longest = p.rolloff ? *p.rolloff : *p.long_cutoff;
+  require(p.short_cutoff <= longest, "short_cutoff", p.short_cutoff,
+          p.rolloff ? "must not exceed rolloff (wavelengths)"
+                    : "must not exceed long_cutoff (wavelengths)");
+  require(!p.long_cutoff || p.short_cutoff < *p.long_cutoff, "short_cutoff", p.short_cutoff,
+          "must be shorter than long_cutoff, or the spectrum has no width");
+  require(p.rms_height.has_value() != p.rms_slope.has_value(), "rms_height",
+          p.rms_height ? "given" : "none",
+          p.rms_height ? "together with rms_slope; give one of them"
+                       : "and no rms_slope; give one of them");
+  if (p.rms_height) require_positive(*p.rms_height, "rms_height");
+  if (p.rms_slope) require_positive(*p.rms_slope, "rms_slope");
+}
+
+}  // namespace
+
+SelfAffineSpectrum::SelfAffineSpectrum(const SelfAffineParameters& parameters)
+    : parameters_(parameters) {
+  validate(parameters_);
+  q_long_ = parameters_.long_cutoff ? 2 * pi / *parameters_.long_cutoff : 0;
+  q_rolloff_ = parameters_.rolloff ? 2 * pi / *parameters_.rolloff : q_long_;
+  q_short_ = 2 * pi / parameters_.short_cutoff;
+  plateau_ = parameters_.rms_height
+                 ? *parameters_.rms_height * *parameters_.rms_height / unscaled_integral(0)
+                 : *parameters_.rms_slope * *parameters_.rms_slope / unscaled_integral(2);
+}
+
+double SelfAffineSpectrum::density(double qx, double qy) const {
+  const double q = std::sqrt(qx * qx + qy * qy);
+  if (q < q_long_ * (1 - limit_tolerance) || q > q_short_ * (1 + limit_tolerance)) return 0;
+  if (q <= q_rolloff_) return plateau_;
+  return plateau_ * std::pow(q / q_rolloff_, -2 * (1 + parameters_.hurst));
+}
+
+double SelfAffineSpectrum::unscaled_integral(int order) const {
+  const double n = order;
+  const double flat = (std::pow(q_rolloff_, n + 2) - std::pow(q_long_, n + 2)) / (n + 2);
+  const double fractal = std::pow(q_rolloff_, n + 2) *
+                         power_integral(q_short_ / q_rolloff_, n - 2 * parameters_.hurst);
+  return 2 * pi * (flat + fractal);
+}
+
+SpectralMoments SelfAffineSpectrum::moments() const {
+  // The mean over directions of cos² is 1/2, of cos⁴ 3/8.
+  const double moment2 = plateau_ * unscaled_integral(2) / 2;
+  const double moment4 = plateau_ * unscaled_integral(4) * 3 / 8;
+  return {plateau_ * unscaled_integral(0), moment2, moment2, moment4, moment4};
+}
+
+std::string SelfAffineSpectrum::description() const {
+  std::ostringstream text;
+  text.precision(12);
+  text << "self-affine hurst=" << parameters_.hurst;
+  const auto append = [&text](const char* name, const std::optional<double>& value) {
+    if (value) text << ' ' << name << '=' << *value;
+  };
+  append("long_cutoff", parameters_.long_cutoff);
+  append("rolloff", parameters_.rolloff);
+  append("short_cutoff", parameters_.short_cutoff);
+  append("rms_height", parameters_.rms_height);
+  append("rms_slope", parameters_.rms_slope);
+  return text.str();
+}
+
+}  // namespace salebra

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <salebra/generators/filtered_noise.hpp>
+#include <salebra/generators/random_phase.hpp>
+
+#include "mode_power.hpp"
+
+using namespace salebra;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// Even, odd, mixed and rectangular, with cells that are not square in the last two. The shortest wavelength is two cells of the
+// coarser axis, so that a Nyquist line carries power.
+struct Case {
+  Grid2D grid;
+  double short_cutoff;
+};
+Case grid_case() {
+  return GENERATE(Case{{16, 16, 1.0, 1.0}, 2.0 / 16}, Case{{15, 15, 1.0, 1.0}, 2.0 / 15},
+                  Case{{16, 15, 1.0, 1.0}, 2.0 / 15}, Case{{15, 16, 1.0, 1.0}, 2.0 / 15},
+                  Case{{20, 12, 1.0, 1.0}, 2.0 / 12}, Case{{12, 18, 3.0, 2.0}, 0.5},
+                  Case{{32, 8, 4.0, 1.0}, 0.25});
+}
+
+SelfAffineSpectrum spectrum_of(const Case& c) {
+  return SelfAffineSpectrum({.hurst = 0.7,
+                             .rolloff = 3 * c.short_cutoff,
+                             .short_cutoff = c.short_cutoff,
+                             .rms_height = 1e-6});
+}
+
+double target_power(const Spectrum& spectrum, const Grid2D& grid, Index i, Index j) {
+  if (i == 0 && j == 0) return 0;
+  return spectrum.density(2 * pi * double(i) / grid.lx, 2 * pi * double(j) / grid.ly) * (2 * pi) *
+         (2 * pi) / grid.area();
+}
+
+std::string line_of(const Grid2D& grid, Index i, Index j) {
+  const bool own_x = i == 0 || 2 * i == grid.nx, own_y = j == 0 || 2 * j == grid.ny;
+  if (own_x && own_y) return "corner";
+  if (j == 0) return "ky = 0";
+  if (i == 0) return "kx = 0";
+  if (own_y) return "ky Nyquist";
+  if (own_x) return "kx Nyquist";
+  return "bulk";
+}
+
+template <class Visit>
+void for_each_mode(const Grid2D& grid, Visit visit) {
+  for (Index a = 0; a < grid.nx; ++a)
+    for (Index b = 0; b < grid.ny; ++b) visit(signed_wave(a, grid.nx), signed_wave(b, grid.ny));
+}
+
+}  // namespace
+
+TEST_CASE("Random phase gives every mode its target power", "[generators][random_phase]") {
+  const Case c = grid_case();
+  const SelfAffineSpectrum spectrum = spectrum_of(c);
+  std::map<std::string, int> modes_with_power;
+  for (const std::uint64_t seed : {0u, 1u, 77u}) {
+    const FourierCoefficients a(random_phase(c.grid, spectrum, seed));
+    double total = spectrum.lattice_moments(c.grid).moment0;
+    for_each_mode(c.grid, [&](Index i, Index j) {
+      const double power = std::norm(a(i, j)), target = target_power(spectrum, c.grid, i, j);
+      // Rounding of two transforms, a few 1e-16 of the rms height, against amplitudes not below 1e-2 of it.
+      if (target > 0)
+        CHECK(power == Approx(target).epsilon(1e-12));
+      else
+        CHECK(power < 1e-28 * total);
+      if (target > 0) ++modes_with_power[line_of(c.grid, i, j)];
+    });
+  }
+  // What is compared is there: no case passes for want of modes.
+  CHECK(modes_with_power["ky = 0"] > 0);
+  CHECK(modes_with_power["kx = 0"] > 0);
+  CHECK(modes_with_power["bulk"] > 0);
+  if (c.grid == Grid2D{16, 16, 1.0, 1.0}) CHECK(modes_with_power["corner"] == 3 * 2);
+  if (c.grid == Grid2D{12, 18, 3.0, 2.0}) CHECK(modes_with_power["kx Nyquist"] == 0);
+}
+
+TEST_CASE("Random phase has the moments of the lattice sum for every seed",
+          "[generators][random_phase]") {
+  const Case c = grid_case();
+  const SelfAffineSpectrum spectrum = spectrum_of(c);
+  const SpectralMoments lattice = spectrum.lattice_moments(c.grid);
+  const Surface surface = random_phase(c.grid, spectrum, 5);
+  CHECK(std::abs(surface.heights.mean()) < 1e-13 * lattice.rms_height());
+  CHECK(std::sqrt(surface.heights.square().mean()) == Approx(lattice.rms_height()).epsilon(1e-12));
+  const FourierCoefficients a(surface);
+  double slope_x = 0, slope_y = 0;
+  for_each_mode(c.grid, [&](Index i, Index j) {
+    slope_x += std::pow(2 * pi * double(i) / c.grid.lx, 2) * std::norm(a(i, j));
+    slope_y += std::pow(2 * pi * double(j) / c.grid.ly, 2) * std::norm(a(i, j));
+  });
+  CHECK(slope_x == Approx(lattice.moment2_x).epsilon(1e-12));
+  CHECK(slope_y == Approx(lattice.moment2_y).epsilon(1e-12));
+}
+
+TEST_CASE("Filtered noise has its target power in the mean on every line of modes",
+          "[generators][filtered_noise]") {
+  const Case c = grid_case();
+  const SelfAffineSpectrum spectrum = spectrum_of(c);
+  const int seeds = 200;
+  struct Line {
+    double sum = 0;       // of power over target
+    double variance = 0;  // of that sum
+  };
+  std::map<std::string, Line> lines;
+  for (int seed = 0; seed < seeds; ++seed) {
+    const FourierCoefficients a(filtered_noise(c.grid, spectrum, std::uint64_t(seed)));
+    for_each_mode(c.grid, [&](Index i, Index j) {
+      const double target = target_power(spectrum, c.grid, i, j);
+      if (target == 0) return;
+      // Power over target is χ²₂/2 for a complex Gaussian amplitude (variance 1) and χ²₁ for a real one (variance 2). Conjugates are
+      // one number, so a pair of them adds 2 to the sum and 4 to its variance.
+      const std::string name = line_of(c.grid, i, j);
+      Line& line = lines[name];
+      line.sum += std::norm(a(i, j)) / target - 1;
+      line.variance += 2;
+    });
+  }
+  for (const auto& [name, line] : lines) {
+    CAPTURE(c.grid.nx, c.grid.ny, name, line.sum, line.variance);
+    // Three standard errors. Half or double the power on a line of n modes is off by √(200 n/8) of them or more, 5 for a single mode.
+    CHECK(std::abs(line.sum) < 3 * std::sqrt(line.variance));
+  }
+}
+
+TEST_CASE("Filtered noise and random phase of one seed have the same phases",
+          "[generators][filtered_noise]") {
+  const Grid2D grid{16, 16, 1.0, 1.0};
+  const SelfAffineSpectrum spectrum({.rolloff = 0.5, .short_cutoff = 2.0 / 16, .rms_height = 1.0});
+  const FourierCoefficients noise(filtered_noise(grid, spectrum, 3));
+  const FourierCoefficients fixed(random_phase(grid, spectrum, 3));
+  for_each_mode(grid, [&](Index i, Index j) {
+    if (target_power(spectrum, grid, i, j) > 0)
+      // A small Gaussian amplitude has a large relative rounding error; 1e-11 allows amplitudes down to 1e-5.
+      CHECK(std::abs(std::arg(noise(i, j) / fixed(i, j))) < 1e-11);
+  });
+}
