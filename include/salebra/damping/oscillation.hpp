@@ -10,6 +10,8 @@ struct EqualFrequency {
   double normal_amplitude = 0;      ///< u_z >= 0, m
   double tangential_amplitude = 0;  ///< u_x, m
   double phase = 0;                 ///< φ0, rad
+  /// ω > 0, rad/s, or 0 where it is not known: the work per cycle does not depend on it, only power and damping constant do.
+  double angular_frequency = 0;
 };
 
 /// Case (b): z = u_z cos ωt while the body is drawn tangentially at constant velocity.

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <salebra/damping/closed_form.hpp>
+
+using namespace salebra;
+namespace cf = salebra::closed_form;
+using std::numbers::pi;
+
+namespace {
+
+const EqualFrequency equal{
+    .normal_amplitude = 3e-7, .tangential_amplitude = 2e-7, .phase = 0.7, .angular_frequency = 50};
+const Drag drag{.normal_amplitude = 3e-7, .drag_velocity = 1e-4, .angular_frequency = 300};
+
+// Zero of a function that changes sign once in [low, high].
+double bisect(const std::function<double(double)>& f, double low, double high) {
+  const bool rising = f(high) > f(low);
+  for (int i = 0; i < 200; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((f(middle) > 0) == rising ? high : low) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+// Composite Gauss–Legendre with six points a panel: a route of its own for smooth integrands.
+double gauss(const std::function<double(double)>& f, double low, double high, int panels) {
+  const double node[3] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
+  const double weight[3] = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
+  const double half = 0.5 * (high - low) / panels;
+  double sum = 0;
+  for (int i = 0; i < panels; ++i) {
+    const double middle = low + (2 * i + 1) * half;
+    for (int j = 0; j < 3; ++j)
+      sum += weight[j] * (f(middle - half * node[j]) + f(middle + half * node[j]));
+  }
+  return sum * half;
+}
+
+}  // namespace
+
+TEST_CASE("Eq (6): the edge slope of a paraboloid is 2a/R", "[closed_form]") {
+  const double contact_modulus = 2e9, radius = 0.01, indentation = 1e-6;
+  const double contact_radius = std::sqrt(radius * indentation);
+  // F = (4/3)E*√R δ^{3/2}
+  const double curvature = contact_modulus * std::sqrt(radius / indentation);
+  CHECK(cf::edge_slope(contact_modulus, curvature) ==
+        Approx(2 * contact_radius / radius).epsilon(1e-14));
+}
+
+TEST_CASE("Eqs (7), (13): a spring is released by the way between touching and leaving",
+          "[closed_form]") {
+  const double level = GENERATE(-2.9e-7, -1e-7, 0.0, 2e-7);
+  auto height = [&](double angle) { return -level + equal.normal_amplitude * std::cos(angle); };
+  const double touching = bisect(height, -pi, 0), leaving = bisect(height, 0, pi);
+  auto position = [](double angle) {
+    return equal.tangential_amplitude * std::cos(angle + equal.phase);
+  };
+  // The paper's s is x1 − x2; only its square matters.
+  CHECK(cf::released_distance(level, equal) ==
+        Approx(position(touching) - position(leaving)).epsilon(1e-12));
+  CHECK(cf::released_distance(level, drag) ==
+        Approx(drag.drag_velocity / drag.angular_frequency * (leaving - touching)).epsilon(1e-12));
+}
+
+TEST_CASE("Eq (8): a released spring loses the work that stretched it", "[closed_form]") {
+  const double stiffness = 8e8 * 1e-6, distance = 3e-7;
+  const double work = gauss([&](double x) { return stiffness * x; }, 0, distance, 1);
+  CHECK(cf::spring_energy(8e8, distance, 1e-6) == Approx(work).epsilon(1e-14));
+}
+
+TEST_CASE("Eq (9): only points that leave contact during the cycle lose energy", "[closed_form]") {
+  CHECK(cf::intermittent_contact(0.99e-7, -1e-7));
+  CHECK_FALSE(cf::intermittent_contact(1.01e-7, 1e-7));
+  CHECK_FALSE(cf::intermittent_contact(-1.01e-7, 1e-7));
+  CHECK(cf::released_distance(3.1e-7, equal) == 0);
+  CHECK(cf::released_distance(-3.1e-7, drag) == 0);
+}
+
+TEST_CASE("Eqs (10), (11), (14): the sum over springs gives the closed forms", "[closed_form]") {
+  const double tangential_modulus = 8e8, slope = 0.03;
+  auto by_sum = [&](const auto& motion) {
+    return cf::work_per_cycle(tangential_modulus, slope, motion.normal_amplitude,
+                              [&](double level) { return cf::released_distance(level, motion); });
+  };
+  // The quadrature is asked for 1e-13; at the ends of the interval s² is linear in (a), a root in (b).
+  CHECK(cf::work_per_cycle_by_slope(tangential_modulus, slope, equal) ==
+        Approx(by_sum(equal)).epsilon(1e-12));
+  CHECK(cf::work_per_cycle_by_slope(tangential_modulus, slope, drag) ==
+        Approx(by_sum(drag)).epsilon(1e-12));
+}
+
+TEST_CASE("Eqs (12), (15), (16): the shape-invariant forms are (11), (14) with the slope of (6)",
+          "[closed_form]") {
+  const double contact_modulus = 1e9, tangential_modulus = 8e8, curvature = 7e9;
+  const double ratio = tangential_modulus / contact_modulus;
+  const double slope = cf::edge_slope(contact_modulus, curvature);
+  CHECK(cf::work_per_cycle(ratio, curvature, equal) ==
+        Approx(cf::work_per_cycle_by_slope(tangential_modulus, slope, equal)).epsilon(1e-14));
+  CHECK(cf::work_per_cycle(ratio, curvature, drag) ==
+        Approx(cf::work_per_cycle_by_slope(tangential_modulus, slope, drag)).epsilon(1e-14));
+  const double decay_length = 2e-6, force = curvature * decay_length * decay_length;
+  CHECK(cf::work_per_cycle_rough(ratio, force, decay_length, drag) ==
+        Approx(cf::work_per_cycle(ratio, curvature, drag)).epsilon(1e-14));
+  EqualFrequency downwards = equal;
+  downwards.normal_amplitude = -equal.normal_amplitude;
+  CHECK(cf::work_per_cycle(ratio, curvature, downwards) ==
+        cf::work_per_cycle(ratio, curvature, equal));
+}
+
+TEST_CASE("The paper's power and damping constant follow from Eq (14)", "[closed_form]") {
+  const double tangential_modulus = 8e8, slope = 0.03;
+  const double work = cf::work_per_cycle_by_slope(tangential_modulus, slope, drag);
+  const double expected = 2 * (pi * pi - 4) * tangential_modulus * drag.normal_amplitude /
+                          (pi * slope * drag.angular_frequency);
+  CHECK(cf::damping_constant(work, drag) == Approx(expected).epsilon(1e-14));
+  CHECK(cf::power(work, drag) ==
+        Approx(expected * drag.drag_velocity * drag.drag_velocity).epsilon(1e-14));
+  // An equivalent damper loses γ⟨ẋ²⟩ = γ(u_x ω)²/2 in case (a).
+  const double velocity = equal.tangential_amplitude * equal.angular_frequency;
+  CHECK(cf::damping_constant(work, equal) * velocity * velocity / 2 ==
+        Approx(cf::power(work, equal)).epsilon(1e-14));
+  EqualFrequency unknown_frequency = equal;
+  unknown_frequency.angular_frequency = 0;
+  CHECK(std::isnan(cf::power(work, unknown_frequency)));
+}
+
+TEST_CASE("J(k) has its known values and its three branches join", "[closed_form]") {
+  CHECK(cf::drag_integral_scaled(0) == Approx(pi * pi - 4).epsilon(1e-15));
+  // e^{−k}J(k) by quadrature with 30 digits; the branches change at 1 and 20.
+  const double reference[][2] = {{1e-6, 5.86959606409038587},     {0.3, 3.87024733474871944},
+                                 {0.999999, 1.59059470644412307}, {1.0, 1.59059282735721884},
+                                 {1.5, 0.91103600386589087},      {3.0, 0.251758397692566097},
+                                 {7.0, 0.0430383811195258302},    {19.9, 0.00513861626650823559},
+                                 {20.1, 0.00503596566751939218},  {60.0, 0.000558684036572699869},
+                                 {500.0, 8.00534188868789947e-6}};
+  for (const auto& [k, value] : reference) {
+    CAPTURE(k);
+    CHECK(cf::drag_integral_scaled(k) == Approx(value).epsilon(1e-14));
+  }
+  CHECK(std::exp(1.0) * cf::drag_integral_scaled(1) == Approx(4.323679579).epsilon(1e-9));
+  CHECK(std::exp(3.0) * cf::drag_integral_scaled(3) == Approx(5.056702593).epsilon(1e-9));
+}
+
+TEST_CASE("J(k), I_0(k) and the equal-frequency ratio are the integrals they stand for",
+          "[closed_form]") {
+  const double k = GENERATE(1e-4, 0.5, 0.9999, 1.0001, 2.0, 10.0, 25.0);
+  auto weight = [&](double angle) { return std::exp(k * (std::cos(angle) - 1)); };
+  // Six points in each of 100 panels: far below 1e-13 for k up to 25.
+  CHECK(cf::drag_integral_scaled(k) ==
+        Approx(gauss([&](double t) { return t * t * std::sin(t) * weight(t); }, 0, pi, 100))
+            .epsilon(1e-12));
+  CHECK(cf::mean_force_ratio_scaled(k) == Approx(gauss(weight, 0, pi, 100) / pi).epsilon(1e-13));
+  // s² = 4u_x² sin²φ0 sin²θ in ½∫K_t's²dζ, dζ = −u_z sinθ dθ.
+  auto release = [&](double t) { return std::pow(std::sin(t), 3) * weight(t); };
+  CHECK(cf::equal_frequency_ratio_scaled(k) ==
+        Approx(0.75 * gauss(release, 0, pi, 100)).epsilon(1e-12));
+}
+
+TEST_CASE("Small and large amplitudes of the exponential law have their limits", "[closed_form]") {
+  const double force = 2, decay_length = 1e-7, ratio = 0.8;
+  auto at = [&](auto motion, double k) {
+    motion.normal_amplitude = k * decay_length;
+    const double small = cf::work_per_cycle(ratio, force / (decay_length * decay_length), motion);
+    return cf::work_per_cycle_exponential(ratio, force, decay_length, motion) / small;
+  };
+  // 1 + k²/10 + O(k⁴), and 1 − 0.42k + … in case (b), where c_1/c_0 = (−π² + π²/2)/2/(π² − 4) = −0.4203.
+  CHECK(at(equal, 1e-2) - 1 == Approx(1e-5).epsilon(1e-4));
+  CHECK((at(drag, 1e-5) - 1) / 1e-5 == Approx(-pi * pi / 4 / (pi * pi - 4)).epsilon(1e-4));
+  CHECK(1 / at(drag, 0.5) == Approx(1.2).epsilon(0.02));
+  EqualFrequency violent = equal;
+  violent.normal_amplitude = 600 * decay_length;
+  CHECK(std::isfinite(cf::work_per_cycle_exponential(ratio, force, decay_length, violent)));
+  violent.normal_amplitude = 1e6 * decay_length;
+  CHECK(std::isfinite(
+      cf::work_per_cycle_exponential_held_force(ratio, force, decay_length, violent)));
+}
+
+TEST_CASE("Under a dead weight the exponential contact is that of a force lower by I_0(k)",
+          "[closed_form]") {
+  const double decay_length = 1e-7, ratio = 0.8, k = GENERATE(1e-5, 0.3, 0.9999, 1.0001, 30.0);
+  Drag motion = drag;
+  motion.normal_amplitude = k * decay_length;
+  const double shift = cf::indentation_shift_at_held_force(motion.normal_amplitude, decay_length);
+  const double force = std::exp(shift / decay_length);
+  CHECK(cf::work_per_cycle_exponential_held_force(ratio, 1, decay_length, motion) ==
+        Approx(cf::work_per_cycle_exponential(ratio, force, decay_length, motion)).epsilon(1e-13));
+  if (k < 1e-3) CHECK(shift == Approx(-decay_length * k * k / 4).epsilon(1e-9));
+}
+
+TEST_CASE("I(r) is the release integral of two frequencies", "[closed_form]") {
+  const double ratio = GENERATE(1e-3, 0.1, 0.2499, 0.2501, 0.5, 0.5 + 1e-9, 0.75, 1.0, 2.5);
+  // |s| = 2u_x |sin(ω_x t_j + φ0) sin(rθ)|: what is left when the first sine is taken out.
+  const double direct =
+      gauss([&](double t) { return std::pow(std::sin(ratio * t), 2) * std::sin(t); }, 0, pi, 60);
+  CHECK(cf::frequency_ratio_integral(ratio) == Approx(direct).epsilon(1e-11));
+}
+
+TEST_CASE("I(r) and S join Eq (12) at r = 1 and the slow drag at r → 0", "[closed_form]") {
+  CHECK(cf::frequency_ratio_integral(1) == Approx(4.0 / 3).epsilon(1e-15));
+  CHECK(cf::frequency_ratio_integral(1e-5) == Approx((pi * pi - 4) * 1e-10).epsilon(1e-8));
+  for (int p = 1; p < 8; ++p) {
+    // q = 1: phases φ0 + 2πj/p at the p normal maxima.
+    double sum = 0;
+    for (int j = 0; j < p; ++j) sum += std::pow(std::sin(0.4 + 2 * pi * j / p), 2);
+    CHECK(cf::frequency_ratio_phase_sum(p, 0.4) == Approx(sum).epsilon(1e-13));
+  }
+}
