@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <salebra/base/grid.hpp>
+#include <string>
+
+namespace salebra {
+
+/// What the user knows better than the file, or what the file does not say.
+struct ReadOptions {
+  std::optional<double> size_x;  ///< m; in place of the file's
+  std::optional<double> size_y;  ///< m
+  std::optional<bool> periodic;  ///< in place of the file's
+  std::string height_unit;       ///< such as "nm", for files that give none; empty: metres
+};
+
+/// Reads the heights of a surface. What the file is follows from its first bytes, not from its name:
+///   HDF5    dataset `heights` (nx, ny) at the root, or the only two-dimensional one there, with attributes size_x,
+///           size_y (m), periodic, units
+///   NPY     two-dimensional real array [nx, ny], versions 1 to 3, any byte order, C or Fortran order; size and
+///           unit from the sidecar FILE.json where there is one
+///   text    a matrix whose columns run along x and whose rows along y: heights(ix, iy) is the value in column ix of row
+///           iy. Headers of Gwyddion (English and German) and of instruments (h=, w=, pixel size=, height conversion
+///           factor=). Values separated by blanks, ';' or ','; decimal point, or decimal comma where that is not
+///           ambiguous; empty fields and "nan" are undefined points
+///   XYZ     text of three columns that form a complete or partly filled regular grid
+/// Undefined points become NaN. Heights are metres unless the file or the options name a unit.
+/// throws   InvalidInput "<file>: <what is wrong>; <what to do>" for a file that is absent, not one of these, truncated,
+///          larger by its header than by its content, ambiguous, without a size, or with an infinite height
+/// cost     one pass over the file; memory: the file and the heights
+Surface read_surface(const std::filesystem::path& file, const ReadOptions& options = {});
+
+}  // namespace salebra

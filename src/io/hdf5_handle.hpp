@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <hdf5.h>
+
+#include <salebra/base/error.hpp>
+#include <string>
+#include <utility>
+
+/// HDF5 identifiers that close themselves, and calls that throw IoError naming what failed.
+namespace salebra::detail::hdf5 {
+
+/// HDF5 must not print: its errors are thrown. To be called by everything that enters the library.
+inline void be_silent() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+template <herr_t (*close)(hid_t)>
+class Handle {
+ public:
+  Handle() = default;
+  /// what   completes "cannot <what>"
+  Handle(hid_t id, const std::string& what) : id_(id) {
+    if (id < 0) throw IoError("cannot " + what);
+  }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
+  ~Handle() {
+    if (id_ >= 0) close(id_);
+  }
+  operator hid_t() const { return id_; }
+  /// Closes now and says whether that worked; the destructor cannot.
+  [[nodiscard]] bool closed() { return close(std::exchange(id_, -1)) >= 0; }
+
+ private:
+  hid_t id_ = -1;
+};
+
+using File = Handle<H5Fclose>;
+using Group = Handle<H5Gclose>;
+using Dataset = Handle<H5Dclose>;
+using Space = Handle<H5Sclose>;
+using Type = Handle<H5Tclose>;
+using Attribute = Handle<H5Aclose>;
+using Properties = Handle<H5Pclose>;
+
+inline void check(herr_t status, const std::string& what) {
+  if (status < 0) throw IoError("cannot " + what);
+}
+
+}  // namespace salebra::detail::hdf5

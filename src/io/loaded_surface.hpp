@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <salebra/base/grid.hpp>
+#include <string>
+#include <string_view>
+
+/// What the readers of single formats share. Each takes a file apart and returns what it says, no more.
+namespace salebra::detail {
+
+struct LoadedSurface {
+  Field heights;                 ///< in `unit`
+  std::optional<double> size_x;  ///< m
+  std::optional<double> size_y;  ///< m
+  std::optional<bool> periodic;
+  std::string unit;  ///< of the heights; empty where the file names none
+};
+
+/// InvalidInput "<file>: <what>".
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what);
+
+/// The whole of a regular file. Throws InvalidInput if there is no such file or it cannot be read.
+std::string file_content(const std::filesystem::path& file);
+
+/// Metres in one `unit` of length; throws InvalidInput naming the file for anything else.
+double metres_per(const std::filesystem::path& file, const std::string& unit);
+
+LoadedSurface read_npy(const std::filesystem::path& file, std::string_view content);
+LoadedSurface read_text(const std::filesystem::path& file, std::string_view content);
+LoadedSurface read_hdf5(const std::filesystem::path& file);
+
+}  // namespace salebra::detail

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "loaded_surface.hpp"
+
+namespace salebra::detail {
+namespace {
+
+/// The header is the text of a Python dict: {'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }.
+struct Header {
+  std::string type;  ///< such as "<f8"
+  bool fortran_order = false;
+  std::vector<std::uint64_t> shape;
+};
+
+class HeaderParser {
+ public:
+  HeaderParser(const std::filesystem::path& file, std::string_view text)
+      : file_(file), text_(text) {}
+
+  Header parse() {
+    Header header;
+    bool has_type = false, has_order = false, has_shape = false;
+    expect('{');
+    while (!accept('}')) {
+      const std::string key = quoted();
+      expect(':');
+      if (key == "descr") {
+        if (peek() == '[')
+          refuse(file_, "holds records, not one array of real numbers; save one field");
+        header.type = quoted();
+        has_type = true;
+      } else if (key == "fortran_order") {
+        header.fortran_order = boolean();
+        has_order = true;
+      } else if (key == "shape") {
+        header.shape = tuple();
+        has_shape = true;
+      } else {
+        broken();
+      }
+      if (!accept(',') && peek() != '}') broken();
+    }
+    if (!has_type || !has_order || !has_shape) broken();
+    return header;
+  }
+
+ private:
+  [[noreturn]] void broken() const {
+    refuse(file_, "has a broken NPY header; save the array again");
+  }
+  char peek() {
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\n')) ++at_;
+    return at_ < text_.size() ? text_[at_] : '\0';
+  }
+  bool accept(char symbol) {
+    if (peek() != symbol) return false;
+    ++at_;
+    return true;
+  }
+  void expect(char symbol) {
+    if (!accept(symbol)) broken();
+  }
+  std::string quoted() {
+    const char quote = peek();
+    if (quote != '\'' && quote != '"') broken();
+    const auto end = text_.find(quote, at_ + 1);
+    if (end == std::string_view::npos) broken();
+    std::string result(text_.substr(at_ + 1, end - at_ - 1));
+    at_ = end + 1;
+    return result;
+  }
+  bool boolean() {
+    peek();
+    for (const auto& [word, value] : {std::pair("True", true), std::pair("False", false)}) {
+      if (text_.substr(at_).starts_with(word)) {
+        at_ += std::strlen(word);
+        return value;
+      }
+    }
+    broken();
+  }
+  std::vector<std::uint64_t> tuple() {
+    std::vector<std::uint64_t> numbers;
+    expect('(');
+    while (!accept(')')) {
+      peek();
+      std::uint64_t number = 0;
+      const auto [end, status] =
+          std::from_chars(text_.data() + at_, text_.data() + text_.size(), number);
+      if (status != std::errc{}) broken();
+      at_ = static_cast<std::size_t>(end - text_.data());
+      numbers.push_back(number);
+      if (!accept(',') && peek() != ')') broken();
+    }
+    return numbers;
+  }
+
+  const std::filesystem::path& file_;
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+template <class Stored>
+double element(const char* bytes, bool swapped) {
+  std::array<char, sizeof(Stored)> buffer;
+  std::memcpy(buffer.data(), bytes, sizeof(Stored));
+  if (swapped) std::ranges::reverse(buffer);
+  return static_cast<double>(std::bit_cast<Stored>(buffer));
+}
+
+using ElementReader = double (*)(const char*, bool);
+
+ElementReader reader_of(std::string_view type) {
+  if (type == "f8") return element<double>;
+  if (type == "f4") return element<float>;
+  if (type == "i1") return element<std::int8_t>;
+  if (type == "i2") return element<std::int16_t>;
+  if (type == "i4") return element<std::int32_t>;
+  if (type == "i8") return element<std::int64_t>;
+  if (type == "u1") return element<std::uint8_t>;
+  if (type == "u2") return element<std::uint16_t>;
+  if (type == "u4") return element<std::uint32_t>;
+  if (type == "u8") return element<std::uint64_t>;
+  return nullptr;
+}
+
+void read_sidecar(const std::filesystem::path& file, LoadedSurface& surface) {
+  const std::filesystem::path sidecar = file.string() + ".json";
+  if (!std::filesystem::exists(sidecar)) return;
+  const auto json = nlohmann::json::parse(file_content(sidecar), nullptr, false);
+  try {
+    if (json.contains("size_x")) surface.size_x = json.at("size_x").get<double>();
+    if (json.contains("size_y")) surface.size_y = json.at("size_y").get<double>();
+    if (json.contains("periodic")) surface.periodic = json.at("periodic").get<bool>();
+    if (json.contains("units")) surface.unit = json.at("units").get<std::string>();
+  } catch (const nlohmann::json::exception&) {
+    refuse(sidecar,
+           "is not the JSON object {size_x, size_y, periodic, units}; correct or remove it");
+  }
+}
+
+}  // namespace
+
+LoadedSurface read_npy(const std::filesystem::path& file, std::string_view content) {
+  constexpr std::size_t magic = 6;
+  const auto byte = [&](std::size_t i) -> std::size_t {
+    if (i >= content.size()) refuse(file, "ends within its NPY header; it is truncated");
+    return static_cast<unsigned char>(content[i]);
+  };
+  const std::size_t version = byte(magic);
+  if (version < 1 || version > 3)
+    refuse(file, "is of NPY version " + std::to_string(version) + "; versions 1 to 3 are known");
+  const std::size_t length_bytes = version == 1 ? 2 : 4, start = magic + 2 + length_bytes;
+  std::size_t header_length = 0;
+  for (std::size_t i = 0; i < length_bytes; ++i) header_length |= byte(magic + 2 + i) << (8 * i);
+  if (header_length > content.size() - start)
+    refuse(file, "ends within its NPY header; it is truncated");
+  const Header header = HeaderParser(file, content.substr(start, header_length)).parse();
+
+  const char order = header.type.empty() ? '\0' : header.type.front();
+  const ElementReader read = order == '<' || order == '>' || order == '=' || order == '|'
+                                 ? reader_of(std::string_view(header.type).substr(1))
+                                 : nullptr;
+  if (!read)
+    refuse(file, "holds elements of type '" + header.type +
+                     "'; save real numbers (float64, float32 or integers)");
+  if (header.shape.size() != 2 || header.shape[0] == 0 || header.shape[1] == 0)
+    refuse(file,
+           "holds an array that is not two-dimensional with nx, ny >= 1; save heights[nx, ny]");
+
+  const std::uint64_t item = static_cast<std::uint64_t>(header.type.back() - '0');
+  std::uint64_t points = 0, bytes = 0;
+  const std::string_view data = content.substr(start + header_length);
+  if (__builtin_mul_overflow(header.shape[0], header.shape[1], &points) ||
+      __builtin_mul_overflow(points, item, &bytes) || bytes > data.size())
+    refuse(file, "declares " + std::to_string(header.shape[0]) + " x " +
+                     std::to_string(header.shape[1]) +
+                     " points, more than it holds; it is truncated");
+
+  const auto nx = static_cast<Index>(header.shape[0]), ny = static_cast<Index>(header.shape[1]);
+  const bool swapped = (order == '>') == (std::endian::native == std::endian::little) &&
+                       (order == '<' || order == '>');
+  LoadedSurface surface;
+  surface.heights.resize(nx, ny);
+  for (Index ix = 0; ix < nx; ++ix) {
+    for (Index iy = 0; iy < ny; ++iy) {
+      const Index place = header.fortran_order ? iy * nx + ix : ix * ny + iy;
+      surface.heights(ix, iy) = read(data.data() + place * static_cast<Index>(item), swapped);
+    }
+  }
+  read_sidecar(file, surface);
+  return surface;
+}
+
+}  // namespace salebra::detail

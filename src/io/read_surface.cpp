@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
+#include <salebra/io/read_surface.hpp>
+
+#include "loaded_surface.hpp"
+
+namespace salebra {
+namespace {
+
+constexpr std::string_view hdf5_magic("\x89HDF\r\n\x1a\n", 8);
+constexpr std::string_view npy_magic("\x93NUMPY", 6);
+
+detail::LoadedSurface load(const std::filesystem::path& file) {
+  std::array<char, 8> head{};
+  {
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(head.data(), head.size());
+  }
+  // HDF5 is read through its own library, which need not hold the whole file.
+  if (std::string_view(head.data(), head.size()) == hdf5_magic) return detail::read_hdf5(file);
+  const std::string content = detail::file_content(file);
+  if (content.starts_with(npy_magic)) return detail::read_npy(file, content);
+  return detail::read_text(file, content);
+}
+
+double size_along(const std::filesystem::path& file, const char* field,
+                  const std::optional<double>& given, const std::optional<double>& stated) {
+  if (given) {
+    require_positive(*given, field);
+    return *given;
+  }
+  if (!stated)
+    detail::refuse(file, "does not state its " + std::string(field) +
+                             "; give size_x and size_y (--size-x, --size-y)");
+  if (!std::isfinite(*stated) || *stated <= 0)
+    detail::refuse(file, "states a " + std::string(field) + " of " + std::to_string(*stated) +
+                             " m, which is not > 0; give size_x and size_y (--size-x, --size-y)");
+  return *stated;
+}
+
+}  // namespace
+
+namespace detail {
+
+void refuse(const std::filesystem::path& file, const std::string& what) {
+  throw InvalidInput(file.string() + ": " + what);
+}
+
+std::string file_content(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) refuse(file, "does not exist; check the path");
+  if (!std::filesystem::is_regular_file(status))
+    refuse(file, "is not a regular file; name a surface file");
+  std::ifstream stream(file, std::ios::binary);
+  const auto size = std::filesystem::file_size(file, error);
+  if (!stream || error)
+    refuse(file,
+           std::string("cannot be read (") + std::strerror(errno) + "); check its permissions");
+  if (size == 0) refuse(file, "is empty; name a surface file");
+  std::string content(size, '\0');
+  stream.read(content.data(), static_cast<std::streamsize>(size));
+  if (stream.gcount() != static_cast<std::streamsize>(size))
+    refuse(file, "ended while it was read; is another program writing it?");
+  return content;
+}
+
+double metres_per(const std::filesystem::path& file, const std::string& unit) {
+  try {
+    const double metres = parse_quantity("1 " + unit, Dimension::length, "unit");
+    if (metres > 0) return metres;
+  } catch (const InvalidInput&) {
+  }
+  refuse(file, "has heights in '" + unit + "', which is no unit of length; convert them to metres");
+}
+
+}  // namespace detail
+
+Surface read_surface(const std::filesystem::path& file, const ReadOptions& options) {
+  detail::LoadedSurface loaded = load(file);
+  Surface surface;
+  surface.grid.nx = loaded.heights.rows();
+  surface.grid.ny = loaded.heights.cols();
+  surface.grid.lx = size_along(file, "size_x", options.size_x, loaded.size_x);
+  surface.grid.ly = size_along(file, "size_y", options.size_y, loaded.size_y);
+  surface.heights = std::move(loaded.heights);
+  const std::string unit = loaded.unit.empty() ? options.height_unit : loaded.unit;
+  if (!unit.empty() && unit != "m") surface.heights *= detail::metres_per(file, unit);
+  if (surface.heights.isInf().any())
+    detail::refuse(file, "holds an infinite height; mark undefined points as nan");
+  surface.periodic = options.periodic.value_or(loaded.periodic.value_or(false));
+  surface.origin = file.string();
+  return surface;
+}
+
+}  // namespace salebra

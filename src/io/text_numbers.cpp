@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "text_numbers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "loaded_surface.hpp"
+
+namespace salebra::detail {
+namespace {
+
+bool is_blank(char symbol) { return symbol == ' ' || symbol == '\t'; }
+
+const char* skip_blanks(const char* at, const char* end) {
+  while (at != end && is_blank(*at)) ++at;
+  return at;
+}
+
+[[noreturn]] void refuse_line(const std::filesystem::path& file, int number,
+                              const std::string& what) {
+  refuse(file, "line " + std::to_string(number) + " " + what);
+}
+
+/// What stands at a place of a line, short and printable.
+std::string excerpt(const char* at, const char* end) {
+  std::string text;
+  for (; at != end && text.size() < 16; ++at) text += *at >= ' ' && *at < '\x7f' ? *at : '?';
+  return text;
+}
+
+/// from_chars that also takes a plus sign and numbers below the least double; null if there is no number.
+const char* parse_number(const char* at, const char* end, double& value) {
+  if (at != end && *at == '+' && end - at > 1 && at[1] != '-') ++at;
+  const auto [stop, status] = std::from_chars(at, end, value);
+  if (status == std::errc{}) return stop;
+  if (status != std::errc::result_out_of_range) return nullptr;
+  const std::string digits(at, stop);
+  value = std::strtod(digits.c_str(), nullptr);
+  return stop;
+}
+
+/// parse_number of a number with a decimal comma.
+const char* parse_comma_number(const char* at, const char* end, double& value) {
+  std::array<char, 64> buffer;
+  std::size_t length = 0;
+  for (const char* from = at; from != end && length < buffer.size(); ++from) {
+    if (is_blank(*from) || *from == ';') break;
+    if (*from == '.') return nullptr;
+    buffer[length++] = *from == ',' ? '.' : *from;
+  }
+  const char* stop = parse_number(buffer.data(), buffer.data() + length, value);
+  return stop ? at + (stop - buffer.data()) : nullptr;
+}
+
+}  // namespace
+
+Lines::Lines(std::string_view text)
+    : rest_(text), end_(text.find('\n') == std::string_view::npos ? '\r' : '\n') {}
+
+bool Lines::next(std::string_view& line) {
+  if (rest_.empty()) return false;
+  const auto stop = rest_.find(end_);
+  line = rest_.substr(0, stop);
+  rest_ = stop == std::string_view::npos ? std::string_view() : rest_.substr(stop + 1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  ++number_;
+  return true;
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string_view require_text(const std::filesystem::path& file, std::string_view content) {
+  if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff"))
+    refuse(file, "is UTF-16 text; save it as UTF-8");
+  if (content.find('\0') != std::string_view::npos)
+    refuse(file,
+           "is neither text (it holds NUL bytes) nor HDF5 nor NPY; convert it to one of these");
+  if (content.starts_with("\xef\xbb\xbf")) content.remove_prefix(3);
+  return content;
+}
+
+bool starts_with_number(std::string_view line) {
+  line = trimmed(line);
+  if (line.empty()) return false;
+  double value;
+  const char* stop = parse_number(line.data(), line.data() + line.size(), value);
+  if (!stop) return false;
+  return stop == line.data() + line.size() || is_blank(*stop) || *stop == ',' || *stop == ';';
+}
+
+NumberFormat number_format(const std::filesystem::path& file, std::string_view line, int number) {
+  line = trimmed(line);
+  const bool semicolon = line.find(';') != std::string_view::npos;
+  if (line.find(',') == std::string_view::npos)
+    return {semicolon ? Separator::semicolon : Separator::blank, false};
+
+  const bool point = line.find('.') != std::string_view::npos;
+  std::ptrdiff_t commas = 0, commas_before_blank = 0, blanks_after_digit = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool at_end = i + 1 == line.size();
+    if (line[i] == ',') {
+      ++commas;
+      if (at_end || is_blank(line[i + 1])) ++commas_before_blank;
+    } else if (is_blank(line[i]) && i > 0 && line[i - 1] != ',' && !is_blank(line[i - 1]) &&
+               !at_end && line[i + 1] != ',') {
+      ++blanks_after_digit;
+    }
+  }
+  if (semicolon || blanks_after_digit > 0) {
+    if (point)
+      refuse_line(file, number, "mixes decimal points with commas; write one separator and points");
+    if (commas_before_blank > 0 && !semicolon)
+      refuse_line(file, number, "mixes blanks and commas as separators; write one of them");
+    return {semicolon ? Separator::semicolon : Separator::blank, true};
+  }
+  // Commas alone: separators, unless "1,5" or "1,5e-7,…" could as well be decimal fractions.
+  const bool exponent = line.find_first_of("eE") != std::string_view::npos;
+  if (!point && commas_before_blank == 0 && (commas == 1 || exponent))
+    refuse_line(file, number,
+                "can be read with commas as separators or as decimal commas; write decimal points");
+  return {Separator::comma, false};
+}
+
+void append_numbers(const std::filesystem::path& file, std::string_view line, int number,
+                    const NumberFormat& format, std::vector<double>& values) {
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  const char symbol = format.separator == Separator::comma ? ',' : ';';
+  for (at = skip_blanks(at, end); at != end;) {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    if (format.separator == Separator::blank || *at != symbol) {
+      const char* stop =
+          format.decimal_comma ? parse_comma_number(at, end, value) : parse_number(at, end, value);
+      if (!stop) refuse_line(file, number, "holds '" + excerpt(at, end) + "', which is no number");
+      if (std::isinf(value)) refuse_line(file, number, "holds an infinite value; correct it");
+      const char* const after = skip_blanks(stop, end);
+      const bool separated =
+          after == end || (format.separator == Separator::blank ? after != stop : *after == symbol);
+      if (!separated)
+        refuse_line(file, number,
+                    "holds '" + excerpt(at, end) +
+                        "', which is no number with the separators of "
+                        "the first line");
+      at = after;
+    }
+    values.push_back(value);
+    if (at != end && format.separator != Separator::blank) at = skip_blanks(at + 1, end);
+  }
+}
+
+}  // namespace salebra::detail

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Numbers in lines of text, as programs of many countries write them.
+namespace salebra::detail {
+
+/// Lines of a text with their numbers (from 1); ends with LF, CR LF or, where there is no LF at all, CR.
+class Lines {
+ public:
+  explicit Lines(std::string_view text);
+  /// False at the end of the text; line is without its end.
+  bool next(std::string_view& line);
+  int number() const { return number_; }
+
+ private:
+  std::string_view rest_;
+  char end_;
+  int number_ = 0;
+};
+
+std::string_view trimmed(std::string_view text);
+
+/// Between the values of a line.
+enum class Separator { blank, comma, semicolon };
+
+struct NumberFormat {
+  Separator separator = Separator::blank;
+  bool decimal_comma = false;
+  bool operator==(const NumberFormat&) const = default;
+};
+
+/// Without a byte order mark. Throws InvalidInput for UTF-16 and for text with NUL bytes.
+std::string_view require_text(const std::filesystem::path& file, std::string_view content);
+
+/// Whether the first value of the line is a number, "nan" or (an undefined point) empty.
+bool starts_with_number(std::string_view line);
+
+/// How the values of a line of numbers are separated and written. Throws InvalidInput where it can be read in two ways.
+NumberFormat number_format(const std::filesystem::path& file, std::string_view line, int number);
+
+/// Appends the values of a line; an empty field is NaN, a separator at the end of the line none.
+/// Throws InvalidInput naming the line and what was found in it. Cost: one pass, no allocation but values'.
+void append_numbers(const std::filesystem::path& file, std::string_view line, int number,
+                    const NumberFormat& format, std::vector<double>& values);
+
+}  // namespace salebra::detail

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <salebra/base/error.hpp>
+#include <salebra/io/read_surface.hpp>
+#include <salebra/surface/moments.hpp>
+
+#include "scratch.hpp"
+
+using namespace salebra;
+using Catch::Contains;
+
+namespace {
+
+const std::filesystem::path measured = std::filesystem::path(SALEBRA_SHARED) / "surfaces";
+
+}  // namespace
+
+TEST_CASE("Measured surfaces have the statistics of the reference", "[read]") {
+  if (!std::filesystem::exists(measured)) return;
+  const auto reference = nlohmann::json::parse(std::ifstream(measured / "reference.json"));
+  for (const char* name :
+       {"matrix-2.txt", "matrix-3.txt", "gwyddion-export-english.txt", "gwyddion-export-german.txt",
+        "txt_example.txt", "xyz-1.txt", "xyz-2.txt"}) {
+    INFO(name);
+    const nlohmann::json& expected = reference.at(name);
+    const auto number = [&](const char* key) { return expected.at(key).get<double>(); };
+    const Surface surface = read_surface(measured / name);
+    CHECK(surface.grid.nx == expected.at("nx").get<Index>());
+    CHECK(surface.grid.ny == expected.at("ny").get<Index>());
+    CHECK(surface.undefined_points() == expected.at("undefined_points").get<Index>());
+    CHECK_FALSE(surface.periodic);
+    const HeightStatistics statistics = height_statistics(surface);
+    // Both sides sum some 10⁵ doubles; SurfaceTopography multiplies by the unit before, salebra after.
+    CHECK(surface.grid.lx == Approx(number("size_x_m")).epsilon(1e-12));
+    CHECK(surface.grid.ly == Approx(number("size_y_m")).epsilon(1e-12));
+    CHECK(statistics.minimum == Approx(number("min_m")).epsilon(1e-12));
+    CHECK(statistics.maximum == Approx(number("max_m")).epsilon(1e-12));
+    CHECK(statistics.mean == Approx(number("mean_m")).epsilon(1e-10));
+    CHECK(statistics.rms_height == Approx(number("rms_height_m")).epsilon(1e-10));
+    CHECK(surface.heights(0, 0) == Approx(number("height_00_m")).epsilon(1e-12));
+    CHECK(surface.heights(0, 1) == Approx(number("height_01_m")).epsilon(1e-12));
+    if (!expected.at("height_10_m").is_null())
+      CHECK(surface.heights(1, 0) == Approx(number("height_10_m")).epsilon(1e-12));
+    if (expected.contains("rms_slope"))
+      CHECK(difference_moments(surface).rms_slope() == Approx(number("rms_slope")).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("A bare array needs its size from the user and keeps its axes", "[read]") {
+  if (!std::filesystem::exists(measured)) return;
+  CHECK_THROWS_WITH(read_surface(measured / "example-2d.npy"),
+                    Contains("example-2d.npy") && Contains("size_x") && Contains("--size-x"));
+  CHECK_THROWS_AS(read_surface(measured / "example-2d.npy", {.size_x = 1, .size_y = 0}),
+                  InvalidInput);
+  const Surface surface =
+      read_surface(measured / "example-2d.npy", {.size_x = 2, .size_y = 1, .height_unit = "nm"});
+  CHECK(surface.heights(0, 0) == Approx(0.1e-9));
+  CHECK(surface.heights(0, 1) == Approx(1e-9));
+  CHECK(surface.heights(1, 0) == Approx(4e-9));
+  CHECK(surface.grid == Grid2D{2, 2, 2, 1});
+}
+
+TEST_CASE("Files that are broken on purpose give one line that names them", "[read]") {
+  if (!std::filesystem::exists(measured)) return;
+  for (const char* name :
+       {"wrongnpyfile.npy", "nonsense_txt_file.txt", "nc-1.nc", "absent.txt", "."}) {
+    INFO(name);
+    CHECK_THROWS_AS(read_surface(measured / name), InvalidInput);
+    CHECK_THROWS_WITH(read_surface(measured / name), Contains(name) && !Contains("\n"));
+  }
+}
+
+TEST_CASE("Text is read in the spellings of many programs", "[read]") {
+  const Scratch scratch;
+  const std::string header = "# Width: 3 µm\n# Height: 2000 nm\n# Value units: nm\n";
+  const auto read = [&](const std::string& text) {
+    return read_surface(scratch.file("surface.txt", text));
+  };
+  const auto check = [&](const std::string& text) {
+    INFO(text);
+    const Surface surface = read(text);
+    REQUIRE(surface.heights.rows() == 3);
+    REQUIRE(surface.heights.cols() == 2);
+    CHECK(surface.grid.lx == Approx(3e-6));
+    CHECK(surface.grid.ly == Approx(2e-6));
+    CHECK(surface.heights(1, 0) == Approx(2.5e-9));
+    CHECK(surface.heights(0, 1) == Approx(-4e-9));
+  };
+  check(header + "1.0 2.5 3\n-4 5 6\n");
+  check(header + "+1.0\t+2.5e0\t3\t\r\n-4\t5\t6\t\r\n");
+  check("\xef\xbb\xbf" + header + "1;2.5;3;\n-4;5;6;");
+  check(header + "1, 2.5, 3\n\n-4, 5, 6\n");
+  check(header + "1.0,2.5,3\n-4,5,6\n");
+  check(header + "1,0 2,5 3,0\n-4 5 6\n");
+  check(header + "1,0;2,5;3\n-4;5;6\n");
+  check("# Breite: 3 \xb5m\r# H\xf6he: 2 \xb5m\r# Value units: nm\r1 2.5 3\r-4 5 6\r");
+  check(
+      "w=3 h=2\npixel size=1e-006 m\ndata unit=rad\nheight conversion factor (-> m)=1e-9\n"
+      "1 2.5 3\n-4 5 6\n");
+  CHECK(std::isnan(read(header + "1;;3\n4;5;6\n").heights(1, 0)));
+  CHECK(read(header + "nan 2 3\n4 5 NaN\n").undefined_points() == 2);
+}
+
+TEST_CASE("Text that can be read in two ways, or not at all, is refused with its line", "[read]") {
+  const Scratch scratch;
+  const std::string header = "# Width: 3 um\n# Height: 2 um\n";
+  const auto message = [&](const std::string& text) -> std::string {
+    try {
+      read_surface(scratch.file("surface.txt", text));
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK_THAT(message(header + "1,5\n2,5\n"), Contains("line 3") && Contains("decimal"));
+  CHECK_THAT(message(header + "1,5 2.5\n1 2\n"), Contains("mixes"));
+  CHECK_THAT(message(header + "1 2 3\n4 5\n"), Contains("line 4") && Contains("2 values"));
+  CHECK_THAT(message(header + "1 2 3\n4 five 6\n"), Contains("line 4") && Contains("five"));
+  CHECK_THAT(message(header + "1 2 3\n4 5.5.5 6\n"), Contains("line 4"));
+  CHECK_THAT(message(header + "1 2 inf\n4 5 6\n"), Contains("infinite"));
+  CHECK_THAT(message(header + "1 2 1e999\n4 5 6\n"), Contains("infinite"));
+  CHECK_THAT(message("# Width: 3 um\n1 2 3 4\n"), Contains("size_y"));
+  CHECK_THAT(message("# Width: -3 um\n# Height: 3 um\n1 2 3\n"), Contains("size_x"));
+  CHECK_THAT(message("1 2 3 4\n5 6 7 8\n"), Contains("size_x"));
+  CHECK_THAT(message("w=4 h=650\npixel size=1 um\n1 2 3 4\n"), Contains("650 rows"));
+  CHECK_THAT(message(header + "# Value units: V\n1 2 3\n"), Contains("unit of length"));
+  CHECK_THAT(message("height conversion factor (-> m)=0\n1 2 3\n"), Contains("conversion factor"));
+  CHECK_THAT(message(std::string("1\0 2\0", 6)), Contains("NUL"));
+  CHECK_THAT(message("\xff\xfe" + header), Contains("UTF-16"));
+  CHECK_THAT(message(""), Contains("empty"));
+  CHECK_THAT(message("# Width: 3 um\n# Height: 2 um\n"), Contains("no numbers"));
+}
+
+TEST_CASE("XYZ points are put on their grid, whatever their order, or refused", "[read]") {
+  const Scratch scratch;
+  const auto read = [&](const std::string& text) {
+    return read_surface(scratch.file("points.xyz", text));
+  };
+  const Surface surface = read("1 5 12\n0 5 2\n0 3 1\n2 3 21\n1 3 11\n");
+  CHECK(surface.grid == Grid2D{3, 2, 3, 4});
+  CHECK(surface.heights(1, 0) == 11);
+  CHECK(surface.heights(0, 1) == 2);
+  CHECK(std::isnan(surface.heights(2, 1)));
+  CHECK_THROWS_WITH(read("0 0 1\n1 0 1\n3 0 1\n0 1 1\n1 1 1\n3 1 1\n"), Contains("equally spaced"));
+  CHECK_THROWS_WITH(read("0 0 1\n1 0 1\n0 1 1\n1 1 1\n1 1 2\n"), Contains("twice"));
+  CHECK_THROWS_WITH(read("0 0 1\n1 1 1\n2 2 1\n3 3 1\n4 4 1\n"), Contains("half"));
+  CHECK_THROWS_WITH(read("0 nan 1\n1 1 1\n"), Contains("coordinates"));
+  CHECK_THROWS_WITH(read("1 1 1\n1 1 1\n"), Contains("vary"));
+}
+
+TEST_CASE("NPY arrays of every kind are read alike", "[read]") {
+  const Scratch scratch;
+  const auto npy = [](char version, const std::string& dict, const std::string& data) {
+    std::string header = dict + "\n", file = "\x93NUMPY";
+    file += version;
+    file += '\0';
+    file += static_cast<char>(header.size());
+    file += std::string(version == 1 ? 1 : 3, '\0');
+    return file + header + data;
+  };
+  const ReadOptions size{.size_x = 1, .size_y = 1};
+  const auto read = [&](const std::string& content) {
+    return read_surface(scratch.file("array.npy", content), size).heights;
+  };
+  Field expected(2, 3);
+  expected << 1, 2, 3, 4, 5, 6;
+  const std::string bytes("\1\2\3\4\5\6", 6), columns("\1\4\2\5\3\6", 6);
+  const auto shorts = [&](bool big) {
+    std::string result;
+    for (const char byte : bytes) result += big ? std::string{'\0', byte} : std::string{byte, '\0'};
+    return result;
+  };
+  CHECK((read(npy(1, "{'descr': '|u1', 'fortran_order': False, 'shape': (2, 3), }", bytes)) ==
+         expected)
+            .all());
+  CHECK((read(npy(2, "{'descr': '|i1', 'fortran_order': True, 'shape': (2, 3)}", columns)) ==
+         expected)
+            .all());
+  CHECK((read(npy(3, "{\"shape\": (2, 3), 'descr': '>i2', 'fortran_order': False}",
+                  shorts(true))) == expected)
+            .all());
+  CHECK((read(npy(1, "{'descr': '<u2', 'fortran_order': False, 'shape': (2, 3)}", shorts(false))) ==
+         expected)
+            .all());
+  const auto refused = [&](const std::string& content, const std::string& why) {
+    INFO(why);
+    CHECK_THROWS_WITH(read(content), Contains(why) && Contains("array.npy"));
+  };
+  const std::string tail = ", 'fortran_order': False, 'shape': (2, 3)}";
+  refused(npy(1, "{'descr': '|u1'" + tail, "\1\2\3\4\5"), "truncated");
+  refused(
+      npy(1, "{'descr': '<f8', 'fortran_order': False, 'shape': (4294967296, 4294967296)}", bytes),
+      "truncated");
+  refused(npy(1, "{'descr': '<c16'" + tail, bytes), "<c16");
+  refused(npy(1, "{'descr': [('a', '<f8')]" + tail, bytes), "records");
+  refused(npy(1, "{'descr': '|u1', 'fortran_order': False, 'shape': (6,)}", bytes),
+          "two-dimensional");
+  refused(npy(1, "{'descr': '|u1', 'fortran_order': False, 'shape': (0, 6)}", bytes),
+          "two-dimensional");
+  refused(npy(1, "{'descr': '|u1', 'shape': (2, 3)}", bytes), "broken");
+  refused(npy(1, "{'descr': '|u1", bytes), "broken");
+  refused(npy(9, "", ""), "version 9");
+  refused("\x93NUMPY\1", "truncated");
+  refused(std::string("\x93NUMPY\1\0\xff\xff{", 11), "truncated");
+}
+
+TEST_CASE("A damaged HDF5 file is refused, without a word on standard error", "[read]") {
+  const Scratch scratch;
+  const auto file = scratch.file("damaged.h5", "\x89HDF\r\n\x1a\n and then nothing of use");
+  CHECK_THROWS_WITH(read_surface(file), Contains("damaged.h5") && Contains("HDF5"));
+}
