@@ -15,25 +15,49 @@ struct PressureWindow {
 
 /// p = reference_pressure · exp(−ū/decay_length), least squares in ln p over a window, with Student-t 95 % limits.
 struct ExponentialFit {
-  double decay_length = 0;         ///< l, m
-  double decay_length_low = 0;     ///< 95 % limits, m
+  double decay_length = 0;      ///< l, m
+  double decay_length_low = 0;  ///< 95 % limits, m
   double decay_length_high = 0;
-  double reference_pressure = 0;   ///< p at ū = 0, Pa
+  double reference_pressure = 0;  ///< p at ū = 0, Pa
   double r_squared = 0;
   PressureWindow window;
   double decay_length_over_rms_height = ForceSample::unknown;
 };
 
 /// Fits the samples whose pressure lies in [pressure_min, pressure_max]; without a window, those with
-/// ū between 1 and 2.5 h_rms (all samples if h_rms is unknown). Throws InvalidInput for fewer than three points.
+/// ū between 1 and 2.5 h_rms, where the law is at its best, or all samples if h_rms is unknown. Samples that did not converge, have
+/// no mean gap or no pressure > 0 are left out. window.points of the argument is not used; that of the result counts the samples.
+/// Where the 95 % interval of the slope reaches zero, decay_length_high is infinite.
+/// The interval holds for independent errors of ln p; with a computed curve it measures the misfit of the law instead, and
+/// test_exponential tells whether that is systematic.
+/// Throws InvalidInput for fewer than three points, equal gaps, or a pressure that does not fall with ū.
 ExponentialFit fit_exponential(const ForceCurve& curve,
                                const std::optional<PressureWindow>& window = {});
 
-/// l(ū) = −dū/d ln p at the midpoints between consecutive samples.
+/// Whether ln p bends: ln p = a + b ū + c ū² over the window of fit_exponential, and Student's t-test of c = 0.
+struct ExponentialTest {
+  double quadratic = 0;             ///< c, 1/m²; > 0 where l grows with ū
+  double standard_error = 0;        ///< of c, 1/m²
+  double significance = 1;          ///< two-sided probability of so large a |c| if the law held
+  double decay_length_closest = 0;  ///< −dū/d ln p of the parabola at the least ū of the window, m
+  double decay_length_farthest = 0;  ///< at the largest, m
+  PressureWindow window;
+
+  /// The law is refuted at this level. A computed curve has next to no noise, so that any bend is significant: how much it
+  /// matters is the difference of the two decay lengths.
+  bool refuted(double level = 0.05) const { return significance < level; }
+};
+
+/// Throws as fit_exponential does, and for fewer than four points.
+ExponentialTest test_exponential(const ForceCurve& curve,
+                                 const std::optional<PressureWindow>& window = {});
+
+/// l(ū) = −dū/d ln p at the midpoints between consecutive samples; those that fit_exponential leaves out take no part.
 struct LocalDecayLength {
   std::vector<double> mean_gap;      ///< m
   std::vector<double> decay_length;  ///< m
 };
+/// Throws InvalidInput for fewer than two usable samples.
 LocalDecayLength local_decay_length(const ForceCurve& curve);
 
 }  // namespace salebra

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/fit.hpp>
+#include <salebra/contact/greenwood_williamson.hpp>
+
+using namespace salebra;
+
+namespace {
+
+/// Samples with ln p = y at ū = −x: a published regression of y on x has the slope 1/l.
+ForceCurve curve_of(const std::vector<double>& x, const std::vector<double>& log_pressure) {
+  ForceCurve curve{.model = "test", .nominal_area = 2, .samples = {}};
+  for (std::size_t i = 0; i < x.size(); ++i)
+    curve.samples.push_back({.mean_gap = -x[i], .pressure = std::exp(log_pressure[i])});
+  return curve;
+}
+
+// Anscombe, The American Statistician 27 (1973) 17: the first set is linear with noise, the second a parabola without.
+const std::vector<double> anscombe_x{10, 8, 13, 9, 11, 14, 6, 4, 12, 7, 5};
+const std::vector<double> anscombe_linear{8.04, 6.95, 7.58,  8.81, 8.33, 9.96,
+                                          7.24, 4.26, 10.84, 4.82, 5.68};
+const std::vector<double> anscombe_parabola{9.14, 8.14, 8.74, 8.77, 9.26, 8.10,
+                                            6.13, 3.10, 9.13, 7.26, 4.74};
+
+}  // namespace
+
+TEST_CASE("The fit is the published regression of Anscombe's first set", "[fit]") {
+  const ExponentialFit fit = fit_exponential(curve_of(anscombe_x, anscombe_linear));
+  // Slope 0.500091, intercept 3.000091, standard error 0.117906, R² 0.666542 (to the digits printed); t(9) = 2.262157.
+  CHECK(1 / fit.decay_length == Approx(0.500091).epsilon(2e-6));
+  CHECK(std::log(fit.reference_pressure) == Approx(3.000091).epsilon(1e-6));
+  CHECK(fit.r_squared == Approx(0.666542).epsilon(2e-6));
+  CHECK(1 / fit.decay_length_low - 1 / fit.decay_length ==
+        Approx(2.262157 * 0.117906).epsilon(1e-5));
+  CHECK(1 / fit.decay_length - 1 / fit.decay_length_high ==
+        Approx(2.262157 * 0.117906).epsilon(1e-5));
+  CHECK(fit.window.points == 11);
+  CHECK(fit.window.pressure_max == Approx(std::exp(10.84)));
+  CHECK(std::isnan(fit.decay_length_over_rms_height));
+}
+
+TEST_CASE("Only the curve that bends refutes the exponential law", "[fit]") {
+  CHECK_FALSE(test_exponential(curve_of(anscombe_x, anscombe_linear)).refuted());
+  const ExponentialTest bent = test_exponential(curve_of(anscombe_x, anscombe_parabola));
+  // The second set is y = −5.9957 + 2.7808 x − 0.12671 x² within its two decimals.
+  CHECK(bent.quadratic == Approx(-0.12671).epsilon(1e-4));
+  CHECK(bent.refuted(1e-6));
+  CHECK(1 / bent.decay_length_closest == Approx(2.7808 - 2 * 0.12671 * 14).epsilon(1e-3));
+  CHECK(1 / bent.decay_length_farthest == Approx(2.7808 - 2 * 0.12671 * 4).epsilon(1e-3));
+}
+
+TEST_CASE("An exact exponential has its decay length, no interval and no bend", "[fit]") {
+  std::vector<double> x, log_pressure;
+  for (int i = 0; i < 9; ++i) {
+    x.push_back(-1e-7 * (1 + i * (1 + 0.1 * i)));
+    log_pressure.push_back(20 + x.back() / 0.7e-7);
+  }
+  const ForceCurve curve = curve_of(x, log_pressure);
+  const ExponentialFit fit = fit_exponential(curve);
+  // exp and log cost about 20 units of round-off in ln p, divided by its range of 20.
+  CHECK(fit.decay_length == Approx(0.7e-7).epsilon(1e-14));
+  CHECK(fit.decay_length_high - fit.decay_length_low < 1e-13 * fit.decay_length);
+  CHECK(fit.r_squared == Approx(1).epsilon(1e-14));
+  CHECK_FALSE(test_exponential(curve).refuted());
+  for (double length : local_decay_length(curve).decay_length)
+    CHECK(length == Approx(0.7e-7).epsilon(1e-13));
+}
+
+TEST_CASE("Exponential summits obey the law, Gaussian ones bend it", "[fit]") {
+  SummitEnsemble ensemble{.density = 1e10,
+                          .radius = 1e-6,
+                          .summit_rms = 2e-8,
+                          .mean_height = 3e-8,
+                          .distribution = SummitDistribution::exponential,
+                          .rms_height = 2.2e-8};
+  const Material material = Material::of_contact_modulus(1e11, 0.3);
+  std::vector<double> separations;
+  for (int i = 0; i < 12; ++i) separations.push_back(5e-9 * i);
+  auto curve_of_ensemble = [&] {
+    return curve_at_separations(StatisticalSummits(ensemble, material, 1e-6), separations);
+  };
+  const ExponentialFit fit = fit_exponential(curve_of_ensemble());
+  CHECK(fit.decay_length == Approx(2e-8).epsilon(1e-12));
+  CHECK(fit.decay_length_over_rms_height == Approx(2e-8 / 2.2e-8).epsilon(1e-12));
+  // ū = s + 3e-8 lies within 2.2e-8 … 5.5e-8 for s from 0 to 2.5e-8.
+  CHECK(fit.window.points == 6);
+  CHECK_FALSE(test_exponential(curve_of_ensemble()).refuted());
+
+  ensemble.distribution = SummitDistribution::gaussian;
+  const ForceCurve gaussian = curve_of_ensemble();
+  const ExponentialTest test = test_exponential(gaussian);
+  CHECK(test.refuted(1e-3));
+  CHECK(test.quadratic < 0);
+  CHECK(test.decay_length_closest > test.decay_length_farthest);
+  // The secant between neighbours is l = F/K at their midpoint, to the second order of 0.25 σ.
+  const LocalDecayLength local = local_decay_length(gaussian);
+  const StatisticalSummits summits(ensemble, material, 1e-6);
+  REQUIRE(local.mean_gap.size() == 11);
+  for (std::size_t i = 0; i < local.mean_gap.size(); ++i) {
+    const double separation = local.mean_gap[i] - 3e-8;
+    CHECK(local.decay_length[i] ==
+          Approx(summits.force(separation) / summits.normal_stiffness(separation)).epsilon(2e-3));
+  }
+}
+
+TEST_CASE("The 95 % interval covers the truth in 95 % of noisy curves", "[fit]") {
+  std::mt19937_64 random(5);
+  auto uniform = [&] { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; };
+  int covered = 0;
+  const int repeats = 1000;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    std::vector<double> x, log_pressure;
+    for (int i = 0; i < 6; ++i) {
+      x.push_back(i);
+      const double noise =
+          std::sqrt(-2 * std::log(uniform())) * std::cos(2 * std::numbers::pi * uniform());
+      log_pressure.push_back(2.0 * i + 0.3 * noise);
+    }
+    const ExponentialFit fit = fit_exponential(curve_of(x, log_pressure));
+    covered += fit.decay_length_low <= 0.5 && 0.5 <= fit.decay_length_high;
+  }
+  // Binomial: 950 ± 7; the normal quantile 1.96 in place of Student's 2.78 would give 880.
+  CHECK(covered == Approx(950).margin(28));
+}
+
+TEST_CASE("The window decides which samples count", "[fit]") {
+  ForceCurve curve = curve_of({1, 2, 3, 4, 5, 6}, {1, 2, 3, 14, 15, 16});
+  const ExponentialFit low = fit_exponential(curve, PressureWindow{0, std::exp(3.5)});
+  CHECK(low.decay_length == Approx(1).epsilon(1e-13));
+  CHECK(low.window.points == 3);
+  CHECK(low.window.pressure_max == Approx(std::exp(3)));
+
+  SECTION("samples without convergence, contact or gap are left out") {
+    curve.samples[1].converged = false;
+    CHECK_THROWS_WITH(fit_exponential(curve, PressureWindow{0, std::exp(3.5)}),
+                      Catch::Contains("at least 3"));
+  }
+  SECTION("forces stand in for pressures") {
+    for (ForceSample& sample : curve.samples) {
+      sample.force = 2 * sample.pressure;
+      sample.pressure = ForceSample::unknown;
+    }
+    CHECK(fit_exponential(curve, PressureWindow{0, std::exp(3.5)}).decay_length ==
+          Approx(low.decay_length).epsilon(1e-14));
+  }
+  SECTION("limits in the wrong order") {
+    CHECK_THROWS_AS(fit_exponential(curve, PressureWindow{5, 2}), InvalidInput);
+  }
+  SECTION("a test of the bend needs one point more than the line") {
+    CHECK_THROWS_WITH(test_exponential(curve, PressureWindow{0, std::exp(3.5)}),
+                      Catch::Contains("at least 4"));
+  }
+  SECTION("no sample in the default window") {
+    curve.rms_height = 100;
+    CHECK_THROWS_WITH(fit_exponential(curve), Catch::Contains("rms heights"));
+  }
+  SECTION("a curve that falls") {
+    for (ForceSample& sample : curve.samples) sample.mean_gap = -sample.mean_gap;
+    CHECK_THROWS_WITH(fit_exponential(curve), Catch::Contains("does not fall"));
+  }
+  SECTION("equal gaps") {
+    for (ForceSample& sample : curve.samples) sample.mean_gap = 1;
+    CHECK_THROWS_WITH(fit_exponential(curve), Catch::Contains("same in all"));
+  }
+  SECTION("an empty curve") { CHECK_THROWS_AS(local_decay_length({}), InvalidInput); }
+}
+
+TEST_CASE("An interval that reaches a flat line has no upper limit", "[fit]") {
+  const ExponentialFit fit = fit_exponential(curve_of({1, 2, 3}, {1, 5, 2}));
+  CHECK(std::isinf(fit.decay_length_high));
+  CHECK(fit.decay_length_low > 0);
+}
