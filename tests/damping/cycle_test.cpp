@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <salebra/damping/cycle.hpp>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <salebra/base/error.hpp>
+
+using namespace salebra;
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr double contact_modulus = 3e9;
+
+// Cells whose centres lie within a radius of the middle of the grid, shifted by (0.31, 0.17) of a cell.
+ContactSet disc(const Grid2D& grid, double radius) {
+  ContactSet contact(grid.nx, grid.ny);
+  for (Index ix = 0; ix < grid.nx; ++ix)
+    for (Index iy = 0; iy < grid.ny; ++iy)
+      contact(ix, iy) = std::hypot((static_cast<double>(ix) - 0.31) * grid.dx() - grid.lx / 2,
+                                   (static_cast<double>(iy) - 0.17) * grid.dy() - grid.ly / 2) <
+                        radius;
+  return contact;
+}
+
+// The cone with g(x) = c|x|: a = δ/c, F = E*δ²/c, F'' = 2E*/c at every δ > 0.
+constexpr double cone_slope = 0.02;
+ContactLevels cone(const Grid2D& grid) {
+  return [grid](double indentation) {
+    return ContactLevel{.contact = disc(grid, indentation / cone_slope),
+                        .force = contact_modulus * indentation * indentation / cone_slope};
+  };
+}
+
+// Nested sets without any symmetry: islands that appear, grow and merge as δ goes from 0 to 1, and have holes that close.
+ContactLevels islands(const Grid2D& grid) {
+  return [grid](double indentation) {
+    ContactLevel level{.contact = ContactSet(grid.nx, grid.ny)};
+    for (Index ix = 0; ix < grid.nx; ++ix)
+      for (Index iy = 0; iy < grid.ny; ++iy) {
+        const double x = 2 * pi * static_cast<double>(ix) / static_cast<double>(grid.nx);
+        const double y = 2 * pi * static_cast<double>(iy) / static_cast<double>(grid.ny);
+        level.contact(ix, iy) = std::sin(x + 0.3) * std::cos(2 * y) + 0.7 * std::sin(3 * x - y) +
+                                    0.5 * std::cos(5 * x + 4 * y) >
+                                1.4 - indentation;
+      }
+    return level;
+  };
+}
+
+// K_t of a set for motion along `direction`.
+double stiffness_along(const ContactSet& contact, const Grid2D& grid, const Material& material,
+                       const CycleOptions& options) {
+  const StickStiffness k = stick_stiffness(contact, grid, material, options.stick);
+  const double c = std::cos(options.direction), s = std::sin(options.direction);
+  return c * c * k.xx + 2 * c * s * k.xy + s * s * k.yy;
+}
+
+// The theorem for the sets of a discretised cycle that is symmetric about t = 1/2: the cells between A(t_k) and A(t_{k+1}) enter
+// at t_{k+1/2} and leave at 1 − t_{k+1/2}, hence W = ½ Σ (K_{k+1} − K_k) s².
+double theorem(const ContactLevels& levels, const Grid2D& grid, const Material& material,
+               const Trajectory& motion, const CycleOptions& options) {
+  double sum = 0, below = 0;
+  for (int k = 0; k <= options.steps / 2; ++k) {
+    const double t = static_cast<double>(k) / options.steps, middle = t - 0.5 / options.steps;
+    const double here =
+        stiffness_along(levels(motion.indentation(t)).contact, grid, material, options);
+    if (k > 0)
+      sum += (here - below) * std::pow(motion.tangential(1 - middle) - motion.tangential(middle), 2);
+    below = here;
+  }
+  return sum / 2;
+}
+
+}  // namespace
+
+TEST_CASE("The simulated loss is half the integral of s squared over K_t, for any nested sets", "[cycle]") {
+  const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
+  const double poisson = GENERATE(0.0, 0.3, 0.5);
+  const Grid2D grid{27, 20, 1.3e-3, 1e-3};
+  const Material material = Material::of_contact_modulus(contact_modulus, poisson);
+  const ContactLevels levels = islands(grid);
+  CycleOptions options{.steps = 12, .direction = 0.7};
+  options.stick = {.tolerance = 1e-9, .boundary = boundary};
+  for (const Oscillation& motion :
+       {Oscillation(EqualFrequency{0.5, 1e-6, pi / 2}), Oscillation(EqualFrequency{0.5, 1e-6, pi / 4}),
+        Oscillation(Drag{0.5, 1e-3, 700.0})}) {
+    const Trajectory trajectory = trajectory_of(motion, 0.5);
+    const CycleResult cycle = simulate_cycle(levels, grid, material, trajectory, options);
+    REQUIRE(cycle.converged);
+    CHECK(cycle.periods == 1);
+    CHECK(cycle.steady);
+    // Exact for the discretised problem: what remains is the solvers' 1e-9 of the motion, summed over the steps.
+    CHECK(cycle.work_per_cycle ==
+          Approx(theorem(levels, grid, material, trajectory, options)).epsilon(1e-7));
+    CHECK(cycle.released_energy == Approx(cycle.work_per_cycle).epsilon(1e-7));
+  }
+}
+
+TEST_CASE("The cone loses Eqs (12) and (15) at any amplitude", "[cycle]") {
+  const double poisson = GENERATE(0.0, 0.3, 0.5);
+  const Grid2D grid{64, 64, 1e-3, 1e-3};
+  const Material material = Material::of_contact_modulus(contact_modulus, poisson);
+  const double indentation = 0.3e-3 * cone_slope, amplitude = 0.1e-3 * cone_slope;
+  const double curvature = material.modulus_ratio() * 2 * contact_modulus / cone_slope;
+  CycleOptions options{.steps = 32};
+  options.stick.boundary = Boundary::free;
+  const auto lost = [&](const Oscillation& motion) {
+    const CycleResult cycle = simulate_cycle(cone(grid), grid, material,
+                                             trajectory_of(motion, indentation), options);
+    REQUIRE(cycle.converged);
+    CHECK(cycle.contact_area_min == Approx(pi * 0.04e-6).epsilon(0.02));
+    CHECK(cycle.contact_area_max == Approx(pi * 0.16e-6).epsilon(0.02));
+    CHECK(cycle.smallest.count() * grid.cell_area() == cycle.contact_area_min);
+    return cycle.work_per_cycle;
+  };
+  // Measured: 0.2 % in case (a), most of it the steps' h²/24 = 1.6e-3, and 0.5 to 0.8 % in case (b), the grid's.
+  for (const double phase : {pi / 2, pi / 4}) {
+    const double s = std::sin(phase);
+    CHECK(lost(EqualFrequency{amplitude, 2e-6, phase}) ==
+          Approx(8.0 / 3 * curvature * 4e-12 * amplitude * s * s).epsilon(0.005));
+  }
+  CHECK(lost(Drag{amplitude, 2e-3, 900.0}) ==
+        Approx(2 * (pi * pi - 4) * curvature * amplitude * std::pow(2e-3 / 900, 2)).epsilon(0.012));
+}
+
+TEST_CASE("The error of the steps is of second order, at any phase", "[cycle]") {
+  const double phase = GENERATE(pi / 2, pi / 4);
+  // Levels between the steps' do not matter: the same smooth growth of K_t is sampled ever more finely. A coarse grid would add
+  // its own steps, hence sets that change in every step: one cell more along a line of 512.
+  const Grid2D grid{512, 1, 1.0, 1.0};
+  const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
+  const ContactLevels strip = [&](double indentation) {
+    ContactLevel level{.contact = ContactSet::Constant(grid.nx, 1, false)};
+    level.contact.topRows(static_cast<Index>(std::lround(200 + 150 * indentation))) = true;
+    return level;
+  };
+  const auto lost = [&](int steps) {
+    CycleOptions options{.steps = steps};
+    return simulate_cycle(strip, grid, material,
+                          trajectory_of(EqualFrequency{1.0, 1e-6, phase}, 0), options)
+        .work_per_cycle;
+  };
+  const double finest = lost(128);
+  // 16 → 32 steps divide the error by 4, as far as the 300 cells that come and go allow.
+  CHECK((lost(16) - finest) / (lost(32) - finest) == Approx(4.2).epsilon(0.15));
+}
+
+TEST_CASE("A contact whose cells do not change loses nothing", "[cycle]") {
+  const Grid2D grid{40, 40, 1e-3, 1e-3};
+  const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
+  const ContactLevels cylinder = [&](double) { return ContactLevel{disc(grid, 0.3e-3)}; };
+  CycleOptions options{.steps = 16};
+  options.stick.boundary = Boundary::free;
+  const double amplitude = 2e-6;
+  const CycleResult cycle =
+      simulate_cycle(cylinder, grid, material,
+                     trajectory_of(EqualFrequency{1e-7, amplitude, 1.0}, 1e-6), options);
+  const double stiffness =
+      stick_stiffness(disc(grid, 0.3e-3), grid, material, options.stick).xx;
+  CHECK(std::abs(cycle.work_per_cycle) < 1e-9 * stiffness * amplitude * amplitude / 2);
+  CHECK(cycle.released_energy == 0);
+  // Half way through the energy is there: the motion does do work.
+  CHECK(cycle.samples[8].work > 0.1 * stiffness * amplitude * amplitude);
+}
+
+TEST_CASE("The steady loss does not depend on where the motion starts", "[cycle]") {
+  const Grid2D grid{24, 24, 1e-3, 1e-3};
+  const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
+  const CycleOptions options{.steps = 16};
+  const Trajectory from_least = trajectory_of(EqualFrequency{0.5, 1e-6, 1.1}, 0.5);
+  const Trajectory from_greatest{[&](double t) { return from_least.indentation(t + 0.5); },
+                                 [&](double t) { return from_least.tangential(t + 0.5); }};
+  const CycleResult first = simulate_cycle(islands(grid), grid, material, from_least, options);
+  const CycleResult second = simulate_cycle(islands(grid), grid, material, from_greatest, options);
+  CHECK(first.periods == 1);
+  CHECK(second.periods > 1);
+  CHECK(second.steady);
+  CHECK(second.work_per_cycle == Approx(first.work_per_cycle).epsilon(1e-6));
+}
+
+TEST_CASE("Drag leaves the core stressed and the rest of its loop closed", "[cycle]") {
+  const Grid2D grid{24, 24, 1e-3, 1e-3};
+  const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
+  const CycleOptions options{.steps = 16};
+  const double advance = 2 * pi * 1e-3 / 500;
+  const CycleResult cycle = simulate_cycle(islands(grid), grid, material,
+                                           trajectory_of(Drag{0.5, 1e-3, 500.0}, 0.5), options);
+  const double core = stick_stiffness(cycle.smallest, grid, material, options.stick).xx;
+  CHECK(cycle.samples.back().tangential_force == Approx(core * advance).epsilon(1e-7));
+  CHECK(cycle.stored_energy_change == Approx(core * advance * advance / 2).epsilon(1e-7));
+}
+
+TEST_CASE("A cycle that cannot be trusted is not called converged, and bad input is named", "[cycle]") {
+  const Grid2D grid{24, 24, 1e-3, 1e-3};
+  const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
+  const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 1.1}, 0.5);
+  CycleOptions options{.steps = 8};
+  options.stick.max_iterations = 3;
+  CHECK_FALSE(simulate_cycle(islands(grid), grid, material, motion, options).converged);
+  const ContactLevels doubtful = [&](double indentation) {
+    ContactLevel level = islands(grid)(indentation);
+    level.converged = indentation < 0.9;
+    return level;
+  };
+  CHECK_FALSE(simulate_cycle(doubtful, grid, material, motion, {.steps = 8}).converged);
+  const CycleOptions stopped{.steps = 8,
+                             .on_progress = [](const ProgressReport& r) { return r.step < 3; }};
+  const CycleResult partial = simulate_cycle(islands(grid), grid, material, motion, stopped);
+  CHECK(partial.interrupted);
+  CHECK_FALSE(partial.converged);
+  CHECK_THROWS_WITH(simulate_cycle(islands(grid), grid, material, motion, {.steps = 3}),
+                    Catch::StartsWith("steps: 3"));
+  CHECK_THROWS_AS(trajectory_of(Drag{0.1, 1.0, 0.0}, 0), InvalidInput);
+}
