@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "options.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/io/read_surface.hpp>
+#include <salebra/surface/detrend.hpp>
+
+namespace salebra::cli {
+
+CLI::Option* add_quantity(CLI::App& app, const std::string& name, std::optional<double>& target,
+                          Dimension dimension, const std::string& help) {
+  return app
+      .add_option_function<std::string>(
+          name,
+          [&target, dimension, name](const std::string& text) {
+            target = parse_quantity(text, dimension, name);
+          },
+          help)
+      ->type_name(dimension == Dimension::dimensionless ? "NUMBER"
+                                                        : std::string(si_unit(dimension)));
+}
+
+CLI::Option* add_values(CLI::App& app, const std::string& name, std::vector<double>& target,
+                        Dimension dimension, const std::string& help) {
+  return app
+      .add_option_function<std::string>(
+          name,
+          [&target, dimension, name](const std::string& text) {
+            target = parse_values(text, dimension, name);
+          },
+          help)
+      ->type_name(dimension == Dimension::dimensionless
+                      ? "VALUES"
+                      : fmt::format("VALUES in {}", si_unit(dimension)));
+}
+
+CLI::Option* add_choice(CLI::App& app, const std::string& name, std::string& target,
+                        const std::vector<std::string>& choices, const std::string& help) {
+  return app.add_option(name, target, fmt::format("{}: {}", help, fmt::join(choices, " | ")))
+      ->type_name("NAME")
+      ->check([name, choices](const std::string& text) {
+        return std::ranges::find(choices, text) != choices.end()
+                   ? std::string()
+                   : fmt::format("'{}' is not one of {}", text, fmt::join(choices, ", "));
+      });
+}
+
+double required(const std::optional<double>& value, std::string_view option,
+                std::string_view reason) {
+  if (!value) throw InvalidInput(fmt::format("{}: not given, but {}", option, reason));
+  return *value;
+}
+
+void MaterialOptions::add_to(CLI::App& app) {
+  const std::string group = "Material";
+  add_values(app, "--young", young, Dimension::pressure,
+             "Young's modulus E1[,E2]; one: the other side is rigid")
+      ->group(group);
+  add_values(app, "--poisson", poisson, Dimension::dimensionless, "Poisson's ratio NU1[,NU2]")
+      ->group(group);
+  add_quantity(app, "--contact-modulus", contact_modulus, Dimension::pressure,
+               "E*, instead of --young")
+      ->group(group);
+  add_quantity(app, "--tangential-modulus", tangential_modulus, Dimension::pressure,
+               "G*, beside --contact-modulus")
+      ->group(group);
+}
+
+Material MaterialOptions::material() const {
+  if (!young.empty()) {
+    require(!contact_modulus && !tangential_modulus, "--young", fmt::format("{}", young.front()),
+            "cannot stand beside --contact-modulus or --tangential-modulus; give one kind");
+    require(young.size() <= 2, "--young", young.size(), "values are too many; give E1 or E1,E2");
+    require(
+        poisson.size() == young.size(), "--poisson", poisson.size(),
+        fmt::format("values do not match the {} of --young; give one for each body", young.size()));
+    return Material::of_bodies({young[0], poisson[0]}, young.size() == 2
+                                                           ? ElasticBody{young[1], poisson[1]}
+                                                           : ElasticBody{});
+  }
+  const double modulus = required(contact_modulus, "--contact-modulus",
+                                  "the material is needed; give it, or --young with --poisson");
+  require(poisson.empty() || !tangential_modulus, "--tangential-modulus",
+          tangential_modulus.value_or(0), "cannot stand beside --poisson; give one of them");
+  require(poisson.size() <= 1, "--poisson", poisson.size(),
+          "values are too many beside --contact-modulus, which means one elastic body");
+  if (tangential_modulus) return Material::of_moduli(modulus, *tangential_modulus);
+  if (!poisson.empty()) return Material::of_contact_modulus(modulus, poisson[0]);
+  return Material::of_contact_modulus(modulus);
+}
+
+Material MaterialOptions::material_with_tangential_modulus() const {
+  if (young.empty() && poisson.empty() && !tangential_modulus) {
+    throw InvalidInput(
+        "--tangential-modulus: not given, but the tangential stiffness is needed; give it, or "
+        "--poisson");
+  }
+  return material();
+}
+
+double MaterialOptions::modulus_ratio() const {
+  if (young.empty() && !contact_modulus && !tangential_modulus && poisson.size() == 1) {
+    return Material::of_contact_modulus(1, poisson[0]).modulus_ratio();
+  }
+  return material_with_tangential_modulus().modulus_ratio();
+}
+
+void SurfaceOptions::add_to(CLI::App& app, bool needed, const std::string& field) {
+  app.add_option(field, file, "file with heights: HDF5, NPY, text matrix or XYZ")
+      ->required(needed)
+      ->type_name("FILE");
+  const std::string group = "Surface";
+  add_quantity(app, "--size-x", size_x, Dimension::length, "for files that do not know their size")
+      ->group(group);
+  add_quantity(app, "--size-y", size_y, Dimension::length, "as --size-x")->group(group);
+  app.add_option("--height-unit", height_unit,
+                 "such as nm, for files that do not name one; default m")
+      ->type_name("UNIT")
+      ->group(group);
+  add_choice(app, "--detrend", detrend, {"none", "mean", "plane"},
+             "default: plane if measured, mean if generated")
+      ->group(group);
+}
+
+Surface SurfaceOptions::read() const {
+  if (size_x) require_positive(*size_x, "--size-x");
+  if (size_y) require_positive(*size_y, "--size-y");
+  ReadOptions options;
+  options.size_x = size_x;
+  options.size_y = size_y;
+  options.height_unit = height_unit;
+  Surface surface = read_surface(file, options);
+  const Detrend method = detrend == "none"    ? Detrend::none
+                         : detrend == "mean"  ? Detrend::mean
+                         : detrend == "plane" ? Detrend::plane
+                                              : customary_detrend(surface);
+  return detrended(std::move(surface), method);
+}
+
+void PositionOptions::add_to(CLI::App& app, bool with_indentation) {
+  const std::string group = "Position";
+  add_quantity(app, "--pressure", pressure, Dimension::pressure, "nominal pressure")->group(group);
+  add_quantity(app, "--mean-gap", mean_gap, Dimension::length, "mean gap of the deformed surfaces")
+      ->group(group);
+  add_quantity(app, "--force-newton", force, Dimension::force, "normal force")->group(group);
+  if (with_indentation) {
+    add_quantity(app, "--indentation", indentation, Dimension::length, "from first touch")
+        ->group(group);
+  }
+}
+
+int PositionOptions::count() const {
+  return mean_gap.has_value() + pressure.has_value() + indentation.has_value() + force.has_value();
+}
+
+void MotionOptions::add_to(CLI::App& app) {
+  const std::string group = "Motion (one quantity may be a range from:to:count or a list)";
+  add_choice(app, "--mode", mode, {"drag", "equal-frequency"}, "default drag")->group(group);
+  add_values(app, "--normal-amplitude", normal_amplitude, Dimension::length, "u_z")->group(group);
+  add_values(app, "--tangential-amplitude", tangential_amplitude, Dimension::length,
+             "u_x, equal-frequency")
+      ->group(group);
+  add_values(app, "--phase", phase, Dimension::angle, "phase, equal-frequency")->group(group);
+  add_values(app, "--drag-velocity", drag_velocity, Dimension::velocity, "v, drag")->group(group);
+  add_values(app, "--frequency", frequency, Dimension::frequency, "in Hz")->group(group);
+  add_values(app, "--angular-frequency", angular_frequency, Dimension::angular_frequency,
+             "in rad/s, instead of --frequency")
+      ->group(group);
+}
+
+std::pair<std::string, std::vector<double>> MotionOptions::varied() const {
+  std::pair<std::string, std::vector<double>> found;
+  for (const auto& [name, values] : {std::pair{"normal_amplitude", &normal_amplitude},
+                                     {"tangential_amplitude", &tangential_amplitude},
+                                     {"phase", &phase},
+                                     {"drag_velocity", &drag_velocity},
+                                     {"frequency", &frequency},
+                                     {"angular_frequency", &angular_frequency}}) {
+    if (values->size() < 2) continue;
+    require(found.second.empty(), name, fmt::format("{} values", values->size()),
+            "are a second range; only one quantity may be a range");
+    found = {name, *values};
+  }
+  return found;
+}
+
+std::vector<Oscillation> MotionOptions::motions() const {
+  const bool drag = mode == "drag";
+  const auto check = [&](const std::vector<double>& values, std::string_view option, bool wanted) {
+    require(!values.empty() || !wanted, option, "not given,", "but --mode " + mode + " needs it");
+    require(values.empty() || wanted, option, "given,",
+            "but --mode " + mode + " has none; leave it out");
+  };
+  check(normal_amplitude, "--normal-amplitude", true);
+  check(tangential_amplitude, "--tangential-amplitude", !drag);
+  check(phase, "--phase", !drag);
+  check(drag_velocity, "--drag-velocity", drag);
+  require(frequency.empty() || angular_frequency.empty(), "--angular-frequency", "given",
+          "beside --frequency; give one of them");
+  require(!drag || !frequency.empty() || !angular_frequency.empty(), "--frequency", "not given,",
+          "but --mode drag needs it, or --angular-frequency");
+
+  std::vector<double> omega = angular_frequency;
+  for (const double hertz : frequency) omega.push_back(2 * std::numbers::pi * hertz);
+  // An equal-frequency loss per cycle does not depend on the frequency: 0 says that it is not known.
+  if (omega.empty())
+    omega = {0};
+  else
+    for (const double value : omega)
+      require_positive(value, frequency.empty() ? "--angular-frequency" : "--frequency");
+  const std::size_t count = std::max<std::size_t>(1, varied().second.size());
+  const auto at = [](const std::vector<double>& values, std::size_t i) {
+    return values.size() == 1 ? values.front() : values.at(i);
+  };
+  std::vector<Oscillation> all;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (drag) {
+      all.emplace_back(Drag{.normal_amplitude = at(normal_amplitude, i),
+                            .drag_velocity = at(drag_velocity, i),
+                            .angular_frequency = at(omega, i)});
+    } else {
+      all.emplace_back(EqualFrequency{.normal_amplitude = at(normal_amplitude, i),
+                                      .tangential_amplitude = at(tangential_amplitude, i),
+                                      .phase = at(phase, i),
+                                      .angular_frequency = at(omega, i)});
+    }
+  }
+  return all;
+}
+
+}  // namespace salebra::cli

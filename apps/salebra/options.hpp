@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <optional>
+#include <salebra/base/grid.hpp>
+#include <salebra/base/units.hpp>
+#include <salebra/contact/material.hpp>
+#include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/oscillation.hpp>
+#include <string>
+#include <vector>
+
+#include "session.hpp"
+
+/// Option groups that several commands share. Each is a plain struct that must outlive the parsing; add_to() declares the
+/// options, the other functions turn what was given into the library's types and throw InvalidInput that names the option.
+namespace salebra::cli {
+
+/// --name QUANTITY, with a unit.
+CLI::Option* add_quantity(CLI::App& app, const std::string& name, std::optional<double>& target,
+                          Dimension dimension, const std::string& help);
+/// --name VALUES: one quantity, a list or a range.
+CLI::Option* add_values(CLI::App& app, const std::string& name, std::vector<double>& target,
+                        Dimension dimension, const std::string& help);
+/// --name NAME out of a few; the target's present value is the default.
+CLI::Option* add_choice(CLI::App& app, const std::string& name, std::string& target,
+                        const std::vector<std::string>& choices, const std::string& help);
+
+/// The value of an option that the other options make necessary.
+double required(const std::optional<double>& value, std::string_view option,
+                std::string_view reason);
+
+/// The two bodies.
+struct MaterialOptions {
+  std::vector<double> young, poisson;
+  std::optional<double> contact_modulus, tangential_modulus;
+
+  void add_to(CLI::App& app);
+  /// E*, and G* where it is known.
+  Material material() const;
+  /// E* and G*; an error where G* was not given one way or another.
+  Material material_with_tangential_modulus() const;
+  /// G*/E*; --poisson alone is enough, for one elastic body.
+  double modulus_ratio() const;
+};
+
+/// SURFACE with its size and detrending.
+struct SurfaceOptions {
+  std::string file;
+  std::optional<double> size_x, size_y;
+  std::string detrend, height_unit;
+
+  /// field: "SURFACE", or "--surface" to make it an option.
+  void add_to(CLI::App& app, bool needed = true, const std::string& field = "SURFACE");
+  bool given() const { return !file.empty(); }
+  /// Read and, with --detrend or else as is customary for its kind, detrended.
+  Surface read() const;
+};
+
+/// Where a contact stands. At most one is given.
+struct PositionOptions {
+  std::optional<double> mean_gap, pressure, indentation, force;
+
+  void add_to(CLI::App& app, bool with_indentation);
+  /// Number of positions given.
+  int count() const;
+};
+
+/// What moves; any one quantity may be a range.
+struct MotionOptions {
+  std::string mode = "drag";
+  std::vector<double> normal_amplitude, tangential_amplitude, phase, frequency, angular_frequency,
+      drag_velocity;
+
+  void add_to(CLI::App& app);
+  /// Motions of all combinations, which is one line of them: throws InvalidInput if two quantities have several values.
+  std::vector<Oscillation> motions() const;
+  /// Name and values of the quantity with several values; empty if there is none.
+  std::pair<std::string, std::vector<double>> varied() const;
+};
+
+}  // namespace salebra::cli

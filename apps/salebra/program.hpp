@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <functional>
+#include <string>
+
+#include "session.hpp"
+
+namespace salebra::cli {
+
+/// Parses the command line and runs the command it names.
+/// Returns the exit status: 0 done, 1 failed while running, 2 bad usage or input, 130 interrupted.
+int run_program(int argc, char** argv);
+
+/// A subcommand with the common options. Its action runs after all options have been read.
+class Program {
+ public:
+  using Action = std::function<void(Session&)>;
+
+  explicit Program(CLI::App& app, std::string command_line)
+      : app_(app), command_line_(std::move(command_line)) {}
+
+  /// examples: two command lines with what they do, shown at the end of --help.
+  CLI::App& add_command(const std::string& name, const std::string& what,
+                        const std::array<std::string, 2>& examples, Action action);
+
+ private:
+  CLI::App& app_;
+  std::string command_line_;
+};
+
+// Each command defines void add_<name>_command(Program&) in cmd_<name>.cpp; the list is in CMakeLists.txt.
+#define SALEBRA_COMMAND(name) void add_##name##_command(Program& program);
+#include "command_list.inc"
+#undef SALEBRA_COMMAND
+
+}  // namespace salebra::cli

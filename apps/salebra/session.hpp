@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <salebra/base/progress.hpp>
+#include <string>
+#include <string_view>
+
+#include "progress_bar.hpp"
+
+namespace salebra::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// The options that every command has.
+struct CommonOptions {
+  bool json = false;
+  bool force = false;
+  bool quiet = false;
+  std::string output;  ///< empty: none
+  int threads = 0;     ///< 0: all
+  std::string progress = "auto";
+};
+
+/// One run of a command: where its answer, its remarks and its progress go.
+class Session {
+ public:
+  /// Throws InvalidInput where the output may not be written, so that no work is done in vain.
+  Session(CommonOptions options, std::string command_line);
+
+  bool has_output() const { return !options_.output.empty(); }
+  std::filesystem::path output() const { return options_.output; }
+  bool overwrite() const { return options_.force; }
+  bool quiet() const { return options_.quiet; }
+  const std::string& command_line() const { return command_line_; }
+
+  /// Throws InvalidInput if the path exists without --force, or its folder does not.
+  void require_writable(const std::filesystem::path& path, std::string_view field) const;
+
+  /// For the library: draws the bar where one is wanted, and returns false after Ctrl-C.
+  Progress progress();
+
+  /// A remark for the person at the terminal, on stderr; --quiet leaves out notes but never warnings.
+  void note(std::string_view text);
+  void warn(std::string_view text);
+
+  /// The command's answer: the object with --json, the text without.
+  void answer(const Json& object, const std::string& text);
+  /// The same with the object itself laid out as text.
+  void answer(const Json& object);
+
+ private:
+  CommonOptions options_;
+  std::string command_line_;
+  ProgressBar bar_;
+};
+
+/// True once SIGINT has come.
+bool interrupted();
+/// From now on the first SIGINT only sets interrupted(); a second one ends the process.
+void catch_interrupts();
+
+}  // namespace salebra::cli

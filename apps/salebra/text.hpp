@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "session.hpp"
+
+namespace salebra::cli {
+
+/// A JSON answer for people: "name  value unit" lines, arrays of one length side by side as a table, objects indented.
+/// Units and prefixes come from find_quantity.
+std::string to_text(const Json& object);
+
+/// Columns padded to their widest cell; the first row is the heading.
+std::string to_table(const std::vector<std::vector<std::string>>& rows, int indent = 2);
+
+}  // namespace salebra::cli

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/study/configuration.hpp>
+#include <sstream>
+
+#include "toml_reader.hpp"
+
+namespace salebra {
+namespace {
+
+using detail::TomlTable;
+
+void check_positive(const TomlTable& table, std::string_view key, double value) {
+  table.check(value > 0, key, fmt::format("{} must be > 0", value));
+}
+
+double required_positive(TomlTable& table, std::string_view key, Dimension dimension) {
+  const double value = table.required_quantity(key, dimension);
+  check_positive(table, key, value);
+  return value;
+}
+
+Grid2D read_grid(TomlTable& table) {
+  const auto points = table.integers("points");
+  if (points.empty() || points.size() > 2) {
+    table.fail("points", "must be one whole number or two, [nx, ny]");
+  }
+  for (const auto count : points) {
+    table.check(count >= 2 && count <= 65536, "points",
+                fmt::format("{} must be from 2 to 65536", count));
+  }
+  Grid2D grid;
+  grid.nx = points.front();
+  grid.ny = points.back();
+  grid.lx = required_positive(table, "size_x", Dimension::length);
+  const auto size_y = table.quantity("size_y", Dimension::length);
+  if (size_y) check_positive(table, "size_y", *size_y);
+  grid.ly = size_y.value_or(grid.lx * double(grid.ny) / double(grid.nx));
+  return grid;
+}
+
+std::vector<std::uint64_t> read_seeds(TomlTable& table) {
+  const auto given = table.integers("seeds");
+  const auto count = table.integers("seed_count");
+  const auto first = table.integers("first_seed");
+  table.check(given.empty() || (count.empty() && first.empty()), "seeds",
+              "cannot stand beside first_seed and seed_count; give one of the two");
+  std::vector<std::uint64_t> seeds;
+  for (const auto seed : given) {
+    table.check(seed >= 0, "seeds", fmt::format("{} must be >= 0", seed));
+    table.check(std::ranges::find(seeds, std::uint64_t(seed)) == seeds.end(), "seeds",
+                fmt::format("{} occurs twice; equal surfaces are no ensemble", seed));
+    seeds.push_back(std::uint64_t(seed));
+  }
+  if (!count.empty()) {
+    table.check(count.size() == 1 && count[0] >= 1 && count[0] <= 100000, "seed_count",
+                "must be one whole number from 1 to 100000");
+    const auto start = first.empty() ? 1 : first[0];
+    table.check(start >= 0, "first_seed", fmt::format("{} must be >= 0", start));
+    for (std::int64_t i = 0; i < count[0]; ++i) seeds.push_back(std::uint64_t(start + i));
+  }
+  if (seeds.empty()) table.fail("seeds", "is missing; add seeds = [1, 2, 3] or seed_count = 3");
+  return seeds;
+}
+
+GeneratedSurfaces read_generated(TomlTable& table) {
+  GeneratedSurfaces surfaces;
+  surfaces.grid = read_grid(table);
+  SelfAffineParameters& spectrum = surfaces.spectrum;
+  spectrum.hurst = table.required_quantity("hurst", Dimension::dimensionless);
+  spectrum.long_cutoff = table.quantity("long_cutoff", Dimension::length);
+  spectrum.rolloff = table.quantity("rolloff", Dimension::length);
+  spectrum.short_cutoff = table.required_quantity("short_cutoff", Dimension::length);
+  spectrum.rms_height = table.quantity("rms_height", Dimension::length);
+  spectrum.rms_slope = table.quantity("rms_slope", Dimension::dimensionless);
+  if (const auto method = table.choice("method", {"filtered-noise", "random-phase"})) {
+    surfaces.method =
+        *method == 0 ? GenerationMethod::filtered_noise : GenerationMethod::random_phase;
+  }
+  surfaces.seeds = read_seeds(table);
+  table.located([&] { SelfAffineSpectrum(spectrum).require_carried_by(surfaces.grid); });
+  return surfaces;
+}
+
+MeasuredSurface read_measured(TomlTable& table, const std::filesystem::path& folder) {
+  MeasuredSurface surface;
+  surface.file = folder / *table.text("file");
+  for (const auto& [key, size] :
+       {std::pair{"size_x", &surface.size_x}, {"size_y", &surface.size_y}}) {
+    *size = table.quantity(key, Dimension::length);
+    if (*size) check_positive(table, key, **size);
+  }
+  if (const auto choice = table.choice("detrend", {"none", "mean", "plane"})) {
+    surface.detrend = std::array{Detrend::none, Detrend::mean, Detrend::plane}[*choice];
+  }
+  return surface;
+}
+
+Material read_material(TomlTable table) {
+  const auto young = table.values("young", Dimension::pressure);
+  const auto poisson = table.values("poisson", Dimension::dimensionless);
+  const auto modulus = table.quantity("contact_modulus", Dimension::pressure);
+  const auto tangential = table.quantity("tangential_modulus", Dimension::pressure);
+  table.require_no_other_keys();
+  return table.located([&] {
+    if (!young.empty()) {
+      table.check(!modulus && !tangential, "young",
+                  "cannot stand beside contact_modulus or tangential_modulus; give one kind");
+      table.check(young.size() <= 2 && poisson.size() == young.size(), "poisson",
+                  "must have one value for each of the one or two of young");
+      return Material::of_bodies({young[0], poisson[0]}, young.size() == 2
+                                                             ? ElasticBody{young[1], poisson[1]}
+                                                             : ElasticBody{});
+    }
+    if (!modulus) table.fail("contact_modulus", "is missing; add it, or young and poisson");
+    if (tangential) {
+      table.check(poisson.empty(), "poisson", "cannot stand beside tangential_modulus; give one");
+      return Material::of_moduli(*modulus, *tangential);
+    }
+    table.check(poisson.size() == 1, "poisson",
+                "must be one value, for G* is needed; or give tangential_modulus");
+    return Material::of_contact_modulus(*modulus, poisson[0]);
+  });
+}
+
+void read_contact(TomlTable table, StudyConfiguration& configuration) {
+  const bool relative = table.has("relative_pressures");
+  table.check(!relative || !table.has("pressures"), "pressures",
+              "cannot stand beside relative_pressures; give one of them");
+  const char* key = relative ? "relative_pressures" : "pressures";
+  configuration.relative_pressures = relative;
+  configuration.pressures = relative ? table.values("relative_pressures", Dimension::dimensionless)
+                                     : table.values("pressures", Dimension::pressure);
+  const auto& pressures = configuration.pressures;
+  table.check(pressures.size() >= 4, key,
+              fmt::format("{} values are too few; at least 4 make a curve", pressures.size()));
+  for (std::size_t i = 0; i < pressures.size(); ++i) {
+    check_positive(table, key, pressures[i]);
+    table.check(i == 0 || pressures[i] > pressures[i - 1], key, "must increase");
+  }
+  if (const auto tolerance = table.quantity("tolerance", Dimension::dimensionless)) {
+    table.check(*tolerance >= 1e-14 && *tolerance <= 1e-1, "tolerance",
+                fmt::format("{} must be from 1e-14 to 0.1", *tolerance));
+    configuration.tolerance = *tolerance;
+  }
+  table.require_no_other_keys();
+}
+
+void read_fit(TomlTable table, StudyConfiguration& configuration) {
+  const auto window = table.values("pressure_window", Dimension::pressure);
+  if (!window.empty()) {
+    table.check(window.size() == 2 && window[0] > 0 && window[1] > window[0], "pressure_window",
+                "must be two pressures, 0 < lower < upper");
+    configuration.window = PressureWindow{window[0], window[1], 0};
+    if (!configuration.relative_pressures) {
+      const auto inside = std::ranges::count_if(configuration.pressures, [&](double pressure) {
+        return pressure >= window[0] && pressure <= window[1];
+      });
+      table.check(
+          inside >= 3, "pressure_window",
+          fmt::format("holds {} of the pressures of [contact]; a fit needs at least 3", inside));
+    }
+  }
+  table.require_no_other_keys();
+}
+
+void read_damping(TomlTable table, StudyConfiguration& configuration) {
+  const std::size_t mode = table.choice("mode", {"drag", "equal-frequency"}).value_or(0);
+  const double normal_amplitude = required_positive(table, "normal_amplitude", Dimension::length);
+  std::optional<double> omega = table.quantity("angular_frequency", Dimension::angular_frequency);
+  const auto frequency = table.quantity("frequency", Dimension::frequency);
+  table.check(!omega || !frequency, "frequency", "cannot stand beside angular_frequency; give one");
+  if (omega) check_positive(table, "angular_frequency", *omega);
+  if (frequency) {
+    check_positive(table, "frequency", *frequency);
+    omega = 2 * std::numbers::pi * *frequency;
+  }
+  if (!omega) table.fail("frequency", "is missing; add it, or angular_frequency");
+  if (mode == 0) {
+    configuration.motion =
+        Drag{.normal_amplitude = normal_amplitude,
+             .drag_velocity = required_positive(table, "drag_velocity", Dimension::velocity),
+             .angular_frequency = *omega};
+  } else {
+    EqualFrequency motion{
+        .normal_amplitude = normal_amplitude,
+        .tangential_amplitude = required_positive(table, "tangential_amplitude", Dimension::length),
+        .phase = table.required_quantity("phase", Dimension::angle),
+        .angular_frequency = *omega};
+    configuration.motion = motion;
+  }
+  if (const auto hold = table.choice("hold", {"indentation", "force"})) {
+    configuration.damping.hold = *hold == 0 ? Hold::indentation : Hold::force;
+  }
+  table.require_no_other_keys();
+}
+
+}  // namespace
+
+StudyConfiguration parse_study_configuration(const std::string& text, const std::string& name,
+                                             const std::filesystem::path& folder) {
+  toml::table document;
+  try {
+    document = toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw InvalidInput(fmt::format("{}:{}: is not TOML: {}", name, error.source().begin.line,
+                                   error.description()));
+  }
+  TomlTable root(name, "", document, 1);
+  StudyConfiguration configuration;
+  configuration.text = text;
+  configuration.surfaces = MeasuredSurface{};
+  if (auto surface = root.table("surface")) {
+    if (surface->has("file")) {
+      configuration.surfaces = read_measured(*surface, folder);
+    } else {
+      configuration.surfaces = read_generated(*surface);
+    }
+    surface->require_no_other_keys();
+  }
+  configuration.material = read_material(root.required_table("material"));
+  read_contact(root.required_table("contact"), configuration);
+  if (auto fit = root.table("fit")) read_fit(*fit, configuration);
+  read_damping(root.required_table("damping"), configuration);
+  root.require_no_other_keys();
+  return configuration;
+}
+
+StudyConfiguration read_study_configuration(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  require(stream.good() && std::filesystem::is_regular_file(file), file.string(), "",
+          "cannot be read; check its name");
+  return parse_study_configuration(text.str(), file.string(), file.parent_path());
+}
+
+StudyConfiguration with_surface(StudyConfiguration configuration, MeasuredSurface surface) {
+  configuration.surfaces = std::move(surface);
+  return configuration;
+}
+
+}  // namespace salebra
