@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <salebra/contact/force_curve.hpp>
+#include <salebra/contact/material.hpp>
+#include <vector>
+
+/// Closed theories of nominally flat contact, to compare with. Lengths in m, pressures in Pa; every function throws
+/// InvalidInput for a pressure, modulus, slope or rms height that is not > 0.
+namespace salebra {
+
+/// Fraction of a Gaussian surface above a plane at mean_gap over its mean plane, ½ erfc(ū/(√2 h_rms)): geometry alone.
+double bearing_area_fraction(double mean_gap, double rms_height);
+
+/// Bush, Gibson and Thomas, Wear 35 (1975) 87: A/A0 = √(2π) p/(E*h'), the limit of small pressures.
+double bgt_area_fraction(double pressure, double contact_modulus, double rms_slope);
+
+/// Persson, J. Chem. Phys. 115 (2001) 3840: A/A0 = erf(√2 p/(E*h')), of slope √(8/π) at small pressures.
+double persson_area_fraction(double pressure, double contact_modulus, double rms_slope);
+
+/// A narrow ring of the spectrum: power = ∫C d²q over it, m², at the wave number q, rad/m.
+struct RoughnessShell {
+  double wavenumber = 0;
+  double power = 0;
+};
+
+/// `count` shells of equal ratio of an isotropic spectrum C(q), m⁴, between two wave numbers, by the midpoint rule in ln q.
+std::vector<RoughnessShell> roughness_shells(const std::function<double(double)>& density,
+                                             double lowest, double highest, int count = 1000);
+
+/// Mean gap and stiffness by Persson's theory (Phys. Rev. Lett. 99 (2007) 125502; Yang and Persson, J. Phys.: Condens. Matter 20
+/// (2008) 215214). The energy of the mode q is γ P + (1−γ) P³ of its value in full contact, P(q) = erf(w p/E*) the area at that
+/// magnification, w⁻² = π∫^q q³C dq; p dū = −dU then gives
+///     ū(p) = √π ∫ q²C w ∫_p^∞ [γ + 3(1−γ)P²] exp(−(w p'/E*)²) dp'/p' dq
+/// and K/A0 = −dp/dū. With r = 1/w, the rms slope over √2 up to q, the outer integral is (2/√π)∫ … dr/q, which is done in closed
+/// form for each shell, one integral over erf² being left to quadrature.
+/// Valid for complete and partial contact of large surfaces. At ū >> h_rms a finite surface has nothing left to touch,
+/// while this p(ū) stays exponential.
+class PerssonTheory {
+ public:
+  /// γ in (0, 1]: 0.4 to 0.5 agrees with simulations; 1 neglects the correlation of the modes in contact.
+  static constexpr double usual_energy_factor = 0.45;
+
+  /// shells: any order, wave numbers > 0; those without power do not count.
+  PerssonTheory(std::vector<RoughnessShell> shells, double contact_modulus,
+                double energy_factor = usual_energy_factor);
+
+  double mean_gap(double pressure) const;               ///< ū, m
+  double stiffness_per_area(double pressure) const;     ///< K/A0 = −dp/dū, Pa/m
+  double contact_area_fraction(double pressure) const;  ///< A/A0
+  double pressure(double mean_gap) const;               ///< the inverse of mean_gap, for ū > 0
+
+  /// p = factor·E*·exp(−ū/decay_length), the limit of small pressures.
+  struct Asymptote {
+    double decay_length =
+        0;  ///< u0, m; K/A0 = p/u0 (Campañá, Persson, Müser, J. Phys.: Condens. Matter 23 (2011) 085001)
+    double factor = 0;  ///< β
+  };
+  Asymptote asymptote() const;
+
+  double rms_height() const { return rms_height_; }  ///< √Σ power, m
+  double rms_slope() const { return rms_slope_; }    ///< h' = √Σ q² power
+
+ private:
+  struct Ring {
+    double wavenumber, inner, outer;  ///< q and the limits of r
+  };
+  std::vector<Ring> rings_;
+  double contact_modulus_, energy_factor_, rms_height_ = 0, rms_slope_ = 0;
+};
+
+/// Samples at the given pressures (> 0, any order), lowest first; K_t = (G*/E*)K where G* is known.
+ForceCurve persson_curve(const PerssonTheory& theory, const Material& material, double nominal_area,
+                         const std::vector<double>& pressures);
+
+}  // namespace salebra
