@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <complex>
+#include <functional>
+#include <salebra/base/grid.hpp>
+#include <span>
+
+namespace salebra {
+
+/// Writes column j of a half-spectrum, F(0 … nx−1, j), into the span; called from several threads at once.
+using SpectrumColumn = std::function<void(Index j, std::span<std::complex<double>> column)>;
+
+/// The backward transform of RealFft2D for a spectrum that is made as it is needed and of which only the columns j < columns are
+/// not zero, such as that of a surface with a short cut-off:
+///     f(a, b) = Σ_ij F(i, j) exp(2πi(ia/nx + jb/ny)),   F(−i, −j) = F*(i, j).
+/// Columns of zeros are neither stored nor transformed, and transformed columns wait for the transform of the rows in the memory of
+/// the result: beside the nx·ny values it takes a few rows and columns for each thread.
+/// columns   1 … ny/2+1; the columns j = 0 and, for even ny, j = ny/2 must be Hermitian in i
+/// cost      columns complex transforms of length nx, nx real ones of length ny; parallel; same bits for every thread count
+Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column);
+
+}  // namespace salebra
