@@ -6,8 +6,7 @@
 namespace salebra {
 
 Surface filtered_noise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed) {
-  const detail::Modes modes(grid, spectrum, seed, detail::Chance::gaussian_amplitude);
-  return {grid, detail::synthesise(grid, modes), true,
+  return {grid, detail::synthesise(grid, spectrum, seed, detail::Chance::gaussian_amplitude), true,
           "filtered noise, seed " + std::to_string(seed) + ", " + spectrum.description()};
 }
 

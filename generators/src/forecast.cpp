@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
+#include <salebra/base/column_fft.hpp>
 #include <salebra/generators/forecast.hpp>
 #include <sstream>
 
 namespace salebra {
 
-std::size_t generation_memory(const Grid2D& grid) {
-  const auto points = static_cast<std::size_t>(grid.points());
-  const auto modes = static_cast<std::size_t>(grid.nx * (grid.ny / 2 + 1));
-  return points * sizeof(double) + modes * sizeof(std::complex<double>);
-}
+std::size_t generation_memory(const Grid2D& grid) { return column_fft_memory(grid.nx, grid.ny); }
 
 Forecast forecast(const Grid2D& grid, const Spectrum& spectrum) {
   Forecast result;

@@ -6,8 +6,7 @@
 namespace salebra {
 
 Surface random_phase(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed) {
-  const detail::Modes modes(grid, spectrum, seed, detail::Chance::phase);
-  return {grid, detail::synthesise(grid, modes), true,
+  return {grid, detail::synthesise(grid, spectrum, seed, detail::Chance::phase), true,
           "random phase, seed " + std::to_string(seed) + ", " + spectrum.description()};
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/base/powers.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <sstream>
 
@@ -59,6 +61,25 @@ double SelfAffineSpectrum::density(double qx, double qy) const {
   if (q < q_long_ * (1 - limit_tolerance) || q > q_short_ * (1 + limit_tolerance)) return 0;
   if (q <= q_rolloff_) return plateau_;
   return plateau_ * std::pow(q / q_rolloff_, -2 * (1 + parameters_.hurst));
+}
+
+void SelfAffineSpectrum::density_row(Index first, double step_x, double qy,
+                                     std::span<double> densities) const {
+  // In units of q_r² throughout, so that everything on the plateau is raised to its power as a 1.
+  const double scale = 1 / (q_rolloff_ * q_rolloff_);
+  const double lowest = scale * std::pow(q_long_ * (1 - limit_tolerance), 2);
+  const double highest = scale * std::pow(q_short_ * (1 + limit_tolerance), 2);
+  const auto square_of = [=](std::size_t k) {
+    const double qx = static_cast<double>(first + static_cast<Index>(k)) * step_x;
+    return scale * (qx * qx + qy * qy);
+  };
+  for (std::size_t k = 0; k < densities.size(); ++k) densities[k] = std::max(square_of(k), 1.0);
+  raise_to_power(densities, -(1 + parameters_.hurst));
+  for (std::size_t k = 0; k < densities.size(); ++k) {
+    const double square = square_of(k);
+    const bool within = square >= lowest && square <= highest;
+    densities[k] = within ? plateau_ * densities[k] : 0.0;
+  }
 }
 
 double SelfAffineSpectrum::unscaled_integral(int order) const {

@@ -44,24 +44,24 @@ void Spectrum::require_carried_by(const Grid2D& grid) const {
           size.str());
 }
 
+void Spectrum::density_row(Index first, double step_x, double qy,
+                           std::span<double> densities) const {
+  for (std::size_t k = 0; k < densities.size(); ++k) {
+    const Index i = first + static_cast<Index>(k);
+    densities[k] = i == 0 && qy == 0 ? 0 : density(static_cast<double>(i) * step_x, qy);
+  }
+}
+
 SpectralMoments Spectrum::lattice_moments(const Grid2D& grid) const {
-  require_carried_by(grid);
-  const detail::CarriedModes carried = detail::carried_modes(grid, *this);
-  const double step_x = 2 * pi / grid.lx, step_y = 2 * pi / grid.ly;
-  std::vector<SpectralMoments> columns(static_cast<std::size_t>(carried.j_max + 1));
-  parallel::for_slabs(carried.j_max + 1, [&](Index begin, Index end) {
-    for (Index j = begin; j < end; ++j) {
-      const bool own_mirror_y = j == 0 || 2 * j == grid.ny;
-      const bool nyquist_x = 2 * carried.i_max == grid.nx;
-      const Index first = own_mirror_y ? 0 : nyquist_x ? 1 - carried.i_max : -carried.i_max;
-      for (Index i = first; i <= carried.i_max; ++i) {
-        if (i == 0 && j == 0) continue;
-        const bool own_conjugate = own_mirror_y && (i == 0 || 2 * i == grid.nx);
-        const double qx = static_cast<double>(i) * step_x, qy = static_cast<double>(j) * step_y;
-        const double power = (own_conjugate ? 1 : 2) * density(qx, qy) * step_x * step_y;
-        add(columns[static_cast<std::size_t>(j)], moments_of_wave(qx, qy, power));
-      }
-    }
+  const detail::CarriedModes carried(grid, *this);
+  std::vector<SpectralMoments> columns(static_cast<std::size_t>(carried.j_max() + 1));
+  parallel::for_slabs(carried.j_max() + 1, [&](Index begin, Index end) {
+    for (Index j = begin; j < end; ++j)
+      detail::for_each_mode_of_column(carried, j,
+                                      [&](double qx, double qy, double power, bool pair) {
+                                        add(columns[static_cast<std::size_t>(j)],
+                                            moments_of_wave(qx, qy, pair ? 2 * power : power));
+                                      });
   });
   SpectralMoments sum;
   for (const SpectralMoments& column : columns) add(sum, column);

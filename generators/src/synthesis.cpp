@@ -5,9 +5,11 @@
 
 namespace salebra::detail {
 
-Field synthesise(const Grid2D& grid, const Modes& modes) {
+Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Chance chance) {
+  const CarriedModes carried(grid, spectrum);
+  const RandomModes modes(carried, seed, chance);
   return backward_by_columns(
-      grid.nx, grid.ny, modes.j_max() + 1,
+      grid.nx, grid.ny, carried.j_max() + 1,
       [&modes](Index j, std::span<std::complex<double>> column) { modes.column(j, column); });
 }
 

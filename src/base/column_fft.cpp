@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <salebra/base/column_fft.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <vector>
 
@@ -16,6 +17,9 @@ using Complex = std::complex<double>;
 constexpr Index block = 16;
 
 fftw_complex* fftw(Complex* values) { return reinterpret_cast<fftw_complex*>(values); }
+
+// An odd length of columns would break the alignment of every second one.
+Index column_pitch(Index nx) { return (nx + 3) / 4 * 4; }
 
 // Plans differ in what alignment they need; every buffer here comes from FFTW's allocator, hence has the same.
 detail::FftwPlan<double> plan_column(Index nx) {
@@ -41,13 +45,12 @@ detail::FftwPlan<double> plan_row(Index ny) {
 
 Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column) {
   require(columns >= 1 && columns <= ny / 2 + 1, "columns", columns, "must lie in 1 … ny/2+1");
-  Field field(nx, ny);
+  Field field = uninitialised_field(nx, ny);
   // ny values hold ny/2 modes; where there is one more, it stands apart.
   const Index stored = std::min(columns, ny / 2);
   std::vector<Complex> last_column(static_cast<std::size_t>(columns > stored ? nx : 0));
 
-  // An odd length of columns would break the alignment of every second one.
-  const Index pitch = (nx + 3) / 4 * 4;
+  const Index pitch = column_pitch(nx);
   const auto column_plan = plan_column(nx);
   parallel::for_slabs((columns + block - 1) / block, [&](Index begin, Index end) {
     const auto buffer =
@@ -86,6 +89,13 @@ Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColum
     }
   });
   return field;
+}
+
+std::size_t column_fft_memory(Index nx, Index ny) {
+  const Index for_columns = block * column_pitch(nx), for_rows = ny / 2 + 1 + (ny + 1) / 2;
+  const Index complex_values = nx + parallel::threads() * std::max(for_columns, for_rows);
+  return static_cast<std::size_t>(nx * ny) * sizeof(double) +
+         static_cast<std::size_t>(complex_values) * sizeof(Complex);
 }
 
 }  // namespace salebra

@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Random123/philox.h>
 
-#include <bit>
-#include <numbers>
 #include <salebra/base/random.hpp>
 
-// One body for each vector width, chosen when the program starts. CMakeLists.txt turns contraction
-// to fused operations off for this file, without which the widths would differ in their last bits.
-#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__)
-#define SALEBRA_VECTOR_WIDTHS __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define SALEBRA_VECTOR_WIDTHS
-#endif
-// A helper that were not inlined would keep the narrowest width.
-#define SALEBRA_INLINE inline __attribute__((always_inline))
+#include "elementary.hpp"
 
 namespace salebra {
 namespace {
@@ -50,40 +40,12 @@ SALEBRA_INLINE double open_unit_interval(std::uint32_t low, std::uint32_t high) 
   return (std::bit_cast<double>(word >> 12 | 0x3FF0000000000000u) - 1.0) + 0x1p-53;
 }
 
-// ln u for u in (0, 1): u = 2^e m with m in [√½, √2), ln m = 2 artanh s, s = (m−1)/(m+1), |s| <
-// 0.172. The first term left out of the series is below 3e-17 of the sum.
-SALEBRA_INLINE double natural_log(double u) {
-  constexpr std::uint64_t sqrt_half = 0x3FE6A09E667F3BCDu;
-  const std::uint64_t bits = std::bit_cast<std::uint64_t>(u);
-  const std::uint64_t shifted = bits - sqrt_half;
-  // The exponent as a double by way of the mantissa, since 64-bit integers convert slowly before
-  // AVX-512. It is not positive: shifted is negative unless u >= √½, hence the bias.
-  const std::uint64_t biased = ((shifted >> 52) + 2048) & 0xFFF;
-  const double exponent = std::bit_cast<double>(biased | 0x4330000000000000u) - (0x1p52 + 2048.0);
-  const double m = std::bit_cast<double>(bits - ((shifted >> 52) << 52));
-  const double s = (m - 1.0) / (m + 1.0);
-  const double square = s * s;
-  double series = 1.0 / 19;
-  series = series * square + 1.0 / 17;
-  series = series * square + 1.0 / 15;
-  series = series * square + 1.0 / 13;
-  series = series * square + 1.0 / 11;
-  series = series * square + 1.0 / 9;
-  series = series * square + 1.0 / 7;
-  series = series * square + 1.0 / 5;
-  series = series * square + 1.0 / 3;
-  const double log_m = 2.0 * s + 2.0 * s * (square * series);
-  return exponent * std::numbers::ln2 + log_m;
-}
-
 // cos 2πu, sin 2πu for u in (0, 1): the nearest quarter turn is split off exactly, and the rest, at
 // most an eighth of a turn, goes into Taylor series whose first terms left out are below 1e-16.
 SALEBRA_INLINE RandomPair turn(double u) {
-  constexpr double to_nearest =
-      0x1.8p52;  // adding it rounds to an integer, which then stands in the lowest bits
-  const double lifted = 4.0 * u + to_nearest;
+  const double lifted = 4.0 * u + detail::round_by_adding;
   const std::uint64_t quarter = std::bit_cast<std::uint64_t>(lifted);
-  const double x = 2.0 * std::numbers::pi * (u - 0.25 * (lifted - to_nearest));
+  const double x = 2.0 * std::numbers::pi * (u - 0.25 * (lifted - detail::round_by_adding));
   const double square = x * x;
   double sine = -1.0 / 1307674368000;
   sine = sine * square + 1.0 / 6227020800;
@@ -109,7 +71,8 @@ SALEBRA_INLINE RandomPair turn(double u) {
 }
 
 SALEBRA_INLINE RandomPair box_muller(Words bits) {
-  const double radius = __builtin_sqrt(-2.0 * natural_log(open_unit_interval(bits.w0, bits.w1)));
+  const double radius =
+      __builtin_sqrt(-2.0 * detail::natural_log(open_unit_interval(bits.w0, bits.w1)));
   const RandomPair direction = turn(open_unit_interval(bits.w2, bits.w3));
   return {radius * direction.first, radius * direction.second};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
 #include <functional>
 #include <salebra/base/grid.hpp>
 #include <span>
@@ -19,5 +20,8 @@ using SpectrumColumn = std::function<void(Index j, std::span<std::complex<double
 /// columns   1 … ny/2+1; the columns j = 0 and, for even ny, j = ny/2 must be Hermitian in i
 /// cost      columns complex transforms of length nx, nx real ones of length ny; parallel; same bits for every thread count
 Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column);
+
+/// Peak memory of backward_by_columns with the present number of threads, bytes, result included.
+std::size_t column_fft_memory(Index nx, Index ny);
 
 }  // namespace salebra

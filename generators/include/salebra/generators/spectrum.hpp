@@ -4,6 +4,7 @@
 #include <optional>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/spectral_moments.hpp>
+#include <span>
 #include <string>
 
 namespace salebra {
@@ -17,6 +18,10 @@ class Spectrum {
 
   /// C(q), m⁴; q_x, q_y in rad/m. Even: C(−q) = C(q). Not asked at q = 0, since a surface has zero mean.
   virtual double density(double qx, double qy) const = 0;
+  /// densities[k] = density((first + k)·step_x, qy): the row of wave vectors that generators ask for. Where the wave vector is 0 it
+  /// may be anything. An override serves speed and must agree with density to rounding.
+  virtual void density_row(Index first, double step_x, double qy,
+                           std::span<double> densities) const;
   /// C vanishes for |q| beyond this, rad/m.
   virtual double highest_wavenumber() const = 0;
   /// Moments of the continuum: m0 = ∫C d²q, m2_x = ∫q_x²C d²q, m4_x = ∫q_x⁴C d²q.
@@ -59,6 +64,8 @@ class SelfAffineSpectrum final : public Spectrum {
   explicit SelfAffineSpectrum(const SelfAffineParameters& parameters);
 
   double density(double qx, double qy) const override;
+  void density_row(Index first, double step_x, double qy,
+                   std::span<double> densities) const override;
   double highest_wavenumber() const override { return q_short_; }
   /// Closed form; continuous in H up to H = 1, where m2 has a logarithm.
   SpectralMoments moments() const override;

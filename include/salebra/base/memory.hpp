@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <salebra/base/grid.hpp>
+
+namespace salebra {
+
+/// A field that is not initialised, on large pages where the system has them: the first touch of a field of ordinary pages can
+/// take longer than its Fourier transform.
+Field uninitialised_field(Index nx, Index ny);
+
+/// Bytes that new data can take without swapping, as the system estimates it; 0 where it does not say.
+std::size_t available_memory();
+
+}  // namespace salebra

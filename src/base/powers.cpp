@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstddef>
+#include <salebra/base/powers.hpp>
+
+#include "elementary.hpp"
+
+namespace salebra {
+namespace {
+
+SALEBRA_VECTOR_WIDTHS
+void raise(double* values, std::size_t count, double exponent) {
+#pragma omp simd
+  for (std::size_t k = 0; k < count; ++k)
+    values[k] = detail::exponential(exponent * detail::natural_log(values[k]));
+}
+
+}  // namespace
+
+void raise_to_power(std::span<double> values, double exponent) {
+  raise(values.data(), values.size(), exponent);
+}
+
+}  // namespace salebra
