@@ -3,10 +3,40 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/column_fft.hpp>
+#include <salebra/base/parallel.hpp>
 #include <salebra/generators/forecast.hpp>
 #include <sstream>
 
+#include "modes.hpp"
+
 namespace salebra {
+namespace {
+
+// ½√(2ΣP²)/ΣP over all modes: |a|² of a pair of conjugates and of a real mode have the variances P² and 2P².
+double scatter_of(const Grid2D& grid, const Spectrum& spectrum) {
+  const detail::CarriedModes carried(grid, spectrum);
+  const auto sum_of_powers = [&](int exponent) {
+    return parallel::sum_slabs(carried.j_max() + 1, [&](Index begin, Index end) {
+      double sum = 0;
+      for (Index j = begin; j < end; ++j)
+        detail::for_each_mode_of_column(carried, j, [&](double, double, double power, bool pair) {
+          sum += (pair ? 2 : 1) * (exponent == 1 ? power : power * power);
+        });
+      return sum;
+    });
+  };
+  return std::sqrt(2 * sum_of_powers(2)) / (2 * sum_of_powers(1));
+}
+
+template <class... Parts>
+std::string sentence(const Parts&... parts) {
+  std::ostringstream text;
+  text.precision(3);
+  (text << ... << parts);
+  return text.str();
+}
+
+}  // namespace
 
 std::size_t generation_memory(const Grid2D& grid) { return column_fft_memory(grid.nx, grid.ny); }
 
@@ -16,23 +46,23 @@ Forecast forecast(const Grid2D& grid, const Spectrum& spectrum) {
   result.target = spectrum.moments();
   result.memory = generation_memory(grid);
 
+  result.rms_height_scatter = scatter_of(grid, spectrum);
+
   const double shortest = 2 * std::numbers::pi / spectrum.highest_wavenumber();
   const double cells = shortest / std::max(grid.dx(), grid.dy());
-  if (cells < 8 * (1 - 1e-9)) {
-    std::ostringstream text;
-    text.precision(3);
-    text << "the short cut-off has " << cells
-         << " cells; contact areas need at least 8 (at 4 cells they are about 15 % too large)";
-    result.warnings.push_back(text.str());
-  }
+  if (cells < 8 * (1 - 1e-9))
+    result.warnings.push_back(
+        sentence("the shortest wavelength has ", cells,
+                 " cells; contact areas need at least 8 (with 4 they are about 15 % too large)"));
   const double ratio = result.lattice.rms_height() / result.target.rms_height();
-  if (std::abs(ratio - 1) > 0.05) {
-    std::ostringstream text;
-    text.precision(3);
-    text << "the modes of this cell have " << ratio
-         << " times the rms height asked; a cell of many roll-off wavelengths comes closer";
-    result.warnings.push_back(text.str());
-  }
+  if (std::abs(ratio - 1) > 0.05)
+    result.warnings.push_back(
+        sentence("the modes of this cell have ", ratio,
+                 " times the rms height asked; a cell of many roll-off wavelengths comes closer"));
+  if (result.rms_height_scatter > 0.05)
+    result.warnings.push_back(sentence(
+        "the rms height of filtered noise scatters by ", 100 * result.rms_height_scatter,
+        " % from seed to seed; take a roll-off below an eighth of the cell, or random phase"));
   return result;
 }
 

@@ -2,11 +2,30 @@
 #include "synthesis.hpp"
 
 #include <salebra/base/column_fft.hpp>
+#include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
+#include <sstream>
+#include <string>
 
 namespace salebra::detail {
+namespace {
+
+void require_memory(const Grid2D& grid) {
+  const double gigabytes = 1e-9 * static_cast<double>(column_fft_memory(grid.nx, grid.ny));
+  const double available = 1e-9 * static_cast<double>(available_memory());
+  std::ostringstream constraint;
+  constraint.precision(3);
+  constraint << "needs " << gigabytes << " GB of memory and " << available
+             << " GB are available; use fewer points";
+  require(available == 0 || gigabytes <= available, "points",
+          std::to_string(grid.nx) + " x " + std::to_string(grid.ny), constraint.str());
+}
+
+}  // namespace
 
 Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Chance chance) {
   const CarriedModes carried(grid, spectrum);
+  require_memory(grid);
   const RandomModes modes(carried, seed, chance);
   return backward_by_columns(
       grid.nx, grid.ny, carried.j_max() + 1,

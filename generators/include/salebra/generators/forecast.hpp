@@ -10,18 +10,22 @@ namespace salebra {
 
 /// What can be said of a generated surface before it is made.
 struct Forecast {
-  SpectralMoments target;             ///< of the continuum: what was asked
-  SpectralMoments lattice;            ///< what surfaces on this grid have in the mean
+  SpectralMoments target;   ///< of the continuum: what was asked
+  SpectralMoments lattice;  ///< what surfaces on this grid have in the mean
+  /// Standard deviation of the rms height of filtered noise over its mean, ½√(2ΣP²)/ΣP over the powers P of all modes; 0 for random
+  /// phase.
+  double rms_height_scatter = 0;
   std::size_t memory = 0;             ///< peak memory of the generation, bytes, heights included
   std::vector<std::string> warnings;  ///< sentences for the user; empty if there is nothing to say
 };
 
 /// Warns of fewer than eight cells in the shortest wavelength (contact areas come out too large, PHYSICS section 7), of a lattice
-/// rms height more than 5 % from the target, and of a roll-off longer than an eighth of the cell (realisations scatter).
-/// Throws as Spectrum::require_carried_by.
+/// rms height more than 5 % from the target, and of an rms_height_scatter above 5 % (a roll-off longer than about an eighth
+/// of the cell). Throws as Spectrum::require_carried_by.
 Forecast forecast(const Grid2D& grid, const Spectrum& spectrum);
 
-/// Peak memory of filtered_noise and random_phase on this grid, bytes, heights included.
+/// Peak memory of filtered_noise and random_phase on this grid, bytes, heights included. They refuse with InvalidInput
+/// what exceeds the memory that the system says is available.
 std::size_t generation_memory(const Grid2D& grid);
 
 }  // namespace salebra
