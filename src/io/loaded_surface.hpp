@@ -24,6 +24,9 @@ struct LoadedSurface {
 /// The whole of a regular file. Throws InvalidInput if there is no such file or it cannot be read.
 std::string file_content(const std::filesystem::path& file);
 
+/// Whether the file begins as HDF5 does.
+bool is_hdf5(const std::filesystem::path& file);
+
 /// Metres in one `unit` of length; throws InvalidInput naming the file for anything else.
 double metres_per(const std::filesystem::path& file, const std::string& unit);
 

@@ -13,17 +13,11 @@
 namespace salebra {
 namespace {
 
-constexpr std::string_view hdf5_magic("\x89HDF\r\n\x1a\n", 8);
 constexpr std::string_view npy_magic("\x93NUMPY", 6);
 
 detail::LoadedSurface load(const std::filesystem::path& file) {
-  std::array<char, 8> head{};
-  {
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(head.data(), head.size());
-  }
   // HDF5 is read through its own library, which need not hold the whole file.
-  if (std::string_view(head.data(), head.size()) == hdf5_magic) return detail::read_hdf5(file);
+  if (detail::is_hdf5(file)) return detail::read_hdf5(file);
   const std::string content = detail::file_content(file);
   if (content.starts_with(npy_magic)) return detail::read_npy(file, content);
   return detail::read_text(file, content);
@@ -50,6 +44,13 @@ namespace detail {
 
 void refuse(const std::filesystem::path& file, const std::string& what) {
   throw InvalidInput(file.string() + ": " + what);
+}
+
+bool is_hdf5(const std::filesystem::path& file) {
+  std::array<char, 8> head{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), head.size());
+  return std::string_view(head.data(), head.size()) == "\x89HDF\r\n\x1a\n";
 }
 
 std::string file_content(const std::filesystem::path& file) {

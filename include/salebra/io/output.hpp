@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+namespace salebra {
+
+/// How a file is put in its place. Every writer works on a temporary file in the same folder, which takes the name only when it is
+/// complete and on the disk; whatever fails before leaves the folder as it was.
+struct WriteOptions {
+  bool overwrite = false;  ///< replace an existing file
+};
+
+/// Throws what a writer would throw at its start, for callers that compute for long before they write:
+/// InvalidInput if the folder does not exist, the file exists (unless overwrite) or is not a regular file.
+void require_output(const std::filesystem::path& file, const WriteOptions& options = {});
+
+}  // namespace salebra

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <salebra/base/grid.hpp>
+#include <salebra/io/output.hpp>
+#include <salebra/io/provenance.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace salebra {
+
+/// One group of a ResultFile: coordinates, and datasets on them. Opened as it is by
+/// xarray.open_dataset(file, engine="h5netcdf", group=…).
+/// Every dataset has `units` (SI, "1" for pure numbers) and a `long_name`; the values of unknown quantities are NaN.
+/// throws   InvalidInput for a name used twice, a missing unit, or values that have not the shape of their coordinates;
+///          IoError when the disk is full
+class ResultGroup {
+ public:
+  /// A one-dimensional coordinate, an HDF5 dimension scale.
+  void coordinate(const std::string& name, std::span<const double> values, const std::string& units,
+                  const std::string& long_name);
+  /// The coordinate 0, 1, …, count − 1.
+  void index(const std::string& name, std::size_t count, const std::string& long_name);
+  /// A coordinate of names, such as those of models.
+  void labels(const std::string& name, const std::vector<std::string>& values,
+              const std::string& long_name);
+
+  /// Values on coordinates of this group, the last one contiguous.
+  void dataset(const std::string& name, std::span<const double> values,
+               const std::vector<std::string>& coordinates, const std::string& units,
+               const std::string& long_name);
+  void dataset(const std::string& name, std::span<const std::int64_t> values,
+               const std::vector<std::string>& coordinates, const std::string& units,
+               const std::string& long_name);
+  /// A field on the coordinates of its x and y.
+  void dataset(const std::string& name, const Field& values, const std::string& x,
+               const std::string& y, const std::string& units, const std::string& long_name);
+  /// Truth values, stored as 0 and 1, which xarray reads as bool.
+  void flags(const std::string& name, const std::vector<bool>& values,
+             const std::vector<std::string>& coordinates, const std::string& long_name);
+  void scalar(const std::string& name, double value, const std::string& units,
+              const std::string& long_name);
+
+  void attribute(const std::string& name, double value);
+  void attribute(const std::string& name, std::int64_t value);
+  void attribute(const std::string& name, std::string_view value);
+  void attribute(const std::string& name, const char* value) {
+    attribute(name, std::string_view(value));
+  }
+
+ private:
+  friend class ResultFile;
+  struct Place;
+  explicit ResultGroup(std::shared_ptr<Place> place) : place_(std::move(place)) {}
+  std::shared_ptr<Place> place_;
+};
+
+/// An HDF5 file of results: a group for each stage (`surface`, `curve`, `fit`, `damping`, …), provenance at its root.
+/// It takes its name at commit(), complete; without commit nothing is left. Not for use by several threads at once.
+class ResultFile {
+ public:
+  /// Throws as require_output does; IoError when the disk is full.
+  ResultFile(const std::filesystem::path& file, const Provenance& provenance,
+             const WriteOptions& options = {});
+  ResultFile(ResultFile&&) noexcept;
+  ResultFile& operator=(ResultFile&&) noexcept;
+  ~ResultFile();
+
+  /// The group at that path, such as "damping" or "realisations/3", created when it is not there.
+  ResultGroup group(const std::string& path);
+  /// Closes the file and puts it in its place. The file and its groups cannot be used afterwards.
+  void commit();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Reads what a ResultFile wrote, or any HDF5 file of real numbers. Paths are like "curve/pressure".
+/// throws   InvalidInput naming the file for what is not there, is of another kind, or damaged
+class ResultReader {
+ public:
+  explicit ResultReader(const std::filesystem::path& file);
+  ResultReader(ResultReader&&) noexcept;
+  ~ResultReader();
+
+  const std::filesystem::path& file() const;
+  bool has(const std::string& path) const;
+  std::vector<std::string> groups(const std::string& path = "/") const;
+  std::vector<std::string> datasets(const std::string& path = "/") const;
+
+  std::vector<Index> shape(const std::string& dataset) const;
+  std::vector<double> numbers(const std::string& dataset) const;
+  double number(const std::string& dataset) const;
+  Field field(const std::string& dataset) const;
+  std::vector<std::string> labels(const std::string& dataset) const;
+  /// Names of the coordinates on which a dataset lies.
+  std::vector<std::string> coordinates(const std::string& dataset) const;
+
+  /// Of a group or dataset; "/" is the root. Empty where there is none of that name and kind.
+  std::optional<double> number_attribute(const std::string& path, const std::string& name) const;
+  std::optional<std::string> text_attribute(const std::string& path, const std::string& name) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace salebra

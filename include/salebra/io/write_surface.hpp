@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <salebra/base/grid.hpp>
+#include <salebra/io/output.hpp>
+#include <salebra/io/provenance.hpp>
+
+namespace salebra {
+
+/// Writes heights in metres, in the format that the extension names:
+///   .h5 .hdf5   dataset heights (nx, ny) with dimension scales x, y and attributes size_x, size_y, periodic, units, origin;
+///               provenance at the root
+///   .npy        float64 [nx, ny], little-endian, and beside it FILE.json with size_x, size_y, periodic, units, provenance
+///   .txt .asc   matrix with Gwyddion's header, a row for each y; undefined points as nan; 17 digits, so that reading gives
+///               the same doubles. Whether it is periodic is lost
+/// read_surface reads each of them back. throws InvalidInput for another extension, an invalid surface, and as
+/// require_output does; IoError when the system refuses. Cost: one pass; memory beside the heights: one row
+void write_surface(const std::filesystem::path& file, const Surface& surface,
+                   const Provenance& provenance = {}, const WriteOptions& options = {});
+
+}  // namespace salebra

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/io/force_curve_file.hpp>
+
+#include "atomic_file.hpp"
+#include "curve_quantities.hpp"
+#include "loaded_surface.hpp"
+
+namespace salebra {
+namespace {
+
+bool known(const std::vector<double>& values) {
+  return std::ranges::any_of(values, [](double value) { return !std::isnan(value); });
+}
+
+bool complete(const std::vector<double>& values) {
+  return std::ranges::none_of(values, [](double value) { return std::isnan(value); });
+}
+
+}  // namespace
+
+void write_force_curve(ResultGroup& group, const ForceCurve& curve) {
+  std::string coordinate;
+  for (const auto& quantity : detail::curve_quantities) {
+    const std::vector<double> values = curve.column(quantity.member);
+    if (!known(values)) continue;
+    const std::string name(quantity.name), units(si_unit(quantity.dimension)),
+        long_name(quantity.long_name);
+    if (coordinate.empty()) {
+      const bool orders =
+          quantity.dimension == Dimension::pressure || quantity.dimension == Dimension::force;
+      if (orders && complete(values)) {
+        group.coordinate(name, values, units, long_name);
+        coordinate = name;
+        continue;
+      }
+      group.index("sample", values.size(), "number of the sample");
+      coordinate = "sample";
+    }
+    group.dataset(name, values, {coordinate}, units, long_name);
+  }
+  require(!coordinate.empty(), "curve", curve.samples.size(), "samples hold no known quantity");
+  std::vector<bool> converged;
+  for (const ForceSample& sample : curve.samples) converged.push_back(sample.converged);
+  group.flags("converged", converged, {coordinate}, "whether the solver reached its tolerance");
+  group.attribute("model", curve.model);
+  group.attribute("nominal_area", curve.nominal_area);
+  group.attribute("rms_height", curve.rms_height);
+}
+
+ForceCurve read_force_curve(const ResultReader& reader, const std::string& group) {
+  ForceCurve curve;
+  curve.model = reader.text_attribute(group, "model").value_or("");
+  curve.nominal_area = reader.number_attribute(group, "nominal_area").value_or(0);
+  curve.rms_height = reader.number_attribute(group, "rms_height").value_or(ForceSample::unknown);
+  bool first = true;
+  const auto column = [&](const std::string& name) {
+    const std::vector<double> values = reader.numbers(group + "/" + name);
+    if (first) curve.samples.resize(values.size());
+    if (values.size() != curve.samples.size())
+      detail::refuse(reader.file(), "has datasets of different length in " + group);
+    first = false;
+    return values;
+  };
+  for (const auto& quantity : detail::curve_quantities) {
+    const std::string name(quantity.name);
+    if (!reader.has(group + "/" + name)) continue;
+    const std::vector<double> values = column(name);
+    for (std::size_t i = 0; i < values.size(); ++i) curve.samples[i].*quantity.member = values[i];
+  }
+  if (curve.samples.empty())
+    detail::refuse(reader.file(), "holds no force curve in its group " + group);
+  if (reader.has(group + "/converged")) {
+    const std::vector<double> values = column("converged");
+    for (std::size_t i = 0; i < values.size(); ++i) curve.samples[i].converged = values[i] != 0;
+  }
+  return curve;
+}
+
+void write_force_curve(const std::filesystem::path& file, const ForceCurve& curve,
+                       const Provenance& provenance, const WriteOptions& options) {
+  const std::string extension = file.extension().string();
+  if (extension == ".h5" || extension == ".hdf5") {
+    ResultFile results(file, provenance, options);
+    ResultGroup group = results.group("curve");
+    write_force_curve(group, curve);
+    results.commit();
+  } else if (extension == ".csv" || extension == ".txt") {
+    detail::AtomicFile output(file, options);
+    output.write(detail::text_of(curve, provenance));
+    output.commit();
+  } else {
+    throw InvalidInput(file.string() + ": has the extension '" + extension +
+                       "', which names no format of a curve; use .h5 or .csv");
+  }
+}
+
+ForceCurve read_force_curve(const std::filesystem::path& file) {
+  if (detail::is_hdf5(file)) return read_force_curve(ResultReader(file));
+  return detail::read_text_curve(file, detail::file_content(file));
+}
+
+}  // namespace salebra

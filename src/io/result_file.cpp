@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <numeric>
+#include <salebra/io/result_file.hpp>
+
+#include "hdf5_output.hpp"
+
+namespace salebra {
+
+using detail::hdf5::Output;
+
+/// Output is shared with the groups, so that their handles never outlive it.
+struct ResultFile::State {
+  std::shared_ptr<Output> output;
+  std::vector<std::weak_ptr<ResultGroup::Place>> groups;
+};
+
+struct ResultGroup::Place {
+  std::shared_ptr<Output> output;
+  detail::hdf5::Group group;
+
+  Output& open() const {
+    require(output != nullptr, "result file", "a group", "is used after commit; write before");
+    return *output;
+  }
+};
+
+void ResultGroup::coordinate(const std::string& name, std::span<const double> values,
+                             const std::string& units, const std::string& long_name) {
+  place_->open().scale(place_->group, name, values.data(), values.size(), {units, long_name});
+}
+
+void ResultGroup::index(const std::string& name, std::size_t count, const std::string& long_name) {
+  std::vector<std::int64_t> values(count);
+  std::iota(values.begin(), values.end(), 0);
+  place_->open().scale(place_->group, name, values.data(), count, {"1", long_name});
+}
+
+void ResultGroup::labels(const std::string& name, const std::vector<std::string>& values,
+                         const std::string& long_name) {
+  place_->open().text_scale(place_->group, name, values, long_name);
+}
+
+void ResultGroup::dataset(const std::string& name, std::span<const double> values,
+                          const std::vector<std::string>& coordinates, const std::string& units,
+                          const std::string& long_name) {
+  place_->open().dataset(place_->group, name, values.data(), values.size(), coordinates,
+                         {units, long_name});
+}
+
+void ResultGroup::dataset(const std::string& name, std::span<const std::int64_t> values,
+                          const std::vector<std::string>& coordinates, const std::string& units,
+                          const std::string& long_name) {
+  place_->open().dataset(place_->group, name, values.data(), values.size(), coordinates,
+                         {units, long_name});
+}
+
+void ResultGroup::dataset(const std::string& name, const Field& values, const std::string& x,
+                          const std::string& y, const std::string& units,
+                          const std::string& long_name) {
+  place_->open().dataset(place_->group, name, values.data(),
+                         static_cast<std::size_t>(values.size()), {x, y}, {units, long_name});
+}
+
+void ResultGroup::flags(const std::string& name, const std::vector<bool>& values,
+                        const std::vector<std::string>& coordinates, const std::string& long_name) {
+  const std::vector<std::int8_t> bytes(values.begin(), values.end());
+  Output& output = place_->open();
+  const auto dataset = output.dataset(place_->group, name, bytes.data(), bytes.size(), coordinates,
+                                      {"1", long_name});
+  output.attribute(dataset, "dtype", std::string_view("bool"));
+}
+
+void ResultGroup::scalar(const std::string& name, double value, const std::string& units,
+                         const std::string& long_name) {
+  place_->open().dataset(place_->group, name, &value, 1, {}, {units, long_name});
+}
+
+void ResultGroup::attribute(const std::string& name, double value) {
+  place_->open().attribute(place_->group, name, value);
+}
+
+void ResultGroup::attribute(const std::string& name, std::int64_t value) {
+  place_->open().attribute(place_->group, name, value);
+}
+
+void ResultGroup::attribute(const std::string& name, std::string_view value) {
+  place_->open().attribute(place_->group, name, value);
+}
+
+ResultFile::ResultFile(const std::filesystem::path& file, const Provenance& provenance,
+                       const WriteOptions& options)
+    : state_(std::make_unique<State>()) {
+  state_->output = std::make_shared<Output>(file, provenance, options);
+}
+
+ResultFile::ResultFile(ResultFile&&) noexcept = default;
+ResultFile& ResultFile::operator=(ResultFile&&) noexcept = default;
+ResultFile::~ResultFile() = default;
+
+ResultGroup ResultFile::group(const std::string& path) {
+  require(state_->output != nullptr, "result file", path, "is asked for after commit");
+  auto place = std::make_shared<ResultGroup::Place>(state_->output, state_->output->group(path));
+  state_->groups.push_back(place);
+  return ResultGroup(std::move(place));
+}
+
+void ResultFile::commit() {
+  require(state_->output != nullptr, "result file", "commit", "was done already");
+  for (const auto& weak : state_->groups) {
+    if (const auto place = weak.lock()) {
+      place->group = {};
+      place->output.reset();
+    }
+  }
+  const auto output = std::move(state_->output);
+  output->commit();
+}
+
+}  // namespace salebra

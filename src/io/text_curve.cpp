@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <salebra/base/error.hpp>
+#include <salebra/base/version.hpp>
+#include <salebra/io/provenance.hpp>
+
+#include "curve_quantities.hpp"
+#include "loaded_surface.hpp"
+#include "text_numbers.hpp"
+
+namespace salebra::detail {
+namespace {
+
+/// A column of the table: what it means and what its values are multiplied by.
+struct Column {
+  double ForceSample::*member = nullptr;
+  bool converged = false;
+  double factor = 1;
+};
+
+double factor_of(const std::filesystem::path& file, const std::string& unit,
+                 const CurveQuantity& quantity) {
+  if (unit.empty()) return 1;
+  try {
+    return parse_quantity("1 " + unit, quantity.dimension, quantity.name);
+  } catch (const InvalidInput&) {
+    refuse(file, "gives the column " + std::string(quantity.name) + " in '" + unit +
+                     "', which is no unit of it; write " +
+                     std::string(si_unit(quantity.dimension)));
+  }
+}
+
+/// "mean_gap [nm]", "mean_gap (nm)" or "mean_gap".
+Column column_of(const std::filesystem::path& file, std::string_view title) {
+  const auto bracket = title.find_first_of("[(");
+  const std::string_view name = trimmed(title.substr(0, bracket));
+  std::string unit;
+  if (bracket != std::string_view::npos) {
+    const auto close = title.find_last_of("])");
+    if (close == std::string_view::npos || close < bracket)
+      refuse(file, "has a column title '" + std::string(title) + "' without a closing bracket");
+    unit = trimmed(title.substr(bracket + 1, close - bracket - 1));
+  }
+  if (name == "converged") return {.converged = true};
+  const auto quantity = std::ranges::find(curve_quantities, name, &CurveQuantity::name);
+  if (quantity == curve_quantities.end()) return {};
+  return {.member = quantity->member, .factor = factor_of(file, unit, *quantity)};
+}
+
+/// Splits a line of titles at commas or semicolons, or else at blanks that are not before or within brackets.
+std::vector<std::string_view> titles_of(std::string_view line) {
+  const bool marked = line.find_first_of(",;") != std::string_view::npos;
+  const auto tabbed = line.find('\t') != std::string_view::npos;
+  std::vector<std::string_view> titles;
+  std::size_t begin = 0;
+  int depth = 0;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    const char symbol = i < line.size() ? line[i] : '\n';
+    if (symbol == '[' || symbol == '(') ++depth;
+    if (symbol == ']' || symbol == ')') --depth;
+    const auto next = line.find_first_not_of(' ', i);
+    const bool before_unit =
+        next != std::string_view::npos && (line[next] == '[' || line[next] == '(');
+    const bool ends = symbol == '\n' || (depth == 0 && (marked   ? symbol == ',' || symbol == ';'
+                                                        : tabbed ? symbol == '\t'
+                                                                 : symbol == ' ' && !before_unit));
+    if (!ends) continue;
+    const std::string_view title = trimmed(line.substr(begin, i - begin));
+    if (!title.empty() || marked) titles.push_back(title);
+    begin = i + 1;
+  }
+  return titles;
+}
+
+void read_comment(const std::filesystem::path& file, std::string_view line, ForceCurve& curve) {
+  line.remove_prefix(1);
+  const auto colon = line.find(':');
+  if (colon == std::string_view::npos) return;
+  const std::string_view key = trimmed(line.substr(0, colon)),
+                         value = trimmed(line.substr(colon + 1));
+  const std::string field = file.string() + ": " + std::string(key);
+  if (key == "model") curve.model = value;
+  if (key == "nominal_area")
+    curve.nominal_area = parse_quantity(value, Dimension::length_squared, field);
+  if (key == "rms_height") curve.rms_height = parse_quantity(value, Dimension::length, field);
+}
+
+void complete_and_sort(const std::filesystem::path& file, ForceCurve& curve) {
+  for (ForceSample& sample : curve.samples) {
+    if (curve.nominal_area > 0 && std::isnan(sample.force))
+      sample.force = sample.pressure * curve.nominal_area;
+    if (curve.nominal_area > 0 && std::isnan(sample.pressure))
+      sample.pressure = sample.force / curve.nominal_area;
+  }
+  const auto has = [&](double ForceSample::*member) {
+    return std::ranges::none_of(
+        curve.samples, [&](const ForceSample& sample) { return std::isnan(sample.*member); });
+  };
+  const auto load = has(&ForceSample::pressure) ? &ForceSample::pressure : &ForceSample::force;
+  if (!has(load))
+    refuse(file, "has no complete column pressure or force; name one in the first line");
+  if (!has(&ForceSample::mean_gap) && !has(&ForceSample::indentation) &&
+      !has(&ForceSample::separation))
+    refuse(
+        file,
+        "has no complete column mean_gap, indentation or separation; name one in the first line");
+  std::ranges::stable_sort(curve.samples, {}, load);
+}
+
+}  // namespace
+
+ForceCurve read_text_curve(const std::filesystem::path& file, std::string_view content) {
+  ForceCurve curve;
+  std::vector<Column> columns;
+  std::optional<NumberFormat> format;
+  std::vector<double> values;
+  Lines lines(require_text(file, content));
+  for (std::string_view raw; lines.next(raw);) {
+    std::string_view line = trimmed(raw);
+    if (line.empty()) continue;
+    const bool numbers = starts_with_number(line) || (format && line.front() != '#');
+    if (!numbers) {
+      if (line.front() == '#' && (line.find(':') != std::string_view::npos || !columns.empty())) {
+        read_comment(file, line, curve);
+        continue;
+      }
+      if (!columns.empty())
+        refuse(file, "line " + std::to_string(lines.number()) + " holds no numbers");
+      if (line.front() == '#') line = trimmed(line.substr(1));
+      for (const std::string_view title : titles_of(line))
+        columns.push_back(column_of(file, title));
+      continue;
+    }
+    if (columns.empty())
+      refuse(file,
+             "does not name its columns; begin with a line such as 'pressure [Pa], mean_gap [m]'");
+    if (!format || (*format == NumberFormat{} && line.find_first_of(",;") != line.npos))
+      format = number_format(file, line, lines.number());
+    values.clear();
+    append_numbers(file, line, lines.number(), *format, values);
+    // A last field that is empty leaves no trace behind its separator.
+    if (values.size() + 1 == columns.size() && format->separator != Separator::blank)
+      values.push_back(ForceSample::unknown);
+    if (values.size() != columns.size())
+      refuse(file, "line " + std::to_string(lines.number()) + " holds " +
+                       std::to_string(values.size()) + " values where the first line names " +
+                       std::to_string(columns.size()) + " columns");
+    ForceSample& sample = curve.samples.emplace_back();
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (columns[i].member) sample.*columns[i].member = values[i] * columns[i].factor;
+      if (columns[i].converged) sample.converged = values[i] != 0;
+    }
+  }
+  if (curve.samples.empty()) refuse(file, "holds no samples of a curve; name a table or HDF5 file");
+  complete_and_sort(file, curve);
+  return curve;
+}
+
+std::string text_of(const ForceCurve& curve, const Provenance& provenance) {
+  std::string text = fmt::format("# program: salebra {}\n# created: {}\n", version(),
+                                 provenance.created.empty() ? utc_now() : provenance.created);
+  if (!provenance.command_line.empty()) text += "# command_line: " + provenance.command_line + "\n";
+  if (!curve.model.empty()) text += "# model: " + curve.model + "\n";
+  if (curve.nominal_area > 0) text += fmt::format("# nominal_area: {} m^2\n", curve.nominal_area);
+  if (!std::isnan(curve.rms_height)) text += fmt::format("# rms_height: {} m\n", curve.rms_height);
+  std::vector<const CurveQuantity*> known;
+  for (const CurveQuantity& quantity : curve_quantities)
+    if (std::ranges::any_of(curve.samples, [&](const ForceSample& sample) {
+          return !std::isnan(sample.*quantity.member);
+        }))
+      known.push_back(&quantity);
+  for (const CurveQuantity* quantity : known)
+    text += fmt::format("{} [{}],", quantity->name, si_unit(quantity->dimension));
+  text += "converged\n";
+  for (const ForceSample& sample : curve.samples) {
+    for (const CurveQuantity* quantity : known) {
+      const double value = sample.*quantity->member;
+      text += std::isnan(value) ? "nan," : fmt::format("{},", value);
+    }
+    text += sample.converged ? "1\n" : "0\n";
+  }
+  return text;
+}
+
+}  // namespace salebra::detail

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <salebra/base/error.hpp>
+#include <salebra/base/version.hpp>
+#include <salebra/io/write_surface.hpp>
+#include <vector>
+
+#include "atomic_file.hpp"
+#include "hdf5_output.hpp"
+
+namespace salebra {
+namespace {
+
+std::vector<double> positions(Index points, double step) {
+  std::vector<double> values(static_cast<std::size_t>(points));
+  for (Index i = 0; i < points; ++i)
+    values[static_cast<std::size_t>(i)] = static_cast<double>(i) * step;
+  return values;
+}
+
+void write_hdf5(const std::filesystem::path& file, const Surface& surface,
+                const Provenance& provenance, const WriteOptions& options) {
+  detail::hdf5::Output output(file, provenance, options);
+  const Grid2D& grid = surface.grid;
+  const std::vector<double> x = positions(grid.nx, grid.dx()), y = positions(grid.ny, grid.dy());
+  output.scale(output.root(), "x", x.data(), x.size(), {"m", "position along x"});
+  output.scale(output.root(), "y", y.data(), y.size(), {"m", "position along y"});
+  {
+    const auto heights = output.dataset(output.root(), "heights", surface.heights.data(),
+                                        static_cast<std::size_t>(grid.points()), {"x", "y"},
+                                        {"m", "height, positive out of the material"});
+    output.attribute(heights, "size_x", grid.lx);
+    output.attribute(heights, "size_y", grid.ly);
+    output.attribute(heights, "periodic", std::int64_t{surface.periodic});
+    output.attribute(heights, "origin", surface.origin);
+  }
+  output.commit();
+}
+
+void write_npy(const std::filesystem::path& file, const Surface& surface,
+               const Provenance& provenance, const WriteOptions& options) {
+  static_assert(std::endian::native == std::endian::little);
+  // The data begin at a multiple of 64 bytes, as numpy.save has it.
+  std::string header =
+      fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}",
+                  surface.grid.nx, surface.grid.ny);
+  constexpr std::size_t before = 10;
+  header.append(63 - (before + header.size()) % 64, ' ');
+  header += '\n';
+  const char length[] = {static_cast<char>(header.size() % 256),
+                         static_cast<char>(header.size() / 256)};
+
+  nlohmann::ordered_json description{
+      {"size_x", surface.grid.lx},
+      {"size_y", surface.grid.ly},
+      {"periodic", surface.periodic},
+      {"units", "m"},
+      {"origin", surface.origin},
+      {"program", "salebra"},
+      {"version", version()},
+      {"libraries", library_versions()},
+      {"created", provenance.created.empty() ? utc_now() : provenance.created},
+      {"command_line", provenance.command_line},
+      {"configuration", provenance.configuration}};
+  if (provenance.seed) description["seed"] = *provenance.seed;
+
+  detail::AtomicFile array(file, options), sidecar(file.string() + ".json", options);
+  array.write(std::string_view("\x93NUMPY\x01\x00", 8));
+  array.write(std::string_view(length, sizeof length));
+  array.write(header);
+  array.write({reinterpret_cast<const char*>(surface.heights.data()),
+               static_cast<std::size_t>(surface.grid.points()) * sizeof(double)});
+  sidecar.write(description.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  sidecar.commit();
+  array.commit();
+}
+
+void append_number(std::string& text, double value) {
+  std::array<char, 32> digits;
+  const auto end = std::isnan(value)
+                       ? std::copy_n("nan", 3, digits.data())
+                       : std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  text.append(digits.data(), end);
+}
+
+void write_text(const std::filesystem::path& file, const Surface& surface,
+                const WriteOptions& options) {
+  detail::AtomicFile output(file, options);
+  std::string line = "# Channel: heights\n# Width: ";
+  append_number(line, surface.grid.lx);
+  line += " m\n# Height: ";
+  append_number(line, surface.grid.ly);
+  line += " m\n# Value units: m\n";
+  for (Index iy = 0; iy < surface.grid.ny; ++iy) {
+    for (Index ix = 0; ix < surface.grid.nx; ++ix) {
+      append_number(line, surface.heights(ix, iy));
+      line += ix + 1 < surface.grid.nx ? '\t' : '\n';
+    }
+    output.write(line);
+    line.clear();
+  }
+  output.commit();
+}
+
+}  // namespace
+
+void write_surface(const std::filesystem::path& file, const Surface& surface,
+                   const Provenance& provenance, const WriteOptions& options) {
+  surface.grid.validate();
+  require(surface.heights.rows() == surface.grid.nx && surface.heights.cols() == surface.grid.ny,
+          "heights", surface.heights.size(), "points have not the shape of the grid");
+  const std::string extension = file.extension().string();
+  if (extension == ".h5" || extension == ".hdf5")
+    write_hdf5(file, surface, provenance, options);
+  else if (extension == ".npy")
+    write_npy(file, surface, provenance, options);
+  else if (extension == ".txt" || extension == ".asc")
+    write_text(file, surface, options);
+  else
+    throw InvalidInput(file.string() + ": has the extension '" + extension +
+                       "', which names no format that is written; use .h5, .npy or .txt");
+}
+
+}  // namespace salebra
