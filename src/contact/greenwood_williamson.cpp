@@ -1,56 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/greenwood_williamson.hpp>
 
+#include "height_density.hpp"
+#include "hertz_ellipse.hpp"
 #include "quadrature.hpp"
 
 namespace salebra {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double relative_tolerance = 1e-12;
-// exp(−exponent) is lost beside 1 in double precision, with room for the powers of z − s before it.
-constexpr double negligible_exponent = 45;
-
-/// ∫ (z−h)^n φ(z) dz over [max(h, low), high] for a smooth φ, as 2∫ t^{2n+1} φ(h + t²) dt: even at n = −1/2 nothing is singular.
-double shifted_moment(double exponent, double h, double low, double high,
-                      const std::function<double(double)>& density) {
-  const double from = std::sqrt(std::max(0.0, low - h)), to = std::sqrt(std::max(0.0, high - h));
-  const int power = static_cast<int>(std::lround(2 * exponent)) + 1;
-  const auto integrand = [&](double t) {
-    double weight = 2;
-    for (int factor = 0; factor < power; ++factor) weight *= t;
-    return weight * density(h + t * t);
-  };
-  const detail::Integral integral =
-      detail::integrate(integrand, std::array{from, to}, relative_tolerance);
-  if (!integral.converged) throw NotConverged("greenwood_williamson: quadrature over heights");
-  return integral.value;
-}
-
-/// F_n(h) = ∫_h^∞ (z−h)^n φ(z) dz with σ = 1, GW's notation.
-double gaussian_moment(double exponent, double h) {
-  // φ(z) falls from φ(0), or from φ(h) if h > 0, by exp(−negligible_exponent) at z = high.
-  const double reach = std::sqrt(2 * negligible_exponent + std::max(h, 0.0) * std::max(h, 0.0));
-  // The factor φ(h) is taken out of the integrand, so that it does not underflow before the result does.
-  const double offset = std::max(h, 0.0) * std::max(h, 0.0) / 2;
-  const double scaled = shifted_moment(exponent, h, -reach, reach,
-                                       [&](double z) { return std::exp(offset - z * z / 2); });
-  return scaled * std::exp(-offset) / std::sqrt(2 * pi);
-}
-
-double exponential_moment(double exponent, double h) {
-  if (h >= 0) return std::tgamma(exponent + 1) * std::exp(-h);
-  return shifted_moment(exponent, h, 0, negligible_exponent, [](double z) { return std::exp(-z); });
-}
 
 }  // namespace
 
@@ -102,57 +66,46 @@ double AsperityModel::separation_of(double target) const {
 
 StatisticalSummits::StatisticalSummits(const SummitEnsemble& ensemble, const Material& material,
                                        double nominal_area)
-    : AsperityModel(
-          {.name = "greenwood-williamson",
-           .material = material,
-           .nominal_area = nominal_area,
-           .mean_height = ensemble.mean_height,
-           // e^−700 is the last decade of double precision: exp(−h²/2) or exp(−h).
-           .upper_separation = ensemble.summit_rms *
-                               (ensemble.distribution == SummitDistribution::gaussian ? 37 : 700),
-           .height_scale = ensemble.summit_rms,
-           .rms_height = ensemble.rms_height}),
-      ensemble_(ensemble) {
+    : StatisticalSummits(ensemble, material, nominal_area,
+                         std::make_unique<const detail::HeightDensity>(ensemble)) {}
+
+StatisticalSummits::StatisticalSummits(const SummitEnsemble& ensemble, const Material& material,
+                                       double nominal_area,
+                                       std::unique_ptr<const detail::HeightDensity> heights)
+    : AsperityModel({.name = "greenwood-williamson",
+                     .material = material,
+                     .nominal_area = nominal_area,
+                     .mean_height = ensemble.mean_height,
+                     .upper_separation = heights->highest(),
+                     .height_scale = heights->scale(),
+                     .rms_height = ensemble.rms_height}),
+      count_(ensemble.density * nominal_area),
+      radius_(ensemble.radius),
+      scale_(material.contact_modulus * std::sqrt(ensemble.radius) * count_),
+      heights_(std::move(heights)) {
   require_positive(ensemble.density, "density");
   require_positive(ensemble.radius, "radius");
-  require_positive(ensemble.summit_rms, "summit_rms");
   require(std::isfinite(ensemble.mean_height), "mean_height", ensemble.mean_height,
           "must be finite");
-  scale_ = material.contact_modulus * std::sqrt(ensemble.radius) * ensemble.density * nominal_area;
 }
 
-double StatisticalSummits::moment(double exponent, double separation) const {
-  const double h = separation / ensemble_.summit_rms;
-  return std::pow(ensemble_.summit_rms, exponent) *
-         (ensemble_.distribution == SummitDistribution::gaussian ? gaussian_moment(exponent, h)
-                                                                 : exponential_moment(exponent, h));
-}
+StatisticalSummits::~StatisticalSummits() = default;
 
 double StatisticalSummits::force(double separation) const {
-  return 4.0 / 3 * scale_ * moment(1.5, separation);
+  return 4.0 / 3 * scale_ * heights_->moment(1.5, separation);
 }
 
 double StatisticalSummits::normal_stiffness(double separation) const {
-  return 2 * scale_ * moment(0.5, separation);
+  return 2 * scale_ * heights_->moment(0.5, separation);
 }
 
 double StatisticalSummits::curvature(double separation) const {
-  return scale_ * moment(-0.5, separation);
+  return scale_ * heights_->moment(-0.5, separation);
 }
 
 AsperityContact StatisticalSummits::at(double separation) const {
-  const double h = separation / ensemble_.summit_rms;
-  const double summits = ensemble_.density * common().nominal_area;
-  double touching, mean_excess;  // ∫φ and ∫(z−h)φ
-  if (ensemble_.distribution == SummitDistribution::gaussian) {
-    touching = std::erfc(h / std::numbers::sqrt2) / 2;
-    mean_excess = gaussian_moment(1, h);
-  } else {
-    touching = h > 0 ? std::exp(-h) : 1;
-    mean_excess = h > 0 ? touching : 1 - h;
-  }
-  return {.contacts = summits * touching,
-          .contact_area = pi * ensemble_.radius * summits * ensemble_.summit_rms * mean_excess,
+  return {.contacts = count_ * heights_->moment(0, separation),
+          .contact_area = pi * radius_ * count_ * heights_->moment(1, separation),
           .force = force(separation),
           .normal_stiffness = normal_stiffness(separation),
           .curvature = curvature(separation)};
@@ -192,11 +145,20 @@ AsperityModel::Common common_of(const std::vector<Summit>& summits, const Materi
 
 DeterministicSummits::DeterministicSummits(const std::vector<Summit>& summits,
                                            const Material& material, double nominal_area,
-                                           double mean_plane, double rms_height)
+                                           double mean_plane, double rms_height, SummitShape shape)
     : AsperityModel(common_of(summits, material, nominal_area, mean_plane, rms_height)) {
   const double mean = common().mean_height + mean_plane;
-  for (const Summit& summit : summits)
-    caps_.push_back({.height = summit.height - mean, .radius = summit.mean_radius()});
+  for (const Summit& summit : summits) {
+    Cap cap{summit.height - mean, summit.mean_radius(), summit.mean_radius()};
+    if (shape == SummitShape::elliptical) {
+      const auto [larger, smaller] =
+          std::minmax({summit.curvature1, summit.curvature2}, std::ranges::greater{});
+      const detail::HertzEllipse ellipse = detail::hertz_ellipse(larger, smaller);
+      cap.force_radius = ellipse.force_radius;
+      cap.area_radius = ellipse.area_radius;
+    }
+    caps_.push_back(cap);
+  }
   std::ranges::sort(caps_, std::ranges::greater{}, &Cap::height);
 }
 
@@ -206,12 +168,12 @@ AsperityContact DeterministicSummits::at(double separation) const {
   for (const Cap& cap : caps_) {
     const double indentation = cap.height - separation;
     if (!(indentation > 0)) break;
-    const double contact_radius = std::sqrt(cap.radius * indentation);
+    const double half_width = std::sqrt(cap.force_radius * indentation);
     sum.contacts += 1;
-    sum.contact_area += pi * contact_radius * contact_radius;
-    sum.force += 4.0 / 3 * modulus * contact_radius * indentation;
-    sum.normal_stiffness += 2 * modulus * contact_radius;
-    sum.curvature += modulus * cap.radius / contact_radius;
+    sum.contact_area += pi * cap.area_radius * indentation;
+    sum.force += 4.0 / 3 * modulus * half_width * indentation;
+    sum.normal_stiffness += 2 * modulus * half_width;
+    sum.curvature += modulus * cap.force_radius / half_width;
   }
   return sum;
 }

@@ -261,6 +261,82 @@ TEST_CASE("A table of a GW curve is the GW law", "[gw]") {
     CHECK(table.force(indentation) == Approx(exact.force(indentation)).epsilon(2e-7));
 }
 
+TEST_CASE("A tabulated density is integrated exactly", "[gw]") {
+  // A triangle from −1 over 0 to 2 (m), given three times too high: φ(0) = 2/3.
+  SummitEnsemble ensemble{.density = 1,
+                          .radius = 1,
+                          .distribution = SummitDistribution::tabulated,
+                          .table = {{-1, 0}, {0, 2}, {2, 0}}};
+  const StatisticalSummits triangle(ensemble, soft, 1);
+  // Above the peak φ = (2−z)/3, so that ∫(z−s)^n φ = (2−s)^{n+2}/(3(n+1)(n+2)).
+  const double s = 0.6, reach = 2 - s;
+  const AsperityContact contact = triangle.at(s);
+  CHECK(contact.contacts == Approx(reach * reach / 6).epsilon(1e-14));
+  CHECK(contact.contact_area == Approx(pi * std::pow(reach, 3) / 18).epsilon(1e-14));
+  CHECK(contact.force == Approx(4.0 / 3 * std::pow(reach, 3.5) / (3 * 2.5 * 3.5)).epsilon(1e-14));
+  CHECK(contact.normal_stiffness ==
+        Approx(2 * std::pow(reach, 2.5) / (3 * 1.5 * 2.5)).epsilon(1e-14));
+  CHECK(contact.curvature == Approx(std::pow(reach, 1.5) / (3 * 0.5 * 1.5)).epsilon(1e-14));
+  CHECK(triangle.at(-1.5).contacts == Approx(1).epsilon(1e-14));
+  CHECK(triangle.force(2) == 0);
+  CHECK(triangle.force(triangle.separation_of(1e-3)) == Approx(1e-3).epsilon(1e-12));
+
+  // A Gaussian sampled every σ/50 is interpolated with a mean error of φ''/50²/12, which makes F''/50²/12 of F: 2.4e-4 F
+  // at s = 2.
+  ensemble.table.clear();
+  for (int i = -400; i <= 400; ++i) ensemble.table.push_back({0.02 * i, std::exp(-0.0002 * i * i)});
+  const StatisticalSummits table(ensemble, soft, 1);
+  const StatisticalSummits gaussian = unit_summits(SummitDistribution::gaussian);
+  for (double separation : {-1.0, 0.3, 2.0})
+    CHECK(table.force(separation) == Approx(gaussian.force(separation)).epsilon(3e-4));
+
+  ensemble.table = {{0, 1}};
+  CHECK_THROWS_WITH(StatisticalSummits(ensemble, soft, 1), Catch::Contains("table"));
+  ensemble.table = {{0, 1}, {0, 1}};
+  CHECK_THROWS_WITH(StatisticalSummits(ensemble, soft, 1), Catch::Contains("table.height"));
+  ensemble.table = {{0, 1}, {1, -1}};
+  CHECK_THROWS_WITH(StatisticalSummits(ensemble, soft, 1), Catch::Contains("table.density"));
+}
+
+TEST_CASE("An elliptical summit is Hertz's ellipse", "[gw]") {
+  // For axes b/a = 0.9, 0.5, 0.1: κ2/κ1, then κ1 times the radii of a sphere with the same force and with the same area, from the
+  // potential integrals of the ellipsoidal pressure by quadrature (mpmath).
+  const double table[][3] = {{1, 1, 1},
+                             {0.85379937586943844, 1.083363009906183, 1.081861206408608},
+                             {0.35177164228418607, 1.763326782966357, 1.661759926413666},
+                             {0.027370194883873699, 9.668646646767473, 5.35185863015945}};
+  for (const auto& row : table) {
+    const double curvature = 3e5;
+    const Summit summit{.curvature1 = curvature, .curvature2 = row[0] * curvature};
+    const DeterministicSummits ellipse({summit}, soft, 1, 0, 1, SummitShape::elliptical);
+    const DeterministicSummits sphere(
+        {{.curvature1 = curvature / row[1], .curvature2 = curvature / row[1]}}, soft, 1);
+    const double separation = -1e-9;
+    const AsperityContact contact = ellipse.at(separation), same = sphere.at(separation);
+    CHECK(contact.force == Approx(same.force).epsilon(1e-13));
+    CHECK(contact.normal_stiffness == Approx(same.normal_stiffness).epsilon(1e-13));
+    CHECK(contact.curvature == Approx(same.curvature).epsilon(1e-13));
+    CHECK(contact.contact_area == Approx(pi * row[2] / curvature * 1e-9).epsilon(1e-13));
+  }
+  // A ridge has the force of one a thousand times as long as wide.
+  auto force = [](double ratio) {
+    return DeterministicSummits({{.curvature1 = 1, .curvature2 = ratio}}, soft, 1, 0, 1,
+                                SummitShape::elliptical)
+        .force(-1);
+  };
+  CHECK(force(0) == force(1e-3));
+  CHECK(force(1e-3) > force(2e-3));
+}
+
+TEST_CASE("Mildly elliptical summits carry what spheres of their mean curvature carry", "[gw]") {
+  // The first correction is of second order in (κ1−κ2)/(κ1+κ2): here 0.2² times a number below 1/2.
+  const Summit summit{.curvature1 = 1.2, .curvature2 = 0.8};
+  const DeterministicSummits circular({summit}, soft, 1);
+  const DeterministicSummits elliptical({summit}, soft, 1, 0, 1, SummitShape::elliptical);
+  CHECK(elliptical.force(-0.1) == Approx(circular.force(-0.1)).epsilon(0.02));
+  CHECK(elliptical.force(-0.1) != circular.force(-0.1));
+}
+
 TEST_CASE("Summits that cannot be pressed are refused", "[gw]") {
   const SummitEnsemble good{.density = 1, .radius = 1, .summit_rms = 1};
   CHECK_THROWS_WITH(StatisticalSummits(good, soft, 0), Catch::Contains("nominal_area"));

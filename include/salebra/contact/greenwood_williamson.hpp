@@ -12,19 +12,30 @@
 /// Contact as a sum over independent Hertzian summits: Greenwood and Williamson, Proc. R. Soc. Lond. A 295 (1966) 300.
 namespace salebra {
 
-enum class SummitDistribution { gaussian, exponential };
+namespace detail {
+class HeightDensity;
+}
+
+enum class SummitDistribution { gaussian, exponential, tabulated };
+
+/// A point of a height density that is linear between its points and zero beyond them.
+struct HeightDensityPoint {
+  double height = 0;   ///< z, m
+  double density = 0;  ///< φ(z), 1/m, or any multiple of it: tables are normalised where they are used
+};
 
 /// A statistical ensemble of equal spherical caps whose heights z are distributed as φ(z):
 ///     gaussian      exp(−z²/2σ_s²)/(√(2π)σ_s); z = 0 is the mean plane of the summits
 ///     exponential   exp(−z/σ_s)/σ_s for z >= 0; z = 0 is the plane of the lowest summits, σ_s below their mean
+///     tabulated     as `table` says
 struct SummitEnsemble {
-  double density = 0;  ///< η, 1/m²
-  double radius = 0;   ///< R, m
-  double summit_rms =
-      0;  ///< σ_s: standard deviation (Gaussian), decay length (exponential) of summit heights, m
+  double density = 0;      ///< η, 1/m²
+  double radius = 0;       ///< R, m
+  double summit_rms = 0;   ///< σ_s, m: standard deviation (Gaussian), decay length (exponential), unused (tabulated)
   double mean_height = 0;  ///< height of the plane z = 0 above the mean plane of the surface, m
   SummitDistribution distribution = SummitDistribution::gaussian;
   double rms_height = ForceSample::unknown;  ///< h_rms of the surface, m, where there is one
+  std::vector<HeightDensityPoint> table = {};  ///< heights increasing, at least two
 };
 
 /// The ensemble of a Gaussian isotropic surface, from its profile moments m0, m2, m4 (Nayak; McCool, Wear 107 (1986) 37):
@@ -86,27 +97,36 @@ class AsperityModel {
 };
 
 /// N = ηA0∫_s^∞φ, A_c = πRηA0∫(z−s)φ, F = (4/3)E*√R ηA0∫(z−s)^{3/2}φ, K = 2E*√R ηA0∫(z−s)^{1/2}φ,
-/// F'' = E*√R ηA0∫(z−s)^{−1/2}φ. Closed forms for exponential heights with s >= 0; else GSL quadrature over t = √(z−s), in
-/// which no integrand is singular, with a relative error below 1e-10.
+/// F'' = E*√R ηA0∫(z−s)^{−1/2}φ. Closed forms for tabulated heights and for exponential ones with s >= 0; else GSL
+/// quadrature over t = √(z−s), in which no integrand is singular, with a relative error below 1e-10.
 class StatisticalSummits final : public AsperityModel {
  public:
-  /// Throws InvalidInput unless density, radius, summit_rms, nominal_area and E* are > 0.
+  /// Throws InvalidInput unless density, radius, summit_rms, nominal_area and E* are > 0, or where the table of a tabulated
+  /// density is not one.
   StatisticalSummits(const SummitEnsemble& ensemble, const Material& material, double nominal_area);
+  ~StatisticalSummits() override;
   AsperityContact at(double separation) const override;
   double force(double separation) const override;
   double normal_stiffness(double separation) const override;
   double curvature(double separation) const override;
 
  private:
-  /// σ^n ∫(z−s)^n φ(z) dz for n = −1/2, 1/2, 3/2.
-  double moment(double exponent, double separation) const;
+  StatisticalSummits(const SummitEnsemble& ensemble, const Material& material, double nominal_area,
+                     std::unique_ptr<const detail::HeightDensity> heights);
 
-  SummitEnsemble ensemble_;
-  double scale_;  ///< E*√R ηA0
+  double count_, radius_;  ///< ηA0, R
+  double scale_;           ///< E*√R ηA0
+  std::unique_ptr<const detail::HeightDensity> heights_;
+};
+
+/// What a summit's two principal curvatures become.
+enum class SummitShape {
+  circular,   ///< a sphere of R = 1/(mean curvature)
+  elliptical  ///< Hertz's elliptical contact, exact; ratios below 1e-3 count as 1e-3
 };
 
 /// Deterministic ensemble: each summit of one surface with its own height and radius,
-///     F = Σ(4/3)E*√R_i (z_i−s)^{3/2}, R_i = 1/(mean curvature), and so on, over the summits with z_i > s.
+///     F = Σ(4/3)E*√R_i (z_i−s)^{3/2} and so on, over the summits with z_i > s.
 /// s counts from the mean of the summit heights. F'' is infinite where a summit just touches; its integral is not.
 /// Cost: one pass over the summits in contact.
 class DeterministicSummits final : public AsperityModel {
@@ -115,12 +135,13 @@ class DeterministicSummits final : public AsperityModel {
   /// region that was searched for summits. Throws InvalidInput for no summits or a curvature that is not > 0.
   DeterministicSummits(const std::vector<Summit>& summits, const Material& material,
                        double nominal_area, double mean_plane = 0,
-                       double rms_height = ForceSample::unknown);
+                       double rms_height = ForceSample::unknown,
+                       SummitShape shape = SummitShape::circular);
   AsperityContact at(double separation) const override;
 
  private:
   struct Cap {
-    double height, radius;
+    double height, force_radius, area_radius;
   };
   std::vector<Cap> caps_;  ///< highest first, heights from their mean
 };
