@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <complex>
-#include <salebra/base/fft.hpp>
+#include <array>
+#include <salebra/base/convolution.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
+#include <salebra/contact/half_space.hpp>
 #include <salebra/contact/material.hpp>
 #include <salebra/contact/stick.hpp>
 #include <vector>
@@ -21,26 +22,28 @@ struct CellWindow {
 /// The smallest window that holds every cell of the set; empty for an empty set.
 CellWindow bounding_window(const ContactSet& cells);
 
-/// Cells of a set in row order, as positions in the padded fields and in the preconditioner's field.
+/// Cells of a set in row order, as positions in the window and in the preconditioner's framed window.
 struct PointList {
-  std::vector<Index> cell;    ///< ix·ny + iy in the grid
-  std::vector<Index> padded;  ///< in SurfaceResponse's fields
-  std::vector<Index> haloed;  ///< in StencilPreconditioner's field
+  std::vector<Index> cell;      ///< ix·ny + iy in the grid
+  std::vector<Index> windowed;  ///< in SurfaceResponse's fields
+  std::vector<Index> framed;    ///< in StencilPreconditioner's field
   Index size() const { return static_cast<Index>(cell.size()); }
 };
 
+/// Which displacements of which tractions: pressures, shear along one axis with the other component of traction absent and the other
+/// component of displacement not asked for, or both components.
 enum class Traction { normal, along_x, along_y, tangential };
 
-/// Displacements of the surface of a half-space under tractions in cells, by FFT convolution on a window: the whole grid where
-/// periodic, any rectangle, zero-padded to twice its size, where free. A component of a vector of points is contiguous.
+/// Displacements of the surface of a half-space under tractions in cells, on a window: the whole grid where periodic, any rectangle
+/// where free. A component of a vector of points is contiguous.
 class SurfaceResponse {
  public:
   SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary, Traction traction,
                   const CellWindow& window);
 
-  int components() const { return components_; }
-  Index padded_index(Index ix, Index iy) const {
-    return (ix - window_.x0) * fft_.ny() + iy - window_.y0;
+  int components() const { return traction_ == Traction::tangential ? 2 : 1; }
+  Index window_index(Index ix, Index iy) const {
+    return (ix - window_.x0) * window_.ny + iy - window_.y0;
   }
   /// displacements (components × read.size()) of tractions (components × loaded.size()).
   void apply(const PointList& loaded, const double* tractions, const PointList& read,
@@ -48,39 +51,34 @@ class SurfaceResponse {
   int fft_count() const { return fft_count_; }
 
  private:
-  void make_periodic(const Grid2D& grid, const Material& material, Traction traction);
-  void make_free(const Grid2D& grid, const Material& material, Traction traction);
-  void transform_kernel(const std::vector<double>& kernel, std::vector<double>& symbol);
-
   CellWindow window_;
-  RealFft2D<double> fft_;
-  int components_;
+  Traction traction_;
+  Convolution2D<double> compliance_;
+  std::array<std::vector<double>, 2> loads_, values_;  ///< the second where the compliance has two components
   int fft_count_ = 0;
-  std::vector<double> symbol_xx_, symbol_yy_, symbol_xy_;  ///< with 1/(nx ny); one component: xx only
-  std::vector<double> loads_, values_;
-  std::vector<std::complex<double>> modes_x_, modes_y_;
 };
 
-/// Approximate inverse of every component of a response: |q|, cut to 7 × 7 cells of real space and to the contact set.
+/// Approximate inverse of each component of a response: InverseStencil on the points of a contact set alone, which costs nothing
+/// where there is no contact.
 class StencilPreconditioner {
  public:
   StencilPreconditioner(const Grid2D& grid, Boundary boundary, const CellWindow& window);
 
-  Index haloed_index(Index ix, Index iy) const {
+  Index framed_index(Index ix, Index iy) const {
     return (ix - window_.x0 + reach) * row_length() + iy - window_.y0 + reach;
   }
   /// One component; out may not be in.
   void apply(const PointList& points, const double* in, double* out);
 
  private:
-  static constexpr Index reach = 3;
-  static constexpr Index width = 2 * reach + 1;
+  static constexpr Index reach = InverseStencil::radius;
+  static constexpr Index width = InverseStencil::width;
   Index row_length() const { return window_.ny + 2 * reach; }
   void fill_ghosts();
 
   CellWindow window_;
   bool periodic_;
-  double weights_[width * width];
+  std::array<double, width * width> weights_;
   std::vector<double> field_;
 };
 
