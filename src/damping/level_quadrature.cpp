@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/damping/closed_form.hpp>
+#include <salebra/damping/level_quadrature.hpp>
+#include <vector>
+
+namespace salebra {
+namespace {
+
+using std::numbers::pi;
+
+struct Node {
+  double theta, weight;
+};
+
+// Gauss–Legendre nodes on [0, π], by Newton's iteration from Chebyshev's nodes.
+std::vector<Node> gauss_nodes(int count) {
+  std::vector<Node> nodes;
+  for (int k = count; k >= 1; --k) {
+    double x = std::cos(pi * (k - 0.25) / (count + 0.5)), slope = 1;
+    for (int iteration = 0; iteration < 8; ++iteration) {
+      double previous = 1, value = x;  // P_0, P_1
+      for (int l = 2; l <= count; ++l) {
+        const double next = ((2 * l - 1) * x * value - (l - 1) * previous) / l;
+        previous = value;
+        value = next;
+      }
+      slope = count * (x * value - previous) / (x * x - 1);
+      x -= value / slope;
+    }
+    nodes.push_back({pi / 2 * (1 + x), pi / ((1 - x * x) * slope * slope)});
+  }
+  return nodes;
+}
+
+// A function of the phase by its Chebyshev coefficients in c = cosθ.
+struct Series {
+  Eigen::VectorXd coefficients;
+  Eigen::MatrixXd normal_inverse;  // (XᵀX)⁻¹ of the fit
+  double scatter = 0;              // standard deviation of the data about it
+
+  double operator()(double theta) const {
+    double sum = 0;
+    for (Index l = 0; l < coefficients.size(); ++l)
+      sum += coefficients(l) * std::cos(static_cast<double>(l) * theta);
+    return sum;
+  }
+  // Derivative with respect to c: T_l' = l sin(lθ)/sinθ, and its limits at the ends.
+  double slope(double theta) const {
+    const double sine = std::sin(theta);
+    double sum = 0;
+    for (Index l = 1; l < coefficients.size(); ++l) {
+      const double order = static_cast<double>(l);
+      const double end = std::cos(theta) > 0 || l % 2 == 1 ? order : -order;
+      sum += coefficients(l) * order * (sine > 1e-7 ? std::sin(order * theta) / sine : end);
+    }
+    return sum;
+  }
+  double second_slope_at_middle() const {
+    double sum = 0;  // T_l''(0) = l T_l'... by the differential equation (1 − c²)T'' = cT' − l²T
+    for (Index l = 2; l < coefficients.size(); ++l) {
+      const double order = static_cast<double>(l);
+      sum -= coefficients(l) * order * order * std::cos(order * pi / 2);
+    }
+    return sum;
+  }
+};
+
+Series fit(const std::vector<double>& theta, const std::vector<double>& values, int degree) {
+  const Index points = static_cast<Index>(theta.size());
+  Eigen::MatrixXd basis(points, degree + 1);
+  Eigen::VectorXd data(points);
+  for (Index k = 0; k < points; ++k) {
+    data(k) = values[static_cast<std::size_t>(k)];
+    for (Index l = 0; l <= degree; ++l)
+      basis(k, l) = std::cos(static_cast<double>(l) * theta[static_cast<std::size_t>(k)]);
+  }
+  Series series;
+  series.coefficients = basis.colPivHouseholderQr().solve(data);
+  series.normal_inverse = (basis.transpose() * basis).inverse();
+  const double freedom = std::max<double>(1, static_cast<double>(points - degree - 1));
+  series.scatter = (data - basis * series.coefficients).norm() / std::sqrt(freedom);
+  return series;
+}
+
+// The degree with the least generalised cross-validation error; a higher one only follows the noise.
+Series best_fit(const std::vector<double>& theta, const std::vector<double>& values,
+                int highest_degree) {
+  const double points = static_cast<double>(theta.size());
+  Series best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int degree = 0; degree <= highest_degree && degree + 1 < points; ++degree) {
+    Series candidate = fit(theta, values, degree);
+    const double error = candidate.scatter / std::sqrt(points - degree - 1);
+    if (error < least) {
+      least = error;
+      best = std::move(candidate);
+    }
+  }
+  return best;
+}
+
+// W as a linear functional of K_t(θ), by parts. least: K_t at θ = π.
+double loss(const Oscillation& motion, const std::vector<Node>& nodes,
+            const std::function<double(std::size_t)>& stiffness, double least) {
+  double sum = 0;
+  if (const auto* equal = std::get_if<EqualFrequency>(&motion)) {
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      sum += nodes[k].weight * stiffness(k) * std::sin(2 * nodes[k].theta);
+    return 2 * std::pow(equal->tangential_amplitude * std::sin(equal->phase), 2) * sum;
+  }
+  const auto& drag = std::get<Drag>(motion);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    sum += nodes[k].weight * nodes[k].theta * (stiffness(k) - least);
+  return 4 * std::pow(drag.drag_velocity / drag.angular_frequency, 2) * sum;
+}
+
+double normal_amplitude(const Oscillation& motion) {
+  return std::visit([](const auto& m) { return m.normal_amplitude; }, motion);
+}
+
+// Fine nodes: the functional of smooth functions, to round-off.
+constexpr int fine_nodes = 96;
+
+double loss_of(const Oscillation& motion, const std::function<double(double)>& stiffness) {
+  static const std::vector<Node> nodes = gauss_nodes(fine_nodes);
+  return loss(
+      motion, nodes, [&](std::size_t k) { return stiffness(nodes[k].theta); }, stiffness(pi));
+}
+
+void validate(const Oscillation& motion, double mean_indentation,
+              const LevelQuadratureOptions& options) {
+  require(options.levels == 0 || options.levels >= 4, "levels", options.levels,
+          "must be >= 4, or 0 for the default of the motion");
+  require(std::isfinite(mean_indentation), "indentation", mean_indentation, "must be finite");
+  require_positive(normal_amplitude(motion), "normal_amplitude");
+  if (const auto* drag = std::get_if<Drag>(&motion))
+    require_positive(drag->angular_frequency, "angular_frequency");
+  require(options.stick.hold_lateral || options.direction == 0, "direction", options.direction,
+          "must be 0 where the lateral displacement is free; turn the surface instead");
+}
+
+struct LevelValues {
+  ForceSample sample;
+  double ratio = ForceSample::unknown;  // K_t/((G*/E*)K)
+};
+
+}  // namespace
+
+LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D& grid,
+                                       const Material& material, const Oscillation& motion,
+                                       double mean_indentation,
+                                       const LevelQuadratureOptions& options) {
+  grid.validate();
+  validate(motion, mean_indentation, options);
+  const bool drag = std::holds_alternative<Drag>(motion);
+  const int count = options.levels > 0 ? options.levels : (drag ? 32 : 16);
+  const double amplitude = normal_amplitude(motion), modulus_ratio = material.modulus_ratio();
+  LevelQuadratureResult result;
+  result.converged = true;
+
+  const auto at_level = [&](double theta, bool with_stiffness) {
+    LevelValues values;
+    values.sample.indentation = mean_indentation + amplitude * std::cos(theta);
+    const ContactLevel level = levels(values.sample.indentation);
+    values.sample.force = level.force;
+    values.sample.pressure = level.force / grid.area();
+    values.sample.contact_area_fraction =
+        static_cast<double>(level.contact.count()) / static_cast<double>(grid.points());
+    values.sample.converged = level.converged;
+    if (with_stiffness) {
+      const StickStiffness stick = stick_stiffness(level.contact, grid, material, options.stick,
+                                                   options.direction == 0);
+      const PunchStiffness punch =
+          punch_stiffness(level.contact, grid, material.contact_modulus, options.stick);
+      const double c = std::cos(options.direction), s = std::sin(options.direction);
+      values.sample.tangential_stiffness =
+          options.direction == 0 ? stick.xx
+                                 : c * c * stick.xx + 2 * c * s * stick.xy + s * s * stick.yy;
+      values.sample.normal_stiffness = punch.normal_stiffness;
+      if (punch.normal_stiffness > 0)
+        values.ratio =
+            values.sample.tangential_stiffness / (modulus_ratio * punch.normal_stiffness);
+      values.sample.converged = level.converged && stick.converged && punch.converged;
+      result.iterations += stick.iterations + punch.iterations;
+      result.fft_count += stick.fft_count + punch.fft_count;
+    }
+    result.converged = result.converged && values.sample.converged;
+    return values;
+  };
+
+  // From the greatest indentation to the least.
+  const std::vector<Node> nodes = gauss_nodes(count);
+  std::vector<double> theta{0.0};
+  std::vector<LevelValues> values{at_level(0, false)};
+  for (const Node& node : nodes) {
+    if (options.on_progress &&
+        !options.on_progress({"levels", static_cast<double>(theta.size()) / (count + 2),
+                              static_cast<int>(theta.size()), 0})) {
+      result.interrupted = true;
+      result.converged = false;
+      return result;
+    }
+    theta.push_back(node.theta);
+    values.push_back(at_level(node.theta, true));
+  }
+  theta.push_back(pi);
+  values.push_back(at_level(pi, drag));
+
+  std::vector<double> forces, ratio_theta, ratios;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    forces.push_back(values[k].sample.force);
+    if (std::isfinite(values[k].ratio)) {
+      ratio_theta.push_back(theta[k]);
+      ratios.push_back(values[k].ratio);
+    }
+  }
+  result.work_by_levels = loss(
+      motion, nodes,
+      [&](std::size_t k) { return values[k + 1].sample.tangential_stiffness; },
+      drag ? values.back().sample.tangential_stiffness : 0);
+
+  const Series force = best_fit(theta, forces, count);
+  const auto by_force = [&](const Series& series) {
+    return loss_of(motion, [&](double t) { return modulus_ratio * series.slope(t) / amplitude; });
+  };
+  result.work_by_force = by_force(force);
+  result.force = force(pi / 2);
+  result.curvature = force.second_slope_at_middle() / (amplitude * amplitude);
+  result.small_amplitude_work = std::visit(
+      [&](const auto& m) { return closed_form::work_per_cycle(modulus_ratio, result.curvature, m); },
+      motion);
+  // What more freedom makes of the same forces.
+  const int degree = static_cast<int>(force.coefficients.size()) - 1;
+  double fit_error = 0;
+  for (const int other : {degree + 1, degree + 2})
+    if (other + 1 < static_cast<int>(theta.size()))
+      fit_error = std::max(fit_error,
+                           std::abs(by_force(fit(theta, forces, other)) - result.work_by_force));
+
+  if (ratios.size() >= 2) {
+    // Four parameters at most: ρ varies slowly, and what varies fast is noise of the cells.
+    const Series ratio = best_fit(ratio_theta, ratios, std::min<int>(3, static_cast<int>(ratios.size()) / 4));
+    Eigen::VectorXd gradient(ratio.coefficients.size());
+    for (Index l = 0; l < gradient.size(); ++l)
+      gradient(l) = loss_of(motion, [&](double t) {
+        return modulus_ratio * std::cos(static_cast<double>(l) * t) * force.slope(t) / amplitude;
+      });
+    result.work_per_cycle = gradient.dot(ratio.coefficients);
+    const double statistical =
+        ratio.scatter * std::sqrt(std::max(0.0, gradient.dot(ratio.normal_inverse * gradient)));
+    result.error_estimate = 2 * statistical + fit_error;
+  }
+  result.stiffness_ratio =
+      result.work_by_force != 0 ? result.work_per_cycle / result.work_by_force : 0;
+  result.curve.model = "boundary-elements";
+  result.curve.nominal_area = grid.area();
+  for (auto level = values.rbegin(); level != values.rend(); ++level)
+    result.curve.samples.push_back(level->sample);
+  return result;
+}
+
+}  // namespace salebra
