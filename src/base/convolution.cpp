@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fftw.hpp"
-
 #include <algorithm>
 #include <salebra/base/convolution.hpp>
 #include <salebra/base/parallel.hpp>
 #include <vector>
+
+#include "fftw.hpp"
 
 namespace salebra {
 namespace {
@@ -28,12 +28,13 @@ struct Convolution2D<Real>::Passes {
 
   Shape shape;
   int components;
-  Index modes;       // in y
-  Index blocks;      // of columns
-  Index block_size;  // complex numbers from one block to the next
+  Index modes;                                // in y
+  Index blocks;                               // of columns
+  Index block_size;                           // complex numbers from one block to the next
   detail::FftwArray<Real, Complex> spectrum;  // [component][block][row][column of the block]
   struct Table {
-    std::vector<Real> values;  // [block][i = 0 … period_x/2][column of the block], with 1/points of the transform
+    std::vector<Real>
+        values;  // [block][i = 0 … period_x/2][column of the block], with 1/points of the transform
     Parity parity = Parity::even;
   };
   std::array<Table, 3> tables;  // K_00, K_01 = K_10, K_11
@@ -66,22 +67,25 @@ struct Convolution2D<Real>::Passes {
     const int howmany = static_cast<int>(width);
     const unsigned flags = FFTW_ESTIMATE;
     row_forward = detail::plan<Real>([&] {
-      return Api::plan_many_r2c(1, &ny, 1, row.get(), nullptr, 1, 0, complex_row, nullptr, 1, 0, flags);
+      return Api::plan_many_r2c(1, &ny, 1, row.get(), nullptr, 1, 0, complex_row, nullptr, 1, 0,
+                                flags);
     });
     row_backward = detail::plan<Real>([&] {
-      return Api::plan_many_c2r(1, &ny, 1, complex_row, nullptr, 1, 0, row.get(), nullptr, 1, 0, flags);
+      return Api::plan_many_c2r(1, &ny, 1, complex_row, nullptr, 1, 0, row.get(), nullptr, 1, 0,
+                                flags);
     });
     column_forward = detail::plan<Real>([&] {
-      return Api::plan_many(1, &nx, howmany, column, nullptr, howmany, 1, column, nullptr, howmany, 1,
-                            FFTW_FORWARD, flags);
+      return Api::plan_many(1, &nx, howmany, column, nullptr, howmany, 1, column, nullptr, howmany,
+                            1, FFTW_FORWARD, flags);
     });
     column_backward = detail::plan<Real>([&] {
-      return Api::plan_many(1, &nx, howmany, column, nullptr, howmany, 1, column, nullptr, howmany, 1,
-                            FFTW_BACKWARD, flags);
+      return Api::plan_many(1, &nx, howmany, column, nullptr, howmany, 1, column, nullptr, howmany,
+                            1, FFTW_BACKWARD, flags);
     });
   }
 
   Index row_length() const { return 2 * modes; }
+  Index points() const { return shape.period_x * shape.period_y; }
   Complex* block(int component, Index index) {
     return spectrum.get() + (component * blocks + index) * block_size;
   }
@@ -92,53 +96,64 @@ struct Convolution2D<Real>::Passes {
     const Index rows = shape.period_x / 2 + 1;
     table.parity = parity;
     table.values.assign(bytes_to(blocks * rows * width), Real(0));
-    const double points = static_cast<double>(shape.period_x) * static_cast<double>(shape.period_y);
-    parallel::for_slabs(blocks, [&](Index begin, Index end) {
-      for (Index index = begin; index < end; ++index)
-        for (Index i = 0; i < rows; ++i)
-          for (Index c = 0; c < width && index * width + c < modes; ++c)
-            table.values[bytes_to((index * rows + i) * width + c)] =
-                static_cast<Real>(symbol(i, index * width + c) / points);
-    });
+    const double modes_in_all =
+        static_cast<double>(shape.period_x) * static_cast<double>(shape.period_y);
+    parallel::for_slabs(
+        blocks,
+        [&](Index begin, Index end) {
+          for (Index index = begin; index < end; ++index)
+            for (Index i = 0; i < rows; ++i)
+              for (Index c = 0; c < width && index * width + c < modes; ++c)
+                table.values[bytes_to((index * rows + i) * width + c)] =
+                    static_cast<Real>(symbol(i, index * width + c) / modes_in_all);
+        },
+        points());
   }
 
   // Rows of the fields, zero-padded to the period, into the blocks.
   void rows_forward(const Real* const* fields) {
-    parallel::for_slabs(shape.nx, [&](Index begin, Index end) {
-      const auto row = detail::fftw_array<Real>(bytes_to(row_length()));
-      const auto row_modes = detail::fftw_array<Real, Complex>(bytes_to(blocks * width));
-      for (int component = 0; component < components; ++component)
-        for (Index i = begin; i < end; ++i) {
-          const Real* field = fields[component] + i * shape.ny;
-          std::fill(std::copy(field, field + shape.ny, row.get()), row.get() + shape.period_y, Real(0));
-          Api::execute_r2c(row_forward.get(), row.get(),
-                           reinterpret_cast<typename Api::Complex*>(row_modes.get()));
-          for (Index index = 0; index < blocks; ++index) {
-            const Complex* from = row_modes.get() + index * width;
-            std::copy(from, from + std::min(width, modes - index * width),
-                      block(component, index) + i * width);
-          }
-        }
-    });
+    parallel::for_slabs(
+        shape.nx,
+        [&](Index begin, Index end) {
+          const auto row = detail::fftw_array<Real>(bytes_to(row_length()));
+          const auto row_modes = detail::fftw_array<Real, Complex>(bytes_to(blocks * width));
+          for (int component = 0; component < components; ++component)
+            for (Index i = begin; i < end; ++i) {
+              const Real* field = fields[component] + i * shape.ny;
+              std::fill(std::copy(field, field + shape.ny, row.get()), row.get() + shape.period_y,
+                        Real(0));
+              Api::execute_r2c(row_forward.get(), row.get(),
+                               reinterpret_cast<typename Api::Complex*>(row_modes.get()));
+              for (Index index = 0; index < blocks; ++index) {
+                const Complex* from = row_modes.get() + index * width;
+                std::copy(from, from + std::min(width, modes - index * width),
+                          block(component, index) + i * width);
+              }
+            }
+        },
+        points());
   }
 
   void columns() {
-    parallel::for_slabs(blocks, [&](Index begin, Index end) {
-      for (Index index = begin; index < end; ++index) {
-        for (int component = 0; component < components; ++component) {
-          Complex* column = block(component, index);
-          std::fill(column + shape.nx * width, column + shape.period_x * width, Complex{});
-          transform(column_forward, column);
-        }
-        if (components == 1) {
-          multiply(index);
-        } else {
-          multiply_pair(index);
-        }
-        for (int component = 0; component < components; ++component)
-          transform(column_backward, block(component, index));
-      }
-    });
+    parallel::for_slabs(
+        blocks,
+        [&](Index begin, Index end) {
+          for (Index index = begin; index < end; ++index) {
+            for (int component = 0; component < components; ++component) {
+              Complex* column = block(component, index);
+              std::fill(column + shape.nx * width, column + shape.period_x * width, Complex{});
+              transform(column_forward, column);
+            }
+            if (components == 1) {
+              multiply(index);
+            } else {
+              multiply_pair(index);
+            }
+            for (int component = 0; component < components; ++component)
+              transform(column_backward, block(component, index));
+          }
+        },
+        points());
   }
 
   void transform(const detail::FftwPlan<Real>& plan, Complex* column) {
@@ -185,26 +200,31 @@ struct Convolution2D<Real>::Passes {
   }
 
   void rows_backward(Real* const* results) {
-    parallel::for_slabs(shape.nx, [&](Index begin, Index end) {
-      const auto row = detail::fftw_array<Real>(bytes_to(row_length()));
-      const auto row_modes = detail::fftw_array<Real, Complex>(bytes_to(blocks * width));
-      for (int component = 0; component < components; ++component)
-        for (Index i = begin; i < end; ++i) {
-          for (Index index = 0; index < blocks; ++index) {
-            const Complex* from = block(component, index) + i * width;
-            std::copy(from, from + width, row_modes.get() + index * width);
-          }
-          Api::execute_c2r(row_backward.get(),
-                           reinterpret_cast<typename Api::Complex*>(row_modes.get()), row.get());
-          std::copy(row.get(), row.get() + shape.ny, results[component] + i * shape.ny);
-        }
-    });
+    parallel::for_slabs(
+        shape.nx,
+        [&](Index begin, Index end) {
+          const auto row = detail::fftw_array<Real>(bytes_to(row_length()));
+          const auto row_modes = detail::fftw_array<Real, Complex>(bytes_to(blocks * width));
+          for (int component = 0; component < components; ++component)
+            for (Index i = begin; i < end; ++i) {
+              for (Index index = 0; index < blocks; ++index) {
+                const Complex* from = block(component, index) + i * width;
+                std::copy(from, from + width, row_modes.get() + index * width);
+              }
+              Api::execute_c2r(row_backward.get(),
+                               reinterpret_cast<typename Api::Complex*>(row_modes.get()),
+                               row.get());
+              std::copy(row.get(), row.get() + shape.ny, results[component] + i * shape.ny);
+            }
+        },
+        points());
   }
 
   void apply(const Real* const* fields, Real* const* results) {
     for (int t = 0; t < (components == 1 ? 1 : 3); ++t)
       if (Table& table = tables[static_cast<std::size_t>(t)]; table.values.empty())
-        set_symbol(t / 2, t - t / 2, [](Index, Index) { return 0.0; }, Parity::even);
+        set_symbol(
+            t / 2, t - t / 2, [](Index, Index) { return 0.0; }, Parity::even);
     rows_forward(fields);
     columns();
     rows_backward(results);
@@ -235,14 +255,16 @@ void Convolution2D<Real>::set_symbol(int a, int b, const Symbol& symbol, Parity 
 
 template <class Real>
 void Convolution2D<Real>::apply(const Real* field, Real* result) {
-  require(passes_->components == 1, "components", passes_->components, "must be 1 to transform one field");
+  require(passes_->components == 1, "components", passes_->components,
+          "must be 1 to transform one field");
   passes_->apply(&field, &result);
 }
 
 template <class Real>
 void Convolution2D<Real>::apply(const std::array<const Real*, 2>& fields,
                                 const std::array<Real*, 2>& results) {
-  require(passes_->components == 2, "components", passes_->components, "must be 2 to transform two fields");
+  require(passes_->components == 2, "components", passes_->components,
+          "must be 2 to transform two fields");
   passes_->apply(fields.data(), results.data());
 }
 

@@ -15,8 +15,10 @@ namespace {
 // Enough slabs to balance any machine of today, few enough that a slab outweighs its scheduling.
 constexpr Index largest_slab_count = 64;
 
-Index slab_count(Index rows) { return std::min(rows, largest_slab_count); }
-Index slab_begin(Index rows, Index slab) { return rows * slab / slab_count(rows); }
+// Fewer points than this are done before a second thread is awake.
+constexpr Index least_parallel_work = 20000;
+
+Index slab_begin(Index rows, Index slab) { return rows * slab / std::min(rows, largest_slab_count); }
 
 int chosen_threads = 0;
 
@@ -29,11 +31,20 @@ void set_threads(int count) {
 
 int threads() { return chosen_threads > 0 ? chosen_threads : omp_get_num_procs(); }
 
-void for_slabs(Index rows, const std::function<void(Index, Index)>& body) {
+Index slab_count(Index rows) { return std::min(rows, largest_slab_count); }
+
+Index slab_of(Index rows, Index begin) {
+  Index slab = begin * slab_count(rows) / rows;
+  while (slab_begin(rows, slab) < begin) ++slab;
+  return slab;
+}
+
+void for_slabs(Index rows, const std::function<void(Index, Index)>& body, Index work) {
   const Index slabs = slab_count(rows);
   std::exception_ptr failure;
   std::mutex failure_guard;
-#pragma omp parallel for schedule(dynamic) num_threads(threads()) if (threads() > 1 && !omp_in_parallel())
+  const bool in_parallel = work >= least_parallel_work && threads() > 1 && !omp_in_parallel();
+#pragma omp parallel for schedule(dynamic) num_threads(threads()) if (in_parallel)
   for (Index slab = 0; slab < slabs; ++slab) {
     try {
       body(slab_begin(rows, slab), slab_begin(rows, slab + 1));
@@ -45,30 +56,15 @@ void for_slabs(Index rows, const std::function<void(Index, Index)>& body) {
   if (failure) std::rethrow_exception(failure);
 }
 
-namespace {
-
-std::vector<double> slab_values(Index rows, const std::function<double(Index, Index)>& body) {
-  std::vector<double> values(static_cast<std::size_t>(slab_count(rows)));
-  // The slab is found again from its first row, so that for_slabs needs no third argument.
-  for_slabs(rows, [&](Index begin, Index end) {
-    Index slab = begin * slab_count(rows) / rows;
-    while (slab_begin(rows, slab) < begin) ++slab;
-    values[static_cast<std::size_t>(slab)] = body(begin, end);
-  });
-  return values;
-}
-
-}  // namespace
-
-double sum_slabs(Index rows, const std::function<double(Index, Index)>& body) {
+double sum_slabs(Index rows, const std::function<double(Index, Index)>& body, Index work) {
   double sum = 0;
-  for (const double value : slab_values(rows, body)) sum += value;
+  for (const double value : map_slabs<double>(rows, body, work)) sum += value;
   return sum;
 }
 
-double min_slabs(Index rows, const std::function<double(Index, Index)>& body) {
+double min_slabs(Index rows, const std::function<double(Index, Index)>& body, Index work) {
   double least = std::numeric_limits<double>::infinity();
-  for (const double value : slab_values(rows, body)) least = std::min(least, value);
+  for (const double value : map_slabs<double>(rows, body, work)) least = std::min(least, value);
   return least;
 }
 

@@ -22,12 +22,14 @@ double corner_term(double a, double b) { return a == 0 ? 0 : a * std::asinh(b / 
 template <class Real>
 typename Convolution2D<Real>::Shape shape_of(const Grid2D& grid, Boundary boundary) {
   if (boundary == Boundary::periodic) return {grid.nx, grid.ny, grid.nx, grid.ny};
-  return {grid.nx, grid.ny, fast_transform_size(2 * grid.nx - 1), fast_transform_size(2 * grid.ny - 1)};
+  return {grid.nx, grid.ny, fast_transform_size(2 * grid.nx - 1),
+          fast_transform_size(2 * grid.ny - 1)};
 }
 
 // Symbol of a kernel given by its value at the distance of (a, b) cells, on the period of the zero-padded convolution.
-std::function<double(Index, Index)> padded_symbol(Index period_x, Index period_y, Parity parity,
-                                                  const std::function<double(Index, Index)>& kernel) {
+std::function<double(Index, Index)> padded_symbol(
+    Index period_x, Index period_y, Parity parity,
+    const std::function<double(Index, Index)>& kernel) {
   Field values(period_x, period_y);
   // Only distances below half a period are ever used. At half a period an odd kernel must be its own negative.
   const Index half_x = period_x / 2, half_y = period_y / 2;
@@ -81,7 +83,8 @@ CellIntegrals cell_integrals(double x, double y, double dx, double dy) {
 }
 
 template <class Real>
-Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus, Boundary boundary) {
+Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus,
+                                      Boundary boundary) {
   grid.validate();
   require_positive(contact_modulus, "contact_modulus");
   const auto shape = shape_of<Real>(grid, boundary);
@@ -95,8 +98,10 @@ Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus
   } else {
     compliance.set_symbol(
         0, 0, padded_symbol(shape.period_x, shape.period_y, Parity::even, [&](Index a, Index b) {
-          const double x = static_cast<double>(a) * grid.dx(), y = static_cast<double>(b) * grid.dy();
-          return cell_integrals(x, y, grid.dx(), grid.dy()).inverse_distance / (pi * contact_modulus);
+          const double x = static_cast<double>(a) * grid.dx(),
+                       y = static_cast<double>(b) * grid.dy();
+          return cell_integrals(x, y, grid.dx(), grid.dy()).inverse_distance /
+                 (pi * contact_modulus);
         }));
   }
   return compliance;
@@ -108,14 +113,16 @@ Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& ma
   grid.validate();
   const double isotropic = material.cerruti_isotropic, directed = material.cerruti_directed;
   require(std::isfinite(isotropic) && std::isfinite(directed), "tangential_modulus",
-          material.tangential_modulus, "does not give Cerruti's constants; name the bodies or Poisson's ratio");
+          material.tangential_modulus,
+          "does not give Cerruti's constants; name the bodies or Poisson's ratio");
   const auto shape = shape_of<Real>(grid, boundary);
   Convolution2D<Real> compliance(shape, 2);
   if (boundary == Boundary::periodic) {
     const auto along = [=](double component, double length) {
       return length == 0 ? 0
                          : 2 * pi / length *
-                               (isotropic + directed - directed * component * component / (length * length));
+                               (isotropic + directed -
+                                directed * component * component / (length * length));
     };
     compliance.set_symbol(0, 0, [=](Index i, Index j) {
       const WaveVector q(grid, i, j);
@@ -159,8 +166,10 @@ Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& ma
 
 template Convolution2D<float> normal_compliance<float>(const Grid2D&, double, Boundary);
 template Convolution2D<double> normal_compliance<double>(const Grid2D&, double, Boundary);
-template Convolution2D<float> tangential_compliance<float>(const Grid2D&, const Material&, Boundary);
-template Convolution2D<double> tangential_compliance<double>(const Grid2D&, const Material&, Boundary);
+template Convolution2D<float> tangential_compliance<float>(const Grid2D&, const Material&,
+                                                           Boundary);
+template Convolution2D<double> tangential_compliance<double>(const Grid2D&, const Material&,
+                                                             Boundary);
 
 double cell_compliance(const Grid2D& grid, double contact_modulus) {
   // The mean of 2/(E*q) over the wave vectors that the grid has, |q_x| < π/dx, |q_y| < π/dy, as an integral.
@@ -173,13 +182,17 @@ InverseStencil::InverseStencil(const Grid2D& grid) {
   // |q|/2 sampled on a torus of 64 × 64 cells: far larger than the stencil, small enough to be free.
   constexpr int torus = 64;
   std::array<double, torus> cosine;
-  for (int k = 0; k < torus; ++k) cosine[static_cast<std::size_t>(k)] = std::cos(2 * pi * k / torus);
-  const auto wave = [&](int i, int j) { return cosine[static_cast<std::size_t>((i * j % torus + torus) % torus)]; };
+  for (int k = 0; k < torus; ++k)
+    cosine[static_cast<std::size_t>(k)] = std::cos(2 * pi * k / torus);
+  const auto wave = [&](int i, int j) {
+    return cosine[static_cast<std::size_t>((i * j % torus + torus) % torus)];
+  };
   std::array<std::array<double, torus>, torus> symbol;
   for (int a = 0; a < torus; ++a)
     for (int b = 0; b < torus; ++b)
       symbol[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)] =
-          pi / torus * std::hypot(std::min(a, torus - a) / grid.dx(), std::min(b, torus - b) / grid.dy());
+          pi / torus *
+          std::hypot(std::min(a, torus - a) / grid.dx(), std::min(b, torus - b) / grid.dy());
   weights_.fill(0);
   for (int i = 0; i <= radius; ++i)
     for (int a = 0; a < torus; ++a)
@@ -190,7 +203,8 @@ InverseStencil::InverseStencil(const Grid2D& grid) {
         weights_[index(i, j)] += sum * wave(a, i) / (torus * torus);
       }
   for (int i = -radius; i <= radius; ++i)
-    for (int j = -radius; j <= radius; ++j) weights_[index(i, j)] = weights_[index(std::abs(i), std::abs(j))];
+    for (int j = -radius; j <= radius; ++j)
+      weights_[index(i, j)] = weights_[index(std::abs(i), std::abs(j))];
   // Cutting may leave the transform negative somewhere (long cells): lift the centre until it is positive.
   double least = std::numeric_limits<double>::infinity();
   for (int a = 0; a <= torus / 2; ++a)

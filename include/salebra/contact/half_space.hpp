@@ -14,10 +14,11 @@ enum class Boundary { periodic, free };
 
 /// Integrals over a rectangle dx × dy centred at the origin, seen from (x, y); ξ, η, r run from its points to (x, y).
 struct CellIntegrals {
-  double inverse_distance = 0;  ///< ∬ 1/r, m       (Love 1929: normal displacement under uniform pressure)
-  double xx = 0;                ///< ∬ ξ²/r³, m     (Cerruti's kernels for uniform shear, with yy and xy)
-  double yy = 0;                ///< ∬ η²/r³, m
-  double xy = 0;                ///< ∬ ξη/r³, m
+  double inverse_distance =
+      0;          ///< ∬ 1/r, m: Love's (1929), the normal displacement under uniform pressure
+  double xx = 0;  ///< ∬ ξ²/r³, m: with yy and xy Cerruti's, for uniform shear
+  double yy = 0;  ///< ∬ η²/r³, m
+  double xy = 0;  ///< ∬ ξη/r³, m
 };
 /// From the primitives ξ asinh(η/|ξ|) + η asinh(ξ/|η|), its second term, its first term, and −r at the four corners.
 CellIntegrals cell_integrals(double x, double y, double dx, double dy);
@@ -26,14 +27,16 @@ CellIntegrals cell_integrals(double x, double y, double dx, double dy);
 ///     periodic  û(q) = 2 p̂(q)/(E*|q|), û(0) = 0;      free  u = (1/πE*) ∬ p/r, uniform over each cell, zero-padded.
 /// contact_modulus   E* > 0, Pa
 template <class Real>
-Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus, Boundary boundary);
+Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus,
+                                      Boundary boundary);
 
 /// Tangential displacement (u_x, u_y) of shear tractions (τ_x, τ_y), with Cerruti's constants c1, c2 of the material:
 ///     periodic  û_x = (2π/q) [(c1 + c2 − c2 q_x²/q²) τ̂_x − (c2 q_x q_y/q²) τ̂_y], mean zero; u_y by exchange
 ///     free      u_x = ∬ [(c1/r + c2 ξ²/r³) τ_x + (c2 ξη/r³) τ_y], zero-padded
 /// throws InvalidInput where the material does not know its Cerruti constants
 template <class Real>
-Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& material, Boundary boundary);
+Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& material,
+                                          Boundary boundary);
 
 /// Displacement of a cell under a unit pressure on itself alone, m/Pa: a scale, not exact for the periodic kernel.
 double cell_compliance(const Grid2D& grid, double contact_modulus);

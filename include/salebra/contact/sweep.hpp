@@ -9,12 +9,19 @@
 namespace salebra {
 
 struct SweepOptions {
+  /// on_progress is told of finished loads, with stage "sweep"; when it returns false, the loads finished by then are returned.
   NormalContactOptions contact = {};
-  bool stiffness = true;  ///< K by a punch solve on each contact set, and K_t = (G*/E*)K where G* is known
+  bool stiffness =
+      true;  ///< K by a punch solve on each contact set, and K_t = (G*/E*)K where G* is known
+  /// Loads solved at the same time, each on one thread and with 64 bytes a cell of its own; 1 gives all threads to one load
+  /// after the other; 0: as many as there are threads.
+  int concurrent_loads = 0;
 };
 
-/// Force–gap curve of a surface by boundary elements, one independent solve for each pressure, in parallel over loads.
+/// Force–gap curve of a surface by boundary elements, one independent solve for each pressure, in parallel over loads: a solve
+/// that starts from its own coarse grids is not slower than one that starts from the neighbouring load.
 /// pressures: > 0, Pa, increasing. Samples that did not converge are kept and marked.
+/// throws InvalidInput before any work
 ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                            const std::vector<double>& pressures, const SweepOptions& options = {});
 

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <salebra/base/convolution.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/contact/half_space.hpp>
+#include <vector>
+
+#include "tile_kernels.hpp"
+
+namespace salebra::detail {
+
+// What is prescribed: the mean pressure, or the level λ of the contact plane (gap = g − λ with g = Gp − h).
+struct ContactTarget {
+  enum class Kind { mean_pressure, level } kind = Kind::mean_pressure;
+  double value = 0;
+  double bound = std::numeric_limits<double>::infinity();  // largest pressure
+};
+
+struct ActiveSetLimits {
+  double tolerance = 1e-10;  // of e_c
+  int max_iterations = 1000;
+  bool exact =
+      true;  // accept on a residual in double precision; false: a start for a finer level, a few refreshes will do
+  std::function<bool(int iteration, double residual)> keep_going = {};
+};
+
+struct ActiveSetOutcome {
+  double residual = std::numeric_limits<double>::infinity();  // e_c, over all cells
+  double level = 0;
+  int iterations = 0;
+  int fft_count = 0;
+  bool converged = false;
+  bool interrupted = false;
+};
+
+// Minimises ½p·Gp − p·h over 0 <= p <= bound on one grid: conjugate gradients on the free cells, preconditioned by
+// InverseStencil, that are not restarted when the set of free cells changes. Search directions and their images are Real;
+// p and g are double, and a result is accepted on a residual computed afresh over all cells.
+//
+// The pressure is in any unit that makes `compliance` give metres.
+template <class Real>
+class ActiveSetCg {
+ public:
+  ActiveSetCg(const Grid2D& grid, double contact_modulus, Boundary boundary, const double* heights,
+              double rms_height);
+
+  // p: the start on entry, the solution on return; g = Gp − h on return.
+  ActiveSetOutcome solve(const ContactTarget& target, const ActiveSetLimits& limits, double* p,
+                         double* g);
+
+  // Σq with Gq = 1 on the cells where p > 0 and q = 0 elsewhere: the load that a unit of rigid approach adds.
+  double punch_load(const double* p);
+
+ private:
+  struct Run;  // the state of one call of solve
+  struct DenseSums;
+
+  Index points() const { return grid_.points(); }
+  Index tile_points() const { return static_cast<Index>(tiles_.size()) * tile_width; }
+  TileArrays<Real> arrays(double* p, double* g, double bound);
+
+  // Dense passes: body(begin, end) over the slabs of rows.
+  template <class Body>
+  void for_rows(const Body& body) const {
+    parallel::for_slabs(grid_.nx, body, points());
+  }
+  template <class Sums, class Body>
+  std::vector<Sums> over_rows(const Body& body) const {
+    return parallel::map_slabs<Sums>(grid_.nx, body, points());
+  }
+
+  template <class Body>
+  double sum_rows(const Body& body) const {
+    return parallel::sum_slabs(grid_.nx, body, points());
+  }
+
+  void reset();
+  void scale_to_load(const ContactTarget& target, double* p) const;
+  Convolution2D<double>& exact_compliance();
+  void dense_gap(Run& run, bool exact);
+  DenseSums dense_sums(const Run& run) const;
+  double true_residual(const Run& run, const DenseSums& sums) const;
+  void choose_tiles(Run& run, double margin);
+  void list_tiles();
+  void begin_set(Run& run);
+  void frame_residual();
+  bool iterate(Run& run);
+  void change_set(Run& run, bool truncate, double scale);
+  void refresh(Run& run);
+
+  Grid2D grid_;
+  Boundary boundary_;
+  const double* heights_;
+  double rms_height_;
+  double cell_compliance_;
+  double contact_modulus_;
+  Convolution2D<Real> compliance_;
+  std::optional<Convolution2D<double>> exact_compliance_;  // made when it is first needed
+  std::array<Real, stencil_size> stencil_;
+  const TileKernels<Real>& kernels_;
+
+  Index tiles_per_row_, framed_stride_;
+  std::vector<Tile> tiles_;
+  std::vector<unsigned char> in_use_;  // (nx, tiles_per_row)
+  std::vector<Real> t_, w_;            // dense
+  std::vector<Real> r_;                // framed
+  std::vector<Real> z_, m_;            // tile after tile
+};
+
+}  // namespace salebra::detail

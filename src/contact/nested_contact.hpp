@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/contact/normal.hpp>
+#include <vector>
+
+#include "active_set_cg.hpp"
+
+namespace salebra::detail {
+
+// One grid of the hierarchy, in units of the finest cell's size.
+struct ContactLevel {
+  Grid2D grid;
+  Field coarse_heights;  // empty on the finest level, which reads the caller's
+  const double* heights = nullptr;
+};
+
+// Halves the grid while it has more than 64² cells, by point sampling where it divides and by interpolation where it does not.
+// levels.front() is the finest.
+std::vector<ContactLevel> contact_levels(const Grid2D& grid, const Field& heights,
+                                         Boundary boundary);
+
+// A start for the finer level: bilinear pressure, then one pointwise step towards the gap that the cubic displacement predicts,
+//     p = max(p_c − step·(u_c − h), 0),   u_c = g_c + h_c − level.
+void prolong(const ContactLevel& coarse, const Field& coarse_pressure, const Field& coarse_gap,
+             double level, const ContactLevel& fine, Boundary boundary, double step,
+             double* pressure);
+
+}  // namespace salebra::detail

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/contact/normal.hpp>
+
+#include "active_set_cg.hpp"
+
+namespace salebra {
+namespace detail {
+namespace {
+
+// The load is a maximum over q, so its error is the square of the error of q: a loose solve is enough for a sharp load.
+constexpr double relative_gain = 1e-13;
+constexpr int gains_in_a_row = 3;
+constexpr int most_iterations = 2000;
+
+}  // namespace
+
+// CG as in solve(), on a set of cells that does not change: minimises ½q·Gq − Σq. The load is then taken from
+// 2Σq − q·Gq in double precision, whose error is quadratic in that of q.
+template <class Real>
+double ActiveSetCg<Real>::punch_load(const double* p) {
+  reset();
+  const std::size_t size = static_cast<std::size_t>(points());
+  std::vector<double> q(size, 0.0), g(size, -1.0);
+  for_rows([&](Index begin, Index end) {
+    for (Index k = begin * tiles_per_row_; k < end * tiles_per_row_; ++k) {
+      const Index first = k / tiles_per_row_ * grid_.ny + k % tiles_per_row_ * tile_width;
+      const Index width = std::min<Index>(tile_width, grid_.ny - k % tiles_per_row_ * tile_width);
+      in_use_[static_cast<std::size_t>(k)] =
+          std::any_of(p + first, p + first + width, [](double x) { return x > 0; });
+    }
+  });
+  list_tiles();
+  for (std::size_t k = 0; k < tiles_.size(); ++k) {
+    const Index first = tiles_[k].row * grid_.ny + tiles_[k].column;
+    const Index width = std::min<Index>(tile_width, grid_.ny - tiles_[k].column);
+    for (Index i = 0; i < width; ++i)
+      m_[k * tile_width + static_cast<std::size_t>(i)] = p[first + i] > 0 ? Real(1) : Real(0);
+  }
+  const auto a = arrays(q.data(), g.data(), std::numeric_limits<double>::infinity());
+  const auto tiles = static_cast<Index>(tiles_.size());
+  const auto over = [&]<class Sums>(Sums, auto kernel) {
+    return parallel::map_slabs<Sums>(tiles, kernel, tiles * tile_width);
+  };
+  parallel::for_slabs(
+      tiles, [&](Index begin, Index end) { kernels_.residual(a, begin, end, 0); },
+      tiles * tile_width);
+  double curvature = 1, gained = 0;
+  int small_gains = 0;
+  for (int iteration = 0; iteration < most_iterations && small_gains < gains_in_a_row;
+       ++iteration) {
+    frame_residual();
+    double zw = 0, descent = 0, tw = 0;
+    for (const auto& part : over(PreconditionSums{}, [&](Index begin, Index end) {
+           return kernels_.precondition(a, begin, end);
+         }))
+      zw += part.zw;
+    const double beta = iteration > 0 ? -zw / curvature : 0;
+    for (const double part : over(0.0, [&](Index begin, Index end) {
+           return kernels_.direct(a, begin, end, 0, beta, 0);
+         }))
+      descent += part;
+    compliance_.apply(t_.data(), w_.data());
+    for (const auto& part : over(CurvatureSums{}, [&](Index begin, Index end) {
+           return kernels_.curvature(a, begin, end);
+         }))
+      tw += part.tw;
+    if (!(tw > 0)) break;
+    curvature = tw;
+    over(StepSums{},
+         [&](Index begin, Index end) { return kernels_.step(a, begin, end, descent / tw, 0); });
+    const double gain = descent * descent / tw;
+    gained += gain;
+    small_gains = gain < relative_gain * gained ? small_gains + 1 : 0;
+  }
+  exact_compliance().apply(q.data(), g.data());
+  return sum_rows([&](Index begin, Index end) {
+    double part = 0;
+    for (auto k = static_cast<std::size_t>(begin * grid_.ny);
+         k < static_cast<std::size_t>(end * grid_.ny); ++k)
+      part += q[k] * (2 - g[k]);
+    return part;
+  });
+}
+
+template double ActiveSetCg<float>::punch_load(const double*);
+template double ActiveSetCg<double>::punch_load(const double*);
+
+}  // namespace detail
+
+double normal_stiffness(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
+                        const NormalContactOptions& options) {
+  grid.validate();
+  require_positive(contact_modulus, "contact_modulus");
+  require(state.pressure.rows() == grid.nx && state.pressure.cols() == grid.ny, "pressure",
+          state.pressure.size(), "points do not fill the grid");
+  // In full contact the periodic cell approaches no further: its compliance has no mean.
+  if (options.boundary == Boundary::periodic && (state.pressure > 0).all())
+    return std::numeric_limits<double>::infinity();
+  if (!(state.pressure > 0).any()) return 0;
+  const double cell = std::sqrt(grid.cell_area());
+  const Grid2D scaled{grid.nx, grid.ny, grid.lx / cell, grid.ly / cell};
+  const auto load = [&]<class Real>(Real) {
+    return detail::ActiveSetCg<Real>(scaled, 1, options.boundary, nullptr, 0)
+        .punch_load(state.pressure.data());
+  };
+  // With lengths in cells and E* = 1, Σq counts forces in E*·(cell size)² for an approach of one cell size.
+  return (options.precision == Precision::mixed ? load(0.0f) : load(0.0)) * contact_modulus * cell;
+}
+
+}  // namespace salebra

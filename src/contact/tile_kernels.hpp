@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace salebra::detail {
+
+// The pointwise passes of the active-set solver. They walk tiles: runs of 16 cells of one row that hold contact or are close to
+// it, since short runs of any length do not vectorise. One source is compiled for each vector width; no header with inline
+// functions may be included there, because the linker could then give code for a wide machine to a narrow one.
+
+inline constexpr int tile_width = 16;
+inline constexpr int frame = 3;  // cells around the residual: the radius of InverseStencil
+inline constexpr int stencil_size = (2 * frame + 1) * (2 * frame + 1);
+
+struct Tile {
+  std::int32_t row, column;  // of the first cell; the last tile of a row may be narrower
+};
+
+template <class Real>
+struct TileArrays {
+  const Tile* tiles;
+  std::ptrdiff_t ny;             // cells of a row of the dense arrays
+  std::ptrdiff_t framed_stride;  // from one row of r to the next
+  double* p;                     // dense: pressure
+  double* g;                     // dense: Gp − h
+  Real* t;                       // dense: search direction, zero off the tiles
+  Real* w;                       // dense: Gt
+  Real* r;                       // framed: (g − level) on the free cells, zero elsewhere
+  Real* z;                       // tile after tile: preconditioned residual
+  Real*
+      m;  // tile after tile: 1 on free cells, where g = level is wanted; 0 where p is held at a bound
+  const Real* stencil;  // stencil_size weights
+  double bound;         // largest pressure allowed; may be infinite
+};
+
+struct PreconditionSums {
+  double z = 0, zw = 0, zz = 0, t = 0, w = 0;  // sums over the free cells
+};
+struct CurvatureSums {
+  double tw = 0, w = 0;  // <t, w>, and Σw over the free cells
+};
+struct StepSums {
+  double outside = 0;   // Σ (distance of p to its bounds)²
+  double wrong = 0;     // Σ (g − level)² over held cells where it has the wrong sign
+  double clipped = 0;   // Σ distance of p to its bounds
+  double pressure = 0;  // Σ p over cells below the bound, p clipped to its bounds
+  double misfit = 0;  // Σ p|g − level| there, plus bound·(g − level) of saturated cells still apart
+  double signed_misfit = 0;  // the same with p(g − level)
+  double saturated = 0;      // number of cells at the bound
+  double least = 0;          // least g over cells below the bound
+};
+struct SetSums {
+  double count = 0, g = 0;  // free cells and Σg over them
+};
+
+template <class Real>
+struct TileKernels {
+  // r = m(g − level)
+  void (*residual)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double level);
+  // z = m(S r)
+  PreconditionSums (*precondition)(const TileArrays<Real>&, std::ptrdiff_t begin,
+                                   std::ptrdiff_t end);
+  // t = m(z − z_mean + beta(t − t_mean)); <t, r>
+  double (*direct)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double z_mean,
+                   double beta, double t_mean);
+  CurvatureSums (*curvature)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end);
+  // p −= alpha t, g −= alpha w, r = m(g − level)
+  StepSums (*step)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double alpha,
+                   double level);
+  // Frees held cells whose gap has the wrong sign, holds free cells whose pressure left its bounds.
+  SetSums (*change_set)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
+                        double level);
+  // p clipped to its bounds and multiplied by scale; t becomes the change of p, and its old value moves to z.
+  void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double scale);
+  // g += t
+  void (*add_displacement)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end);
+  // t = z
+  void (*restore_direction)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end);
+};
+
+// The table for the widest vectors that this processor has.
+template <class Real>
+const TileKernels<Real>& tile_kernels();
+
+}  // namespace salebra::detail

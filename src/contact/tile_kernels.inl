@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Included once for each instruction set, with SALEBRA_SIMD naming it.
+#include "tile_kernels.hpp"
+
+#define SALEBRA_INLINE inline __attribute__((always_inline))
+
+namespace salebra::detail::SALEBRA_SIMD {
+
+// A vector type wider than the registers compiles to code that is several times slower than no vectors at all.
+#if defined(__AVX512F__)
+inline constexpr int register_bytes = 64;
+#elif defined(__AVX__)
+inline constexpr int register_bytes = 32;
+#else
+inline constexpr int register_bytes = 16;
+#endif
+
+using Size = std::ptrdiff_t;
+
+// One partial sum for each cell of a tile: adding them up at the end only keeps the loops free of horizontal sums.
+struct Lanes {
+  double value[tile_width] = {};
+  double sum() const {
+    double total = 0;
+    for (int lane = 0; lane < tile_width; ++lane) total += value[lane];
+    return total;
+  }
+};
+
+struct FullWidth {
+  constexpr operator Size() const { return tile_width; }
+};
+
+// Calls body(packed, dense, framed, width) with the offsets of each tile; width is a constant for all but the last of a row.
+template <class Real, class Body>
+SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, const Body& body) {
+  for (Size k = begin; k < end; ++k) {
+    const Size row = a.tiles[k].row, column = a.tiles[k].column;
+    const Size dense = row * a.ny + column,
+               framed = (row + frame) * a.framed_stride + column + frame;
+    if (a.ny - column >= tile_width) {
+      body(k * tile_width, dense, framed, FullWidth{});
+    } else {
+      body(k * tile_width, dense, framed, a.ny - column);
+    }
+  }
+}
+
+template <class Real>
+void residual(const TileArrays<Real>& a, Size begin, Size end, double level) {
+  for_tiles(a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
+    const double* g = a.g + dense;
+    const Real* m = a.m + packed;
+    Real* r = a.r + framed;
+    for (Size i = 0; i < width; ++i) r[i] = m[i] * static_cast<Real>(g[i] - level);
+  });
+}
+
+// 16 sums over the stencil in as many registers as they need, in two chains so that additions overlap.
+template <class Real>
+SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, FullWidth, Real* sums) {
+  typedef Real Vector __attribute__((vector_size(register_bytes)));
+  constexpr int lanes = register_bytes / static_cast<int>(sizeof(Real)),
+                registers = tile_width / lanes;
+  Vector chain[2][registers] = {};
+  for (int i = -frame; i <= frame; ++i) {
+    const Real* r = a.r + framed + i * a.framed_stride;
+    const Real* weight = a.stencil + (i + frame) * (2 * frame + 1) + frame;
+#pragma GCC unroll 7
+    for (int j = -frame; j <= frame; ++j)
+#pragma GCC unroll 8
+      for (int k = 0; k < registers; ++k) {
+        Vector neighbour;
+        __builtin_memcpy(&neighbour, r + j + k * lanes, sizeof(neighbour));
+        chain[j & 1][k] += weight[j] * neighbour;
+      }
+  }
+  for (int k = 0; k < registers; ++k) {
+    const Vector total = chain[0][k] + chain[1][k];
+    __builtin_memcpy(sums + k * lanes, &total, sizeof(total));
+  }
+}
+
+template <class Real>
+SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, Size width, Real* sums) {
+  for (Size c = 0; c < width; ++c) {
+    Real sum = 0;
+    for (int i = -frame; i <= frame; ++i)
+      for (int j = -frame; j <= frame; ++j)
+        sum += a.stencil[(i + frame) * (2 * frame + 1) + j + frame] *
+               a.r[framed + i * a.framed_stride + j + c];
+    sums[c] = sum;
+  }
+}
+
+template <class Real>
+PreconditionSums precondition(const TileArrays<Real>& a, Size begin, Size end) {
+  Lanes sum_z, sum_zw, sum_zz, sum_t, sum_w;
+  for_tiles(a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
+    const Real *m = a.m + packed, *t = a.t + dense, *w = a.w + dense;
+    Real* z = a.z + packed;
+    Real any = 0;
+    for (Size i = 0; i < width; ++i) any += m[i];
+    if (any == 0) {
+      for (Size i = 0; i < width; ++i) z[i] = 0;
+      return;
+    }
+    apply_stencil(a, framed, width, z);
+    for (Size i = 0; i < width; ++i) {
+      const Real free = z[i] * m[i];
+      z[i] = free;
+      const double x = free, free_w = static_cast<double>(m[i]) * static_cast<double>(w[i]);
+      sum_z.value[i] += x;
+      sum_zw.value[i] += x * static_cast<double>(w[i]);
+      sum_zz.value[i] += x * x;
+      sum_t.value[i] += static_cast<double>(m[i]) * static_cast<double>(t[i]);
+      sum_w.value[i] += free_w;
+    }
+  });
+  return {sum_z.sum(), sum_zw.sum(), sum_zz.sum(), sum_t.sum(), sum_w.sum()};
+}
+
+template <class Real>
+double direct(const TileArrays<Real>& a, Size begin, Size end, double z_mean, double beta,
+              double t_mean) {
+  Lanes sum;
+  for_tiles(a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
+    const Real *m = a.m + packed, *z = a.z + packed, *r = a.r + framed;
+    Real* t = a.t + dense;
+    for (Size i = 0; i < width; ++i) {
+      const double x = static_cast<double>(m[i]) * (static_cast<double>(z[i]) - z_mean +
+                                                    beta * (static_cast<double>(t[i]) - t_mean));
+      t[i] = static_cast<Real>(x);
+      sum.value[i] += x * static_cast<double>(r[i]);
+    }
+  });
+  return sum.sum();
+}
+
+template <class Real>
+CurvatureSums curvature(const TileArrays<Real>& a, Size begin, Size end) {
+  Lanes sum_tw, sum_w;
+  for_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
+    const Real *m = a.m + packed, *t = a.t + dense, *w = a.w + dense;
+    for (Size i = 0; i < width; ++i) {
+      const double y = w[i];
+      sum_tw.value[i] += static_cast<double>(t[i]) * y;
+      sum_w.value[i] += static_cast<double>(m[i]) * y;
+    }
+  });
+  return {sum_tw.sum(), sum_w.sum()};
+}
+
+template <class Real>
+StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, double level) {
+  Lanes outside, wrong, clipped, pressure, misfit, signed_misfit, saturated, least;
+  for (int lane = 0; lane < tile_width; ++lane) least.value[lane] = __builtin_inf();
+  const double bound = a.bound;
+  for_tiles(a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
+    const Real *m = a.m + packed, *t = a.t + dense, *w = a.w + dense;
+    double *p = a.p + dense, *g = a.g + dense;
+    Real* r = a.r + framed;
+    for (Size i = 0; i < width; ++i) {
+      const double x = p[i] - alpha * static_cast<double>(t[i]);
+      const double y = g[i] - alpha * static_cast<double>(w[i]);
+      p[i] = x;
+      g[i] = y;
+      const double free = m[i], apart = y - level;
+      r[i] = static_cast<Real>(free * apart);
+      const double above = x < 0 ? 0 : x;
+      const double held_in = above < bound ? above : bound;
+      const double beyond = x - held_in;
+      const bool full = held_in >= bound;
+      const double below = full ? 0 : held_in;
+      const double open = apart > 0 ? apart : 0, closed = apart < 0 ? -apart : 0;
+      const double violation = (1 - free) * (full ? open : closed);
+      outside.value[i] += beyond * beyond;
+      wrong.value[i] += violation * violation;
+      clipped.value[i] += beyond < 0 ? -beyond : beyond;
+      pressure.value[i] += below;
+      const double saturated_misfit = full ? held_in * open : 0;
+      misfit.value[i] += below * (open + closed) + saturated_misfit;
+      signed_misfit.value[i] += below * apart + saturated_misfit;
+      saturated.value[i] += full ? 1 : 0;
+      const double candidate = full ? __builtin_inf() : y;
+      least.value[i] = candidate < least.value[i] ? candidate : least.value[i];
+    }
+  });
+  double lowest = least.value[0];
+  for (int lane = 1; lane < tile_width; ++lane)
+    lowest = least.value[lane] < lowest ? least.value[lane] : lowest;
+  return {outside.sum(), wrong.sum(),         clipped.sum(),   pressure.sum(),
+          misfit.sum(),  signed_misfit.sum(), saturated.sum(), lowest};
+}
+
+template <class Real>
+SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level) {
+  Lanes count, sum;
+  const double bound = a.bound;
+  for_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
+    Real* m = a.m + packed;
+    const double *p = a.p + dense, *g = a.g + dense;
+    for (Size i = 0; i < width; ++i) {
+      const bool stays = p[i] >= 0 && p[i] <= bound;
+      const bool enters = p[i] > 0 ? g[i] > level : g[i] < level;
+      const bool free = m[i] != 0 ? stays : enters;
+      m[i] = free ? Real(1) : Real(0);
+      count.value[i] += free ? 1 : 0;
+      sum.value[i] += free ? g[i] : 0;
+    }
+  });
+  return {count.sum(), sum.sum()};
+}
+
+template <class Real>
+void truncate(const TileArrays<Real>& a, Size begin, Size end, double scale) {
+  const double bound = a.bound;
+  for_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
+    Real *z = a.z + packed, *t = a.t + dense;
+    double* p = a.p + dense;
+    for (Size i = 0; i < width; ++i) {
+      z[i] = t[i];
+      const double above = p[i] < 0 ? 0 : p[i] >= bound ? p[i] : p[i] * scale;
+      const double kept = above < bound ? above : bound;
+      t[i] = static_cast<Real>(kept - p[i]);
+      p[i] = kept;
+    }
+  });
+}
+
+template <class Real>
+void add_displacement(const TileArrays<Real>& a, Size begin, Size end) {
+  for_tiles(a, begin, end, [&](Size, Size dense, Size, auto width) {
+    double* g = a.g + dense;
+    const Real* t = a.t + dense;
+    for (Size i = 0; i < width; ++i) g[i] += static_cast<double>(t[i]);
+  });
+}
+
+template <class Real>
+void restore_direction(const TileArrays<Real>& a, Size begin, Size end) {
+  for_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
+    const Real* z = a.z + packed;
+    Real* t = a.t + dense;
+    for (Size i = 0; i < width; ++i) t[i] = z[i];
+  });
+}
+
+template <class Real>
+TileKernels<Real> table() {
+  return {residual<Real>,
+          precondition<Real>,
+          direct<Real>,
+          curvature<Real>,
+          step<Real>,
+          change_set<Real>,
+          truncate<Real>,
+          add_displacement<Real>,
+          restore_direction<Real>};
+}
+
+TileKernels<float> table_float() { return table<float>(); }
+TileKernels<double> table_double() { return table<double>(); }
+
+}  // namespace salebra::detail::SALEBRA_SIMD

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/contact/normal.hpp>
+
+#include "polonsky_keer.hpp"
+#include "rough_surface.hpp"
+
+using namespace salebra;
+using namespace salebra::test;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double contact_modulus = 1e9;
+
+NormalContactOptions tight(double tolerance = 1e-13, Precision precision = Precision::full) {
+  NormalContactOptions options;
+  options.tolerance = tolerance;
+  options.precision = precision;
+  return options;
+}
+
+// e_c of a state, found again from its pressure alone by the plain transform of the reference solver.
+double independent_residual(const NormalContactState& state, const Surface& surface) {
+  const Field gap =
+      half_space_displacement(state.pressure, surface.grid, contact_modulus) - surface.heights;
+  return (state.pressure * (gap - gap.minCoeff())).sum() /
+         (state.pressure.sum() * rms_height(surface));
+}
+
+}  // namespace
+
+TEST_CASE("Contact agrees with Polonsky and Keer's solver in cells, mean gap and energy",
+          "[normal]") {
+  const double load = GENERATE(0.003, 0.05, 0.5);
+  const Surface surface = rough_surface({96, 80, 1.2e-3, 0.8e-3});
+  const double pressure = load * contact_modulus * 0.1;
+  const auto reference = polonsky_keer(surface, contact_modulus, pressure, 5e-13);
+  const auto state = press_to_pressure(surface, contact_modulus, pressure, tight(1e-14));
+  REQUIRE(reference.residual < 5e-13);  // its rounding ends at 2e-13
+  REQUIRE(state.converged);
+  CHECK(((state.pressure > 0) == (reference.pressure > 0)).all());
+  // e_c bounds the error of the energy; that of the gap is of order √e_c at worst.
+  CHECK(state.mean_gap == Approx(reference.gap.mean()).epsilon(1e-8));
+  const double energy = 0.5 * surface.grid.cell_area() *
+                        (reference.pressure *
+                         half_space_displacement(reference.pressure, surface.grid, contact_modulus))
+                            .sum();
+  CHECK(state.elastic_energy == Approx(energy).epsilon(1e-8));
+}
+
+TEST_CASE("Pressure and gap are complementary to the tolerance asked, on any grid", "[normal]") {
+  const auto [nx, ny] =
+      GENERATE(std::pair<Index, Index>{128, 128}, std::pair<Index, Index>{97, 101},
+               std::pair<Index, Index>{256, 24}, std::pair<Index, Index>{75, 130},
+               std::pair<Index, Index>{1, 512}, std::pair<Index, Index>{300, 3});
+  const Precision precision = GENERATE(Precision::mixed, Precision::full);
+  const Surface surface =
+      rough_surface({nx, ny, 1e-3, 2e-3 * double(ny) / double(nx)}, {.rolloff = 2});
+  const auto state = press_to_pressure(surface, contact_modulus, 2e6, tight(1e-12, precision));
+  CHECK(state.converged);
+  CHECK(state.residual < 1e-12);
+  // The reference transform rounds in another order: 1e-15 of the heights, against 1e-12.
+  CHECK(independent_residual(state, surface) < 1.1e-12);
+  CHECK((state.pressure >= 0).all());
+  CHECK(state.gap.minCoeff() > -1e-6 * rms_height(surface));
+  CHECK(state.pressure.mean() == Approx(2e6).epsilon(1e-12));
+  CHECK(state.force == Approx(2e6 * surface.grid.area()).epsilon(1e-12));
+}
+
+TEST_CASE("A pressure and the mean gap that it gives are each other's inverse", "[normal]") {
+  const double load = GENERATE(0.001, 0.02, 0.3);
+  const Precision precision = GENERATE(Precision::mixed, Precision::full);
+  const Surface surface = rough_surface({128, 128, 1e-3, 1e-3});
+  const double pressure = load * contact_modulus * 0.1;
+  const auto at_pressure =
+      press_to_pressure(surface, contact_modulus, pressure, tight(1e-13, precision));
+  const auto at_gap =
+      press_to_mean_gap(surface, contact_modulus, at_pressure.mean_gap, tight(1e-13, precision));
+  REQUIRE(at_pressure.converged);
+  REQUIRE(at_gap.converged);
+  CHECK(at_gap.mean_pressure == Approx(pressure).epsilon(1e-8));
+  CHECK(at_gap.mean_gap == Approx(at_pressure.mean_gap).epsilon(1e-12));
+  CHECK(((at_gap.pressure > 0) == (at_pressure.pressure > 0)).all());
+}
+
+TEST_CASE("The mean height and a translation by whole cells change nothing", "[normal]") {
+  const Surface surface = rough_surface({96, 96, 1e-3, 1e-3});
+  const double pressure = 3e6;
+  const auto plain = press_to_pressure(surface, contact_modulus, pressure, tight(1e-14));
+  Surface lifted = surface;
+  lifted.heights += 1000 * rms_height(surface);
+  const auto high = press_to_pressure(lifted, contact_modulus, pressure, tight(1e-13));
+  // Heights lose three decimals to the mean: 1e-13 of h_rms, and the gap is of the order of h_rms.
+  CHECK(high.mean_gap == Approx(plain.mean_gap).epsilon(1e-10));
+  CHECK(((high.pressure > 0) == (plain.pressure > 0)).all());
+  Surface moved = surface;
+  for (Index i = 0; i < 96; ++i)
+    for (Index j = 0; j < 96; ++j)
+      moved.heights((i + 37) % 96, (j + 11) % 96) = surface.heights(i, j);
+  const auto shifted = press_to_pressure(moved, contact_modulus, pressure, tight(1e-14));
+  CHECK(shifted.mean_gap == Approx(plain.mean_gap).epsilon(1e-10));
+  CHECK(shifted.contact_area_fraction == plain.contact_area_fraction);
+  CHECK(shifted.elastic_energy == Approx(plain.elastic_energy).epsilon(1e-10));
+}
+
+TEST_CASE("The contact has the same cells and pressures for one thread and for two", "[normal]") {
+  const Surface surface = rough_surface({256, 256, 1e-3, 1e-3});
+  parallel::set_threads(1);
+  const auto one = press_to_pressure(surface, contact_modulus, 3e6);
+  parallel::set_threads(2);
+  const auto two = press_to_pressure(surface, contact_modulus, 3e6);
+  parallel::set_threads(0);
+  // Reductions run over fixed slabs, so the bits are equal, not only the digits.
+  CHECK((one.pressure == two.pressure).all());
+  CHECK((one.gap == two.gap).all());
+}
+
+TEST_CASE("A sinusoid closes completely at Westergaard's pressure", "[normal]") {
+  const double amplitude = 1e-6, wavelength = 1e-3;
+  const double full = pi * contact_modulus * amplitude /
+                      wavelength;  // Johnson, Contact Mechanics (1985), section 13.2
+  const Surface surface = surface_of({64, 16, wavelength, wavelength / 4}, [&](double x, double) {
+    return amplitude * std::cos(2 * pi * x / wavelength);
+  });
+  // Full contact is one Fourier mode: no discretisation error.
+  const auto closed = press_to_pressure(surface, contact_modulus, 1.01 * full, tight());
+  REQUIRE(closed.converged);
+  CHECK(closed.contact_area_fraction == 1);
+  CHECK(closed.pressure.maxCoeff() == Approx(2.01 * full).epsilon(1e-6));
+  CHECK(closed.mean_gap < 1e-6 * amplitude);
+  CHECK(std::isinf(normal_stiffness(closed, surface.grid, contact_modulus)));
+  const auto open = press_to_pressure(surface, contact_modulus, 0.97 * full, tight());
+  REQUIRE(open.converged);
+  CHECK(open.contact_area_fraction < 1);
+}
+
+TEST_CASE("The mean gap of a sinusoid converges to Westergaard's at second order", "[normal]") {
+  const double amplitude = 1e-6, wavelength = 1e-3;
+  const double full = pi * contact_modulus * amplitude / wavelength, load = 0.3;
+  // With s² = p/p_full = sin²(πa/λ), the mean gap is A[1 − s²(1 − ln s²)]: dū/dp = A/p_full·ln s² from Westergaard's
+  // displacements, and ū = A at first touch.
+  const double exact = amplitude * (1 - load * (1 - std::log(load)));
+  const auto error = [&](Index n) {
+    const Surface surface =
+        surface_of({n, 1, wavelength, wavelength / double(n)},
+                   [&](double x, double) { return amplitude * std::cos(2 * pi * x / wavelength); });
+    const auto state = press_to_pressure(surface, contact_modulus, load * full, tight());
+    REQUIRE(state.converged);
+    return std::abs(state.mean_gap - exact) / amplitude;
+  };
+  const double coarse = error(256), fine = error(1024);
+  INFO("errors " << coarse << ' ' << fine);
+  CHECK(fine < 1e-4);
+  CHECK(std::log(coarse / fine) / std::log(4.0) > 0.9);
+}
+
+TEST_CASE("The punch stiffness is the derivative of the force by the mean gap", "[normal]") {
+  const Precision precision = GENERATE(Precision::mixed, Precision::full);
+  const Surface surface = rough_surface({96, 128, 1e-3, 1e-3});
+  const auto middle = press_to_pressure(surface, contact_modulus, 4e6, tight(1e-14));
+  const double step = 1e-7 * middle.mean_gap;
+  const auto closer =
+      press_to_mean_gap(surface, contact_modulus, middle.mean_gap - step, tight(1e-14));
+  const auto apart =
+      press_to_mean_gap(surface, contact_modulus, middle.mean_gap + step, tight(1e-14));
+  REQUIRE((closer.converged && apart.converged));
+  const double stiffness =
+      normal_stiffness(middle, surface.grid, contact_modulus, tight(1e-12, precision));
+  // While no cell enters or leaves, F(ū) is linear; the forces carry the error of e_c over a step of 2e-7.
+  CHECK(stiffness == Approx((closer.force - apart.force) / (2 * step)).epsilon(1e-4));
+}
+
+TEST_CASE("Plane and single-cell surfaces, and targets that no contact meets", "[normal]") {
+  Surface plane{{16, 16, 1e-3, 1e-3}, Field::Constant(16, 16, 2.5), true, ""};
+  const auto state = press_to_pressure(plane, contact_modulus, 7.0);
+  CHECK(state.converged);
+  CHECK(state.contact_area_fraction == 1);
+  CHECK((state.pressure == 7.0).all());
+  CHECK(state.mean_gap == 0);
+  CHECK_THROWS_AS(press_to_mean_gap(plane, contact_modulus, 1e-9), InvalidInput);
+
+  Surface surface = rough_surface({32, 32, 1e-3, 1e-3});
+  CHECK_THROWS_AS(press_to_pressure(surface, contact_modulus, 0), InvalidInput);
+  CHECK_THROWS_AS(press_to_pressure(surface, contact_modulus, -1), InvalidInput);
+  CHECK_THROWS_AS(press_to_pressure(surface, contact_modulus, std::nan("")), InvalidInput);
+  CHECK_THROWS_AS(press_to_pressure(surface, 0, 1e6), InvalidInput);
+  CHECK_THROWS_AS(press_to_mean_gap(surface, contact_modulus, 0), InvalidInput);
+  const double touch = surface.heights.maxCoeff() - surface.heights.mean();
+  CHECK_THROWS_WITH(press_to_mean_gap(surface, contact_modulus, touch),
+                    Catch::Contains("first touches"));
+  NormalContactOptions options;
+  options.tolerance = 0;
+  CHECK_THROWS_AS(press_to_pressure(surface, contact_modulus, 1e6, options), InvalidInput);
+  surface.heights(3, 4) = std::nan("");
+  CHECK_THROWS_WITH(press_to_pressure(surface, contact_modulus, 1e6), Catch::Contains("undefined"));
+}
+
+TEST_CASE("Too few iterations are reported, never called converged", "[normal]") {
+  const Surface surface = rough_surface({128, 128, 1e-3, 1e-3});
+  auto options = tight();
+  options.max_iterations = 3;
+  const auto state = press_to_pressure(surface, contact_modulus, 4e6, options);
+  CHECK_FALSE(state.converged);
+  CHECK(state.iterations == 3);
+  CHECK(state.residual > options.tolerance);
+  CHECK(independent_residual(state, surface) == Approx(state.residual).epsilon(1e-6));
+}
+
+TEST_CASE("The progress callback stops a contact", "[normal]") {
+  const Surface surface = rough_surface({128, 128, 1e-3, 1e-3});
+  auto options = tight();
+  int calls = 0;
+  options.on_progress = [&](const ProgressReport& report) {
+    CHECK(report.stage == "contact");
+    return ++calls < 20;
+  };
+  const auto state = press_to_pressure(surface, contact_modulus, 4e6, options);
+  CHECK(calls == 20);
+  CHECK(state.interrupted);
+  CHECK_FALSE(state.converged);
+}
