@@ -3,7 +3,6 @@
 
 #include <array>
 #include <filesystem>
-#include <salebra/base/units.hpp>
 #include <salebra/contact/force_curve.hpp>
 #include <salebra/io/provenance.hpp>
 #include <string>
@@ -11,29 +10,21 @@
 
 namespace salebra::detail {
 
-/// A member of ForceSample as it is written in files.
+/// A member of ForceSample as it is written in files; find_quantity(name) has its unit and meaning.
 struct CurveQuantity {
   std::string_view name;
   double ForceSample::*member;
-  Dimension dimension;
-  std::string_view long_name;
 };
 
 inline constexpr std::array curve_quantities{
-    CurveQuantity{"pressure", &ForceSample::pressure, Dimension::pressure, "nominal pressure"},
-    CurveQuantity{"force", &ForceSample::force, Dimension::force, "normal force"},
-    CurveQuantity{"indentation", &ForceSample::indentation, Dimension::length,
-                  "indentation, larger is closer"},
-    CurveQuantity{"mean_gap", &ForceSample::mean_gap, Dimension::length,
-                  "mean gap of the deformed surfaces"},
-    CurveQuantity{"separation", &ForceSample::separation, Dimension::length,
-                  "distance of the smooth plane from the mean plane of the summits"},
-    CurveQuantity{"contact_area_fraction", &ForceSample::contact_area_fraction,
-                  Dimension::dimensionless, "real over nominal contact area"},
-    CurveQuantity{"normal_stiffness", &ForceSample::normal_stiffness, Dimension::stiffness,
-                  "normal stiffness"},
-    CurveQuantity{"tangential_stiffness", &ForceSample::tangential_stiffness, Dimension::stiffness,
-                  "tangential stiffness in full stick"},
+    CurveQuantity{"pressure", &ForceSample::pressure},
+    CurveQuantity{"force", &ForceSample::force},
+    CurveQuantity{"indentation", &ForceSample::indentation},
+    CurveQuantity{"mean_gap", &ForceSample::mean_gap},
+    CurveQuantity{"separation", &ForceSample::separation},
+    CurveQuantity{"contact_area_fraction", &ForceSample::contact_area_fraction},
+    CurveQuantity{"normal_stiffness", &ForceSample::normal_stiffness},
+    CurveQuantity{"tangential_stiffness", &ForceSample::tangential_stiffness},
 };
 
 ForceCurve read_text_curve(const std::filesystem::path& file, std::string_view content);

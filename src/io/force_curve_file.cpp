@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
+#include <salebra/base/quantity.hpp>
 #include <salebra/io/force_curve_file.hpp>
 
 #include "atomic_file.hpp"
@@ -26,11 +27,12 @@ void write_force_curve(ResultGroup& group, const ForceCurve& curve) {
   for (const auto& quantity : detail::curve_quantities) {
     const std::vector<double> values = curve.column(quantity.member);
     if (!known(values)) continue;
-    const std::string name(quantity.name), units(si_unit(quantity.dimension)),
-        long_name(quantity.long_name);
+    const Quantity meaning = find_quantity(quantity.name);
+    const std::string name(quantity.name), units(si_unit(meaning.dimension)),
+        long_name(meaning.long_name);
     if (coordinate.empty()) {
       const bool orders =
-          quantity.dimension == Dimension::pressure || quantity.dimension == Dimension::force;
+          meaning.dimension == Dimension::pressure || meaning.dimension == Dimension::force;
       if (orders && complete(values)) {
         group.coordinate(name, values, units, long_name);
         coordinate = name;

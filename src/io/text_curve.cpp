@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <salebra/base/error.hpp>
+#include <salebra/base/quantity.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/io/provenance.hpp>
 
@@ -23,14 +24,14 @@ struct Column {
 };
 
 double factor_of(const std::filesystem::path& file, const std::string& unit,
-                 const CurveQuantity& quantity) {
+                 std::string_view name) {
   if (unit.empty()) return 1;
+  const Dimension dimension = find_quantity(name).dimension;
   try {
-    return parse_quantity("1 " + unit, quantity.dimension, quantity.name);
+    return parse_quantity("1 " + unit, dimension, name);
   } catch (const InvalidInput&) {
-    refuse(file, "gives the column " + std::string(quantity.name) + " in '" + unit +
-                     "', which is no unit of it; write " +
-                     std::string(si_unit(quantity.dimension)));
+    refuse(file, "gives the column " + std::string(name) + " in '" + unit +
+                     "', which is no unit of it; write " + std::string(si_unit(dimension)));
   }
 }
 
@@ -48,7 +49,7 @@ Column column_of(const std::filesystem::path& file, std::string_view title) {
   if (name == "converged") return {.converged = true};
   const auto quantity = std::ranges::find(curve_quantities, name, &CurveQuantity::name);
   if (quantity == curve_quantities.end()) return {};
-  return {.member = quantity->member, .factor = factor_of(file, unit, *quantity)};
+  return {.member = quantity->member, .factor = factor_of(file, unit, name)};
 }
 
 /// Splits a line of titles at commas or semicolons, or else at blanks that are not before or within brackets.
@@ -174,7 +175,8 @@ std::string text_of(const ForceCurve& curve, const Provenance& provenance) {
         }))
       known.push_back(&quantity);
   for (const CurveQuantity* quantity : known)
-    text += fmt::format("{} [{}],", quantity->name, si_unit(quantity->dimension));
+    text +=
+        fmt::format("{} [{}],", quantity->name, si_unit(find_quantity(quantity->name).dimension));
   text += "converged\n";
   for (const ForceSample& sample : curve.samples) {
     for (const CurveQuantity* quantity : known) {

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <salebra/base/error.hpp>
+#include <salebra/generators/filtered_noise.hpp>
+#include <salebra/generators/random_phase.hpp>
+#include <salebra/surface/moments.hpp>
+#include <salebra/surface/spectrum.hpp>
+
+#include "test_surfaces.hpp"
+
+using namespace salebra;
+using std::numbers::pi;
+
+namespace {
+
+double integral(const PowerSpectrum& spectrum) {
+  double sum = 0;
+  for (Index i = 0; i < spectrum.grid.nx; ++i)
+    for (Index j = 0; j < spectrum.density.cols(); ++j)
+      sum += spectrum.multiplicity(j) * spectrum.density(i, j) * spectrum.cell();
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("Parseval: the PSD of a periodic surface integrates to its variance, odd and even grids",
+          "[psd]") {
+  const Index nx = GENERATE(16, 15), ny = GENERATE(12, 13, 1);
+  const Surface surface = white({nx, ny, 2e-3, 3e-3}, true);
+  const double rms_height = height_statistics(surface).rms_height;
+  const PowerSpectrum spectrum = power_spectrum(surface);
+  CHECK(integral(spectrum) == Approx(rms_height * rms_height).epsilon(1e-13));
+  const RadialSpectrum radial = radial_spectrum(spectrum);
+  CHECK(std::accumulate(radial.modes.begin(), radial.modes.end(), Index{0}) == nx * ny - 1);
+  double sum = 0;
+  for (std::size_t k = 0; k < radial.modes.size(); ++k) {
+    CHECK(radial.modes[k] > 0);
+    if (k > 0) CHECK(radial.wavenumber[k] > radial.wavenumber[k - 1]);
+    sum += static_cast<double>(radial.modes[k]) * radial.density[k] * spectrum.cell();
+  }
+  CHECK(sum == Approx(rms_height * rms_height).epsilon(1e-13));
+}
+
+TEST_CASE("A wave has its power in its mode: a²/4 at q and at −q over the cell of a mode",
+          "[psd]") {
+  const double lx = 2.0, ly = 3.0, amplitude = 0.7;
+  const Surface wave = sampled({16, 18, lx, ly}, true, [&](double x, double y) {
+    return 5 + amplitude * std::cos(2 * pi * (3 * x / lx - 2 * y / ly) + 1);
+  });
+  const PowerSpectrum spectrum = power_spectrum(wave);
+  // (3, −2) stands in the half-spectrum as its conjugate (−3, 2).
+  CHECK(spectrum.density(13, 2) ==
+        Approx(amplitude * amplitude / 4 * lx * ly / (4 * pi * pi)).epsilon(1e-13));
+  CHECK(spectrum.wavenumber_x(13) == Approx(-2 * pi * 3 / lx));
+  CHECK(spectrum.wavenumber_y(2) == Approx(2 * pi * 2 / ly));
+}
+
+TEST_CASE("The PSD of a generated surface is the one asked, with a window too", "[psd]") {
+  const SelfAffineSpectrum target(
+      {.hurst = 0.7, .rolloff = 0.1, .short_cutoff = 8.0 / 512, .rms_height = 1});
+  Surface surface = filtered_noise({512, 512, 1, 1}, target, 3);
+  const bool windowed = GENERATE(false, true);
+  surface.periodic = !windowed;
+  const RadialSpectrum radial = radial_spectrum(power_spectrum(surface));
+  for (std::size_t k = 0; k < radial.modes.size(); ++k) {
+    const double q = radial.wavenumber[k], independent = static_cast<double>(radial.modes[k]) / 2;
+    if (independent < 100 || q > 0.85 * 2 * pi * 64) continue;
+    if (std::abs(std::log2(q / (2 * pi * 10))) < 0.3) continue;  // the ring with the kink
+    INFO("q = " << q);
+    // Mean of n exponential variates: 4 standard deviations (1.94 times as wide under the window), and the curvature of C within a
+    // ring (2^(1/4) wide: 1 %) and within the window, (1/6)·3.4²/(qL/2π)².
+    const double waves = q / (2 * pi);
+    const double tolerance = 4 * (windowed ? 1.94 : 1) / std::sqrt(independent) + 0.02 +
+                             (windowed ? 2 / (waves * waves) : 0);
+    CHECK(radial.density[k] == Approx(target.density(q, 0)).epsilon(tolerance));
+  }
+}
+
+TEST_CASE("A spectrum needs every height", "[psd]") {
+  Surface surface = white({8, 8, 1, 1}, false);
+  surface.heights(2, 2) = std::nan("");
+  CHECK_THROWS_WITH(power_spectrum(surface), Catch::Contains("power spectrum"));
+  CHECK_THROWS_AS(power_spectrum(Surface{}), InvalidInput);
+}
+
+TEST_CASE("The Hurst exponent is found, and its interval covers it", "[hurst]") {
+  const double hurst = GENERATE(0.3, 0.8);
+  const bool periodic = GENERATE(true, false);
+  const SelfAffineSpectrum target(
+      {.hurst = hurst, .rolloff = 0.2, .short_cutoff = 4.0 / 256, .rms_height = 1});
+  int covered = 0, found = 0;
+  double sum = 0;
+  constexpr int runs = 40;
+  for (int seed = 0; seed < runs; ++seed) {
+    // A quarter of a periodic surface is not periodic.
+    Surface surface = filtered_noise({256, 256, 1, 1}, target, static_cast<std::uint64_t>(seed));
+    if (!periodic)
+      surface = {
+          {160, 160, 0.625, 0.625}, surface.heights.topLeftCorner(160, 160).eval(), false, ""};
+    const HurstEstimate estimate = estimate_hurst(power_spectrum(surface));
+    if (!estimate.found()) continue;
+    ++found;
+    covered += estimate.low <= hurst && hurst <= estimate.high;
+    sum += estimate.value;
+    CHECK(estimate.wavenumber_max <= 2 * pi * 64 * 1.0001);
+  }
+  INFO("covered " << covered << " of " << found << ", mean " << sum / found);
+  CHECK(found >= runs - 1);
+  CHECK(sum / found == Approx(hurst).margin(0.03));
+  // 95 % of 40 are 38; 33 or fewer would be a chance of 1 in 100 at 93 %.
+  CHECK(covered >= 33);
+}
+
+TEST_CASE("Where there is no power law there is no Hurst exponent", "[hurst]") {
+  CHECK_FALSE(estimate_hurst(power_spectrum(white({128, 128, 1, 1}, true))).found());
+  CHECK_FALSE(estimate_hurst(power_spectrum(white({5, 4, 1, 1}, true))).found());
+  Surface flat = white({64, 64, 1, 1}, true);
+  flat.heights.setZero();
+  CHECK_FALSE(estimate_hurst(power_spectrum(flat)).found());
+  const Surface wave =
+      sampled({64, 64, 1, 1}, true, [](double x, double) { return std::cos(2 * pi * 5 * x); });
+  CHECK_FALSE(estimate_hurst(power_spectrum(wave)).found());
+}
+
+TEST_CASE("Fixed amplitudes give the Hurst exponent of the spectrum itself", "[hurst]") {
+  const SelfAffineSpectrum target(
+      {.hurst = 0.5, .rolloff = 0.25, .short_cutoff = 8.0 / 512, .rms_height = 1});
+  const HurstEstimate estimate =
+      estimate_hurst(power_spectrum(random_phase({512, 512, 1, 1}, target, 1)));
+  // Every mode lies on the power law: nothing but rounding moves the fit.
+  CHECK(estimate.value == Approx(0.5).epsilon(1e-6));
+  CHECK(estimate.high - estimate.low < 1e-6);
+}
