@@ -22,6 +22,7 @@ class MonotoneHermite {
 
   double front() const { return x_.front(); }
   double back() const { return x_.back(); }
+  const std::vector<double>& nodes() const { return x_; }
   /// y, y', y'' at x in [front, back]. At a node y'' belongs to the interval above it.
   Point at(double x) const;
   /// x with y(x) = value, for increasing y and value in [y(front), y(back)]; to round-off in x.

@@ -27,6 +27,10 @@ double ContactLaw::lowest_indentation() const { return -std::numeric_limits<doub
 
 double ContactLaw::highest_indentation() const { return std::numeric_limits<double>::infinity(); }
 
+std::vector<double> ContactLaw::break_points() const { return {}; }
+
+std::vector<double> PowerLaw::break_points() const { return {0}; }
+
 PowerLaw::PowerLaw(double coefficient, double exponent, double modulus_ratio)
     : ContactLaw(modulus_ratio), coefficient_(coefficient), exponent_(exponent) {
   require_positive(coefficient, "coefficient");
@@ -196,6 +200,8 @@ double TabulatedLaw::tangential_curvature(double indentation) const {
 double TabulatedLaw::lowest_indentation() const { return splines_->log_force.front(); }
 
 double TabulatedLaw::highest_indentation() const { return splines_->log_force.back(); }
+
+std::vector<double> TabulatedLaw::break_points() const { return splines_->log_force.nodes(); }
 
 double TabulatedLaw::indentation_of(double force) const {
   require_positive(force, "force");

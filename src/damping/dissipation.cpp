@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "../contact/quadrature.hpp"
+#include "sweep_breaks.hpp"
 
 namespace salebra {
 namespace {
@@ -17,32 +18,93 @@ namespace {
 using std::numbers::pi;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double unknown = DampingResult::unknown;
 
 double square(double value) { return value * value; }
-
-double normal_amplitude(const Oscillation& motion) {
-  return std::visit([](const auto& m) { return m.normal_amplitude; }, motion);
-}
 
 void require_finite(double value, const char* field) {
   require(std::isfinite(value), field, value, "must be a finite number");
 }
 
-void check(const Oscillation& motion, const DampingOptions& options) {
-  const double amplitude = normal_amplitude(motion);
+void require_amplitude(double amplitude) {
   require(std::isfinite(amplitude) && amplitude >= 0, "normal_amplitude", amplitude,
           "must be finite and >= 0; a negative one is a phase shift of pi");
-  if (const auto* drag = std::get_if<Drag>(&motion)) {
-    require_finite(drag->drag_velocity, "drag_velocity");
-    require_positive(drag->angular_frequency, "angular_frequency");
-  } else {
-    const auto& equal = std::get<EqualFrequency>(motion);
-    require_finite(equal.tangential_amplitude, "tangential_amplitude");
-    require_finite(equal.phase, "phase");
-    require(std::isfinite(equal.angular_frequency) && equal.angular_frequency >= 0,
-            "angular_frequency", equal.angular_frequency,
-            "must be finite and > 0, or 0 where it is not known");
-  }
+}
+
+// What distinguishes one kind of tangential motion from another, under δ = δ0 + u_z cosθ or any other even θ ↦ δ that falls from 0 to π:
+//     W = square_velocity · scale · ∫_0^π weight(θ) [K_t(δ(θ)) − K_t(reference)] dθ.
+struct Kernel {
+  double normal_amplitude = 0;
+  double square_velocity = 0;  // u_x² or v²: γ needs W without it
+  double scale = 0;
+  std::function<double(double)> weight;
+  double absolute_weight = 0;       // ∫|weight|, for the round-off
+  bool reference_is_bottom = true;  // else the middle, where ∫ weight = 0
+  double small_amplitude = 0;  // W = (G*/E*)F'' u_z · small_amplitude · square_velocity as u_z → 0
+  double rate = unknown;       // periods per second
+  double mean_square_velocity = 1;  // ⟨ẋ²⟩ for square_velocity = 1
+  bool periodic = true;             // else W is the mean per normal cycle
+};
+
+Kernel kernel_of(const EqualFrequency& motion) {
+  require_amplitude(motion.normal_amplitude);
+  require_finite(motion.tangential_amplitude, "tangential_amplitude");
+  require_finite(motion.phase, "phase");
+  require(std::isfinite(motion.angular_frequency) && motion.angular_frequency >= 0,
+          "angular_frequency", motion.angular_frequency,
+          "must be finite and > 0, or 0 where it is not known");
+  const double sine_square = square(std::sin(motion.phase));
+  Kernel kernel{.normal_amplitude = motion.normal_amplitude,
+                .square_velocity = square(motion.tangential_amplitude),
+                .scale = 2 * sine_square,
+                .weight = [](double angle) { return std::sin(2 * angle); },
+                .absolute_weight = 2,
+                .reference_is_bottom = false,
+                .small_amplitude = 8.0 / 3 * sine_square};
+  if (motion.angular_frequency > 0) kernel.rate = motion.angular_frequency / (2 * pi);
+  kernel.mean_square_velocity = square(motion.angular_frequency) / 2;
+  return kernel;
+}
+
+Kernel kernel_of(const Drag& motion) {
+  require_amplitude(motion.normal_amplitude);
+  require_finite(motion.drag_velocity, "drag_velocity");
+  require_positive(motion.angular_frequency, "angular_frequency");
+  const double square_period = 1 / square(motion.angular_frequency);
+  return {.normal_amplitude = motion.normal_amplitude,
+          .square_velocity = square(motion.drag_velocity),
+          .scale = 4 * square_period,
+          .weight = [](double angle) { return angle; },
+          .absolute_weight = pi * pi / 2,
+          .small_amplitude = 2 * (pi * pi - 4) * square_period,
+          .rate = motion.angular_frequency / (2 * pi)};
+}
+
+Kernel kernel_of(const TwoFrequencies& motion) {
+  require_amplitude(motion.normal_amplitude);
+  require_finite(motion.tangential_amplitude, "tangential_amplitude");
+  require_finite(motion.phase, "phase");
+  const CommonPeriod period = common_period(motion);
+  const bool periodic = period.normal_cycles > 0;
+  const double ratio = motion.tangential_angular_frequency / motion.normal_angular_frequency;
+  const int cycles = periodic ? period.normal_cycles : 1;
+  const double sum = periodic ? closed_form::frequency_ratio_phase_sum(cycles, motion.phase) : 0.5;
+  return {.normal_amplitude = motion.normal_amplitude,
+          .square_velocity = square(motion.tangential_amplitude),
+          .scale = 2 * sum * ratio,
+          .weight = [ratio](double angle) { return std::sin(2 * ratio * angle); },
+          .absolute_weight = std::min(pi, pi * pi * ratio),
+          .small_amplitude = 2 * sum * closed_form::frequency_ratio_integral(ratio),
+          .rate = motion.normal_angular_frequency / (2 * pi * cycles),
+          .mean_square_velocity = square(motion.tangential_angular_frequency) / 2,
+          .periodic = periodic};
+}
+
+Kernel kernel_of(const Oscillation& motion) {
+  return std::visit([](const auto& m) { return kernel_of(m); }, motion);
+}
+
+void check(const DampingOptions& options) {
   require(options.tolerance >= 1e-13 && options.tolerance <= 1e-2, "tolerance", options.tolerance,
           "must lie between 1e-13 and 1e-2");
 }
@@ -59,22 +121,15 @@ void require_covered(const ContactLaw& law, double mean_indentation, double ampl
   require(false, "normal_amplitude", amplitude, constraint.str());
 }
 
-// Angle at which the contact opens while δ = δ0 + u_z cosθ falls, where it does so within the cycle: K_t has a kink or a jump there.
+// Phases between 0 and π at which δ = δ0 + u_z cosθ passes a break of the law, with both ends.
 std::vector<double> break_angles(const ContactLaw& law, double mean_indentation, double amplitude) {
-  std::vector<double> angles{0};
-  double open = mean_indentation - amplitude, closed = mean_indentation + amplitude;
-  if (!(law.force(open) > 0) && law.force(closed) > 0) {
-    for (int halving = 0; halving < 100; ++halving) {
-      const double middle = 0.5 * (open + closed);
-      (law.force(middle) > 0 ? closed : open) = middle;
-    }
-    // Written with half angles: arccos loses half the digits at both ends.
-    const double above = mean_indentation + amplitude - closed;
-    const double below = closed - (mean_indentation - amplitude);
-    angles.push_back(2 *
-                     std::atan2(std::sqrt(std::max(above, 0.0)), std::sqrt(std::max(below, 0.0))));
-  }
-  angles.push_back(pi);
+  const double low = mean_indentation - amplitude, high = mean_indentation + amplitude;
+  if (!(low < high)) return {0, pi};
+  std::vector<double> angles;
+  for (const double point : detail::sweep_breaks(law, low, high))
+    // By half angles: arccos loses half the digits at both ends.
+    angles.push_back(2 * std::atan2(std::sqrt(high - point), std::sqrt(point - low)));
+  std::ranges::reverse(angles);
   return angles;
 }
 
@@ -85,68 +140,28 @@ struct NormalCycle {
   double stiffness_at_middle, stiffness_at_bottom, stiffness_at_top;
 };
 
-// W over u_x² in case (a), over v² in case (b): γ exists where the velocity is 0.
-detail::Integral work_factor(const NormalCycle& cycle, const Oscillation& motion,
-                             double tolerance) {
-  detail::Integral integral;
-  double scale = 0, weight = 0;  // weight: ∫ of the absolute weight function, for the round-off
-  if (const auto* equal = std::get_if<EqualFrequency>(&motion)) {
-    // ∫ sin2θ = 0: a constant may be taken off, and what is left does not cancel.
-    integral = detail::integrate(
-        [&](double angle) {
-          return (cycle.stiffness(angle) - cycle.stiffness_at_middle) * std::sin(2 * angle);
-        },
-        cycle.break_angles, tolerance);
-    scale = 2 * square(std::sin(equal->phase));
-    weight = 2;
-  } else {
-    integral = detail::integrate(
-        [&](double angle) { return angle * (cycle.stiffness(angle) - cycle.stiffness_at_bottom); },
-        cycle.break_angles, tolerance);
-    scale = 4 / square(std::get<Drag>(motion).angular_frequency);
-    weight = pi * pi / 2;
-  }
+// W for a square_velocity of 1.
+detail::Integral work_factor(const NormalCycle& cycle, const Kernel& kernel, double tolerance) {
+  // A constant may be taken off K_t, and what is left hardly cancels.
+  const double reference =
+      kernel.reference_is_bottom ? cycle.stiffness_at_bottom : cycle.stiffness_at_middle;
+  detail::Integral integral = detail::integrate(
+      [&](double angle) { return kernel.weight(angle) * (cycle.stiffness(angle) - reference); },
+      cycle.break_angles, tolerance);
   // K_t is known to a few units in its last place; where that is all there is, the tolerance cannot be reached and does not count.
-  const double round_off = 4 * epsilon * cycle.stiffness_at_top * weight;
+  const double round_off = 4 * epsilon * cycle.stiffness_at_top * kernel.absolute_weight;
   integral.converged = integral.converged || integral.error <= round_off;
-  return {scale * integral.value, scale * (integral.error + round_off), integral.converged};
+  return {kernel.scale * integral.value, kernel.scale * (integral.error + round_off),
+          integral.converged};
 }
 
-void set_work(DampingResult& result, const detail::Integral& factor, const Oscillation& motion) {
-  double square_velocity = 0;  // W = factor · u_x² or v²
-  if (const auto* equal = std::get_if<EqualFrequency>(&motion)) {
-    square_velocity = square(equal->tangential_amplitude);
-    if (equal->angular_frequency > 0)
-      result.damping_constant = factor.value / (pi * equal->angular_frequency);
-  } else {
-    const auto& drag = std::get<Drag>(motion);
-    square_velocity = square(drag.drag_velocity);
-    result.damping_constant = factor.value * drag.angular_frequency / (2 * pi);
-  }
-  result.work_per_cycle = factor.value * square_velocity;
-  result.error_estimate = factor.error * square_velocity;
+void set_work(DampingResult& result, const detail::Integral& factor, const Kernel& kernel) {
+  const double work = factor.value * kernel.square_velocity;
+  result.work_per_cycle = kernel.periodic ? work : unknown;
+  result.error_estimate = factor.error * kernel.square_velocity;
+  result.power = work * kernel.rate;
+  result.damping_constant = factor.value * kernel.rate / kernel.mean_square_velocity;
   result.converged = factor.converged;
-  result.power = closed_form::power(result.work_per_cycle, motion);
-}
-
-Oscillation with_normal_amplitude(Oscillation motion, double amplitude) {
-  std::visit([&](auto& m) { m.normal_amplitude = amplitude; }, motion);
-  return motion;
-}
-
-// The motion with u_x or v of 1, so that its work is the factor of set_work().
-Oscillation with_unit_velocity(Oscillation motion) {
-  if (auto* equal = std::get_if<EqualFrequency>(&motion))
-    equal->tangential_amplitude = 1;
-  else
-    std::get<Drag>(motion).drag_velocity = 1;
-  return motion;
-}
-
-double small_amplitude_work(const ContactLaw& law, double curvature, const Oscillation& motion) {
-  return std::visit(
-      [&](const auto& m) { return closed_form::work_per_cycle(law.modulus_ratio(), curvature, m); },
-      motion);
 }
 
 void set_state(DampingResult& result, const ContactLaw& law, double indentation) {
@@ -157,25 +172,62 @@ void set_state(DampingResult& result, const ContactLaw& law, double indentation)
   result.tangential_curvature = law.tangential_curvature(indentation);
 }
 
-void set_small_amplitude_work(DampingResult& result, const ContactLaw& law, double curvature,
-                              const Oscillation& motion) {
-  const double factor = small_amplitude_work(law, curvature, with_unit_velocity(motion));
-  set_work(result, {factor, 0, true}, motion);
+double small_amplitude_factor(const ContactLaw& law, double curvature, const Kernel& kernel) {
+  return law.modulus_ratio() * curvature * kernel.normal_amplitude * kernel.small_amplitude;
+}
+
+double settled_indentation(const ContactLaw& law, const Position& position) {
+  if (const auto* at = std::get_if<AtIndentation>(&position)) {
+    require_finite(at->indentation, "indentation");
+    return at->indentation;
+  }
+  const double force = std::get<AtForce>(position).force;
+  require_positive(force, "force");
+  return law.indentation_of(force);
+}
+
+DampingResult damping_of(const ContactLaw& law, const Position& position, const Kernel& kernel,
+                         const DampingOptions& options) {
+  check(options);
+  const double amplitude = kernel.normal_amplitude;
+  const double settled = settled_indentation(law, position);
+  const double small_factor = small_amplitude_factor(law, law.curvature(settled), kernel);
+  DampingResult result;
+  if (options.amplitude == Amplitude::small) {
+    set_state(result, law, settled);
+    result.mean_force = result.force;
+    set_work(result, {small_factor, 0, true}, kernel);
+  } else {
+    double middle = settled;
+    if (options.hold == Hold::force) {
+      const auto* at = std::get_if<AtForce>(&position);
+      middle = indentation_at_mean_force(law, at ? at->force : law.force(settled), amplitude);
+    }
+    require_covered(law, middle, amplitude);
+    set_state(result, law, middle);
+    result.mean_force = mean_force_of_cycle(law, middle, amplitude);
+    const NormalCycle cycle{[&](double angle) {
+                              return law.tangential_stiffness(middle + amplitude * std::cos(angle));
+                            },
+                            break_angles(law, middle, amplitude), law.tangential_stiffness(middle),
+                            law.tangential_stiffness(middle - amplitude),
+                            law.tangential_stiffness(middle + amplitude)};
+    set_work(result, work_factor(cycle, kernel, options.tolerance), kernel);
+  }
+  result.small_amplitude_work = small_factor * kernel.square_velocity;
+  return result;
 }
 
 }  // namespace
 
 double mean_force_of_cycle(const ContactLaw& law, double mean_indentation, double amplitude) {
   require_finite(mean_indentation, "indentation");
+  require_amplitude(amplitude);
   require_covered(law, mean_indentation, amplitude);
-  const std::vector<double> angles = break_angles(law, mean_indentation, amplitude);
-  return detail::integrate(
-             [&](double angle) {
-               return law.force(mean_indentation + amplitude * std::cos(angle));
-             },
-             angles, 1e-12)
-             .value /
-         pi;
+  auto force = [&](double angle) {
+    return law.force(mean_indentation + amplitude * std::cos(angle));
+  };
+  return detail::integrate(force, break_angles(law, mean_indentation, amplitude), 1e-12).value / pi;
 }
 
 double indentation_at_mean_force(const ContactLaw& law, double mean_force, double amplitude) {
@@ -196,43 +248,12 @@ double indentation_at_mean_force(const ContactLaw& law, double mean_force, doubl
 
 DampingResult relaxation_damping(const ContactLaw& law, const Position& position,
                                  const Oscillation& motion, const DampingOptions& options) {
-  check(motion, options);
-  const double amplitude = normal_amplitude(motion);
-  double settled = 0;
-  if (const auto* at = std::get_if<AtIndentation>(&position)) {
-    settled = at->indentation;
-    require_finite(settled, "indentation");
-  } else {
-    const double force = std::get<AtForce>(position).force;
-    require_positive(force, "force");
-    settled = law.indentation_of(force);
-  }
+  return damping_of(law, position, kernel_of(motion), options);
+}
 
-  DampingResult result;
-  const double settled_curvature = law.curvature(settled);
-  if (options.amplitude == Amplitude::small) {
-    set_state(result, law, settled);
-    result.mean_force = result.force;
-    set_small_amplitude_work(result, law, settled_curvature, motion);
-  } else {
-    double middle = settled;
-    if (options.hold == Hold::force) {
-      const auto* at = std::get_if<AtForce>(&position);
-      middle = indentation_at_mean_force(law, at ? at->force : law.force(settled), amplitude);
-    }
-    require_covered(law, middle, amplitude);
-    set_state(result, law, middle);
-    result.mean_force = mean_force_of_cycle(law, middle, amplitude);
-    const NormalCycle cycle{[&](double angle) {
-                              return law.tangential_stiffness(middle + amplitude * std::cos(angle));
-                            },
-                            break_angles(law, middle, amplitude), law.tangential_stiffness(middle),
-                            law.tangential_stiffness(middle - amplitude),
-                            law.tangential_stiffness(middle + amplitude)};
-    set_work(result, work_factor(cycle, motion, options.tolerance), motion);
-  }
-  result.small_amplitude_work = small_amplitude_work(law, settled_curvature, motion);
-  return result;
+DampingResult relaxation_damping(const ContactLaw& law, const Position& position,
+                                 const TwoFrequencies& motion, const DampingOptions& options) {
+  return damping_of(law, position, kernel_of(motion), options);
 }
 
 std::vector<DampingResult> relaxation_damping(const ContactLaw& law,
@@ -261,7 +282,7 @@ std::vector<DampingResult> relaxation_damping(const ContactLaw& law,
 DampingResult relaxation_damping_force_controlled(const ContactLaw& law, double mean_force,
                                                   double force_amplitude, const Oscillation& motion,
                                                   const DampingOptions& options) {
-  check(with_normal_amplitude(motion, 0), options);
+  check(options);
   require_positive(mean_force, "force");
   require(force_amplitude >= 0 && force_amplitude <= mean_force, "force_amplitude", force_amplitude,
           "must lie between 0 and the mean force");
@@ -273,10 +294,11 @@ DampingResult relaxation_damping_force_controlled(const ContactLaw& law, double 
   DampingResult result;
   set_state(result, law, law.indentation_of(mean_force));
   result.mean_force = mean_force;
-  const Oscillation equivalent =
-      with_normal_amplitude(motion, force_amplitude / result.normal_stiffness);
+  Kernel kernel = kernel_of(motion);
+  kernel.normal_amplitude = force_amplitude / result.normal_stiffness;
+  const double small_factor = small_amplitude_factor(law, result.curvature, kernel);
   if (options.amplitude == Amplitude::small) {
-    set_small_amplitude_work(result, law, result.curvature, equivalent);
+    set_work(result, {small_factor, 0, true}, kernel);
   } else {
     const NormalCycle cycle{
         [&](double angle) {
@@ -288,9 +310,9 @@ DampingResult relaxation_damping_force_controlled(const ContactLaw& law, double 
         stiffness_at(mean_force),
         stiffness_at(mean_force - force_amplitude),
         stiffness_at(mean_force + force_amplitude)};
-    set_work(result, work_factor(cycle, motion, options.tolerance), motion);
+    set_work(result, work_factor(cycle, kernel, options.tolerance), kernel);
   }
-  result.small_amplitude_work = small_amplitude_work(law, result.curvature, equivalent);
+  result.small_amplitude_work = small_factor * kernel.square_velocity;
   return result;
 }
 

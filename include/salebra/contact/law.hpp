@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <salebra/contact/force_curve.hpp>
+#include <vector>
 
 namespace salebra {
 
@@ -27,6 +28,10 @@ class ContactLaw {
   /// Inverse of force(): δ with F(δ) = force > 0. Throws InvalidInput where the law does not reach that force.
   virtual double indentation_of(double force) const = 0;
 
+  /// Indentations at which F, K, K_t or one of their first derivatives jumps, increasing, as far as the law knows them: quadratures over δ
+  /// converge fast between them.
+  virtual std::vector<double> break_points() const;
+
   double modulus_ratio() const { return modulus_ratio_; }
 
  private:
@@ -41,6 +46,7 @@ class PowerLaw final : public ContactLaw {
   double normal_stiffness(double indentation) const override;
   double curvature(double indentation) const override;
   double indentation_of(double force) const override;
+  std::vector<double> break_points() const override;  ///< first touch
   double coefficient() const { return coefficient_; }
   double exponent() const { return exponent_; }
 
@@ -81,6 +87,7 @@ class TabulatedLaw final : public ContactLaw {
   double lowest_indentation() const override;
   double highest_indentation() const override;
   double indentation_of(double force) const override;
+  std::vector<double> break_points() const override;  ///< the samples
 
  private:
   struct Splines;

@@ -68,6 +68,13 @@ struct DampingResult {
 DampingResult relaxation_damping(const ContactLaw& law, const Position& position,
                                  const Oscillation& motion, const DampingOptions& options = {});
 
+/// Two frequencies, W over their common period of p normal cycles,
+///     W = 2u_x² S r ∫_0^π sin(2rθ) [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ,
+/// r = ω_x/ω_z and S as closed_form::frequency_ratio_phase_sum. Without a common period work_per_cycle is NaN and power is the mean power, with
+/// S/p = 1/2; small_amplitude_work and error_estimate are then means per normal cycle.
+DampingResult relaxation_damping(const ContactLaw& law, const Position& position,
+                                 const TwoFrequencies& motion, const DampingOptions& options = {});
+
 /// One case of a damping curve: over force, amplitude, frequency, velocity or phase.
 struct DampingCase {
   Position position;

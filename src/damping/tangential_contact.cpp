@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/damping/tangential_contact.hpp>
+#include <sstream>
+#include <vector>
+
+#include "stiffness_table.hpp"
+
+namespace salebra {
+namespace {
+
+// Stiffness, relative to the whole contact, below which levels may be left out.
+constexpr double negligible = 1e-15;
+
+using Moments = detail::StiffnessTable::Moments;
+
+// A quantity that is linear in the level ζ between two ends of a range.
+struct Linear {
+  double low, high;
+};
+
+// ∫K_t' v w dζ over a range of the given width.
+double integral(const Moments& moments, double width, Linear v, Linear w) {
+  if (!(width > 0)) return 0;
+  const double v_slope = (v.high - v.low) / width, w_slope = (w.high - w.low) / width;
+  return v.low * w.low * moments.zeroth + (v.low * w_slope + w.low * v_slope) * moments.first +
+         v_slope * w_slope * moments.second;
+}
+
+}  // namespace
+
+struct TangentialContact::State {
+  // x0 between the piece below and `top`, and the integrals over all levels up to `top`.
+  struct Piece {
+    double top;
+    Linear anchor;
+    double first_integral;   // ∫K_t' x0 dζ
+    double second_integral;  // ∫K_t' x0² dζ
+    double deviation;        // bound of what merging has changed in x0
+  };
+
+  State(const ContactLaw& law, double low, double high, double lowest_of_motion,
+        const TangentialContactOptions& given)
+      : table(law, low, high, given.table_tolerance),
+        permanent_below(lowest_of_motion),
+        permanent_stiffness(law.tangential_stiffness(lowest_of_motion)),
+        slope_limit(given.friction / law.modulus_ratio()),
+        merge_tolerance(given.merge_tolerance),
+        slack(1e-9 * (high - lowest_of_motion) + 1e-15 * std::abs(high)) {}
+
+  double within_range(double level) const {
+    require(level >= permanent_below - slack && level <= table.highest() + slack, "indentation",
+            level, "leaves the range that the contact was made for");
+    return std::clamp(level, permanent_below, table.highest());
+  }
+
+  double bottom() const {
+    return pieces.size() > 1 ? pieces[pieces.size() - 2].top : table.lowest();
+  }
+  double anchor_at(double level) const {
+    const Piece& piece = pieces.back();
+    const double low = bottom();
+    // Exact at both ends, so that pieces join without a step.
+    if (level >= piece.top) return piece.anchor.high;
+    if (level <= low) return piece.anchor.low;
+    return piece.anchor.low +
+           (piece.anchor.high - piece.anchor.low) * ((level - low) / (piece.top - low));
+  }
+
+  void push(double top, Linear anchor, double deviation = 0) {
+    const double low = pieces.empty() ? table.lowest() : pieces.back().top;
+    if (!(top > low)) return;
+    const Moments moments = table.moments(low, top);
+    const double first = integral(moments, top - low, anchor, {1, 1});
+    const double second = integral(moments, top - low, anchor, anchor);
+    const bool empty = pieces.empty();
+    pieces.push_back({top, anchor, (empty ? 0 : pieces.back().first_integral) + first,
+                      (empty ? 0 : pieces.back().second_integral) + second, deviation});
+  }
+
+  // Takes levels >= `level` off the topmost piece, or all of it; `moments` are those of what is taken off.
+  void cut(double level, const Moments& moments, Linear removed) {
+    Piece& piece = pieces.back();
+    const double low = bottom(), width = piece.top - level;
+    if (level <= low) {
+      pieces.pop_back();
+      return;
+    }
+    piece.first_integral -= integral(moments, width, removed, {1, 1});
+    piece.second_integral -= integral(moments, width, removed, removed);
+    piece.anchor.high = removed.low;
+    piece.top = level;
+  }
+
+  // ∫K_t' v w dζ over [low, high] into the two sums of dissipated energy.
+  void lose(double low, double high, const Moments& moments, Linear v, Linear w) {
+    const double loss = integral(moments, high - low, v, w);
+    dissipated += loss;
+    if (low >= permanent_below) return;
+    if (high <= permanent_below) {
+      permanent += loss;
+      return;
+    }
+    const double width = permanent_below - low, fraction = width / (high - low);
+    permanent += integral(table.moments(low, permanent_below), width,
+                          {v.low, v.low + fraction * (v.high - v.low)},
+                          {w.low, w.low + fraction * (w.high - w.low)});
+  }
+
+  // Lets go of the levels above new_indentation. A stretch s at the end is worth ½K_t's² without slip; with finite friction the level has slipped
+  // before, while the normal load left it and the motion pulled it, and the first share of that work remains.
+  void release(double new_indentation, double new_x) {
+    const double descent = indentation - new_indentation, travel = new_x - x;
+    auto position = [&](double level) { return x + (indentation - level) / descent * travel; };
+    auto share = [&](double stretch) {
+      if (std::isinf(slope_limit)) return 1.0;
+      const double retreat = slope_limit * descent;
+      const double pull = stretch > 0 ? retreat + travel : retreat - travel;
+      return pull > 0 ? retreat / pull : 0.0;
+    };
+    while (!pieces.empty() && pieces.back().top > new_indentation) {
+      const double high = pieces.back().top, low = std::max(bottom(), new_indentation);
+      const Linear removed{anchor_at(low), anchor_at(high)};
+      const Linear stretch{position(low) - removed.low, position(high) - removed.high};
+      const Moments moments = table.moments(low, high);
+      const bool turns = !std::isinf(slope_limit) && (stretch.low > 0) != (stretch.high > 0) &&
+                         stretch.low != 0 && stretch.high != 0;
+      if (turns) {
+        const double zero = low + (high - low) * stretch.low / (stretch.low - stretch.high);
+        lose(low, zero, table.moments(low, zero), {0.5 * share(stretch.low) * stretch.low, 0},
+             {stretch.low, 0});
+        lose(zero, high, table.moments(zero, high), {0, 0.5 * share(stretch.high) * stretch.high},
+             {0, stretch.high});
+      } else {
+        const double factor = 0.5 * share(stretch.low != 0 ? stretch.low : stretch.high);
+        lose(low, high, moments, {factor * stretch.low, factor * stretch.high}, stretch);
+      }
+      cut(low, moments, removed);
+    }
+  }
+
+  void touch(double new_indentation, double new_x) {
+    if (merge_tolerance > 0 && !pieces.empty() && pieces.back().anchor.high == x) {
+      const Piece& last = pieces.back();
+      const double low = bottom();
+      const double chord = last.anchor.low +
+                           (new_x - last.anchor.low) * ((last.top - low) / (new_indentation - low));
+      const double deviation = last.deviation + std::abs(chord - x);
+      if (deviation <= merge_tolerance) {
+        const Linear merged{last.anchor.low, new_x};
+        pieces.pop_back();
+        push(new_indentation, merged, deviation);
+        return;
+      }
+    }
+    push(new_indentation, {x, new_x});
+  }
+
+  // Forward (side = 1) slip: x0 is raised to x − slope_limit(δ − ζ) where it lies below. Backward slip is its mirror image.
+  // The anchor of a level moves with the bound from when they meet to the end of the step, during which the stretch is
+  // slope_limit(δ(t) − ζ) and δ changes in proportion to the bound.
+  void slip(double side, double new_indentation, double new_x) {
+    const double climb = new_indentation - indentation;
+    const double advance = side * (new_x - x) - slope_limit * climb;
+    if (!(advance > 0)) return;
+    auto bound = [&](double level) {
+      return side * new_x - slope_limit * (new_indentation - level);
+    };
+    double reach = new_indentation;
+    double reach_bound = bound(reach);
+    while (!pieces.empty()) {
+      const double high = pieces.back().top;
+      double low = bottom();
+      Linear removed{anchor_at(low), anchor_at(high)};
+      Linear slipped{bound(low) - side * removed.low, bound(high) - side * removed.high};
+      // At the top level both are x up to round-off.
+      if (slipped.low <= 0 && slipped.high <= 0) break;
+      if (slipped.low < 0) {
+        low += (high - low) * slipped.low / (slipped.low - slipped.high);
+        removed.low = anchor_at(low);
+        slipped.low = 0;
+      }
+      const Moments moments = table.moments(low, high);
+      const Linear stretch{slope_limit * (new_indentation - low),
+                           slope_limit * (new_indentation - high)};
+      const double lead = 0.5 * slope_limit * climb / advance;
+      lose(low, high, moments,
+           {stretch.low - lead * slipped.low, stretch.high - lead * slipped.high}, slipped);
+      reach = low, reach_bound = bound(low);
+      const bool partial = low > bottom();
+      cut(low, moments, removed);
+      if (partial) break;
+    }
+    if (reach <= table.lowest() && table.core() > negligible * table.at(table.highest()))
+      throw InvalidInput(
+          "friction: slip reaches indentation levels below the range of the law; extend the curve "
+          "to lower forces, raise the friction or reduce the motion");
+    push(new_indentation, {side * reach_bound, new_x});
+  }
+
+  detail::StiffnessTable table;
+  double permanent_below, permanent_stiffness, slope_limit, merge_tolerance, slack;
+  std::vector<Piece> pieces;
+  double indentation = 0, x = 0, origin = 0;  // x counts from the origin
+  double dissipated = 0, permanent = 0;
+};
+
+TangentialContact::TangentialContact(const ContactLaw& law, double lowest, double highest,
+                                     const TangentialContactOptions& options) {
+  require(std::isfinite(lowest) && std::isfinite(highest) && lowest <= highest, "indentation",
+          lowest, "and the highest of the motion must be finite and in this order");
+  require(options.friction >= 0, "friction", options.friction,
+          "must be >= 0 (infinity: full stick)");
+  require(options.merge_tolerance >= 0, "merge_tolerance", options.merge_tolerance, "must be >= 0");
+  require(options.table_tolerance >= 1e-14 && options.table_tolerance <= 1e-3, "table_tolerance",
+          options.table_tolerance, "must lie between 1e-14 and 1e-3");
+  const double law_low = law.lowest_indentation(), law_high = law.highest_indentation();
+  if (!(lowest >= law_low && highest <= law_high)) {
+    std::ostringstream constraint;
+    constraint.precision(9);
+    constraint << "m to " << highest << " m is where the motion goes, but the law covers ["
+               << law_low << ", " << law_high << "] m; reduce the motion or extend the curve";
+    require(false, "indentation", lowest, constraint.str());
+  }
+  double low = lowest;
+  if (std::isfinite(options.friction)) {
+    require(std::isfinite(options.tangential_range) && options.tangential_range >= 0,
+            "tangential_range", options.tangential_range, "must be finite and >= 0");
+    // A level deeper than this is never stretched to its limit.
+    const double reach = options.friction > 0 ? 1.001 * options.tangential_range *
+                                                    law.modulus_ratio() / options.friction
+                                              : std::numeric_limits<double>::infinity();
+    low = std::max(lowest - reach, law_low);
+    // Below first touch there is nothing; without friction, or with little, the reach has no other bound.
+    if (!(law.force(low) > 0) || !std::isfinite(low)) {
+      double open = low, closed = highest;
+      if (!std::isfinite(open))
+        for (double step = std::max(highest - lowest, 1e-12);; step *= 2) {
+          open = lowest - step;
+          if (!(law.tangential_stiffness(open) > negligible * law.tangential_stiffness(highest)))
+            break;
+        }
+      if (!(law.force(open) > 0) && law.force(closed) > 0)
+        for (int halving = 0; halving < 200; ++halving) {
+          const double middle = 0.5 * (open + closed);
+          (law.force(middle) > 0 ? closed : open) = middle;
+        }
+      low = std::min(open, lowest);
+    }
+  }
+  state_ = std::make_unique<State>(law, low, highest, lowest, options);
+}
+
+TangentialContact::TangentialContact(TangentialContact&&) noexcept = default;
+TangentialContact& TangentialContact::operator=(TangentialContact&&) noexcept = default;
+TangentialContact::~TangentialContact() = default;
+
+void TangentialContact::start(double indentation, double x) {
+  State& s = *state_;
+  require(std::isfinite(x), "displacement", x, "must be finite");
+  s.pieces.clear();
+  s.origin = x;
+  s.indentation = s.within_range(indentation), s.x = 0;
+  s.dissipated = s.permanent = 0;
+  s.push(s.indentation, {0, 0});
+}
+
+void TangentialContact::move_to(double indentation, double x) {
+  State& s = *state_;
+  indentation = s.within_range(indentation);
+  require(std::isfinite(x), "displacement", x, "must be finite");
+  x -= s.origin;
+  if (indentation < s.indentation) s.release(indentation, x);
+  if (indentation > s.indentation) s.touch(indentation, x);
+  if (std::isfinite(s.slope_limit)) {
+    s.slip(1, indentation, x);
+    s.slip(-1, indentation, x);
+  }
+  s.indentation = indentation, s.x = x;
+}
+
+double TangentialContact::tangential_force() const {
+  const State& s = *state_;
+  const double anchored = s.pieces.empty() ? 0 : s.pieces.back().first_integral;
+  return (s.table.core() + s.table.at(s.indentation)) * s.x - anchored;
+}
+
+double TangentialContact::stored_energy() const {
+  const State& s = *state_;
+  const bool empty = s.pieces.empty();
+  const double first = empty ? 0 : s.pieces.back().first_integral;
+  const double second = empty ? 0 : s.pieces.back().second_integral;
+  return 0.5 *
+         ((s.table.core() + s.table.at(s.indentation)) * s.x * s.x - 2 * s.x * first + second);
+}
+
+double TangentialContact::dissipated() const { return state_->dissipated; }
+
+double TangentialContact::dissipated_in_permanent_contact() const { return state_->permanent; }
+
+double TangentialContact::external_work() const { return stored_energy() + dissipated(); }
+
+double TangentialContact::permanent_stiffness() const { return state_->permanent_stiffness; }
+
+std::size_t TangentialContact::memory() const { return state_->pieces.size(); }
+
+}  // namespace salebra

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/damping/trajectory_damping.hpp>
+
+namespace salebra {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+// Time means over one period of quantities that are straight between the samples.
+double mean_product(const Trajectory& path, const std::vector<double>& a,
+                    const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t i = 1; i < path.time.size(); ++i) {
+    const double same = a[i - 1] * b[i - 1] + a[i] * b[i];
+    const double cross = a[i - 1] * b[i] + a[i] * b[i - 1];
+    sum += (path.time[i] - path.time[i - 1]) * (2 * same + cross) / 6;
+  }
+  return sum / path.period();
+}
+
+void set_means(TrajectoryDamping& result, const Trajectory& path, bool drifts) {
+  double square_velocity = 0;
+  for (std::size_t i = 1; i < path.time.size(); ++i) {
+    const double step = path.displacement[i] - path.displacement[i - 1];
+    square_velocity += step * step / (path.time[i] - path.time[i - 1]);
+  }
+  square_velocity /= path.period();
+  result.power = result.work_per_cycle / path.period();
+  result.damping_constant = square_velocity > 0 ? result.power / square_velocity : unknown;
+  result.storage_stiffness = result.loss_factor = unknown;
+  if (drifts) return;
+  const std::vector<double> ones(path.time.size(), 1);
+  std::vector<double> x = path.displacement;
+  const double mean = mean_product(path, x, ones);
+  for (double& value : x) value -= mean;
+  const double variance = mean_product(path, x, x);
+  if (!(variance > 0)) return;
+  result.storage_stiffness = mean_product(path, result.tangential_force, x) / variance;
+  result.loss_factor =
+      result.work_per_cycle / (2 * std::numbers::pi * result.storage_stiffness * variance);
+}
+
+}  // namespace
+
+TrajectoryDamping trajectory_damping(const ContactLaw& law, const Trajectory& path,
+                                     const TrajectoryDampingOptions& options) {
+  path.validate();
+  require(options.max_periods >= 2, "max_periods", options.max_periods, "must be >= 2");
+  const auto [low_x, high_x] = std::ranges::minmax(path.displacement);
+  const bool stick = std::isinf(options.friction);
+  // A closed path may end where it began only to round-off.
+  const bool drifts = std::abs(path.drift()) > 1e-9 * (high_x - low_x);
+  const double drift = drifts ? path.drift() : 0;
+  const int periods = stick ? 1 : drifts ? options.max_periods : 2;
+
+  const std::size_t count = path.time.size() - 1;
+  const auto bottom = std::ranges::min_element(path.indentation);
+  const std::size_t first = static_cast<std::size_t>(bottom - path.indentation.begin()) % count;
+  TangentialContact contact(
+      law, *bottom, std::ranges::max(path.indentation),
+      {.friction = options.friction,
+       .tangential_range = (high_x - low_x) + std::abs(drift) * (periods + 1)});
+
+  // From the lowest point, where every level that ever opens is open: no history is missing.
+  TrajectoryDamping result;
+  result.tangential_force.resize(count + 1);
+  result.dissipated.resize(count + 1);
+  contact.start(path.indentation[first], path.displacement[first]);
+  const double origin = path.displacement[first];
+  std::vector<double> force(count), lost(count);
+  double previous = unknown;
+  for (int period = 0; period < periods; ++period) {
+    const double lost_before = contact.dissipated();
+    const double slip_before = contact.dissipated_in_permanent_contact();
+    double x = origin;
+    for (std::size_t step = 0; step < count; ++step) {
+      const std::size_t at = (first + step) % count;
+      force[at] = contact.tangential_force();
+      // In full stick the permanent levels are one spring that a drift stretches for ever.
+      if (drifts && stick) force[at] -= contact.permanent_stiffness() * (x - origin);
+      lost[at] = contact.dissipated() - lost_before;
+      const bool wrapped = first + step >= count;
+      x = path.displacement[at + 1] + drift * (period + (wrapped ? 1 : 0));
+      contact.move_to(path.indentation[at + 1], x);
+      result.memory = std::max(result.memory, contact.memory());
+    }
+    result.work_per_cycle = contact.dissipated() - lost_before;
+    result.slip_work = contact.dissipated_in_permanent_contact() - slip_before;
+    result.periods = period + 1;
+    const double change = std::abs(result.work_per_cycle - previous);
+    result.converged = stick || change <= 1e-10 * std::abs(result.work_per_cycle);
+    previous = result.work_per_cycle;
+    if (drifts && result.converged) break;
+  }
+  // Friction without drift is steady from its second period, which is the last; where the first already lost the same or not is no matter.
+  if (!drifts) result.converged = true;
+  result.relaxation_work = result.work_per_cycle - result.slip_work;
+
+  for (std::size_t i = 0; i < count; ++i) {
+    result.tangential_force[i] = force[i];
+    // The period was followed from the lowest point; its first samples came last.
+    const bool came_first = first > 0 && i >= first;
+    result.dissipated[i] = lost[i] - lost[0] + (came_first ? result.work_per_cycle : 0);
+  }
+  result.tangential_force[count] = force[0];
+  result.dissipated[count] = result.work_per_cycle;
+  set_means(result, path, drifts);
+  return result;
+}
+
+}  // namespace salebra

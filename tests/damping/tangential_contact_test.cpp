@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <salebra/base/error.hpp>
+#include <salebra/damping/tangential_contact.hpp>
+#include <vector>
+
+#include "spring_foundation.hpp"
+
+using namespace salebra;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double ratio = 0.8;
+
+struct Point {
+  double indentation, x;
+};
+
+// A wild path: turning points at all depths, horizontal and vertical steps among them.
+std::vector<Point> wild_path(double low, double high, double reach, int count) {
+  std::mt19937_64 bits(7);
+  auto uniform = [&] { return static_cast<double>(bits() >> 11) * 0x1p-53; };
+  std::vector<Point> path{{low, 0}};
+  for (int i = 1; i < count; ++i) {
+    Point next{low + (high - low) * uniform(), reach * (2 * uniform() - 1)};
+    if (i % 7 == 0) next.indentation = path.back().indentation;
+    if (i % 11 == 0) next.x = path.back().x;
+    if (i % 40 == 0) next.indentation = low;
+    path.push_back(next);
+  }
+  return path;
+}
+
+// Springs with the friction limit, moved in small substeps: first order in the substep.
+class FrictionSprings {
+ public:
+  FrictionSprings(const ContactLaw& law, double lowest, double highest, int levels, double friction)
+      : limit_(friction / law.modulus_ratio()) {
+    const double step = (highest - lowest) / levels;
+    for (int i = 0; i < levels; ++i)
+      springs_.push_back({lowest + (i + 0.5) * step,
+                          law.tangential_stiffness(lowest + (i + 1) * step) -
+                              law.tangential_stiffness(lowest + i * step),
+                          0});
+  }
+  void start(double indentation, double x) {
+    indentation_ = indentation, x_ = x;
+    lost_ = 0;
+    for (Spring& spring : springs_) spring.anchor = x;
+  }
+  void move_to(double indentation, double x, int substeps) {
+    const Point from{indentation_, x_};
+    for (int i = 1; i <= substeps; ++i) {
+      const double part = static_cast<double>(i) / substeps;
+      indentation_ = from.indentation + part * (indentation - from.indentation);
+      x_ = from.x + part * (x - from.x);
+      for (Spring& spring : springs_) {
+        const double room = std::max(0.0, limit_ * (indentation_ - spring.level));
+        const double anchor = std::clamp(spring.anchor, x_ - room, x_ + room);
+        // A level that opens keeps its anchor with the indenter; what it loses then is 0.
+        const double before = x_ - spring.anchor, after = x_ - anchor;
+        lost_ += 0.5 * spring.stiffness * (before + after) * (anchor - spring.anchor) *
+                 (indentation_ > spring.level ? 1 : 0);
+        if (indentation_ <= spring.level && room == 0 && spring.touched)
+          lost_ += 0.5 * spring.stiffness * before * before;
+        spring.touched = indentation_ > spring.level;
+        spring.anchor = anchor;
+      }
+    }
+  }
+  double lost() const { return lost_; }
+  double force() const {
+    double force = 0;
+    for (const Spring& spring : springs_)
+      if (indentation_ > spring.level) force += spring.stiffness * (x_ - spring.anchor);
+    return force;
+  }
+
+ private:
+  struct Spring {
+    double level, stiffness, anchor;
+    bool touched = false;
+  };
+  std::vector<Spring> springs_;
+  double limit_, indentation_ = 0, x_ = 0, lost_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("Along any path the stack of turning points is the spring foundation", "[tangential]") {
+  const double low = 2e-7, high = 1e-6, reach = 3e-7;
+  const PowerLaw law(1e9, GENERATE(1.5, 2.0, 3.0), ratio);
+  const auto path = wild_path(low, high, reach, 200);
+  TangentialContact contact(law, low, high);
+  contact.start(low, 0);
+  auto worst = [&](int levels) {
+    salebra_test::SpringFoundation springs(law, low, high, levels);
+    springs.start(low, 0);
+    contact.start(low, 0);
+    double error = 0;
+    for (const Point& point : path) {
+      springs.move_to(point.indentation, point.x);
+      contact.move_to(point.indentation, point.x);
+      error = std::max({error,
+                        std::abs(springs.force() - contact.tangential_force()) /
+                            (law.tangential_stiffness(high) * reach),
+                        std::abs(springs.released() - contact.dissipated()) / springs.work(),
+                        std::abs(springs.stored() - contact.stored_energy()) / springs.work(),
+                        std::abs(springs.work() - contact.external_work()) / springs.work()});
+    }
+    return error;
+  };
+  // A step of the path cuts a spring's step of levels at random: first order for the force, and the constants scatter.
+  const double coarse = worst(500), fine = worst(8000);
+  CHECK(fine < 5e-4);
+  CHECK(fine < coarse / 4);
+}
+
+TEST_CASE("What is put in by F_x is stored or lost", "[tangential]") {
+  const double low = 1e-7, high = 1e-6;
+  const ExponentialLaw law(1, 2e-7, ratio);
+  const double friction = GENERATE(0.1, 0.5, 1e9, INFINITY);
+  TangentialContact contact(law, low, high, {.friction = friction, .tangential_range = 6e-7});
+  const auto path = wild_path(low, high, 3e-7, 60);
+  contact.start(low, 0);
+  double work = 0, turnover = 0;
+  const int substeps = 400;
+  for (std::size_t i = 1; i < path.size(); ++i)
+    for (int j = 1; j <= substeps; ++j) {
+      const double part = static_cast<double>(j) / substeps;
+      const double before = contact.tangential_force();
+      contact.move_to(
+          path[i - 1].indentation + part * (path[i].indentation - path[i - 1].indentation),
+          path[i - 1].x + part * (path[i].x - path[i - 1].x));
+      const double step =
+          0.5 * (before + contact.tangential_force()) * (path[i].x - path[i - 1].x) / substeps;
+      work += step;
+      turnover += std::abs(step);
+    }
+  // Trapezoidal rule on a smooth force with kinks: (1/400)² and a little.
+  CHECK(contact.external_work() == Approx(work).margin(2e-5 * turnover));
+  CHECK(contact.dissipated() > 0.01 * turnover);
+}
+
+TEST_CASE("Straight steps may be cut anywhere", "[tangential]") {
+  const double low = 1e-7, high = 1e-6;
+  const PowerLaw law(1e9, 1.5, ratio);
+  const double friction = GENERATE(0.2, 1.5, INFINITY);
+  const TangentialContactOptions options{.friction = friction, .tangential_range = 6e-7};
+  TangentialContact whole(law, low, high, options), pieces(law, low, high, options);
+  const auto path = wild_path(low, high, 3e-7, 120);
+  whole.start(low, 0), pieces.start(low, 0);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    whole.move_to(path[i].indentation, path[i].x);
+    for (int j = 1; j <= 13; ++j) {
+      const double part = j / 13.0;
+      pieces.move_to(
+          path[i - 1].indentation + part * (path[i].indentation - path[i - 1].indentation),
+          path[i - 1].x + part * (path[i].x - path[i - 1].x));
+    }
+  }
+  CHECK(pieces.dissipated() == Approx(whole.dissipated()).epsilon(1e-9));
+  CHECK(pieces.dissipated_in_permanent_contact() ==
+        Approx(whole.dissipated_in_permanent_contact()).epsilon(1e-9).margin(1e-30));
+  CHECK(pieces.tangential_force() ==
+        Approx(whole.tangential_force()).margin(1e-9 * law.tangential_stiffness(high) * 3e-7));
+}
+
+TEST_CASE("The memory holds one descent, not the past", "[tangential]") {
+  const PowerLaw law(1e9, 1.5, ratio);
+  const double middle = 1e-6, amplitude = 5e-7;
+  auto memory_after = [&](int cycles, int steps, double merge_tolerance) {
+    TangentialContact contact(law, middle - amplitude, middle + amplitude,
+                              {.merge_tolerance = merge_tolerance});
+    contact.start(middle - amplitude, 0);
+    std::size_t most = 0;
+    double lost = 0;
+    for (int i = 1; i <= cycles * steps; ++i) {
+      const double angle = 2 * pi * (i % steps) / steps;
+      contact.move_to(middle - amplitude * std::cos(angle), 2e-7 * std::sin(angle + 0.3));
+      most = std::max(most, contact.memory());
+      lost = contact.dissipated();
+    }
+    return std::pair{most, lost / cycles};
+  };
+  CHECK(memory_after(20, 200, 0).first == memory_after(2, 200, 0).first);
+  CHECK(memory_after(2, 200, 0).first <= 102);
+  // 100 times the steps: without merging 100 times the memory, with it the same, and W changes by the tolerance at most.
+  const auto [merged, merged_loss] = memory_after(2, 20000, 1e-13);
+  const auto [kept, kept_loss] = memory_after(2, 20000, 0);
+  CHECK(kept > 9000);
+  CHECK(merged < kept / 2);
+  CHECK(memory_after(2, 80000, 1e-13).first < 1.2 * static_cast<double>(merged));
+  CHECK(merged_loss == Approx(kept_loss).epsilon(1e-6));
+}
+
+TEST_CASE("Cattaneo–Mindlin: force, stick and the loop of a paraboloid", "[tangential]") {
+  const double indentation = 1e-6, friction = 0.4, coefficient = 1e9;
+  const PowerLaw law(coefficient, 1.5, ratio);
+  // Gross sliding begins at x = μE*δ/G*.
+  const double sliding = friction / ratio * indentation, limit = friction * law.force(indentation);
+  TangentialContact contact(law, indentation, indentation,
+                            {.friction = friction, .tangential_range = 2 * sliding});
+  auto exact = [&](double x) { return limit * (1 - std::pow(1 - x / sliding, 1.5)); };
+  contact.start(indentation, 0);
+  for (const double part : {0.1, 0.37, 0.8, 0.99}) {
+    contact.move_to(indentation, part * sliding);
+    CHECK(contact.tangential_force() == Approx(exact(part * sliding)).epsilon(1e-9));
+  }
+  contact.move_to(indentation, 1.5 * sliding);
+  CHECK(contact.tangential_force() == Approx(limit).epsilon(1e-10));
+
+  // The loop between ±x by Masing's rule: 8∫_0^x F dx − 4xF(x).
+  const double part = GENERATE(0.2, 0.7, 1.0), x = part * sliding;
+  const double primitive = limit * (x - sliding * 0.4 * (1 - std::pow(1 - part, 2.5)));
+  contact.start(indentation, 0);
+  contact.move_to(indentation, x);
+  const double before = contact.dissipated();
+  contact.move_to(indentation, -x);
+  CHECK(contact.tangential_force() == Approx(-exact(x)).epsilon(1e-9));
+  contact.move_to(indentation, x);
+  CHECK(contact.dissipated() - before == Approx(8 * primitive - 4 * x * exact(x)).epsilon(1e-8));
+  CHECK(contact.dissipated_in_permanent_contact() == Approx(contact.dissipated()).epsilon(1e-12));
+}
+
+TEST_CASE("Varying normal force: the friction stack is springs with a limit", "[tangential]") {
+  const double low = 2e-7, high = 1e-6, friction = GENERATE(0.1, 0.4, 2.0);
+  const PowerLaw law(1e9, 1.5, ratio);
+  const auto path = wild_path(low, high, 3e-7, 40);
+  TangentialContact contact(law, low, high, {.friction = friction, .tangential_range = 6e-7});
+  contact.start(low, 0);
+  for (std::size_t i = 1; i < path.size(); ++i) contact.move_to(path[i].indentation, path[i].x);
+  struct Outcome {
+    double lost, force;
+  };
+  auto springs_with = [&](int levels) {
+    FrictionSprings springs(law, 0, high, levels, friction);
+    springs.start(low, 0);
+    for (std::size_t i = 1; i < path.size(); ++i)
+      springs.move_to(path[i].indentation, path[i].x, levels / 2);
+    return Outcome{
+        springs.lost() / contact.dissipated() - 1,
+        (springs.force() - contact.tangential_force()) / (law.tangential_stiffness(high) * 3e-7)};
+  };
+  const Outcome coarse = springs_with(200), fine = springs_with(400);
+  CHECK(std::abs(fine.force) < 1e-2);
+  // First order in level and substep: what halving both leaves is twice as small, and the extrapolation to 0 is of second order.
+  CHECK(coarse.lost / fine.lost == Approx(2).margin(0.1));
+  CHECK(2 * fine.lost - coarse.lost == Approx(0).margin(5e-4));
+  CHECK(2 * fine.force - coarse.force == Approx(0).margin(5e-4));
+}
+
+TEST_CASE("A contact refuses motion that it was not made for", "[tangential]") {
+  const PowerLaw law(1e9, 1.5, ratio);
+  TangentialContact contact(law, 1e-7, 1e-6);
+  contact.start(1e-7, 0);
+  CHECK_THROWS_WITH(contact.move_to(2e-6, 0), Catch::Contains("indentation"));
+  CHECK_THROWS_AS(contact.move_to(1e-8, 0), InvalidInput);
+  CHECK_THROWS_AS(contact.move_to(std::nan(""), 0), InvalidInput);
+  CHECK_THROWS_AS(contact.move_to(5e-7, INFINITY), InvalidInput);
+  CHECK_THROWS_WITH(TangentialContact(law, 0, 1e-6, {.friction = -0.1}),
+                    Catch::Contains("friction"));
+  CHECK_THROWS_AS(TangentialContact(law, 1e-6, 0), InvalidInput);
+  ForceCurve curve;
+  for (int i = 0; i <= 20; ++i)
+    curve.samples.push_back({.indentation = 1e-7 * i, .force = std::exp(0.2 * i)});
+  const TabulatedLaw table(curve, ratio);
+  CHECK_THROWS_WITH(TangentialContact(table, 1e-6, 3e-6), Catch::Contains("law covers"));
+  // Slip below the table's first sample cannot be known.
+  TangentialContact deep(table, 1e-7, 1e-6, {.friction = 0.01, .tangential_range = 2e-6});
+  deep.start(1e-6, 0);
+  CHECK_THROWS_WITH(deep.move_to(1e-6, 1e-6), Catch::Contains("extend the curve"));
+}
