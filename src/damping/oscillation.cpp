@@ -12,10 +12,10 @@ namespace {
 using std::numbers::pi;
 
 // δ = mean − u_z cos θ and x = tangential(θ) for θ = π + ω_z t: the first and last sample are minima of δ.
-Trajectory sample_cycles(double mean, double amplitude, double angular_frequency, int cycles,
-                         int steps, const std::function<double(double)>& tangential) {
+SampledMotion sample_cycles(double mean, double amplitude, double angular_frequency, int cycles,
+                            int steps, const std::function<double(double)>& tangential) {
   require(steps >= 3, "steps", steps, "must be >= 3");
-  Trajectory path;
+  SampledMotion path;
   const int count = cycles * steps;
   for (int i = 0; i <= count; ++i) {
     const double angle = 2 * pi * i / steps;
@@ -40,7 +40,7 @@ CommonPeriod common_period(const TwoFrequencies& motion, int most_cycles) {
   return {};
 }
 
-void Trajectory::validate() const {
+void SampledMotion::validate() const {
   require(time.size() >= 3, "trajectory", time.size(), "samples are too few; give at least 3");
   require(indentation.size() == time.size() && displacement.size() == time.size(), "trajectory",
           time.size(), "times must come with as many indentations and displacements");
@@ -58,7 +58,7 @@ void Trajectory::validate() const {
           "included");
 }
 
-Trajectory sample(const Oscillation& motion, double mean_indentation, int steps) {
+SampledMotion sample(const Oscillation& motion, double mean_indentation, int steps) {
   if (const auto* drag = std::get_if<Drag>(&motion)) {
     require_positive(drag->angular_frequency, "angular_frequency");
     const double speed = drag->drag_velocity / drag->angular_frequency;
@@ -72,7 +72,7 @@ Trajectory sample(const Oscillation& motion, double mean_indentation, int steps)
       [&](double angle) { return equal.tangential_amplitude * std::cos(angle + equal.phase); });
 }
 
-Trajectory sample(const TwoFrequencies& motion, double mean_indentation, int steps) {
+SampledMotion sample(const TwoFrequencies& motion, double mean_indentation, int steps) {
   const CommonPeriod period = common_period(motion);
   require(period.normal_cycles > 0, "tangential_angular_frequency",
           motion.tangential_angular_frequency,

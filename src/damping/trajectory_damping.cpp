@@ -11,7 +11,7 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // Time means over one period of quantities that are straight between the samples.
-double mean_product(const Trajectory& path, const std::vector<double>& a,
+double mean_product(const SampledMotion& path, const std::vector<double>& a,
                     const std::vector<double>& b) {
   double sum = 0;
   for (std::size_t i = 1; i < path.time.size(); ++i) {
@@ -22,7 +22,7 @@ double mean_product(const Trajectory& path, const std::vector<double>& a,
   return sum / path.period();
 }
 
-void set_means(TrajectoryDamping& result, const Trajectory& path, bool drifts) {
+void set_means(TrajectoryDamping& result, const SampledMotion& path, bool drifts) {
   double square_velocity = 0;
   for (std::size_t i = 1; i < path.time.size(); ++i) {
     const double step = path.displacement[i] - path.displacement[i - 1];
@@ -46,7 +46,7 @@ void set_means(TrajectoryDamping& result, const Trajectory& path, bool drifts) {
 
 }  // namespace
 
-TrajectoryDamping trajectory_damping(const ContactLaw& law, const Trajectory& path,
+TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& path,
                                      const TrajectoryDampingOptions& options) {
   path.validate();
   require(options.max_periods >= 2, "max_periods", options.max_periods, "must be >= 2");

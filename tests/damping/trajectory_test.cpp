@@ -60,9 +60,9 @@ TEST_CASE("The loop's area is the loss, and the mean drag force times v is the p
   const double indentation = 1e-6;
   const PowerLaw law(1e9, 1.5, ratio);
   const auto motion = equal_frequency(4e-7, 0.5);
-  const Trajectory path = sample(motion, indentation, 4000);
+  const SampledMotion path = sample(motion, indentation, 4000);
   const TrajectoryDamping loop = trajectory_damping(law, path);
-  auto force_work = [](const Trajectory& trajectory, const std::vector<double>& force) {
+  auto force_work = [](const SampledMotion& trajectory, const std::vector<double>& force) {
     double work = 0;
     for (std::size_t i = 1; i < force.size(); ++i)
       work += 0.5 * (force[i] + force[i - 1]) *
@@ -75,7 +75,7 @@ TEST_CASE("The loop's area is the loss, and the mean drag force times v is the p
   CHECK(loop.dissipated.back() == loop.work_per_cycle);
   CHECK(std::ranges::is_sorted(loop.dissipated));
 
-  const Trajectory dragged = sample(slow_drag(4e-7), indentation, 4000);
+  const SampledMotion dragged = sample(slow_drag(4e-7), indentation, 4000);
   const TrajectoryDamping drag = trajectory_damping(law, dragged);
   // The permanent core is left out: it is stretched for ever and loses nothing.
   CHECK(force_work(dragged, drag.tangential_force) == Approx(drag.work_per_cycle).epsilon(1e-5));
@@ -85,14 +85,14 @@ TEST_CASE("The loop's area is the loss, and the mean drag force times v is the p
 
 TEST_CASE("A trajectory may begin anywhere in its period", "[trajectory]") {
   const PowerLaw law(1e9, 1.5, ratio);
-  Trajectory path = sample(slow_drag(4e-7), 1e-6, 360);
+  SampledMotion path = sample(slow_drag(4e-7), 1e-6, 360);
   const TrajectoryDamping whole = trajectory_damping(law, path);
   const double friction = 0.3;
   const TrajectoryDamping rubbed = trajectory_damping(
       law, sample(equal_frequency(4e-7, 0.5), 1e-6, 360), {.friction = friction});
   const std::size_t shift = 100, count = path.time.size() - 1;
-  auto rotate = [&](const Trajectory& from) {
-    Trajectory turned;
+  auto rotate = [&](const SampledMotion& from) {
+    SampledMotion turned;
     for (std::size_t i = 0; i <= count; ++i) {
       const std::size_t at = i + shift;
       const bool wraps = at > count;
@@ -182,7 +182,7 @@ TEST_CASE("Finite friction: W(μ)/W(∞) tends to 1 as PHYSICS section 8 says", 
   auto loss = [&](double M, double phase) {
     EqualFrequency motion = equal_frequency(amplitude, phase);
     motion.tangential_amplitude = 1e-8;
-    const Trajectory path = sample(motion, indentation, 4000);
+    const SampledMotion path = sample(motion, indentation, 4000);
     const double friction = M * ratio * motion.tangential_amplitude / amplitude;
     const TrajectoryDamping with = trajectory_damping(law, path, {.friction = friction});
     CHECK(with.converged);
@@ -196,7 +196,7 @@ TEST_CASE("Finite friction: W(μ)/W(∞) tends to 1 as PHYSICS section 8 says", 
 TEST_CASE("Slip and relaxation part as friction grows and as the normal motion dies",
           "[trajectory]") {
   const PowerLaw law(1e9, 1.5, ratio);
-  const Trajectory path = sample(equal_frequency(3e-7, 1.0), 1e-6, 1000);
+  const SampledMotion path = sample(equal_frequency(3e-7, 1.0), 1e-6, 1000);
   const double relaxation = trajectory_damping(law, path).work_per_cycle;
   double last_slip = INFINITY;
   for (const double friction : {0.3, 1.0, 3.0, 1000.0}) {
@@ -229,17 +229,17 @@ TEST_CASE("With friction a drag ends in sliding at μF", "[trajectory]") {
 
 TEST_CASE("Trajectories that are not one period are refused with the reason", "[trajectory]") {
   const PowerLaw law(1e9, 1.5, ratio);
-  const Trajectory good = sample(equal_frequency(3e-7, 1.0), 1e-6, 100);
+  const SampledMotion good = sample(equal_frequency(3e-7, 1.0), 1e-6, 100);
   auto refuse = [&](auto&& spoil, const std::string& reason) {
-    Trajectory bad = good;
+    SampledMotion bad = good;
     spoil(bad);
     CHECK_THROWS_WITH(trajectory_damping(law, bad), Catch::Contains(reason));
   };
-  refuse([](Trajectory& t) { t.indentation.back() += 1e-8; }, "one whole period");
-  refuse([](Trajectory& t) { t.time[5] = t.time[4]; }, "not later");
-  refuse([](Trajectory& t) { t.displacement[5] = NAN; }, "not finite");
-  refuse([](Trajectory& t) { t.displacement.pop_back(); }, "as many");
-  refuse([](Trajectory& t) { t = {{0, 1}, {0, 0}, {0, 0}}; }, "too few");
+  refuse([](SampledMotion& t) { t.indentation.back() += 1e-8; }, "one whole period");
+  refuse([](SampledMotion& t) { t.time[5] = t.time[4]; }, "not later");
+  refuse([](SampledMotion& t) { t.displacement[5] = NAN; }, "not finite");
+  refuse([](SampledMotion& t) { t.displacement.pop_back(); }, "as many");
+  refuse([](SampledMotion& t) { t = {{0, 1}, {0, 0}, {0, 0}}; }, "too few");
   CHECK_THROWS_AS(sample(equal_frequency(3e-7, 1.0), 1e-6, 2), InvalidInput);
   CHECK_THROWS_AS(trajectory_damping(law, good, {.friction = -1}), InvalidInput);
 }

@@ -44,7 +44,7 @@ CommonPeriod common_period(const TwoFrequencies& motion, int most_cycles = 1000)
 
 /// One period of any motion, straight between the samples; the last sample closes the period. δ returns to its first value; x may
 /// have moved on by a drift, which every period repeats (case (b)).
-struct Trajectory {
+struct SampledMotion {
   std::vector<double> time;          ///< s, strictly increasing
   std::vector<double> indentation;   ///< δ, m
   std::vector<double> displacement;  ///< x, m
@@ -57,8 +57,8 @@ struct Trajectory {
 
 /// One period about a mean indentation, `steps` straight steps for each normal cycle, beginning at a minimum of δ. An EqualFrequency
 /// of unknown ω gets a period of 2π s. Throws InvalidInput for TwoFrequencies without a common period.
-Trajectory sample(const Oscillation& motion, double mean_indentation, int steps);
-Trajectory sample(const TwoFrequencies& motion, double mean_indentation, int steps);
+SampledMotion sample(const Oscillation& motion, double mean_indentation, int steps);
+SampledMotion sample(const TwoFrequencies& motion, double mean_indentation, int steps);
 
 /// What stays fixed over a cycle while u_z is finite: the mean indentation, or the mean force (a dead weight).
 enum class Hold { indentation, force };

@@ -40,7 +40,7 @@ struct TrajectoryDamping {
 /// harmonic motion is met at second order in its step.
 /// Throws InvalidInput for a trajectory that is not valid or leaves the law's range, and for friction < 0.
 /// Cost: O(samples · periods).
-TrajectoryDamping trajectory_damping(const ContactLaw& law, const Trajectory& trajectory,
+TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& trajectory,
                                      const TrajectoryDampingOptions& options = {});
 
 }  // namespace salebra
