@@ -7,17 +7,13 @@
 #include <salebra/generators/spectrum.hpp>
 #include <sstream>
 
+#include "radial_moments.hpp"
+
 namespace salebra {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double limit_tolerance = 1e-9;
-
-// ∫_1^ratio t^{exponent−1} dt, without loss of digits as the exponent goes through 0.
-double power_integral(double ratio, double exponent) {
-  const double log_ratio = std::log(ratio);
-  return exponent == 0 ? log_ratio : std::expm1(exponent * log_ratio) / exponent;
-}
 
 void validate(const SelfAffineParameters& p) {
   require(p.hurst > 0 && p.hurst <= 1, "hurst", p.hurst, "must lie in 0 < hurst <= 1");
@@ -56,8 +52,7 @@ SelfAffineSpectrum::SelfAffineSpectrum(const SelfAffineParameters& parameters)
                  : *parameters_.rms_slope * *parameters_.rms_slope / unscaled_integral(2);
 }
 
-double SelfAffineSpectrum::density(double qx, double qy) const {
-  const double q = std::sqrt(qx * qx + qy * qy);
+double SelfAffineSpectrum::radial_density(double q) const {
   if (q < q_long_ * (1 - limit_tolerance) || q > q_short_ * (1 + limit_tolerance)) return 0;
   if (q <= q_rolloff_) return plateau_;
   return plateau_ * std::pow(q / q_rolloff_, -2 * (1 + parameters_.hurst));
@@ -86,15 +81,13 @@ double SelfAffineSpectrum::unscaled_integral(int order) const {
   const double n = order;
   const double flat = (std::pow(q_rolloff_, n + 2) - std::pow(q_long_, n + 2)) / (n + 2);
   const double fractal = std::pow(q_rolloff_, n + 2) *
-                         power_integral(q_short_ / q_rolloff_, n - 2 * parameters_.hurst);
+                         detail::power_integral(q_short_ / q_rolloff_, n - 2 * parameters_.hurst);
   return 2 * pi * (flat + fractal);
 }
 
 SpectralMoments SelfAffineSpectrum::moments() const {
-  // The mean over directions of cos² is 1/2, of cos⁴ 3/8.
-  const double moment2 = plateau_ * unscaled_integral(2) / 2;
-  const double moment4 = plateau_ * unscaled_integral(4) * 3 / 8;
-  return {plateau_ * unscaled_integral(0), moment2, moment2, moment4, moment4};
+  return detail::isotropic_moments(
+      [this](int order) { return plateau_ * unscaled_integral(order); });
 }
 
 std::string SelfAffineSpectrum::description() const {

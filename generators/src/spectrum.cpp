@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
@@ -42,6 +43,10 @@ void Spectrum::require_carried_by(const Grid2D& grid) const {
        << " m; use a larger cell or a shorter short_cutoff";
   require(shortest <= std::max(grid.lx, grid.ly) * (1 + 1e-9), "short_cutoff", shortest,
           size.str());
+}
+
+double IsotropicSpectrum::density(double qx, double qy) const {
+  return radial_density(std::sqrt(qx * qx + qy * qy));
 }
 
 void Spectrum::density_row(Index first, double step_x, double qy,

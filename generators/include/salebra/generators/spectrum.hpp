@@ -39,6 +39,14 @@ class Spectrum {
   void require_carried_by(const Grid2D& grid) const;
 };
 
+/// A spectrum that depends on |q| alone.
+class IsotropicSpectrum : public Spectrum {
+ public:
+  /// C(|q|), m⁴, for |q| > 0 in rad/m.
+  virtual double radial_density(double q) const = 0;
+  double density(double qx, double qy) const final;
+};
+
 /// What defines a self-affine spectrum. Wavelengths λ = 2π/q, m.
 struct SelfAffineParameters {
   double hurst = 0.8;  ///< H, 0 < H <= 1
@@ -57,13 +65,13 @@ struct SelfAffineParameters {
 /// C0 is set so that the *continuum* has the rms height (or slope) asked. It does not depend on the grid, hence long waves are the
 /// same at every resolution; what a given cell has of it, some of the longest waves being left out or counted whole, is
 /// lattice_moments(grid). A wave on a limit belongs to the spectrum, to a relative tolerance of 1e-9 for the rounding of 2π/λ.
-class SelfAffineSpectrum final : public Spectrum {
+class SelfAffineSpectrum final : public IsotropicSpectrum {
  public:
   /// Throws InvalidInput that names the parameter unless 0 < H <= 1, λ_L >= λ_r >= λ_s > 0, one of λ_L and λ_r is given, and exactly
   /// one of rms_height and rms_slope is given and > 0. λ_L > λ_s or a plateau is needed: a spectrum of zero width has no power.
   explicit SelfAffineSpectrum(const SelfAffineParameters& parameters);
 
-  double density(double qx, double qy) const override;
+  double radial_density(double q) const override;
   void density_row(Index first, double step_x, double qy,
                    std::span<double> densities) const override;
   double highest_wavenumber() const override { return q_short_; }

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <salebra/base/spectral_moments.hpp>
+
+namespace salebra::detail {
+
+/// ∫_1^ratio t^{exponent−1} dt, without loss of digits as the exponent goes through 0.
+inline double power_integral(double ratio, double exponent) {
+  const double log_ratio = std::log(ratio);
+  return exponent == 0 ? log_ratio : std::expm1(exponent * log_ratio) / exponent;
+}
+
+/// Moments from integral(order) = ∫|q|^order C d²q: the mean over directions of cos² is 1/2, of cos⁴ 3/8.
+template <class Integral>
+SpectralMoments isotropic_moments(const Integral& integral) {
+  const double moment2 = integral(2) / 2;
+  const double moment4 = integral(4) * 3 / 8;
+  return {integral(0), moment2, moment2, moment4, moment4};
+}
+
+}  // namespace salebra::detail
