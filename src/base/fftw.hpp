@@ -29,6 +29,9 @@ struct Fftw<double> {
   static constexpr auto plan_many_r2c = fftw_plan_many_dft_r2c;
   static constexpr auto plan_many_c2r = fftw_plan_many_dft_c2r;
   static constexpr auto plan_many = fftw_plan_many_dft;
+  static constexpr auto plan_r2c_1d = fftw_plan_dft_r2c_1d;
+  static constexpr auto plan_c2r_1d = fftw_plan_dft_c2r_1d;
+  static constexpr auto plan_1d = fftw_plan_dft_1d;
   static constexpr auto execute_r2c = fftw_execute_dft_r2c;
   static constexpr auto execute_c2r = fftw_execute_dft_c2r;
   static constexpr auto execute = fftw_execute_dft;
@@ -46,6 +49,9 @@ struct Fftw<float> {
   static constexpr auto plan_many_r2c = fftwf_plan_many_dft_r2c;
   static constexpr auto plan_many_c2r = fftwf_plan_many_dft_c2r;
   static constexpr auto plan_many = fftwf_plan_many_dft;
+  static constexpr auto plan_r2c_1d = fftwf_plan_dft_r2c_1d;
+  static constexpr auto plan_c2r_1d = fftwf_plan_dft_c2r_1d;
+  static constexpr auto plan_1d = fftwf_plan_dft_1d;
   static constexpr auto execute_r2c = fftwf_execute_dft_r2c;
   static constexpr auto execute_c2r = fftwf_execute_dft_c2r;
   static constexpr auto execute = fftwf_execute_dft;

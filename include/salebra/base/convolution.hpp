@@ -14,8 +14,8 @@ enum class Parity { even, odd };
 /// Convolution of real fields with real kernels, by one real transform forward and one backward:
 ///     y_a = Σ_b K_ab * x_b,   a, b < components (1 or 2),   K_ab = K_ba.
 /// A field (nx, ny) fills the first points of a period (period_x, period_y) and the rest is zero: with period = n the
-/// convolution is circular, with period >= 2n − 1 it is that of isolated fields. Three passes over memory: rows, then blocks of
-/// columns that stay in cache while they are transformed, multiplied by the symbols and transformed back, then rows.
+/// convolution is circular, with period >= 2n − 1 it is that of isolated fields. Three passes over memory: rows, then columns, each
+/// of which stays in cache while it is transformed, multiplied by the symbols and transformed back, then rows.
 /// The result has the same bits for every thread count. One object may run in one thread at a time.
 /// Memory for each point of the period: a half-spectrum of sizeof(Real) bytes a component, and a quarter of that for each symbol.
 template <class Real>
