@@ -7,8 +7,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/greenwood_williamson.hpp>
 
+#include "given_summits.hpp"
 #include "height_density.hpp"
-#include "hertz_ellipse.hpp"
 #include "quadrature.hpp"
 
 namespace salebra {
@@ -111,54 +111,13 @@ AsperityContact StatisticalSummits::at(double separation) const {
           .curvature = curvature(separation)};
 }
 
-namespace {
-
-double mean_of_heights(const std::vector<Summit>& summits) {
-  require(!summits.empty(), "summits", 0, "are too few; a contact needs at least one");
-  double sum = 0;
-  for (const Summit& summit : summits) {
-    require(std::isfinite(summit.height), "summits.height", summit.height, "must be finite");
-    require_positive(summit.curvature1 + summit.curvature2, "summits.curvature");
-    sum += summit.height;
-  }
-  return sum / static_cast<double>(summits.size());
-}
-
-AsperityModel::Common common_of(const std::vector<Summit>& summits, const Material& material,
-                                double nominal_area, double mean_plane, double rms_height) {
-  const double mean = mean_of_heights(summits);
-  const double highest = std::ranges::max(summits, {}, &Summit::height).height - mean;
-  double square = 0;
-  for (const Summit& summit : summits) square += (summit.height - mean) * (summit.height - mean);
-  const double deviation = std::sqrt(square / static_cast<double>(summits.size()));
-  return {.name = "greenwood-williamson-deterministic",
-          .material = material,
-          .nominal_area = nominal_area,
-          .mean_height = mean - mean_plane,
-          .first_touch = highest,
-          .upper_separation = highest,
-          .height_scale = deviation > 0 ? deviation : summits.front().mean_radius(),
-          .rms_height = rms_height};
-}
-
-}  // namespace
-
 DeterministicSummits::DeterministicSummits(const std::vector<Summit>& summits,
                                            const Material& material, double nominal_area,
                                            double mean_plane, double rms_height, SummitShape shape)
-    : AsperityModel(common_of(summits, material, nominal_area, mean_plane, rms_height)) {
-  const double mean = common().mean_height + mean_plane;
-  for (const Summit& summit : summits) {
-    Cap cap{summit.height - mean, summit.mean_radius(), summit.mean_radius()};
-    if (shape == SummitShape::elliptical) {
-      const auto [larger, smaller] =
-          std::minmax({summit.curvature1, summit.curvature2}, std::ranges::greater{});
-      const detail::HertzEllipse ellipse = detail::hertz_ellipse(larger, smaller);
-      cap.force_radius = ellipse.force_radius;
-      cap.area_radius = ellipse.area_radius;
-    }
-    caps_.push_back(cap);
-  }
+    : AsperityModel(detail::given_summits("greenwood-williamson-deterministic", summits, material,
+                                          nominal_area, mean_plane, rms_height)) {
+  for (const detail::HertzCap& cap : detail::hertz_caps(summits, shape))
+    caps_.push_back({cap.height, cap.force_radius, cap.area_radius});
   std::ranges::sort(caps_, std::ranges::greater{}, &Cap::height);
 }
 
@@ -201,7 +160,8 @@ ForceCurve curve_at_separations(const AsperityModel& model,
                              // NaN where G* is.
                              .tangential_stiffness = common.material.tangential_modulus /
                                                      common.material.contact_modulus *
-                                                     contact.normal_stiffness});
+                                                     contact.normal_stiffness,
+                             .converged = contact.converged});
   }
   return curve;
 }

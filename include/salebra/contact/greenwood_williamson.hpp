@@ -20,8 +20,9 @@ enum class SummitDistribution { gaussian, exponential, tabulated };
 
 /// A point of a height density that is linear between its points and zero beyond them.
 struct HeightDensityPoint {
-  double height = 0;   ///< z, m
-  double density = 0;  ///< φ(z), 1/m, or any multiple of it: tables are normalised where they are used
+  double height = 0;  ///< z, m
+  double density =
+      0;  ///< φ(z), 1/m, or any multiple of it: tables are normalised where they are used
 };
 
 /// A statistical ensemble of equal spherical caps whose heights z are distributed as φ(z):
@@ -29,12 +30,13 @@ struct HeightDensityPoint {
 ///     exponential   exp(−z/σ_s)/σ_s for z >= 0; z = 0 is the plane of the lowest summits, σ_s below their mean
 ///     tabulated     as `table` says
 struct SummitEnsemble {
-  double density = 0;      ///< η, 1/m²
-  double radius = 0;       ///< R, m
-  double summit_rms = 0;   ///< σ_s, m: standard deviation (Gaussian), decay length (exponential), unused (tabulated)
+  double density = 0;  ///< η, 1/m²
+  double radius = 0;   ///< R, m
+  double summit_rms =
+      0;  ///< σ_s, m: standard deviation (Gaussian), decay length (exponential), unused (tabulated)
   double mean_height = 0;  ///< height of the plane z = 0 above the mean plane of the surface, m
   SummitDistribution distribution = SummitDistribution::gaussian;
-  double rms_height = ForceSample::unknown;  ///< h_rms of the surface, m, where there is one
+  double rms_height = ForceSample::unknown;    ///< h_rms of the surface, m, where there is one
   std::vector<HeightDensityPoint> table = {};  ///< heights increasing, at least two
 };
 
@@ -54,6 +56,7 @@ struct AsperityContact {
   double force = 0;             ///< F, N
   double normal_stiffness = 0;  ///< K, N/m
   double curvature = 0;         ///< F'', N/m²
+  bool converged = true;        ///< only a model that iterates may say no
 };
 
 /// A smooth rigid plane at separation s from the plane z = 0 of an ensemble of summits. Immutable.
@@ -83,7 +86,7 @@ class AsperityModel {
   virtual double curvature(double separation) const { return at(separation).curvature; }
 
   /// s at which the summits carry the force > 0, N: a bracketed root, exact to round-off.
-  double separation_of(double force) const;
+  virtual double separation_of(double force) const;
   /// δ = first_touch − s: from first touch for given summits, −s for a statistical ensemble.
   double indentation(double separation) const { return common_.first_touch - separation; }
   /// ū = s + mean_height, the distance of the smooth plane from the *undeformed* mean plane of the surface: the theory does
