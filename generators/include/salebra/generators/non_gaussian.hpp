@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <salebra/base/progress.hpp>
+#include <salebra/generators/height_distribution.hpp>
+#include <salebra/generators/spectrum.hpp>
+
+namespace salebra {
+
+/// Which of the two holds exactly in the end; the other holds as well as the iteration brings it.
+enum class Exact { heights, spectrum };
+
+struct NonGaussianOptions {
+  Exact exact = Exact::heights;
+  int max_iterations = 200;  ///< >= 1
+  /// Stop when an iteration lowers the mismatch by less than this part of it; 0 … 1.
+  double tolerance = 1e-3;
+  Progress on_progress = {};
+};
+
+struct NonGaussianSurface {
+  Surface surface;
+  int iterations = 0;
+  /// √(Σ(|a| − a_target)²/Σa_target²) over all modes of the surface with the exact heights. It ends above 0: what is left is what the
+  /// pair of distribution and spectrum cannot have at once on this grid.
+  double spectrum_mismatch = 0;
+  bool converged = false;    ///< the mismatch has stopped falling
+  bool interrupted = false;  ///< the progress callback said stop
+};
+
+/// A periodic surface with a given spectrum and a given height distribution, by the iterated amplitude-adjusted Fourier transform
+/// [Schreiber1996, doi:10.1103/PhysRevLett.77.635]: in turn, heights are replaced by those of the distribution in the same order, and
+/// mode amplitudes by those of the spectrum with the same phases. It starts from random_phase of the seed, whose mode powers are the
+/// target, and has the rms height of that surface. Same bits for every thread count; since ranks depend on all points, a
+/// finer grid is another surface. The grid cuts the tails: N points reach the quantiles 1/(2N) and 1 − 1/(2N).
+/// Errors as random_phase. Cost: two real FFTs and a sort of all points for an iteration; memory about five times the heights.
+NonGaussianSurface non_gaussian(const Grid2D& grid, const Spectrum& spectrum,
+                                const HeightDistribution& distribution, std::uint64_t seed,
+                                const NonGaussianOptions& options = {});
+
+}  // namespace salebra

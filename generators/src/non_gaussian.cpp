@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numeric>
+#include <salebra/base/error.hpp>
+#include <salebra/base/fft.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/generators/non_gaussian.hpp>
+#include <salebra/generators/random_phase.hpp>
+#include <vector>
+
+namespace salebra {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Heights of the distribution in increasing order, one for each point, with zero mean and the given rms height.
+std::vector<double> ordered_heights(const HeightDistribution& distribution, Index points,
+                                    double rms_height) {
+  std::vector<double> heights(static_cast<std::size_t>(points));
+  parallel::for_slabs(points, [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k)
+      heights[static_cast<std::size_t>(k)] =
+          distribution.quantile((static_cast<double>(k) + 0.5) / static_cast<double>(points));
+  });
+  require(std::is_sorted(heights.begin(), heights.end()) && std::isfinite(heights.front()) &&
+              std::isfinite(heights.back()) && heights.front() < heights.back(),
+          "distribution", distribution.name, "must have increasing and finite quantiles");
+  const double count = static_cast<double>(points);
+  const double mean = std::accumulate(heights.begin(), heights.end(), 0.0) / count;
+  double square = 0;
+  for (const double height : heights) square += (height - mean) * (height - mean);
+  const double scale = rms_height / std::sqrt(square / count);
+  for (double& height : heights) height = (height - mean) * scale;
+  return heights;
+}
+
+// Gives the lowest point the lowest of the ordered heights, and so on. Equal heights keep the order of the points.
+class RankMap {
+ public:
+  explicit RankMap(std::vector<double> ordered)
+      : ordered_(std::move(ordered)), ranking_(ordered_.size()) {}
+
+  void apply(Field& heights) {
+    for (std::size_t k = 0; k < ranking_.size(); ++k)
+      ranking_[k] = {heights.data()[k], static_cast<Index>(k)};
+    std::sort(ranking_.begin(), ranking_.end());
+    for (std::size_t k = 0; k < ranking_.size(); ++k)
+      heights.data()[ranking_[k].second] = ordered_[k];
+  }
+
+ private:
+  std::vector<double> ordered_;
+  std::vector<std::pair<double, Index>> ranking_;
+};
+
+// The modes of a field, and the amplitudes that they shall have.
+class TargetAmplitudes {
+ public:
+  explicit TargetAmplitudes(const Field& field)
+      : fft_(field.rows(), field.cols()),
+        modes_(static_cast<std::size_t>(field.rows() * fft_.modes_y())),
+        targets_(modes_.size()) {
+    fft_.forward(field.data(), modes_.data());
+    std::transform(modes_.begin(), modes_.end(), targets_.begin(),
+                   [](const Complex& mode) { return std::abs(mode); });
+  }
+
+  // Transforms the field and returns its mismatch.
+  double measure(const Field& field) {
+    fft_.forward(field.data(), modes_.data());
+    const double difference = sum([this](std::size_t k) {
+      const double error = std::abs(modes_[k]) - targets_[k];
+      return error * error;
+    });
+    return std::sqrt(difference / sum([this](std::size_t k) { return targets_[k] * targets_[k]; }));
+  }
+
+  // The field of the modes measured last, with the target amplitudes.
+  void impose(Field& field) {
+    const double scale = 1 / static_cast<double>(field.size());
+    parallel::for_slabs(fft_.nx(), [&](Index begin, Index end) {
+      for (Index k = begin * fft_.modes_y(); k < end * fft_.modes_y(); ++k) {
+        Complex& mode = modes_[static_cast<std::size_t>(k)];
+        const double target = targets_[static_cast<std::size_t>(k)] * scale;
+        const double amplitude = std::abs(mode);
+        mode = amplitude > 0 ? mode * (target / amplitude) : Complex(target);
+      }
+    });
+    fft_.backward(modes_.data(), field.data());
+  }
+
+ private:
+  // Over the whole spectrum: modes with a conjugate that is not stored count twice.
+  template <class Term>
+  double sum(const Term& term) const {
+    return parallel::sum_slabs(fft_.nx(), [&](Index begin, Index end) {
+      double of_rows = 0;
+      for (Index i = begin; i < end; ++i)
+        for (Index j = 0; j < fft_.modes_y(); ++j)
+          of_rows += (j == 0 || 2 * j == fft_.ny() ? 1 : 2) *
+                     term(static_cast<std::size_t>(i * fft_.modes_y() + j));
+      return of_rows;
+    });
+  }
+
+  RealFft2D<double> fft_;
+  std::vector<Complex> modes_;
+  std::vector<double> targets_;
+};
+
+}  // namespace
+
+NonGaussianSurface non_gaussian(const Grid2D& grid, const Spectrum& spectrum,
+                                const HeightDistribution& distribution, std::uint64_t seed,
+                                const NonGaussianOptions& options) {
+  require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "must be >= 1");
+  require(options.tolerance >= 0 && options.tolerance < 1, "tolerance", options.tolerance,
+          "must lie in 0 <= tolerance < 1");
+  NonGaussianSurface result;
+  result.surface = random_phase(grid, spectrum, seed);
+  result.surface.origin = distribution.name + ", " + result.surface.origin;
+  Field& heights = result.surface.heights;
+
+  TargetAmplitudes amplitudes(heights);
+  RankMap ranks(
+      ordered_heights(distribution, grid.points(), spectrum.lattice_moments(grid).rms_height()));
+  ranks.apply(heights);
+  result.spectrum_mismatch = amplitudes.measure(heights);
+  while (result.iterations < options.max_iterations && !result.converged && !result.interrupted) {
+    const Field previous = heights;
+    const double before = result.spectrum_mismatch;
+    amplitudes.impose(heights);
+    ranks.apply(heights);
+    const double after = amplitudes.measure(heights);
+    ++result.iterations;
+    result.converged = !(after < before * (1 - options.tolerance));
+    if (after > before)
+      heights = previous;
+    else
+      result.spectrum_mismatch = after;
+    if (options.on_progress)
+      result.interrupted = !options.on_progress(
+          {.stage = "non-gaussian",
+           .fraction = static_cast<double>(result.iterations) / options.max_iterations,
+           .step = result.iterations,
+           .residual = result.spectrum_mismatch});
+  }
+  if (options.exact == Exact::spectrum) {
+    amplitudes.measure(heights);
+    amplitudes.impose(heights);
+  }
+  return result;
+}
+
+}  // namespace salebra

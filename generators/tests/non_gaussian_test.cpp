@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/generators/non_gaussian.hpp>
+#include <salebra/generators/random_phase.hpp>
+#include <vector>
+
+#include "mode_power.hpp"
+
+using namespace salebra;
+
+namespace {
+
+struct Shape {
+  double skewness, kurtosis;
+};
+
+template <class Values>
+Shape shape_of(const Values& values) {
+  double mean = 0, m2 = 0, m3 = 0, m4 = 0;
+  for (const double x : values) mean += x / double(values.size());
+  for (const double x : values) {
+    const double square = (x - mean) * (x - mean);
+    m2 += square, m3 += square * (x - mean), m4 += square * square;
+  }
+  const double n = double(values.size());
+  return {m3 / n / std::pow(m2 / n, 1.5), m4 / n / std::pow(m2 / n, 2)};
+}
+
+std::vector<double> quantiles(const HeightDistribution& distribution, int count) {
+  std::vector<double> values;
+  for (int k = 0; k < count; ++k) values.push_back(distribution.quantile((k + 0.5) / count));
+  return values;
+}
+
+std::vector<double> sorted(const Field& heights) {
+  std::vector<double> values(heights.data(), heights.data() + heights.size());
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+const Grid2D grid{64, 81, 1.0, 1.0};
+
+SelfAffineSpectrum rough() {
+  return SelfAffineSpectrum({.rolloff = 0.25, .short_cutoff = 1.0 / 16, .rms_height = 2e-6});
+}
+
+}  // namespace
+
+TEST_CASE("The normal quantile is the inverse of the normal distribution",
+          "[generators][non_gaussian]") {
+  for (const double u : {1e-300, 1e-20, 1e-5, 0.02425, 0.3, 0.5, 0.7, 0.99, 1 - 1e-10}) {
+    const double x = normal_quantile(u);
+    CHECK(std::erfc(-x / std::sqrt(2.0)) / 2 == Approx(u).epsilon(1e-13 * (1 + x * x)));
+  }
+  CHECK(normal_quantile(0.5) == Approx(0).margin(1e-15));
+  // Published to ten figures: the 97.5 % point.
+  CHECK(normal_quantile(0.975) == Approx(1.959963985).epsilon(1e-9));
+  CHECK_THROWS_AS(normal_quantile(0.0), InvalidInput);
+}
+
+TEST_CASE("Johnson's curves have the skewness and kurtosis asked", "[generators][non_gaussian]") {
+  // S_U, S_B with one and two humps, both sides of the lognormal line, the line itself, the normal curve, negative skewness.
+  const Shape asked = GENERATE(Shape{0, 5}, Shape{0, 1.8}, Shape{0, 1.2}, Shape{0, 3},
+                               Shape{0, 2.999}, Shape{1, 4.83}, Shape{1, 3}, Shape{-1, 4},
+                               Shape{-0.8, 3.5}, Shape{0.5, 3}, Shape{0.3, 3.16029}, Shape{1.5, 8});
+  CAPTURE(asked.skewness, asked.kurtosis);
+  const Shape found = shape_of(quantiles(johnson_heights(asked.skewness, asked.kurtosis), 100000));
+  // 1e5 quantiles leave out tails beyond 4.4 deviations, which hold up to 1 % of the fourth moment of the heaviest curve here.
+  CHECK(found.skewness == Approx(asked.skewness).epsilon(5e-3).margin(1e-6));
+  CHECK(found.kurtosis == Approx(asked.kurtosis).epsilon(0.015));
+}
+
+TEST_CASE("No distribution has less kurtosis than its skewness needs",
+          "[generators][non_gaussian]") {
+  CHECK_THROWS_WITH(johnson_heights(1, 2), Catch::Matchers::Contains("kurtosis: 2 must exceed"));
+  CHECK_THROWS_AS(johnson_heights(2, 5.01), InvalidInput);
+  CHECK_THROWS_AS(johnson_heights(std::nan(""), 3), InvalidInput);
+  CHECK_THROWS_AS(weibull_heights(0), InvalidInput);
+  CHECK_THROWS_AS(sampled_heights({1.0, 1.0}), InvalidInput);
+  CHECK_THROWS_AS(sampled_heights({1.0, std::nan("")}), InvalidInput);
+}
+
+TEST_CASE("Weibull heights have the moments of their shape", "[generators][non_gaussian]") {
+  // Shape 1 is the exponential distribution (skewness 2, kurtosis 9), shape 2 Rayleigh's (0.6311, 3.2451).
+  const Shape exponential = shape_of(quantiles(weibull_heights(1), 200000));
+  CHECK(exponential.skewness == Approx(2).epsilon(2e-3));
+  CHECK(exponential.kurtosis == Approx(9).epsilon(1e-2));
+  const Shape rayleigh = shape_of(quantiles(weibull_heights(2), 200000));
+  CHECK(rayleigh.skewness == Approx(0.6311).epsilon(1e-3));
+  CHECK(rayleigh.kurtosis == Approx(3.2451).epsilon(1e-3));
+}
+
+TEST_CASE("A sampled distribution gives its heights back", "[generators][non_gaussian]") {
+  const HeightDistribution distribution = sampled_heights({3.0, 1.0, 2.0, 7.0});
+  CHECK(quantiles(distribution, 4) == std::vector<double>{1, 2, 3, 7});
+  CHECK(distribution.quantile(0.01) == 1.0);
+  CHECK(distribution.quantile(0.75) == 5.0);
+}
+
+TEST_CASE("A non-Gaussian surface has the distribution exactly and the spectrum nearly",
+          "[generators][non_gaussian]") {
+  const auto distribution =
+      GENERATE(weibull_heights(1.5), johnson_heights(-0.8, 3.5), gaussian_heights());
+  const SelfAffineSpectrum spectrum = rough();
+  const NonGaussianSurface result = non_gaussian(grid, spectrum, distribution, 5);
+  CHECK(result.converged);
+  const double rms = spectrum.lattice_moments(grid).rms_height();
+  CHECK(std::abs(result.surface.heights.mean()) < 1e-13 * rms);
+  CHECK(std::sqrt(result.surface.heights.square().mean()) == Approx(rms).epsilon(1e-12));
+  const Shape expected = shape_of(quantiles(distribution, int(grid.points())));
+  const Shape found = shape_of(sorted(result.surface.heights));
+  CHECK(found.skewness == Approx(expected.skewness).margin(1e-9));
+  CHECK(found.kurtosis == Approx(expected.kurtosis).epsilon(1e-9));
+
+  // By another route: amplitudes against those of the random-phase surface.
+  const FourierCoefficients a(result.surface), target(random_phase(grid, spectrum, 5));
+  double difference = 0, total = 0;
+  for (Index i = 0; i < grid.nx; ++i)
+    for (Index j = 0; j < grid.ny; ++j) {
+      difference += std::pow(std::abs(a(i, j)) - std::abs(target(i, j)), 2);
+      total += std::norm(target(i, j));
+    }
+  CHECK(std::sqrt(difference / total) == Approx(result.spectrum_mismatch).epsilon(1e-9));
+  const NonGaussianSurface once =
+      non_gaussian(grid, spectrum, distribution, 5, {.max_iterations = 1});
+  CHECK(result.spectrum_mismatch < 0.7 * once.spectrum_mismatch);
+  CHECK(result.spectrum_mismatch < 0.05);
+}
+
+TEST_CASE("A non-Gaussian surface can have its spectrum exactly", "[generators][non_gaussian]") {
+  const SelfAffineSpectrum spectrum = rough();
+  const HeightDistribution distribution = weibull_heights(1.5);
+  const NonGaussianSurface result =
+      non_gaussian(grid, spectrum, distribution, 5, {.exact = Exact::spectrum});
+  const FourierCoefficients a(result.surface), target(random_phase(grid, spectrum, 5));
+  for (Index i = 0; i < grid.nx; ++i)
+    for (Index j = 0; j < grid.ny; ++j)
+      REQUIRE(std::abs(a(i, j)) == Approx(std::abs(target(i, j))).epsilon(1e-11).margin(1e-20));
+  const Shape expected = shape_of(quantiles(distribution, int(grid.points())));
+  const Shape found = shape_of(sorted(result.surface.heights));
+  // Heights are off by the mismatch, a few per cent of their rms value.
+  CHECK(found.skewness == Approx(expected.skewness).margin(0.1));
+  CHECK(found.kurtosis == Approx(expected.kurtosis).epsilon(0.1));
+}
+
+TEST_CASE(
+    "A non-Gaussian surface has the same bits for every number of threads, and can be stopped",
+    "[generators][non_gaussian]") {
+  const SelfAffineSpectrum spectrum = rough();
+  parallel::set_threads(1);
+  const Field serial = non_gaussian(grid, spectrum, weibull_heights(2), 1).surface.heights;
+  parallel::set_threads(3);
+  CHECK((non_gaussian(grid, spectrum, weibull_heights(2), 1).surface.heights == serial).all());
+  parallel::set_threads(0);
+  const NonGaussianSurface stopped =
+      non_gaussian(grid, spectrum, weibull_heights(2), 1,
+                   {.on_progress = [](const ProgressReport& report) { return report.step < 2; }});
+  CHECK(stopped.interrupted);
+  CHECK(stopped.iterations == 2);
+  CHECK_FALSE(stopped.converged);
+}
