@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "self_affine.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,9 +15,10 @@ namespace salebra {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double limit_tolerance = 1e-9;
 
-void validate(const SelfAffineParameters& p) {
+}  // namespace
+
+void detail::validate(const SelfAffineParameters& p) {
   require(p.hurst > 0 && p.hurst <= 1, "hurst", p.hurst, "must lie in 0 < hurst <= 1");
   require_positive(p.short_cutoff, "short_cutoff");
   require(p.rolloff || p.long_cutoff, "rolloff", "none",
@@ -39,11 +42,24 @@ void validate(const SelfAffineParameters& p) {
   if (p.rms_slope) require_positive(*p.rms_slope, "rms_slope");
 }
 
-}  // namespace
+std::string detail::describe(const SelfAffineParameters& p) {
+  std::ostringstream text;
+  text.precision(12);
+  text << "self-affine hurst=" << p.hurst;
+  const auto append = [&text](const char* name, const std::optional<double>& value) {
+    if (value) text << ' ' << name << '=' << *value;
+  };
+  append("long_cutoff", p.long_cutoff);
+  append("rolloff", p.rolloff);
+  append("short_cutoff", p.short_cutoff);
+  append("rms_height", p.rms_height);
+  append("rms_slope", p.rms_slope);
+  return text.str();
+}
 
 SelfAffineSpectrum::SelfAffineSpectrum(const SelfAffineParameters& parameters)
     : parameters_(parameters) {
-  validate(parameters_);
+  detail::validate(parameters_);
   q_long_ = parameters_.long_cutoff ? 2 * pi / *parameters_.long_cutoff : 0;
   q_rolloff_ = parameters_.rolloff ? 2 * pi / *parameters_.rolloff : q_long_;
   q_short_ = 2 * pi / parameters_.short_cutoff;
@@ -53,7 +69,8 @@ SelfAffineSpectrum::SelfAffineSpectrum(const SelfAffineParameters& parameters)
 }
 
 double SelfAffineSpectrum::radial_density(double q) const {
-  if (q < q_long_ * (1 - limit_tolerance) || q > q_short_ * (1 + limit_tolerance)) return 0;
+  if (q < q_long_ * (1 - detail::limit_tolerance) || q > q_short_ * (1 + detail::limit_tolerance))
+    return 0;
   if (q <= q_rolloff_) return plateau_;
   return plateau_ * std::pow(q / q_rolloff_, -2 * (1 + parameters_.hurst));
 }
@@ -62,8 +79,8 @@ void SelfAffineSpectrum::density_row(Index first, double step_x, double qy,
                                      std::span<double> densities) const {
   // In units of q_r² throughout, so that everything on the plateau is raised to its power as a 1.
   const double scale = 1 / (q_rolloff_ * q_rolloff_);
-  const double lowest = scale * std::pow(q_long_ * (1 - limit_tolerance), 2);
-  const double highest = scale * std::pow(q_short_ * (1 + limit_tolerance), 2);
+  const double lowest = scale * std::pow(q_long_ * (1 - detail::limit_tolerance), 2);
+  const double highest = scale * std::pow(q_short_ * (1 + detail::limit_tolerance), 2);
   const auto square_of = [=](std::size_t k) {
     const double qx = static_cast<double>(first + static_cast<Index>(k)) * step_x;
     return scale * (qx * qx + qy * qy);
@@ -90,19 +107,6 @@ SpectralMoments SelfAffineSpectrum::moments() const {
       [this](int order) { return plateau_ * unscaled_integral(order); });
 }
 
-std::string SelfAffineSpectrum::description() const {
-  std::ostringstream text;
-  text.precision(12);
-  text << "self-affine hurst=" << parameters_.hurst;
-  const auto append = [&text](const char* name, const std::optional<double>& value) {
-    if (value) text << ' ' << name << '=' << *value;
-  };
-  append("long_cutoff", parameters_.long_cutoff);
-  append("rolloff", parameters_.rolloff);
-  append("short_cutoff", parameters_.short_cutoff);
-  append("rms_height", parameters_.rms_height);
-  append("rms_slope", parameters_.rms_slope);
-  return text.str();
-}
+std::string SelfAffineSpectrum::description() const { return detail::describe(parameters_); }
 
 }  // namespace salebra

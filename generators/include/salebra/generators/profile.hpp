@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <salebra/generators/spectrum.hpp>
+#include <string>
+#include <vector>
+
+namespace salebra {
+
+/// A periodic line of heights: point k lies at x = k·length/n.
+struct Profile {
+  double length = 0;            ///< m
+  std::vector<double> heights;  ///< m
+  std::string origin;           ///< for provenance
+
+  double dx() const { return length / static_cast<double>(heights.size()); }
+};
+
+/// Power spectral density of a random profile, C₁(q) = (2π)⁻¹ ∫⟨h(0)h(x)⟩ e^{−iqx} dx for −∞ < q < ∞, so that h_rms² = ∫C₁ dq. The mode of
+/// wave number i has the mean power C₁(q)·2π/length.
+class ProfileSpectrum {
+ public:
+  virtual ~ProfileSpectrum() = default;
+  /// C₁(|q|), m³, for q > 0 in rad/m.
+  virtual double density(double q) const = 0;
+  /// C₁ vanishes beyond this, rad/m.
+  virtual double highest_wavenumber() const = 0;
+  /// ∫C₁ dq, ∫q²C₁ dq, ∫q⁴C₁ dq as moments along x; those along y are 0, so that rms_slope() is √⟨h'²⟩.
+  virtual SpectralMoments moments() const = 0;
+  virtual std::string description() const = 0;
+
+  /// The same as sums over the modes of a periodic line of so many points.
+  SpectralMoments lattice_moments(Index points, double length) const;
+  /// Throws InvalidInput for a shortest wavelength below two steps or above the length.
+  void require_carried_by(Index points, double length) const;
+};
+
+/// Self-affine profile: C₁ = C0 from q_L to q_r, C0 (q/q_r)^{−(1+2H)} up to q_s. A cut through an isotropic self-affine surface of the same H has
+/// this law between its cut-offs, but not near them. Parameters, limits and errors as SelfAffineSpectrum; rms_slope is √⟨h'²⟩.
+class SelfAffineProfileSpectrum final : public ProfileSpectrum {
+ public:
+  explicit SelfAffineProfileSpectrum(const SelfAffineParameters& parameters);
+  double density(double q) const override;
+  double highest_wavenumber() const override { return q_short_; }
+  SpectralMoments moments() const override;
+  std::string description() const override;
+
+ private:
+  double unscaled_integral(int order) const;
+
+  SelfAffineParameters parameters_;
+  double q_long_, q_rolloff_, q_short_;
+  double plateau_;
+};
+
+/// A Gaussian random profile, keyed by seed and wave number as filtered_noise is, from a stream of random numbers of its own.
+Profile filtered_noise_profile(Index points, double length, const ProfileSpectrum& spectrum,
+                               std::uint64_t seed);
+
+/// A profile whose every mode has exactly its target power, as random_phase.
+Profile random_phase_profile(Index points, double length, const ProfileSpectrum& spectrum,
+                             std::uint64_t seed);
+
+}  // namespace salebra
