@@ -209,4 +209,18 @@ NormalContactState press_to_mean_gap(const Surface& surface, double contact_modu
   return state_of(solve(scaled, surface.heights, rms_height, target, options), scaled, surface);
 }
 
+NormalContactState press_to_indentation(const Surface& surface, double contact_modulus,
+                                        double indentation, const NormalContactOptions& options) {
+  check(surface, contact_modulus, options);
+  require_positive(indentation, "indentation");
+  const double mean = mean_of(surface.heights), highest = greatest_of(surface.heights);
+  if (options.boundary == Boundary::periodic)
+    require(indentation < highest - mean, "indentation", indentation,
+            "must be below " + std::to_string(highest - mean) + " m, where the mean gap would close");
+  const double rms_height = rms_about(surface.heights, mean);
+  const Scaled scaled(surface.grid, contact_modulus);
+  const ContactTarget target{ContactTarget::Kind::level, indentation - highest};
+  return state_of(solve(scaled, surface.heights, rms_height, target, options), scaled, surface);
+}
+
 }  // namespace salebra

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/cycle.hpp>
+#include <utility>
 
 namespace salebra {
 namespace {
@@ -147,6 +148,17 @@ void validate(const CycleOptions& options, const Trajectory& trajectory) {
 }
 
 }  // namespace
+
+ContactLevels boundary_element_levels(Surface surface, double contact_modulus,
+                                      const NormalContactOptions& options) {
+  return [surface = std::move(surface), contact_modulus, options](double indentation) {
+    if (indentation <= 0)
+      return ContactLevel{ContactSet::Constant(surface.grid.nx, surface.grid.ny, false)};
+    const NormalContactState state =
+        press_to_indentation(surface, contact_modulus, indentation, options);
+    return ContactLevel{contact_set(state), state.force, state.converged};
+  };
+}
 
 Trajectory trajectory_of(const Oscillation& motion, double mean_indentation) {
   // t = 0 is the phase θ = −π, where the indentation is least.

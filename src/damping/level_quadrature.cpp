@@ -51,19 +51,9 @@ struct Series {
       sum += coefficients(l) * std::cos(static_cast<double>(l) * theta);
     return sum;
   }
-  // Derivative with respect to c: T_l' = l sin(lθ)/sinθ, and its limits at the ends.
-  double slope(double theta) const {
-    const double sine = std::sin(theta);
-    double sum = 0;
-    for (Index l = 1; l < coefficients.size(); ++l) {
-      const double order = static_cast<double>(l);
-      const double end = std::cos(theta) > 0 || l % 2 == 1 ? order : -order;
-      sum += coefficients(l) * order * (sine > 1e-7 ? std::sin(order * theta) / sine : end);
-    }
-    return sum;
-  }
-  double second_slope_at_middle() const {
-    double sum = 0;  // T_l''(0) = l T_l'... by the differential equation (1 − c²)T'' = cT' − l²T
+  double slope(double theta) const;
+  double second_slope_at_middle() const {  // with respect to c
+    double sum = 0;                        // (1 − c²)T'' = cT' − l²T
     for (Index l = 2; l < coefficients.size(); ++l) {
       const double order = static_cast<double>(l);
       sum -= coefficients(l) * order * order * std::cos(order * pi / 2);
@@ -72,32 +62,54 @@ struct Series {
   }
 };
 
-Series fit(const std::vector<double>& theta, const std::vector<double>& values, int degree) {
-  const Index points = static_cast<Index>(theta.size());
-  Eigen::MatrixXd basis(points, degree + 1);
-  Eigen::VectorXd data(points);
-  for (Index k = 0; k < points; ++k) {
-    data(k) = values[static_cast<std::size_t>(k)];
+// T_l'(c) at c = cosθ: l sin(lθ)/sinθ, and its limits l², ∓l² at the ends.
+double chebyshev_slope(Index l, double theta) {
+  const double order = static_cast<double>(l), sine = std::sin(theta);
+  if (sine > 1e-7) return order * std::sin(order * theta) / sine;
+  return std::cos(theta) > 0 || l % 2 == 1 ? order * order : -order * order;
+}
+
+double Series::slope(double theta) const {
+  double sum = 0;
+  for (Index l = 1; l < coefficients.size(); ++l) sum += coefficients(l) * chebyshev_slope(l, theta);
+  return sum;
+}
+
+// Data of a fit: values of the function at some phases, values of its slope d/dc at others with a weight of their own.
+struct FitData {
+  std::vector<double> theta, values, slope_theta, slopes;
+  double slope_weight = 1;
+};
+
+Series fit(const FitData& data, int degree) {
+  const Index values = static_cast<Index>(data.theta.size());
+  const Index rows = values + static_cast<Index>(data.slopes.size());
+  Eigen::MatrixXd basis(rows, degree + 1);
+  Eigen::VectorXd right(rows);
+  for (Index k = 0; k < rows; ++k) {
+    const std::size_t at = static_cast<std::size_t>(k < values ? k : k - values);
+    right(k) = k < values ? data.values[at] : data.slope_weight * data.slopes[at];
     for (Index l = 0; l <= degree; ++l)
-      basis(k, l) = std::cos(static_cast<double>(l) * theta[static_cast<std::size_t>(k)]);
+      basis(k, l) = k < values
+                        ? std::cos(static_cast<double>(l) * data.theta[at])
+                        : data.slope_weight * chebyshev_slope(l, data.slope_theta[at]);
   }
   Series series;
-  series.coefficients = basis.colPivHouseholderQr().solve(data);
+  series.coefficients = basis.colPivHouseholderQr().solve(right);
   series.normal_inverse = (basis.transpose() * basis).inverse();
-  const double freedom = std::max<double>(1, static_cast<double>(points - degree - 1));
-  series.scatter = (data - basis * series.coefficients).norm() / std::sqrt(freedom);
+  const double freedom = std::max<double>(1, static_cast<double>(rows - degree - 1));
+  series.scatter = (right - basis * series.coefficients).norm() / std::sqrt(freedom);
   return series;
 }
 
 // The degree with the least generalised cross-validation error; a higher one only follows the noise.
-Series best_fit(const std::vector<double>& theta, const std::vector<double>& values,
-                int highest_degree) {
-  const double points = static_cast<double>(theta.size());
+Series best_fit(const FitData& data, int highest_degree) {
+  const double rows = static_cast<double>(data.theta.size() + data.slopes.size());
   Series best;
   double least = std::numeric_limits<double>::infinity();
-  for (int degree = 0; degree <= highest_degree && degree + 1 < points; ++degree) {
-    Series candidate = fit(theta, values, degree);
-    const double error = candidate.scatter / std::sqrt(points - degree - 1);
+  for (int degree = 0; degree <= highest_degree && degree + 1 < rows; ++degree) {
+    Series candidate = fit(data, degree);
+    const double error = candidate.scatter / std::sqrt(rows - degree - 1);
     if (error < least) {
       least = error;
       best = std::move(candidate);
@@ -213,40 +225,51 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
   theta.push_back(pi);
   values.push_back(at_level(pi, drag));
 
-  std::vector<double> forces, ratio_theta, ratios;
+  // F and K = F' are known together. F feels the cells that enter one by one less than K does.
+  FitData normal, ratios;
+  normal.slope_weight = 0.1;
   for (std::size_t k = 0; k < values.size(); ++k) {
-    forces.push_back(values[k].sample.force);
-    if (std::isfinite(values[k].ratio)) {
-      ratio_theta.push_back(theta[k]);
-      ratios.push_back(values[k].ratio);
-    }
+    normal.theta.push_back(theta[k]);
+    normal.values.push_back(values[k].sample.force);
+    if (!std::isfinite(values[k].sample.normal_stiffness)) continue;
+    normal.slope_theta.push_back(theta[k]);
+    normal.slopes.push_back(values[k].sample.normal_stiffness * amplitude);
+    if (!std::isfinite(values[k].ratio)) continue;
+    ratios.theta.push_back(theta[k]);
+    ratios.values.push_back(values[k].ratio);
   }
   result.work_by_levels = loss(
       motion, nodes,
       [&](std::size_t k) { return values[k + 1].sample.tangential_stiffness; },
       drag ? values.back().sample.tangential_stiffness : 0);
 
-  const Series force = best_fit(theta, forces, count);
+  // Eighth degree: what follows the indentation faster is noise of the cells.
+  const int highest = std::min(count / 2, 8);
+  const Series force = best_fit(normal, highest);
   const auto by_force = [&](const Series& series) {
     return loss_of(motion, [&](double t) { return modulus_ratio * series.slope(t) / amplitude; });
   };
   result.work_by_force = by_force(force);
   result.force = force(pi / 2);
-  result.curvature = force.second_slope_at_middle() / (amplitude * amplitude);
+  // The loss is an integral and forgives a fit that follows the cells; a second derivative at a point does not.
+  const Series smooth = best_fit(normal, std::min(highest, 5));
+  result.curvature = smooth.second_slope_at_middle() / (amplitude * amplitude);
   result.small_amplitude_work = std::visit(
       [&](const auto& m) { return closed_form::work_per_cycle(modulus_ratio, result.curvature, m); },
       motion);
-  // What more freedom makes of the same forces.
+  // The same integral from the stiffness of the levels as they are, and from a fit of more freedom.
+  const double by_stiffness = loss(
+      motion, nodes,
+      [&](std::size_t k) { return modulus_ratio * values[k + 1].sample.normal_stiffness; },
+      drag ? modulus_ratio * values.back().sample.normal_stiffness : 0);
   const int degree = static_cast<int>(force.coefficients.size()) - 1;
-  double fit_error = 0;
-  for (const int other : {degree + 1, degree + 2})
-    if (other + 1 < static_cast<int>(theta.size()))
-      fit_error = std::max(fit_error,
-                           std::abs(by_force(fit(theta, forces, other)) - result.work_by_force));
+  const double normal_error =
+      std::max(std::abs(by_stiffness - result.work_by_force),
+               std::abs(by_force(fit(normal, degree + 1)) - result.work_by_force));
 
-  if (ratios.size() >= 2) {
+  if (ratios.theta.size() >= 2) {
     // Four parameters at most: ρ varies slowly, and what varies fast is noise of the cells.
-    const Series ratio = best_fit(ratio_theta, ratios, std::min<int>(3, static_cast<int>(ratios.size()) / 4));
+    const Series ratio = best_fit(ratios, std::min(3, static_cast<int>(ratios.theta.size()) / 4));
     Eigen::VectorXd gradient(ratio.coefficients.size());
     for (Index l = 0; l < gradient.size(); ++l)
       gradient(l) = loss_of(motion, [&](double t) {
@@ -255,7 +278,7 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
     result.work_per_cycle = gradient.dot(ratio.coefficients);
     const double statistical =
         ratio.scatter * std::sqrt(std::max(0.0, gradient.dot(ratio.normal_inverse * gradient)));
-    result.error_estimate = 2 * statistical + fit_error;
+    result.error_estimate = 2 * statistical + normal_error;
   }
   result.stiffness_ratio =
       result.work_by_force != 0 ? result.work_per_cycle / result.work_by_force : 0;

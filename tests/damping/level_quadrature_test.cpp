@@ -7,6 +7,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/law.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/generators/shapes.hpp>
 
 using namespace salebra;
 
@@ -16,30 +17,20 @@ using std::numbers::pi;
 
 constexpr double contact_modulus = 3e9;
 
-// Cells whose centres lie in an ellipse about the middle of the grid, shifted by (0.31, 0.17) of a cell.
-ContactSet ellipse(const Grid2D& grid, double a, double b) {
-  ContactSet contact(grid.nx, grid.ny);
-  for (Index ix = 0; ix < grid.nx; ++ix)
-    for (Index iy = 0; iy < grid.ny; ++iy) {
-      const double x = (static_cast<double>(ix) - 0.31) * grid.dx() - grid.lx / 2;
-      const double y = (static_cast<double>(iy) - 0.17) * grid.dy() - grid.ly / 2;
-      contact(ix, iy) = std::pow(x / a, 2) + std::pow(y / b, 2) < 1;
-    }
-  return contact;
-}
-
-// The paraboloid r²/(2R): a² = Rδ, F = (4/3)E*√R δ^(3/2).
+// The paraboloid r²/(2R): F = (4/3)E*√R δ^(3/2).
 constexpr double radius = 0.3;
 const double law_coefficient = 4.0 / 3 * contact_modulus * std::sqrt(radius);
-ContactLevels paraboloid(const Grid2D& grid) {
-  return [grid](double indentation) {
-    const double a = std::sqrt(radius * std::max(indentation, 0.0));
-    return ContactLevel{ellipse(grid, a, a), law_coefficient * std::pow(std::max(indentation, 0.0), 1.5)};
-  };
-}
 
 const Grid2D grid{48, 48, 1e-3, 1e-3};
 constexpr double mean_indentation = 0.3e-6, amplitude = 0.1e-6;  // contact radii from 0.24 to 0.35 mm
+
+ContactLevels free_levels(Surface surface) {
+  return boundary_element_levels(std::move(surface), contact_modulus,
+                                 {.tolerance = 1e-9, .boundary = Boundary::free});
+}
+ContactLevels paraboloid() {
+  return free_levels(paraboloid_surface(grid, radius, off_grid_center(grid)));
+}
 
 LevelQuadratureOptions free_boundary() {
   LevelQuadratureOptions options;
@@ -55,31 +46,42 @@ TEST_CASE("Levels of a paraboloid give its exact loss at finite amplitude", "[le
   const PowerLaw law(law_coefficient, 1.5, material.modulus_ratio());
   for (const Oscillation& motion :
        {Oscillation(EqualFrequency{amplitude, 2e-7, 0.8}), Oscillation(Drag{amplitude, 1e-3, 2e3})}) {
-    const LevelQuadratureResult levels = level_quadrature(paraboloid(grid), grid, material, motion,
+    const LevelQuadratureResult levels = level_quadrature(paraboloid(), grid, material, motion,
                                                           mean_indentation, free_boundary());
     const DampingResult exact = relaxation_damping(law, AtIndentation{mean_indentation}, motion);
     REQUIRE(levels.converged);
-    // The forces are exact here, so that only the fit of F remains.
-    CHECK(levels.work_by_force == Approx(exact.work_per_cycle).epsilon(1e-6));
-    CHECK(levels.curvature == Approx(exact.curvature).epsilon(1e-6));
-    CHECK(levels.small_amplitude_work == Approx(exact.small_amplitude_work).epsilon(1e-6));
-    // The number of cells cancels in K_t/K, the shape of their outline does not: 0.65 % at most on 48 cells, 0.1 % on 128.
-    CHECK(levels.work_per_cycle == Approx(exact.work_per_cycle).epsilon(0.01));
-    CHECK(levels.work_by_levels == Approx(exact.work_per_cycle).epsilon(0.02));
-    CHECK(levels.error_estimate < 5e-3 * exact.work_per_cycle);
+    // 23 to 34 cells across the contact: half a per cent measured in case (a), one in case (b), which weighs the edge of the sweep.
+    CHECK(levels.work_by_force == Approx(exact.work_per_cycle).epsilon(0.012));
+    CHECK(levels.work_per_cycle == Approx(exact.work_per_cycle).epsilon(0.012));
+    CHECK(levels.work_by_levels == Approx(exact.work_per_cycle).epsilon(0.012));
+    CHECK(levels.error_estimate < 0.02 * exact.work_per_cycle);
+    CHECK(levels.curvature == Approx(exact.curvature).epsilon(0.05));
+    CHECK(levels.force == Approx(exact.force).epsilon(1e-3));
     if (poisson == 0)  // the kernels coincide
       CHECK(levels.work_per_cycle == Approx(levels.work_by_force).epsilon(1e-8));
   }
 }
 
 TEST_CASE("Along and across an elongated contact the loss differs as Mindlin's ellipses do", "[levels]") {
-  const double poisson = 0.4, axes = 0.25;
+  const double poisson = 0.4;
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
-  // Similar ellipses: every level has the same K_t/K, whatever the force law.
-  const ContactLevels levels = [&](double indentation) {
-    const double a = 0.45e-3 * indentation / (mean_indentation + amplitude);
-    return ContactLevel{ellipse(grid, a, axes * a), indentation * indentation};
-  };
+  // Hertz: the ellipses of all levels are similar.
+  const ContactLevels levels =
+      free_levels(elliptic_paraboloid_surface(grid, 0.4, 0.04, off_grid_center(grid)));
+  const ContactSet widest = levels(mean_indentation + amplitude).contact;
+  double mean_x = 0, mean_y = 0, square_x = 0, square_y = 0;
+  for (Index ix = 0; ix < grid.nx; ++ix)
+    for (Index iy = 0; iy < grid.ny; ++iy)
+      if (widest(ix, iy)) {
+        const double x = static_cast<double>(ix), y = static_cast<double>(iy);
+        mean_x += x;
+        mean_y += y;
+        square_x += x * x;
+        square_y += y * y;
+      }
+  const double cells = static_cast<double>(widest.count());
+  const double axes = std::sqrt((square_y - mean_y * mean_y / cells) / (square_x - mean_x * mean_x / cells));
+  CHECK(axes < 0.4);
   // ∫_0^{2π} (1 − ν cos²φ)/√(a²cos²φ + b²sin²φ) dφ of PHYSICS section 7's kernel, by the trapezoidal rule: periodic, so exact.
   const auto compliance = [&](double a, double b) {
     double sum = 0;
@@ -105,7 +107,7 @@ TEST_CASE("Along and across an elongated contact the loss differs as Mindlin's e
     const double along = direction == 0 ? compliance(1, axes) : compliance(axes, 1);
     const double expected = normal(1, axes) / along / material.modulus_ratio();
     CHECK(std::abs(expected - 1) > 0.05);
-    CHECK(result.stiffness_ratio == Approx(expected).epsilon(4e-3));  // 0.2 % measured
+    CHECK(result.stiffness_ratio == Approx(expected).epsilon(4e-3));
   }
 }
 
@@ -141,15 +143,53 @@ TEST_CASE("A level that fails makes the quadrature fail, and bad input is named"
   options.levels = 4;
   options.stick.max_iterations = 2;
   CHECK_FALSE(
-      level_quadrature(paraboloid(grid), grid, material, motion, mean_indentation, options).converged);
+      level_quadrature(paraboloid(), grid, material, motion, mean_indentation, options).converged);
   options = free_boundary();
   options.on_progress = [](const ProgressReport& report) { return report.step < 3; };
-  CHECK(level_quadrature(paraboloid(grid), grid, material, motion, mean_indentation, options).interrupted);
+  CHECK(level_quadrature(paraboloid(), grid, material, motion, mean_indentation, options).interrupted);
   options.levels = 3;
   CHECK_THROWS_WITH(
-      level_quadrature(paraboloid(grid), grid, material, motion, mean_indentation, options),
+      level_quadrature(paraboloid(), grid, material, motion, mean_indentation, options),
       Catch::StartsWith("levels: 3"));
-  CHECK_THROWS_WITH(level_quadrature(paraboloid(grid), grid, material, EqualFrequency{0, 1, 1},
+  CHECK_THROWS_WITH(level_quadrature(paraboloid(), grid, material, EqualFrequency{0, 1, 1},
                                      mean_indentation, free_boundary()),
                     Catch::StartsWith("normal_amplitude: 0"));
+}
+
+TEST_CASE("Both routes meet on the paper's shapes, and the exact law on the paraboloid", "[levels]") {
+  const Grid2D cells{48, 48, 1.0, 1.0};
+  const PlanePoint off_grid{0.31 / 48, 0.17 / 48};
+  struct Shape {
+    Surface surface;
+    Boundary boundary;
+    double mean_indentation, amplitude;
+  };
+  const auto [surface, boundary, depth, sweep] = GENERATE_COPY(
+      Shape{paraboloid_surface(cells, 4, off_grid_center(cells)), Boundary::free, 0.02, 0.006},
+      Shape{pyramids_surface(cells, 2, 2, 0.1, off_grid), Boundary::free, 0.012, 0.004},
+      Shape{sinusoid_surface(cells, 0.01, 4, 1, off_grid), Boundary::periodic, 0.0045, 0.0015});
+  const Material material = Material::of_contact_modulus(1.0, 0.3);
+  const ContactLevels levels =
+      boundary_element_levels(surface, 1.0, {.tolerance = 1e-9, .boundary = boundary});
+  for (const Oscillation& motion :
+       {Oscillation(EqualFrequency{sweep, 0.01, pi / 4}), Oscillation(Drag{sweep, 0.01, 1.0})}) {
+    LevelQuadratureOptions options;
+    options.stick.boundary = boundary;
+    const LevelQuadratureResult by_levels =
+        level_quadrature(levels, cells, material, motion, depth, options);
+    CycleOptions steps{.steps = 32};
+    steps.stick.boundary = boundary;
+    const CycleResult by_steps =
+        simulate_cycle(levels, cells, material, trajectory_of(motion, depth), steps);
+    REQUIRE(by_levels.converged);
+    REQUIRE(by_steps.converged);
+    // h²/24 = 0.16 % of the steps and a per cent of the cells: 24 across the contact of a pyramid, 6 across a wave.
+    CHECK(by_steps.work_per_cycle == Approx(by_levels.work_per_cycle).epsilon(0.015));
+    CHECK(by_steps.released_energy == Approx(by_steps.work_per_cycle).epsilon(1e-6));
+    if (surface.origin.find("paraboloid") != std::string::npos) {
+      const PowerLaw law(4.0 / 3 * 2, 1.5, material.modulus_ratio());
+      CHECK(by_steps.work_per_cycle ==
+            Approx(relaxation_damping(law, AtIndentation{depth}, motion).work_per_cycle).epsilon(0.01));
+    }
+  }
 }

@@ -48,6 +48,12 @@ NormalContactState press_to_pressure(const Surface& surface, double contact_modu
 NormalContactState press_to_mean_gap(const Surface& surface, double contact_modulus,
                                      double mean_gap, const NormalContactOptions& options = {});
 
+/// The same contact for a given indentation δ > 0 from first touch, δ = max h + level of the plane; for periodic boundaries
+/// δ = max h − mean h − ū, which must leave ū > 0. Free boundaries: the rigid approach.
+NormalContactState press_to_indentation(const Surface& surface, double contact_modulus,
+                                        double indentation,
+                                        const NormalContactOptions& options = {});
+
 /// Normal stiffness K = dF/dδ of the contact set {p > 0} of a state, by one linear solve with the set held: N/m.
 double normal_stiffness(const NormalContactState& state, const Grid2D& grid,
                         double contact_modulus, const NormalContactOptions& options = {});

@@ -18,6 +18,11 @@ struct ContactLevel {
 /// The normal contact as a function of the indentation δ, m. Deterministic: it is asked once for each δ.
 using ContactLevels = std::function<ContactLevel(double indentation)>;
 
+/// The levels of a surface by boundary elements; the boundary of `options` must be that of the stick solves.
+/// No contact for δ <= 0. The function keeps a copy of the surface.
+ContactLevels boundary_element_levels(Surface surface, double contact_modulus,
+                                      const NormalContactOptions& options = {});
+
 /// A closed motion, or one that is closed up to a constant tangential advance, over t = 0 … 1.
 struct Trajectory {
   std::function<double(double t)> indentation;  ///< δ, m
