@@ -157,6 +157,24 @@ ExponentialTest test_exponential(const ForceCurve& curve,
   return test;
 }
 
+WindowSensitivity window_sensitivity(const ForceCurve& curve,
+                                     const std::optional<PressureWindow>& window) {
+  std::vector<Point> points = points_in_window(curve, window, 3);
+  std::ranges::sort(points, {}, &Point::pressure);
+  const std::size_t least = std::max<std::size_t>(3, (points.size() + 1) / 2);
+  WindowSensitivity sensitivity{.decay_length_min = std::numeric_limits<double>::infinity()};
+  for (std::size_t begin = 0; begin + least <= points.size(); ++begin)
+    for (std::size_t end = begin + least; end <= points.size(); ++end) {
+      const double length = -1 / regress({points.begin() + static_cast<std::ptrdiff_t>(begin),
+                                          points.begin() + static_cast<std::ptrdiff_t>(end)})
+                                     .slope;
+      sensitivity.decay_length_min = std::min(sensitivity.decay_length_min, length);
+      sensitivity.decay_length_max = std::max(sensitivity.decay_length_max, length);
+      ++sensitivity.windows;
+    }
+  return sensitivity;
+}
+
 LocalDecayLength local_decay_length(const ForceCurve& curve) {
   const std::vector<Point> points = usable_points(curve);
   require(points.size() >= 2, "curve", points.size(),

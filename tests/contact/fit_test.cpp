@@ -169,6 +169,19 @@ TEST_CASE("The window decides which samples count", "[fit]") {
   SECTION("an empty curve") { CHECK_THROWS_AS(local_decay_length({}), InvalidInput); }
 }
 
+TEST_CASE("The sensitivity is the range of fits over parts of the window", "[fit]") {
+  // Two straight pieces of slopes 1 and 2: the runs of at least three out of five samples reach each of them.
+  const ForceCurve curve = curve_of({1, 2, 3, 4, 5}, {1, 2, 3, 5, 7});
+  const WindowSensitivity sensitivity = window_sensitivity(curve);
+  CHECK(sensitivity.windows == 6);
+  CHECK(sensitivity.decay_length_max == Approx(1).epsilon(1e-13));
+  CHECK(sensitivity.decay_length_min == Approx(0.5).epsilon(1e-13));
+  CHECK(fit_exponential(curve).decay_length < 1);
+  const WindowSensitivity narrow = window_sensitivity(curve, PressureWindow{0, std::exp(3.5)});
+  CHECK(narrow.windows == 1);
+  CHECK(narrow.decay_length_min == narrow.decay_length_max);
+}
+
 TEST_CASE("An interval that reaches a flat line has no upper limit", "[fit]") {
   const ExponentialFit fit = fit_exponential(curve_of({1, 2, 3}, {1, 5, 2}));
   CHECK(std::isinf(fit.decay_length_high));

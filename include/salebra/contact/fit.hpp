@@ -52,6 +52,18 @@ struct ExponentialTest {
 ExponentialTest test_exponential(const ForceCurve& curve,
                                  const std::optional<PressureWindow>& window = {});
 
+/// How much the fit owes to its window: the least and the largest decay length of fit_exponential over every run of consecutive
+/// samples in the window that holds at least half of them, and at least three.
+struct WindowSensitivity {
+  double decay_length_min = 0;  ///< m
+  double decay_length_max = 0;  ///< m
+  int windows = 0;              ///< how many runs were fitted
+};
+
+/// Throws as fit_exponential does.
+WindowSensitivity window_sensitivity(const ForceCurve& curve,
+                                     const std::optional<PressureWindow>& window = {});
+
 /// l(ū) = −dū/d ln p at the midpoints between consecutive samples; those that fit_exponential leaves out take no part.
 struct LocalDecayLength {
   std::vector<double> mean_gap;      ///< m
