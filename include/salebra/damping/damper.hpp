@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/base/grid.hpp>
+#include <salebra/contact/law.hpp>
+#include <salebra/damping/dissipation.hpp>
+#include <vector>
+
+/// What case (b) is good for: a contact under fast normal oscillation is a linear damper that can be tuned.
+namespace salebra {
+
+/// Fast normal oscillation of a contact.
+struct NormalOscillation {
+  double normal_amplitude = 0;   ///< u_z >= 0, m
+  double angular_frequency = 0;  ///< ω > 0, rad/s
+};
+
+/// A mass on a spring and on the contact: m ẍ + γ ẋ + (k + K_t,min) x = 0.
+struct TangentialOscillator {
+  double mass = 0;              ///< m > 0, kg
+  double spring_stiffness = 0;  ///< k >= 0, N/m, beside the contact's own stiffness
+};
+
+struct OscillatorDecay {
+  double damping_constant = 0;  ///< γ, N s/m
+  double contact_stiffness =
+      0;  ///< K_t of what is never let go, K_t(δ0 − u_z), N/m; 0 where the contact opens
+  double natural_frequency = 0;  ///< ω0 = √((k + K_t,min)/m), rad/s
+  double damping_ratio = 0;      ///< ζ = γ/(2mω0); >= 1: no oscillation
+  double quality_factor = 0;     ///< 1/(2ζ)
+  double decay_time =
+      0;  ///< in which the amplitude falls by e, 2m/γ (ζ < 1) or the slower of two times, s
+  double logarithmic_decrement = 0;  ///< 2πζ/√(1 − ζ²); NaN for ζ >= 1
+  /// ω0/ω: the description assumes that it is small. It is off by its square or so, and by more where it is near a simple fraction.
+  double frequency_ratio = 0;
+};
+
+/// Decay of a tangential oscillator under fast normal oscillation of its contact. Throws InvalidInput as relaxation_damping, and for an oscillator
+/// without mass or without any stiffness.
+OscillatorDecay oscillator_decay(const ContactLaw& law, const Position& position,
+                                 const NormalOscillation& normal,
+                                 const TangentialOscillator& oscillator,
+                                 const DampingOptions& options = {});
+
+/// γ over normal amplitudes × angular frequencies, and where it stabilises a slider.
+struct DamperMap {
+  std::vector<double> normal_amplitude;   ///< m
+  std::vector<double> angular_frequency;  ///< rad/s
+  Field damping_constant;                 ///< γ (amplitudes, frequencies), N s/m
+};
+
+/// γ = (const of the amplitude)/ω exactly, so that each amplitude is computed once.
+DamperMap damper_map(const ContactLaw& law, const Position& position,
+                     const std::vector<double>& normal_amplitudes,
+                     const std::vector<double>& angular_frequencies,
+                     const DampingOptions& options = {});
+
+/// The least normal amplitude, m, at which γ >= falling_slope: it keeps a slider from stick–slip whose friction force falls with velocity, F_f = F_0 − bv,
+/// b = falling_slope > 0, N s/m (damping −b of small disturbances of steady sliding, paper's conclusion). NaN where no amplitude up to largest_amplitude is
+/// enough: under a dead weight γ has a maximum over u_z.
+double stabilising_amplitude(const ContactLaw& law, const Position& position,
+                             double angular_frequency, double falling_slope,
+                             double largest_amplitude, const DampingOptions& options = {});
+
+}  // namespace salebra

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/base/grid.hpp>
+#include <salebra/base/progress.hpp>
+#include <salebra/contact/law.hpp>
+#include <salebra/damping/oscillation.hpp>
+#include <vector>
+
+namespace salebra {
+
+struct FrictionMapOptions {
+  int steps = 1000;  ///< straight steps a cycle; W(μ)/W(∞) is met at second order in them
+  Progress on_progress = {};
+};
+
+/// How far the paper's "infinite" friction reaches, for equal frequencies: losses over the full-stick loss at the same u_z, u_x and phase.
+struct FrictionMap {
+  std::vector<double> friction_number;  ///< M = μE*u_z/(G*u_x)
+  std::vector<double> phase;            ///< φ0, rad
+  Field loss;                           ///< W(μ)/W(∞), (friction numbers, phases)
+  Field relaxation;                     ///< its part from levels that open and close
+  Field slip;                           ///< its part from slip in permanent contact
+};
+
+/// Phases with sin φ0 = 0 have no relaxation loss and give NaN. Cost: steps × 2 for each entry, in parallel.
+/// Throws InvalidInput for friction numbers < 0, amplitudes that are not > 0, and motion outside the law.
+FrictionMap friction_map(const ContactLaw& law, double mean_indentation, double normal_amplitude,
+                         double tangential_amplitude, const std::vector<double>& friction_numbers,
+                         const std::vector<double>& phases, const FrictionMapOptions& options = {});
+
+}  // namespace salebra

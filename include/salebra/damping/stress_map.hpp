@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/base/grid.hpp>
+#include <salebra/base/progress.hpp>
+#include <salebra/contact/mdr.hpp>
+#include <salebra/damping/oscillation.hpp>
+#include <vector>
+
+namespace salebra {
+
+/// Stresses under an axisymmetric indenter in the first, and already steady, cycle that begins free of tangential stress at the least
+/// indentation: δ = δ0 + u_z cosθ, θ = ωt from −π to π (Fig. 4 of the paper). Full stick.
+class OscillatingStress {
+ public:
+  /// Throws InvalidInput where the motion is not usable or leaves the profile.
+  OscillatingStress(const IndenterLaw& law, double mean_indentation, const Oscillation& motion);
+
+  double contact_radius(double angle) const;      ///< a(θ), m; 0 while the contact is open
+  double least_contact_radius() const;            ///< m
+  double displacement(double angle) const;        ///< x(θ) − x(−π), m
+  double tangential_force(double angle) const;    ///< F_x = 2∫_0^a q_x dx, N
+  double pressure(double angle, double r) const;  ///< p(r), Pa
+  /// τ(r) by Eq. (17) from q_x = G*(x − x0), Pa; 0 for r >= a.
+  /// While δ falls it has a square-root singularity at the edge: τ → (G*/π)(x(θ) − x(−θ))/√(a² − r²), x(θ) − x(−θ) =
+  /// −2u_x sinθ sinφ0. At the least contact radius it has, once passed, a logarithmic one whose coefficient does not change in time:
+  /// (G*x'(−π)/2π)√(2/(R u_z)) ln[1/(a_min − r)] for a paraboloid, x' = dx/dθ.
+  double shear(double angle, double r) const;
+
+ private:
+  double indentation(double angle) const;
+  double position(double angle) const;  // x(θ), whatever its origin
+  double speed(double angle) const;     // dx/dθ
+  // |θ| at which the level of image radius x touches, and lets go.
+  double touch_angle(double radius) const;
+
+  const IndenterLaw& law_;
+  Oscillation motion_;
+  double mean_indentation_, amplitude_, tangential_modulus_;
+  double open_angle_;  // where the contact opens; π where it does not
+};
+
+/// Stresses on a grid of phases and radii.
+struct StressMap {
+  std::vector<double> angle;             ///< θ, rad
+  std::vector<double> radius;            ///< r, m
+  std::vector<double> contact_radius;    ///< a of each phase, m
+  std::vector<double> tangential_force;  ///< F_x of each phase, N
+  Field shear;                           ///< τ (phases, radii), Pa
+  Field pressure;                        ///< p (phases, radii), Pa
+};
+
+/// The map of Fig. 4: `phases` + 1 angles from −π to π, both ends included, and `radii` cells from 0 to 1.05 times the largest contact radius, with
+/// the stresses at their middles. In parallel over phases; a stop of the progress throws Interrupted.
+StressMap stress_map(const IndenterLaw& law, double mean_indentation, const Oscillation& motion,
+                     int phases = 128, int radii = 256, const Progress& on_progress = {});
+
+}  // namespace salebra

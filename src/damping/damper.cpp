@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/damping/damper.hpp>
+
+#include "../contact/quadrature.hpp"
+
+namespace salebra {
+namespace {
+
+// γ does not depend on the drag velocity.
+DampingResult damper_at(const ContactLaw& law, const Position& position, double amplitude,
+                        double angular_frequency, const DampingOptions& options) {
+  const DampingResult result = relaxation_damping(law, position,
+                                                  Drag{.normal_amplitude = amplitude,
+                                                       .drag_velocity = 0,
+                                                       .angular_frequency = angular_frequency},
+                                                  options);
+  if (!result.converged)
+    throw NotConverged("damper: the integral for the damping constant did not reach the tolerance");
+  return result;
+}
+
+}  // namespace
+
+OscillatorDecay oscillator_decay(const ContactLaw& law, const Position& position,
+                                 const NormalOscillation& normal,
+                                 const TangentialOscillator& oscillator,
+                                 const DampingOptions& options) {
+  require_positive(oscillator.mass, "mass");
+  require(std::isfinite(oscillator.spring_stiffness) && oscillator.spring_stiffness >= 0,
+          "spring_stiffness", oscillator.spring_stiffness, "must be finite and >= 0");
+  const DampingResult damper =
+      damper_at(law, position, normal.normal_amplitude, normal.angular_frequency, options);
+  OscillatorDecay decay;
+  decay.damping_constant = damper.damping_constant;
+  decay.contact_stiffness = law.tangential_stiffness(damper.indentation - normal.normal_amplitude);
+  const double stiffness = oscillator.spring_stiffness + decay.contact_stiffness;
+  require(stiffness > 0, "spring_stiffness", oscillator.spring_stiffness,
+          "N/m leaves nothing to oscillate against, because the contact opens; give a spring");
+  decay.natural_frequency = std::sqrt(stiffness / oscillator.mass);
+  decay.frequency_ratio = decay.natural_frequency / normal.angular_frequency;
+  const double ratio = decay.damping_constant / (2 * oscillator.mass * decay.natural_frequency);
+  decay.damping_ratio = ratio;
+  decay.quality_factor = 1 / (2 * ratio);
+  // Overdamped: ω0(ζ − √(ζ² − 1)), written without the difference.
+  const double rate = ratio < 1 ? ratio : 1 / (ratio + std::sqrt((ratio - 1) * (ratio + 1)));
+  decay.decay_time = 1 / (decay.natural_frequency * rate);
+  decay.logarithmic_decrement =
+      ratio < 1 ? 2 * std::numbers::pi * ratio / std::sqrt((1 - ratio) * (1 + ratio))
+                : std::numeric_limits<double>::quiet_NaN();
+  return decay;
+}
+
+DamperMap damper_map(const ContactLaw& law, const Position& position,
+                     const std::vector<double>& normal_amplitudes,
+                     const std::vector<double>& angular_frequencies,
+                     const DampingOptions& options) {
+  for (const double frequency : angular_frequencies)
+    require_positive(frequency, "angular_frequency");
+  std::vector<DampingCase> cases;
+  for (const double amplitude : normal_amplitudes)
+    cases.push_back({position, Drag{amplitude, 0, 1}});
+  const std::vector<DampingResult> results = relaxation_damping(law, cases, options);
+  DamperMap map{normal_amplitudes, angular_frequencies,
+                Field(static_cast<Index>(normal_amplitudes.size()),
+                      static_cast<Index>(angular_frequencies.size()))};
+  for (Index i = 0; i < map.damping_constant.rows(); ++i)
+    for (Index j = 0; j < map.damping_constant.cols(); ++j)
+      map.damping_constant(i, j) = results[static_cast<std::size_t>(i)].damping_constant /
+                                   angular_frequencies[static_cast<std::size_t>(j)];
+  return map;
+}
+
+double stabilising_amplitude(const ContactLaw& law, const Position& position,
+                             double angular_frequency, double falling_slope,
+                             double largest_amplitude, const DampingOptions& options) {
+  require_positive(falling_slope, "falling_slope");
+  require_positive(largest_amplitude, "largest_amplitude");
+  auto excess = [&](double amplitude) {
+    return damper_at(law, position, amplitude, angular_frequency, options).damping_constant -
+           falling_slope;
+  };
+  // γ starts in proportion to u_z and may have a maximum: the first of fine steps that is enough brackets the least amplitude.
+  constexpr int steps_per_octave = 4, octaves = 40;
+  double below = 0;
+  for (int i = -octaves * steps_per_octave; i <= 0; ++i) {
+    const double amplitude =
+        largest_amplitude * std::exp2(static_cast<double>(i) / steps_per_octave);
+    if (excess(amplitude) >= 0) return detail::find_root(excess, below, amplitude);
+    below = amplitude;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace salebra
