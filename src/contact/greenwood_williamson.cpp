@@ -103,6 +103,8 @@ double StatisticalSummits::curvature(double separation) const {
   return scale_ * heights_->moment(-0.5, separation);
 }
 
+std::vector<double> StatisticalSummits::break_separations() const { return heights_->breaks(); }
+
 AsperityContact StatisticalSummits::at(double separation) const {
   return {.contacts = count_ * heights_->moment(0, separation),
           .contact_area = pi * radius_ * count_ * heights_->moment(1, separation),
@@ -119,6 +121,12 @@ DeterministicSummits::DeterministicSummits(const std::vector<Summit>& summits,
   for (const detail::HertzCap& cap : detail::hertz_caps(summits, shape))
     caps_.push_back({cap.height, cap.force_radius, cap.area_radius});
   std::ranges::sort(caps_, std::ranges::greater{}, &Cap::height);
+}
+
+std::vector<double> DeterministicSummits::break_separations() const {
+  std::vector<double> heights;
+  for (const Cap& cap : caps_) heights.push_back(cap.height);
+  return heights;
 }
 
 AsperityContact DeterministicSummits::at(double separation) const {
@@ -201,6 +209,14 @@ double GreenwoodWilliamsonLaw::curvature(double indentation) const {
 
 double GreenwoodWilliamsonLaw::indentation_of(double force) const {
   return model_->indentation(model_->separation_of(force));
+}
+
+std::vector<double> GreenwoodWilliamsonLaw::break_points() const {
+  std::vector<double> points;
+  for (const double break_separation : model_->break_separations())
+    points.push_back(model_->indentation(break_separation));
+  std::ranges::sort(points);
+  return points;
 }
 
 }  // namespace salebra

@@ -133,6 +133,14 @@ double HeightDensity::highest() const {
   }
 }
 
+std::vector<double> HeightDensity::breaks() const {
+  if (distribution_ == SummitDistribution::gaussian) return {};
+  if (distribution_ == SummitDistribution::exponential) return {0};
+  std::vector<double> heights;
+  for (const HeightDensityPoint& point : table_) heights.push_back(point.height);
+  return heights;
+}
+
 double HeightDensity::scale() const {
   return distribution_ == SummitDistribution::tabulated
              ? (table_.back().height - table_.front().height) / 4

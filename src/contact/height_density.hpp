@@ -18,6 +18,8 @@ class HeightDensity {
   double quantile(double probability) const;
   /// No summit lies above, or none that double precision could tell from none.
   double highest() const;
+  /// Heights where φ is not smooth.
+  std::vector<double> breaks() const;
   /// A step of s in which the moments change by a factor of a few.
   double scale() const;
 

@@ -222,6 +222,7 @@ TEST_CASE("One summit is Hertz's contact, counted from first touch", "[gw]") {
     CHECK(model->at(-indentation).contact_area == Approx(pi * radius * indentation).epsilon(1e-13));
   }
   CHECK(law.force(-1e-9) == 0);
+  CHECK(law.break_points() == std::vector{0.0});
   CHECK(model->mean_gap(0) == Approx(4e-7).epsilon(1e-13));
 }
 

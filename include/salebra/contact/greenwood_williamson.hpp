@@ -84,6 +84,8 @@ class AsperityModel {
     return at(separation).normal_stiffness;
   }
   virtual double curvature(double separation) const { return at(separation).curvature; }
+  /// s at which F, K or K' is not smooth: where summits of given height touch, or where the height density begins or bends.
+  virtual std::vector<double> break_separations() const { return {}; }
 
   /// s at which the summits carry the force > 0, N: a bracketed root, exact to round-off.
   virtual double separation_of(double force) const;
@@ -112,6 +114,7 @@ class StatisticalSummits final : public AsperityModel {
   double force(double separation) const override;
   double normal_stiffness(double separation) const override;
   double curvature(double separation) const override;
+  std::vector<double> break_separations() const override;
 
  private:
   StatisticalSummits(const SummitEnsemble& ensemble, const Material& material, double nominal_area,
@@ -141,6 +144,7 @@ class DeterministicSummits final : public AsperityModel {
                        double rms_height = ForceSample::unknown,
                        SummitShape shape = SummitShape::circular);
   AsperityContact at(double separation) const override;
+  std::vector<double> break_separations() const override;
 
  private:
   struct Cap {
@@ -165,6 +169,7 @@ class GreenwoodWilliamsonLaw final : public ContactLaw {
   double normal_stiffness(double indentation) const override;
   double curvature(double indentation) const override;
   double indentation_of(double force) const override;
+  std::vector<double> break_points() const override;
   const AsperityModel& model() const { return *model_; }
 
  private:

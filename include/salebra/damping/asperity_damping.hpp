@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/contact/greenwood_williamson.hpp>
+#include <salebra/damping/oscillation.hpp>
+#include <vector>
+
+namespace salebra {
+
+/// Who loses what: the relaxation damping of every summit of a surface, moved by one body.
+struct AsperityDamping {
+  std::vector<double> work;      ///< W_i of each summit, in the order given, J
+  double work_per_cycle = 0;     ///< Σ W_i, J
+  double intermittent_work = 0;  ///< of it, by summits that lose contact during the cycle, J
+  double small_amplitude_work =
+      0;                   ///< Eq. (12) or (15) with F'' of all summits at the mean separation, J
+  int contacts_most = 0;   ///< summits in contact where the body is closest …
+  int contacts_least = 0;  ///< … and farthest
+  double power = 0;        ///< P, W; NaN where ω is not known
+  double damping_constant = 0;  ///< γ, N s/m; NaN where ω or the velocity is not known
+};
+
+/// Each summit is an elastic foundation of its own (PHYSICS section 6, g = x²/R) that sticks: a spring of width dx touched at the level
+/// ζ = x²/R is released by the distance s of Eq. (7) or (13), so that
+///     W_i = G* ∫ s(ζ(x) − δ_i)² dx over the springs that open and close, at any amplitude.
+/// By the theorem of PHYSICS section 7 the sum is relaxation_damping() of the GreenwoodWilliamsonLaw of the same summits, mean
+/// indentation held; this way of computing it uses no force law at all.
+/// separation: mean, from the mean of the summits' heights, m.
+/// Throws InvalidInput as DeterministicSummits, for an unknown G*, u_z < 0, or ω <= 0 in Drag. Cost: 50 to 500 evaluations of s a summit.
+AsperityDamping asperity_damping(const std::vector<Summit>& summits, const Material& material,
+                                 double separation, const Oscillation& motion,
+                                 SummitShape shape = SummitShape::circular);
+
+}  // namespace salebra
