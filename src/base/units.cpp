@@ -112,27 +112,36 @@ std::string_view trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-std::optional<double> factor_of(std::string_view unit, const Spelling& spelling) {
+/// factor · 10^exponent in SI units. The two are kept apart because 10 divided by 1e6 is exactly 1e-5, 10 times 1e-6 is not.
+struct Scale {
+  double factor = 1;
+  int exponent = 0;
+
+  double operator()(double number) const {
+    const double power_of_ten = std::pow(10.0, std::abs(exponent));
+    return factor * (exponent < 0 ? number / power_of_ten : number * power_of_ten);
+  }
+};
+
+std::optional<Scale> scale_of(std::string_view unit, const Spelling& spelling) {
   if (!unit.starts_with(spelling.head)) return {};
   unit.remove_prefix(spelling.head.size());
   if (!unit.ends_with(spelling.tail)) return {};
   unit.remove_suffix(spelling.tail.size());
   if (!unit.ends_with(spelling.stem)) return {};
   unit.remove_suffix(spelling.stem.size());
-  if (unit.empty()) return spelling.factor;
+  if (unit.empty()) return Scale{spelling.factor, 0};
   if (spelling.power == 0) return {};
   for (const Prefix& prefix : prefixes) {
-    if (prefix.symbol == unit) {
-      return spelling.factor * std::pow(10.0, prefix.exponent * spelling.power);
-    }
+    if (prefix.symbol == unit) return Scale{spelling.factor, prefix.exponent * spelling.power};
   }
   return {};
 }
 
-std::optional<double> factor_of(std::string_view unit, Dimension dimension) {
+std::optional<Scale> scale_of(std::string_view unit, Dimension dimension) {
   for (const Spelling& spelling : spellings) {
     if (spelling.dimension != dimension) continue;
-    if (const auto factor = factor_of(unit, spelling)) return factor;
+    if (const auto scale = scale_of(unit, spelling)) return scale;
   }
   return {};
 }
@@ -152,14 +161,14 @@ Written split(std::string_view text, Dimension dimension, std::string_view field
   return {number, trim(rest.substr(std::size_t(end - rest.data())))};
 }
 
-double unit_factor(std::string_view unit, Dimension dimension, std::string_view text,
-                   std::string_view field) {
-  if (unit.empty()) return 1;
-  const auto factor = factor_of(unit, dimension);
-  require(factor.has_value(), field, "'" + std::string(text) + "'",
+Scale unit_scale(std::string_view unit, Dimension dimension, std::string_view text,
+                 std::string_view field) {
+  if (unit.empty()) return {};
+  const auto scale = scale_of(unit, dimension);
+  require(scale.has_value(), field, "'" + std::string(text) + "'",
           fmt::format("has a unit that is not understood here, '{}'; write for example {}", unit,
                       about(dimension).example));
-  return *factor;
+  return *scale;
 }
 
 std::vector<std::string_view> split_at(std::string_view text, char separator) {
@@ -179,8 +188,8 @@ std::vector<double> geometric(std::string_view text, Dimension dimension, std::s
   const Written to_written = split(parts[1], dimension, field);
   Written from_written = split(parts[0], dimension, field);
   if (from_written.unit.empty()) from_written.unit = to_written.unit;
-  const double from = from_written.number * unit_factor(from_written.unit, dimension, text, field);
-  const double to = to_written.number * unit_factor(to_written.unit, dimension, text, field);
+  const double from = unit_scale(from_written.unit, dimension, text, field)(from_written.number);
+  const double to = unit_scale(to_written.unit, dimension, text, field)(to_written.number);
   const std::string_view count_text = trim(parts[2]);
   int count = 0;
   const auto [end, status] =
@@ -205,7 +214,7 @@ std::string_view si_unit(Dimension dimension) { return about(dimension).unit; }
 
 double parse_quantity(std::string_view text, Dimension dimension, std::string_view field) {
   const Written written = split(text, dimension, field);
-  return written.number * unit_factor(written.unit, dimension, text, field);
+  return unit_scale(written.unit, dimension, text, field)(written.number);
 }
 
 std::vector<double> parse_values(std::string_view text, Dimension dimension,

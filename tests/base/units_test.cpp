@@ -48,6 +48,12 @@ TEST_CASE("Quantities are read with and without units", "[units]") {
   CHECK(parse_quantity(text, dimension, "--x") == Approx(value).epsilon(4e-16).margin(0));
 }
 
+TEST_CASE("Round numbers with prefixes are the doubles of their decimals", "[units]") {
+  CHECK(parse_quantity("10um", Dimension::length, "--x") == 1e-5);
+  CHECK(parse_quantity("312.5nm", Dimension::length, "--x") == 312.5e-9);
+  CHECK(parse_quantity("115GPa", Dimension::pressure, "--x") == 115e9);
+}
+
 TEST_CASE("What is not a quantity of the dimension is refused with the option's name", "[units]") {
   const auto [text, dimension] = GENERATE(table<const char*, Dimension>({
       {"", Dimension::length},
