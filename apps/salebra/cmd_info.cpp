@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <limits>
 #include <memory>
 #include <salebra/surface/moments.hpp>
+#include <salebra/surface/spectrum.hpp>
 #include <salebra/surface/summits.hpp>
 
 #include "options.hpp"
@@ -15,6 +17,10 @@ void run(const SurfaceOptions& options, Session& session) {
   const SpectralMoments moments =
       surface.undefined_points() > 0 ? difference_moments(surface) : surface_moments(surface);
   const SummitStatistics summits = summit_statistics(find_summits(surface));
+  // A spectrum needs every point; without one the exponent stays unknown.
+  HurstEstimate hurst;
+  hurst.value = hurst.low = hurst.high = std::numeric_limits<double>::quiet_NaN();
+  if (surface.undefined_points() == 0) hurst = estimate_hurst(power_spectrum(surface));
   session.answer({{"nx", surface.grid.nx},
                   {"ny", surface.grid.ny},
                   {"size_x", surface.grid.lx},
@@ -29,7 +35,7 @@ void run(const SurfaceOptions& options, Session& session) {
                   {"moment2", moments.moment2()},
                   {"moment4", moments.moment4()},
                   {"nayak", moments.nayak()},
-                  {"hurst", {{"value", nullptr}, {"low", nullptr}, {"high", nullptr}}},
+                  {"hurst", {{"value", hurst.value}, {"low", hurst.low}, {"high", hurst.high}}},
                   {"summits",
                    {{"density", summits.density},
                     {"mean_height", summits.mean_height},

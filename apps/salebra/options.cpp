@@ -6,7 +6,6 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/io/read_surface.hpp>
-#include <salebra/surface/detrend.hpp>
 
 namespace salebra::cli {
 
@@ -133,11 +132,15 @@ Surface SurfaceOptions::read() const {
   options.size_y = size_y;
   options.height_unit = height_unit;
   Surface surface = read_surface(file, options);
-  const Detrend method = detrend == "none"    ? Detrend::none
-                         : detrend == "mean"  ? Detrend::mean
-                         : detrend == "plane" ? Detrend::plane
-                                              : customary_detrend(surface);
+  const Detrend method = detrend_method().value_or(customary_detrend(surface));
   return detrended(std::move(surface), method);
+}
+
+std::optional<Detrend> SurfaceOptions::detrend_method() const {
+  if (detrend == "none") return Detrend::none;
+  if (detrend == "mean") return Detrend::mean;
+  if (detrend == "plane") return Detrend::plane;
+  return {};
 }
 
 void PositionOptions::add_to(CLI::App& app, bool with_indentation) {

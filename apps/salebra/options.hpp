@@ -9,6 +9,7 @@
 #include <salebra/contact/material.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
+#include <salebra/surface/detrend.hpp>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,8 @@ struct SurfaceOptions {
   /// field: "SURFACE", or "--surface" to make it an option.
   void add_to(CLI::App& app, bool needed = true, const std::string& field = "SURFACE");
   bool given() const { return !file.empty(); }
+  /// What --detrend says; empty if it was not given.
+  std::optional<Detrend> detrend_method() const;
   /// Read and, with --detrend or else as is customary for its kind, detrended.
   Surface read() const;
 };

@@ -85,6 +85,12 @@ int run_program(int argc, char** argv) {
 #include "command_list.inc"
 #undef SALEBRA_COMMAND
 
+  if (argc < 2) return fail(2, "command: none is given; see salebra --help");
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  const std::string word = argv[1];
+  if (word[0] != '-' && std::ranges::find(commands, word, &CLI::App::get_name) == commands.end()) {
+    return fail(2, fmt::format("{}: is not a command; see salebra --help", word));
+  }
   try {
     app.parse(argc, argv);
     return 0;

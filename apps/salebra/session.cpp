@@ -39,19 +39,13 @@ Session::Session(CommonOptions options, std::string command_line)
       command_line_(std::move(command_line)),
       bar_(options_.progress == "always" ||
            (options_.progress == "auto" && !options_.quiet && isatty(STDERR_FILENO) != 0)) {
-  if (has_output()) require_writable(output(), "--output");
+  if (has_output()) require_output(output(), write_options());
 }
 
-void Session::require_writable(const std::filesystem::path& path, std::string_view field) const {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  require(fs::is_directory(folder, ignored), field, path.string(),
-          "lies in a folder that does not exist; create the folder first");
-  require(!fs::is_directory(path, ignored), field, path.string(),
-          "is a folder; give the name of a file");
-  require(overwrite() || !fs::exists(path, ignored), field, path.string(),
-          "exists already; add --force to replace it or choose another name");
+Provenance Session::provenance() const {
+  Provenance provenance;
+  provenance.command_line = command_line_;
+  return provenance;
 }
 
 Progress Session::progress() {

@@ -3,8 +3,9 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <salebra/base/progress.hpp>
+#include <salebra/io/output.hpp>
+#include <salebra/io/provenance.hpp>
 #include <string>
 #include <string_view>
 
@@ -32,12 +33,10 @@ class Session {
 
   bool has_output() const { return !options_.output.empty(); }
   std::filesystem::path output() const { return options_.output; }
-  bool overwrite() const { return options_.force; }
   bool quiet() const { return options_.quiet; }
-  const std::string& command_line() const { return command_line_; }
-
-  /// Throws InvalidInput if the path exists without --force, or its folder does not.
-  void require_writable(const std::filesystem::path& path, std::string_view field) const;
+  /// For the library's writers.
+  WriteOptions write_options() const { return {.overwrite = options_.force}; }
+  Provenance provenance() const;
 
   /// For the library: draws the bar where one is wanted, and returns false after Ctrl-C.
   Progress progress();

@@ -49,7 +49,8 @@ void append(std::string& text, const Json& object, int indent) {
 
 }  // namespace
 
-std::string to_table(const std::vector<std::vector<std::string>>& rows, int indent) {
+std::string to_table(const std::vector<std::vector<std::string>>& rows, int indent,
+                     bool names_first) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()), 0);
@@ -59,7 +60,9 @@ std::string to_table(const std::vector<std::vector<std::string>>& rows, int inde
   for (const auto& row : rows) {
     std::string line(std::size_t(indent), ' ');
     for (std::size_t i = 0; i < row.size(); ++i) {
-      line += std::string(widths[i] - width_of(row[i]), ' ') + row[i];
+      const std::string padding(widths[i] - width_of(row[i]), ' ');
+      // Names on the left, numbers on the right.
+      line += i == 0 && names_first ? row[i] + padding : padding + row[i];
       if (i + 1 < row.size()) line += "  ";
     }
     text += line + "\n";

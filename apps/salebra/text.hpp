@@ -12,7 +12,8 @@ namespace salebra::cli {
 /// Units and prefixes come from find_quantity.
 std::string to_text(const Json& object);
 
-/// Columns padded to their widest cell; the first row is the heading.
-std::string to_table(const std::vector<std::vector<std::string>>& rows, int indent = 2);
+/// Columns padded to their widest cell; the first row is the heading. names_first: the first column is text.
+std::string to_table(const std::vector<std::vector<std::string>>& rows, int indent = 2,
+                     bool names_first = false);
 
 }  // namespace salebra::cli

@@ -95,6 +95,7 @@ MeasuredSurface read_measured(TomlTable& table, const std::filesystem::path& fol
     *size = table.quantity(key, Dimension::length);
     if (*size) check_positive(table, key, **size);
   }
+  surface.height_unit = table.text("height_unit").value_or("");
   if (const auto choice = table.choice("detrend", {"none", "mean", "plane"})) {
     surface.detrend = std::array{Detrend::none, Detrend::mean, Detrend::plane}[*choice];
   }
@@ -212,6 +213,9 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
                                    error.description()));
   }
   TomlTable root(name, "", document, 1);
+  // A misspelt table must not be told as a missing one.
+  for (const char* table : {"surface", "material", "contact", "fit", "damping"}) root.table(table);
+  root.require_no_other_keys();
   StudyConfiguration configuration;
   configuration.text = text;
   configuration.surfaces = MeasuredSurface{};
@@ -227,7 +231,6 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
   read_contact(root.required_table("contact"), configuration);
   if (auto fit = root.table("fit")) read_fit(*fit, configuration);
   read_damping(root.required_table("damping"), configuration);
-  root.require_no_other_keys();
   return configuration;
 }
 

@@ -29,6 +29,7 @@ Surface read(const MeasuredSurface& recipe) {
   ReadOptions options;
   options.size_x = recipe.size_x;
   options.size_y = recipe.size_y;
+  options.height_unit = recipe.height_unit;
   Surface surface = read_surface(recipe.file, options);
   surface.require_complete("a study");
   const Detrend trend = recipe.detrend.value_or(customary_detrend(surface));
@@ -63,6 +64,8 @@ std::vector<DampingPoint> damping_curve(const ModelResult& bem,
     DampingPoint point;
     point.pressure = sample.pressure;
     point.force = sample.force;
+    points.push_back(point);
+    if (!sample.converged) continue;
     const AtForce position{sample.force};
     const auto by_law = relaxation_damping(fitted_law, position, configuration.motion, small);
     point.law_work = by_law.work_per_cycle;
@@ -77,7 +80,7 @@ std::vector<DampingPoint> damping_curve(const ModelResult& bem,
     } catch (const InvalidInput&) {
       // Near its ends the curve does not cover the whole cycle: no value there.
     }
-    points.push_back(point);
+    points.back() = point;
   }
   return points;
 }
@@ -152,11 +155,11 @@ void warn(StudyResult& result) {
 
 }  // namespace
 
-Estimate student_estimate(const std::vector<double>& values) {
+EnsembleMean student_mean(const std::vector<double>& values) {
   std::vector<double> known;
   std::ranges::copy_if(values, std::back_inserter(known),
                        [](double value) { return !std::isnan(value); });
-  Estimate estimate;
+  EnsembleMean estimate;
   if (known.empty()) return estimate;
   const double count = double(known.size());
   double sum = 0;
@@ -230,21 +233,21 @@ StudyResult run_study(const StudyConfiguration& configuration, const Progress& p
   return result;
 }
 
-Estimate StudyResult::decay_length(ModelResult Realisation::*model) const {
+EnsembleMean StudyResult::decay_length(ModelResult Realisation::*model) const {
   std::vector<double> values;
   for (const Realisation& realisation : realisations)
     values.push_back((realisation.*model).fit.decay_length);
-  if (values.size() != 1) return student_estimate(values);
+  if (values.size() != 1) return student_mean(values);
   const ExponentialFit& fit = (realisations.front().*model).fit;
   return {fit.decay_length, fit.decay_length_low, fit.decay_length_high};
 }
 
-Estimate StudyResult::decay_length_over_rms_height(ModelResult Realisation::*model) const {
+EnsembleMean StudyResult::decay_length_over_rms_height(ModelResult Realisation::*model) const {
   std::vector<double> values;
   for (const Realisation& realisation : realisations) {
     values.push_back((realisation.*model).fit.decay_length / realisation.heights.rms_height);
   }
-  if (values.size() != 1) return student_estimate(values);
+  if (values.size() != 1) return student_mean(values);
   const ExponentialFit& fit = (realisations.front().*model).fit;
   const double rms_height = realisations.front().heights.rms_height;
   return {fit.decay_length / rms_height, fit.decay_length_low / rms_height,
@@ -254,25 +257,25 @@ Estimate StudyResult::decay_length_over_rms_height(ModelResult Realisation::*mod
 namespace {
 
 template <class Value>
-std::vector<Estimate> over_realisations(const StudyResult& result, Value value) {
-  std::vector<Estimate> estimates;
+std::vector<EnsembleMean> over_realisations(const StudyResult& result, Value value) {
+  std::vector<EnsembleMean> estimates;
   for (std::size_t i = 0; i < result.pressures.size(); ++i) {
     std::vector<double> values;
     for (const Realisation& realisation : result.realisations) {
       values.push_back(std::invoke(value, realisation.damping[i]));
     }
-    estimates.push_back(student_estimate(values));
+    estimates.push_back(student_mean(values));
   }
   return estimates;
 }
 
 }  // namespace
 
-std::vector<Estimate> StudyResult::damping(double DampingPoint::*quantity) const {
+std::vector<EnsembleMean> StudyResult::damping(double DampingPoint::*quantity) const {
   return over_realisations(*this, quantity);
 }
 
-std::vector<Estimate> StudyResult::damping_deviation() const {
+std::vector<EnsembleMean> StudyResult::damping_deviation() const {
   return over_realisations(*this, &DampingPoint::deviation);
 }
 

@@ -5,8 +5,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/greenwood_williamson.hpp>
 #include <salebra/contact/law.hpp>
+#include <salebra/contact/mdr.hpp>
 #include <salebra/contact/normal.hpp>
-#include <salebra/contact/profile_law.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/generators/random_phase.hpp>
@@ -28,7 +28,7 @@ using Checks = std::vector<Check>;
 
 void check_hertz(Checks& checks) {
   const double radius = 1e-2, indentation = 1e-6, modulus = steel.contact_modulus;
-  const PowerLaw sphere = profile_law(1 / (2 * radius), 2, steel);
+  const IndenterLaw sphere(paraboloid_profile(radius), steel);
   const double force = 4.0 / 3.0 * modulus * std::sqrt(radius * std::pow(indentation, 3));
   const double contact_radius = std::sqrt(radius * indentation);
   // The same formulas in another order of operations.
@@ -80,7 +80,8 @@ void check_westergaard(Checks& checks) {
   // One Fourier mode, so no error of the grid: what the solver leaves.
   checks.push_back({"Westergaard full contact: area fraction", state.contact_area_fraction, 1, 0});
   checks.push_back({"Westergaard full contact: peak pressure",
-                    state.converged ? state.pressure.maxCoeff() : ForceSample::unknown, 2.01 * full, 1e-8});
+                    state.converged ? state.pressure.maxCoeff() : ForceSample::unknown, 2.01 * full,
+                    1e-8});
 }
 
 void check_greenwood_williamson(Checks& checks) {
@@ -110,13 +111,14 @@ void check_integrals(Checks& checks) {
 void check_theorem(Checks& checks) {
   const double ratio = steel.modulus_ratio(), force = 1, decay_length = 5e-9;
   const ExponentialLaw rough(force, decay_length, ratio);
-  const PowerLaw cone = profile_law(0.1, 1, steel);
+  const IndenterLaw cone(cone_profile(0.1), steel);
   const double indentation = 1e-7, curvature = cone.curvature(indentation);
   // Quadrature to 1e-10 against closed forms.
   const auto compare = [&](const char* name, const ContactLaw& law, double at,
                            const Oscillation& motion, double expected) {
     const auto result = relaxation_damping(law, AtIndentation{at}, motion);
-    checks.push_back({name, result.converged ? result.work_per_cycle : ForceSample::unknown, expected, 1e-9});
+    checks.push_back(
+        {name, result.converged ? result.work_per_cycle : ForceSample::unknown, expected, 1e-9});
   };
   compare("theorem on a cone: Eq. (12)", cone, indentation, shear,
           closed_form::work_per_cycle(ratio, curvature, shear));

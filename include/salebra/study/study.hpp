@@ -16,14 +16,14 @@
 namespace salebra {
 
 /// A mean with its 95 % interval; NaN limits where there is none to be had.
-struct Estimate {
+struct EnsembleMean {
   double mean = ForceSample::unknown;
   double low = ForceSample::unknown;
   double high = ForceSample::unknown;
 };
 
 /// Mean and Student-t 95 % interval of the mean, over the values that are not NaN; no limits for fewer than two.
-Estimate student_estimate(const std::vector<double>& values);
+EnsembleMean student_mean(const std::vector<double>& values);
 
 /// What one contact model says about one surface.
 struct ModelResult {
@@ -67,11 +67,11 @@ struct StudyResult {
   bool interrupted = false;           ///< realisations holds those that were finished
 
   /// Over the realisations; with one only, the interval of its fit.
-  Estimate decay_length(ModelResult Realisation::*model) const;
-  Estimate decay_length_over_rms_height(ModelResult Realisation::*model) const;
+  EnsembleMean decay_length(ModelResult Realisation::*model) const;
+  EnsembleMean decay_length_over_rms_height(ModelResult Realisation::*model) const;
   /// Of a quantity of each pressure, in the order of pressures.
-  std::vector<Estimate> damping(double DampingPoint::*quantity) const;
-  std::vector<Estimate> damping_deviation() const;
+  std::vector<EnsembleMean> damping(double DampingPoint::*quantity) const;
+  std::vector<EnsembleMean> damping_deviation() const;
   /// How the intervals came about: one line.
   std::string interval_method() const;
 };

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/normal.hpp>
+#include <salebra/io/result_file.hpp>
+
+#include "options.hpp"
+#include "program.hpp"
+
+namespace salebra::cli {
+namespace {
+
+struct ContactArguments {
+  SurfaceOptions surface;
+  MaterialOptions material;
+  PositionOptions position;
+  std::string boundary = "periodic";
+  std::optional<double> tolerance;
+  int max_iterations = NormalContactOptions().max_iterations;
+};
+
+NormalContactState solve(const ContactArguments& arguments, const Surface& surface,
+                         Session& session) {
+  const double contact_modulus = arguments.material.material().contact_modulus;
+  NormalContactOptions options;
+  options.boundary = arguments.boundary == "free" ? Boundary::free : Boundary::periodic;
+  if (arguments.tolerance) options.tolerance = *arguments.tolerance;
+  options.max_iterations = arguments.max_iterations;
+  options.on_progress = session.progress();
+  const PositionOptions& position = arguments.position;
+  if (position.mean_gap)
+    return press_to_mean_gap(surface, contact_modulus, *position.mean_gap, options);
+  const double pressure =
+      position.pressure ? *position.pressure : *position.force / surface.grid.area();
+  return press_to_pressure(surface, contact_modulus, pressure, options);
+}
+
+std::vector<double> positions(Index count, double step) {
+  std::vector<double> values;
+  for (Index i = 0; i < count; ++i) values.push_back(double(i) * step);
+  return values;
+}
+
+void write_contact(const Session& session, const Grid2D& grid, const NormalContactState& state) {
+  ResultFile file(session.output(), session.provenance(), session.write_options());
+  ResultGroup group = file.group("contact");
+  group.coordinate("x", positions(grid.nx, grid.dx()), "m", "position along x");
+  group.coordinate("y", positions(grid.ny, grid.dy()), "m", "position along y");
+  group.dataset("contact_pressure", state.pressure, "x", "y", "Pa", "contact pressure");
+  group.dataset("gap", state.gap, "x", "y", "m", "gap of the deformed surfaces");
+  group.attribute("pressure", state.mean_pressure);
+  group.attribute("force", state.force);
+  group.attribute("mean_gap", state.mean_gap);
+  group.attribute("indentation", state.indentation);
+  group.attribute("contact_area_fraction", state.contact_area_fraction);
+  group.attribute("elastic_energy", state.elastic_energy);
+  group.attribute("residual", state.residual);
+  file.commit();
+}
+
+void run(const ContactArguments& arguments, Session& session) {
+  require(arguments.position.count() == 1, "--pressure", arguments.position.count(),
+          "positions are given; give exactly one of --pressure, --mean-gap, --force-newton");
+  if (arguments.position.force) require_positive(*arguments.position.force, "--force-newton");
+  if (arguments.position.pressure) require_positive(*arguments.position.pressure, "--pressure");
+  if (arguments.position.mean_gap) require_positive(*arguments.position.mean_gap, "--mean-gap");
+  const Surface surface = arguments.surface.read();
+  const auto start = std::chrono::steady_clock::now();
+  const NormalContactState state = solve(arguments, surface, session);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  if (state.interrupted) throw Interrupted("contact: interrupted; nothing was written");
+
+  if (state.converged && session.has_output()) {
+    write_contact(session, surface.grid, state);
+  }
+  session.answer({{"pressure", state.mean_pressure},
+                  {"force", state.force},
+                  {"contact_area_fraction", state.contact_area_fraction},
+                  {"mean_gap", state.mean_gap},
+                  {"indentation", state.indentation},
+                  {"max_pressure", state.pressure.size() > 0 ? state.pressure.maxCoeff() : 0.0},
+                  {"elastic_energy", state.elastic_energy},
+                  {"iterations", state.iterations},
+                  {"fft_count", state.fft_count},
+                  {"residual", state.residual},
+                  {"converged", state.converged},
+                  {"seconds", elapsed.count()}});
+  if (!state.converged) {
+    throw NotConverged(
+        fmt::format("contact: residual {:.3g} after {} iterations did not reach the tolerance; "
+                    "allow a larger --tolerance",
+                    state.residual, state.iterations));
+  }
+}
+
+}  // namespace
+
+void add_contact_command(Program& program) {
+  auto arguments = std::make_shared<ContactArguments>();
+  CLI::App& command = program.add_command(
+      "contact", "press a surface against an elastic half-space by boundary elements",
+      {"salebra contact rough.h5 --pressure 10MPa --contact-modulus 115GPa",
+       "salebra contact scan.txt --mean-gap 50nm --young 200GPa --poisson 0.3 -o contact.h5"},
+      [arguments](Session& session) { run(*arguments, session); });
+  arguments->surface.add_to(command);
+  arguments->position.add_to(command, false);
+  arguments->material.add_to(command);
+  add_choice(command, "--boundary", arguments->boundary, {"periodic", "free"}, "default periodic");
+  command.add_option("--max-iterations", arguments->max_iterations, "on the finest grid")
+      ->capture_default_str();
+  add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
+               "of the complementarity residual; default 1e-10");
+}
+
+}  // namespace salebra::cli

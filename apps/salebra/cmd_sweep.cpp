@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/sweep.hpp>
+#include <salebra/io/force_curve_file.hpp>
+
+#include "curve_json.hpp"
+#include "options.hpp"
+#include "program.hpp"
+
+namespace salebra::cli {
+namespace {
+
+struct SweepArguments {
+  SurfaceOptions surface;
+  MaterialOptions material;
+  std::vector<double> pressures;
+  bool stiffness = false;
+  std::string boundary = "periodic";
+  std::optional<double> tolerance;
+};
+
+void run(const SweepArguments& arguments, Session& session) {
+  SweepOptions options;
+  options.stiffness = arguments.stiffness;
+  options.contact.boundary = arguments.boundary == "free" ? Boundary::free : Boundary::periodic;
+  if (arguments.tolerance) options.contact.tolerance = *arguments.tolerance;
+  options.contact.on_progress = session.progress();
+  for (const double pressure : arguments.pressures) require_positive(pressure, "--pressures");
+  std::vector<double> pressures = arguments.pressures;
+  std::ranges::sort(pressures);
+  const Material material = arguments.material.material();
+  const ForceCurve curve = sweep_pressures(arguments.surface.read(), material, pressures, options);
+  if (interrupted()) throw Interrupted("sweep: interrupted; nothing was written");
+  if (session.has_output())
+    write_force_curve(session.output(), curve, session.provenance(), session.write_options());
+  session.answer({{"curve", to_json(curve)}});
+  const auto lost = std::ranges::count(curve.samples, false, &ForceSample::converged);
+  if (lost > 0) {
+    throw NotConverged(
+        fmt::format("sweep: {} of {} pressures did not converge; allow a larger --tolerance", lost,
+                    curve.samples.size()));
+  }
+}
+
+}  // namespace
+
+void add_sweep_command(Program& program) {
+  auto arguments = std::make_shared<SweepArguments>();
+  CLI::App& command = program.add_command(
+      "sweep", "force-gap curve of a surface over many pressures",
+      {"salebra sweep rough.h5 --pressures 1:100MPa:16 --contact-modulus 115GPa --poisson 0.3 "
+       "--stiffness -o curve.h5",
+       "salebra sweep scan.txt --pressures 1MPa,5MPa,20MPa --young 70GPa --poisson 0.33 --json"},
+      [arguments](Session& session) { run(*arguments, session); });
+  arguments->surface.add_to(command);
+  add_values(command, "--pressures", arguments->pressures, Dimension::pressure, "nominal pressures")
+      ->required();
+  command.add_flag("--stiffness", arguments->stiffness,
+                   "also K by a linear solve on each contact, and K_t where G* is known");
+  arguments->material.add_to(command);
+  add_choice(command, "--boundary", arguments->boundary, {"periodic", "free"}, "default periodic");
+  add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
+               "of the complementarity residual; default 1e-10");
+}
+
+}  // namespace salebra::cli
