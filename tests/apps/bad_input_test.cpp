@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "run_program.hpp"
+
+namespace {
+
+const std::string recipe =
+    "generate --points 64 --size-x 4um --hurst 0.8 --rolloff 2um --short-cutoff 0.5um --rms-height "
+    "10nm ";
+const std::string study = R"([surface]
+points = 32
+size_x = "4um"
+hurst = 0.8
+rolloff = "2um"
+short_cutoff = "1um"
+rms_height = "10nm"
+seeds = [1, 2]
+
+[material]
+contact_modulus = "10GPa"
+poisson = 0.3
+
+[contact]
+relative_pressures = "1e-3:0.2:8"
+
+[damping]
+normal_amplitude = "0.1nm"
+drag_velocity = "1mm/s"
+frequency = "20kHz"
+)";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+}  // namespace
+
+TEST_CASE("A study file with a fault is refused with key and line, and nothing is written",
+          "[bad-input]") {
+  const ProgramTest test;
+  struct Case {
+    const char* from;
+    const char* to;
+    const char* expected;
+  };
+  const auto [from, to, expected] = GENERATE(values<Case>({
+      {"hurst = 0.8", "hurts = 0.8", "study.toml:1: surface.hurst"},
+      {"seeds = [1, 2]", "seeds = [1, 2]\ncolour = 1", "study.toml:9: surface.colour"},
+      {"poisson = 0.3", "poison = 0.3", "study.toml:12: material.poison"},
+      {"[contact]", "[contract]", "study.toml:14: contract"},
+      {"hurst = 0.8", "hurst = 1.3", "study.toml:4: surface.hurst: 1.3"},
+      {"hurst = 0.8", "hurst = nan", "study.toml:4: surface.hurst"},
+      {"hurst = 0.8", "hurst = \"rough\"", "study.toml:4: surface.hurst"},
+      {"\"4um\"", "\"-4um\"", "study.toml:3: surface.size_x"},
+      {"\"4um\"", "\"4kg\"", "study.toml:3: surface.size_x"},
+      {"\"1um\"", "\"0.2um\"", "study.toml:6: surface.short_cutoff"},
+      {"points = 32", "points = 0", "study.toml:2: surface.points"},
+      {"points = 32", "points = 3.5", "study.toml:2: surface.points"},
+      {"seeds = [1, 2]", "seeds = [1, 1]", "study.toml:8: surface.seeds"},
+      {"poisson = 0.3", "poisson = 0.7", "study.toml:12: material.poisson"},
+      {"\"1e-3:0.2:8\"", "[0.1, 0.0, 0.2, 0.3]", "study.toml:15: contact.relative_pressures"},
+      {"\"1e-3:0.2:8\"", "[0.1, 0.2]", "study.toml:15: contact.relative_pressures"},
+      {"\"20kHz\"", "\"0Hz\"", "study.toml:20: damping.frequency"},
+      {"\"20kHz\"", "20kHz", "study.toml:20"},
+  }));
+  INFO(expected);
+  test.write("study.toml", replaced(study, from, to));
+  check_refused(test.run("study study.toml -o result.h5"), expected);
+  CHECK(test.files() == std::set<std::string>{"study.toml"});
+}
+
+TEST_CASE("A fit window that holds fewer than three pressures is refused", "[bad-input]") {
+  const ProgramTest test;
+  test.write(
+      "study.toml",
+      replaced(study, "relative_pressures = \"1e-3:0.2:8\"",
+               "pressures = \"1MPa:1GPa:8\"\n[fit]\npressure_window = [\"1MPa\", \"3MPa\"]"));
+  check_refused(test.run("study study.toml -o result.h5"), "study.toml:17: fit.pressure_window");
+  CHECK(test.files() == std::set<std::string>{"study.toml"});
+}
+
+TEST_CASE("A surface file that cannot be one is refused, and nothing is written", "[bad-input]") {
+  const ProgramTest test;
+  const std::string press =
+      "contact heights.txt --size-x 1um --size-y 1um --pressure 1MPa --contact-modulus 1GPa -o "
+      "result.h5";
+  const auto content =
+      GENERATE(as<std::string>(), "This is nonsense.", "", "1 2 3\n4 5\n", "1 2 x\n3 4 5\n6 7 8\n",
+               "1 2 nan\n3 4 5\n6 7 8\n", "1 2 inf\n3 4 5\n6 7 8\n", "# Width: 1 µm\n");
+  INFO(content);
+  test.write("heights.txt", content);
+  check_refused(test.run(press), "");
+  CHECK(test.files() == std::set<std::string>{"heights.txt"});
+}
+
+TEST_CASE("Surfaces that are absent, truncated or without a size are refused", "[bad-input]") {
+  const ProgramTest test;
+  const std::string rest = " --pressure 1MPa --contact-modulus 1GPa -o result.h5";
+  check_refused(test.run("contact absent.h5" + rest), "absent.h5");
+  test.write("heights.txt", "1 2 3 4\n4 5 6 7\n7 8 9 5\n");
+  check_refused(test.run("contact heights.txt" + rest), "size_x");
+  check_refused(test.run("contact heights.txt --size-x 0 --size-y 1um" + rest), "--size-x");
+
+  REQUIRE(test.run(recipe + "-o rough.h5").status == 0);
+  REQUIRE(test.run(recipe + "-o rough.npy").status == 0);
+  for (const std::string name : {"rough.h5", "rough.npy"}) {
+    INFO(name);
+    const std::string whole = test.read(name);
+    test.write("cut-" + name, whole.substr(0, whole.size() / 2));
+    check_refused(test.run("contact cut-" + name + " --size-x 1um --size-y 1um" + rest),
+                  "cut-" + name);
+  }
+  CHECK(!test.files().contains("result.h5"));
+}
+
+TEST_CASE("The measured surfaces that are broken on purpose are refused", "[bad-input]") {
+  const std::filesystem::path shared = SALEBRA_SHARED;
+  if (!std::filesystem::exists(shared / "surfaces")) return;
+  const ProgramTest test;
+  check_refused(test.run("info " + (shared / "surfaces/nonsense_txt_file.txt").string()),
+                "nonsense_txt_file.txt");
+  check_refused(test.run("info " + (shared / "surfaces/wrongnpyfile.npy").string()),
+                "wrongnpyfile.npy");
+  check_refused(test.run("info " + (shared / "surfaces/example-2d.npy").string()), "size_x");
+}
+
+TEST_CASE("Grids and spectra that cannot be are refused, and nothing is written", "[bad-input]") {
+  const ProgramTest test;
+  const auto [options, expected] = GENERATE(table<std::string, std::string>({
+      {"--points 0 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um --rms-height 1nm",
+       "--points"},
+      {"--points 64,-1 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um --rms-height "
+       "1nm",
+       "--points"},
+      {"--points 64 --size-x 0 --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um --rms-height 1nm",
+       "size_x"},
+      {"--points 64 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.03um --rms-height "
+       "1nm",
+       "short_cutoff"},
+      {"--points 64 --size-x 1um --hurst 0 --rolloff 0.5um --short-cutoff 0.2um --rms-height 1nm",
+       "hurst"},
+      {"--points 64 --size-x 1um --hurst nan --rolloff 0.5um --short-cutoff 0.2um --rms-height 1nm",
+       "--hurst"},
+      {"--points 64 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um", "rms_height"},
+      {"--points 64 --size-x 1um --hurst 0.8 --rolloff 0.1um --short-cutoff 0.2um --rms-height 1nm",
+       "rolloff"},
+      {"--points 64 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um --rms-height "
+       "-1nm",
+       "rms_height"},
+      {"--points 64 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um --rms-height 1nm "
+       "--seed -1",
+       "--seed"},
+  }));
+  INFO(options);
+  check_refused(test.run("generate " + options + " -o rough.h5"), expected);
+  CHECK(test.files().empty());
+}
+
+TEST_CASE("Pressures, gaps and materials that cannot be are refused, and nothing is written",
+          "[bad-input]") {
+  const ProgramTest test;
+  REQUIRE(test.run(recipe + "-o rough.h5").status == 0);
+  const auto [options, expected] = GENERATE(table<std::string, std::string>({
+      {"contact rough.h5 --pressure 0 --contact-modulus 1GPa", "--pressure"},
+      {"contact rough.h5 --pressure -1MPa --contact-modulus 1GPa", "--pressure"},
+      {"contact rough.h5 --mean-gap 1m --contact-modulus 1GPa", "mean_gap"},
+      {"contact rough.h5 --contact-modulus 1GPa", "--pressure"},
+      {"contact rough.h5 --pressure 1MPa --mean-gap 1nm --contact-modulus 1GPa", "--pressure"},
+      {"contact rough.h5 --pressure 1MPa", "--contact-modulus"},
+      {"contact rough.h5 --pressure 1MPa --contact-modulus 0", "contact_modulus"},
+      {"contact rough.h5 --pressure 1MPa --young 1GPa", "--poisson"},
+      {"contact rough.h5 --pressure 1MPa --contact-modulus 1GPa --tolerance 2", "tolerance"},
+      {"sweep rough.h5 --pressures 1MPa,0 --contact-modulus 1GPa", "--pressures"},
+      {"sweep rough.h5 --pressures 1MPa:2MPa:1 --contact-modulus 1GPa", "--pressures"},
+      {"gw rough.h5 --pressures -1 --contact-modulus 1GPa", "--pressures"},
+      {"gw --pressures 1MPa --contact-modulus 1GPa", "--density"},
+      {"gw --density 0 --radius 1um --summit-rms 1nm --pressures 1MPa --contact-modulus 1GPa",
+       "density"},
+  }));
+  INFO(options);
+  check_refused(test.run(options + " -o result.h5"), expected);
+  CHECK(test.files() == std::set<std::string>{"rough.h5"});
+}
+
+TEST_CASE("An existing output is refused before any work, and replaced with --force",
+          "[bad-input]") {
+  const ProgramTest test;
+  test.write("rough.h5", "precious");
+  check_refused(test.run(recipe + "-o rough.h5"), "--force");
+  CHECK(test.read("rough.h5") == "precious");
+  // The input is not even looked at.
+  check_refused(test.run("contact absent.h5 --pressure 1MPa --contact-modulus 1GPa -o rough.h5"),
+                "--force");
+  check_refused(test.run(recipe + "-o absent/rough.h5"), "absent");
+  check_refused(test.run(recipe + "-o ."), ".");
+  CHECK(test.files() == std::set<std::string>{"rough.h5"});
+  CHECK(test.run(recipe + "-o rough.h5 --force").status == 0);
+  CHECK(test.run("info rough.h5").status == 0);
+}
+
+TEST_CASE("On a full disk nothing half-written stays", "[bad-input]") {
+  const ProgramTest test;
+  // The limit of file size stands in for the disk: 4 KiB, where the heights alone take 32 KiB.
+  for (const std::string name : {"rough.h5", "rough.npy", "rough.txt"}) {
+    INFO(name);
+    const auto result = test.run(recipe + "-o " + name, "ulimit -f 8;");
+    CHECK(result.status == 1);
+    CHECK_THAT(result.err, Catch::Contains("salebra: error: ") && Catch::Contains(name));
+    CHECK(test.files().empty());
+  }
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <salebra/base/version.hpp>
+
+#include "run_program.hpp"
+
+using Catch::Contains;
+
+TEST_CASE("The program tells its version", "[program]") {
+  const auto result = ProgramTest().run("--version");
+  CHECK(result.status == 0);
+  CHECK(result.out == "salebra " + std::string(salebra::version()) + "\n");
+}
+
+TEST_CASE("Help of every command ends with two examples of that command", "[program]") {
+  const ProgramTest test;
+  const auto command = GENERATE(as<std::string>(), "generate", "info", "convert", "contact",
+                                "sweep", "gw", "fit", "damping", "study", "verify");
+  CHECK_THAT(test.run("--help").out, Contains("  " + command));
+  const auto help = test.run(command + " --help");
+  CHECK(help.status == 0);
+  CHECK(help.err.empty());
+  const auto examples = help.out.substr(help.out.rfind("Examples:"));
+  CHECK_THAT(examples, Catch::Matches("Examples:\n  salebra " + command + "[^\n]*\n  salebra " +
+                                      command + "[^\n]*\n*"));
+  CHECK_THAT(help.out, Contains("--json") && Contains("--threads") && Contains("--output") &&
+                           Contains("--force") && Contains("--quiet") && Contains("--progress"));
+}
+
+TEST_CASE("Wrong usage is refused in one line", "[program]") {
+  const ProgramTest test;
+  check_refused(test.run(""), "command");
+  check_refused(test.run("polish"), "polish");
+  check_refused(test.run("info"), "SURFACE");
+  check_refused(test.run("info a.txt --colour red"), "--colour");
+  check_refused(test.run("verify --threads -1"), "--threads");
+  check_refused(test.run("verify --progress often"), "--progress");
+}
+
+TEST_CASE("This installation agrees with the analytic solutions", "[program][verify]") {
+  const auto result = ProgramTest().run("verify --json");
+  INFO(result.out);
+  CHECK(result.status == 0);
+  CHECK(result.err.empty());
+  const auto answer = result.json();
+  CHECK(keys(answer) == std::set<std::string>{"checks"});
+  CHECK(answer["checks"].size() >= 12);
+  for (const auto& check : answer["checks"]) {
+    CHECK(keys(check) == std::set<std::string>{"name", "value", "expected", "tolerance", "passed"});
+    CHECK(check["passed"] == true);
+  }
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+/// Runs of the real program in a folder of its own, which is removed with the object.
+class ProgramTest {
+ public:
+  ProgramTest();
+  ~ProgramTest();
+  ProgramTest(const ProgramTest&) = delete;
+  ProgramTest& operator=(const ProgramTest&) = delete;
+
+  struct Result {
+    int status = 0;
+    std::string out, err;
+
+    /// The one JSON object on stdout; throws if there is anything else.
+    nlohmann::json json() const { return nlohmann::json::parse(out); }
+  };
+
+  /// `salebra ARGUMENTS` in the folder; arguments as a shell takes them. before: shell commands such as "ulimit -f 1;".
+  Result run(const std::string& arguments, const std::string& before = "") const;
+
+  const std::filesystem::path& folder() const { return folder_; }
+  void write(const std::string& file, const std::string& text) const;
+  std::string read(const std::string& file) const;
+  /// Names of what lies in the folder.
+  std::set<std::string> files() const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// Bad input as the user must see it: status 2 and one line "salebra: error: …" that holds `part`; stdout is empty.
+void check_refused(const ProgramTest::Result& result, const std::string& part);
+
+std::set<std::string> keys(const nlohmann::json& object);

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "run_program.hpp"
+
+using Catch::Contains;
+
+namespace {
+
+const std::string material_and_rest = R"(
+[material]
+contact_modulus = "10GPa"
+poisson = 0.3
+
+[contact]
+relative_pressures = "1e-3:0.2:10"
+tolerance = 1e-8
+
+[damping]
+normal_amplitude = "0.1nm"
+drag_velocity = "1mm/s"
+frequency = "20kHz"
+)";
+const std::string study = R"([surface]
+points = 64
+size_x = "4um"
+hurst = 0.8
+rolloff = "1um"
+short_cutoff = "0.5um"
+rms_height = "10nm"
+seeds = [1, 2, 3]
+)" + material_and_rest;
+
+}  // namespace
+
+TEST_CASE("A study answers with the agreed keys and one file", "[study]") {
+  const ProgramTest test;
+  test.write("study.toml", study);
+  const auto result = test.run("study study.toml --json -o result.h5");
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  const auto answer = result.json();
+  CHECK(keys(answer) == std::set<std::string>{"decay_length", "decay_length_over_rms_height",
+                                              "damping", "comparison", "files"});
+  CHECK(keys(answer["decay_length"]) == std::set<std::string>{"mean", "low", "high"});
+  CHECK(answer["decay_length"]["low"] < answer["decay_length"]["mean"]);
+  CHECK(answer["decay_length"]["mean"] < answer["decay_length"]["high"]);
+  // What every rough surface shows, with a wide margin.
+  CHECK(answer["decay_length_over_rms_height"]["mean"] > 0.2);
+  CHECK(answer["decay_length_over_rms_height"]["mean"] < 0.8);
+  CHECK(answer["damping"]["pressure"].size() == 10);
+  CHECK(answer["damping"]["curve_damping_constant"]["mean"].size() == 10);
+  CHECK(keys(answer["comparison"]) ==
+        std::set<std::string>{"bem", "gw_moments", "gw_deterministic", "law_deviation_percent"});
+  CHECK(answer["files"]["results"] == "result.h5");
+  CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5"});
+}
+
+TEST_CASE("A study's summary puts Eq. (16) beside the curve's own damping", "[study]") {
+  const ProgramTest test;
+  test.write("study.toml", study);
+  const auto result = test.run("study study.toml -o result.h5 --progress always");
+  REQUIRE(result.status == 0);
+  CHECK_THAT(result.out, Contains("boundary elements") &&
+                             Contains("GW, summits from spectral moments") && Contains("l/h_rms") &&
+                             Contains("Eq. (16)") && Contains("measured curve") &&
+                             Contains("% off the damping") && Contains("results: result.h5"));
+  CHECK_THAT(result.err, Contains("study"));
+  CHECK(test.run("study study.toml -o other.h5 --quiet --progress never").err.empty());
+}
+
+TEST_CASE("A study of a measured surface says that it is continued periodically", "[study]") {
+  const std::filesystem::path scan =
+      std::filesystem::path(SALEBRA_SHARED) / "surfaces/matrix-3.txt";
+  if (!std::filesystem::exists(scan)) return;
+  const ProgramTest test;
+  test.write("measured.toml", material_and_rest);
+  const auto result =
+      test.run("study measured.toml --surface " + scan.string() + " --json -o result.h5");
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  CHECK_THAT(result.err, Contains("salebra: warning: ") && Contains("periodically"));
+  CHECK(result.json()["decay_length_over_rms_height"]["mean"] > 0.1);
+  check_refused(test.run("study measured.toml"), "surface");
+}
+
+TEST_CASE("An interrupted study keeps the surfaces that it has finished", "[study]") {
+  const ProgramTest test;
+  std::string many = study;
+  many.replace(many.find("seeds = [1, 2, 3]"), 17, "seed_count = 100000");
+  test.write("study.toml", many);
+  // The program itself is what the signal goes to; the limit of time is only the moment to send it.
+  const auto result = test.run("study study.toml -o result.h5 --json", "(sleep 3; kill -INT $$) &");
+  INFO(result.err);
+  CHECK(result.status == 130);
+  CHECK_THAT(result.err, Contains("interrupted"));
+  CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5"});
+}

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/study/configuration.hpp>
+
+using namespace salebra;
+using Catch::StartsWith;
+
+namespace {
+
+const std::string material = "[material]\ncontact_modulus = 1e9\npoisson = 0.25\n";
+const std::string contact = "[contact]\npressures = [1e5, \"0.2MPa\", \"300kPa\", 4e5]\n";
+const std::string damping =
+    "[damping]\nnormal_amplitude = \"1nm\"\ndrag_velocity = 0.01\nangular_frequency = 100\n";
+
+StudyConfiguration parse(const std::string& text) {
+  return parse_study_configuration(text, "x.toml", "/folder");
+}
+
+}  // namespace
+
+TEST_CASE("Numbers are SI and strings have units", "[configuration]") {
+  const auto configuration = parse(
+      "[surface]\npoints = [32, 16]\nsize_x = \"4um\"\nhurst = 0.5\nlong_cutoff = 2e-6\n"
+      "short_cutoff = \"1um\"\nrms_slope = 0.1\nmethod = \"random-phase\"\nfirst_seed = "
+      "5\nseed_count = 3\n" +
+      material + contact + damping);
+  const auto& surfaces = std::get<GeneratedSurfaces>(configuration.surfaces);
+  CHECK(surfaces.grid == Grid2D{32, 16, 4e-6, 2e-6});
+  CHECK(surfaces.spectrum.long_cutoff == 2e-6);
+  CHECK_FALSE(surfaces.spectrum.rms_height.has_value());
+  CHECK(surfaces.method == GenerationMethod::random_phase);
+  CHECK(surfaces.seeds == std::vector<std::uint64_t>{5, 6, 7});
+  CHECK(configuration.pressures == std::vector{1e5, 2e5, 3e5, 4e5});
+  CHECK_FALSE(configuration.relative_pressures);
+  CHECK(configuration.material.modulus_ratio() == Approx(1.5 / 1.75).epsilon(1e-14));
+  CHECK(std::get<Drag>(configuration.motion).angular_frequency == 100);
+}
+
+TEST_CASE("A measured surface is looked for beside its configuration", "[configuration]") {
+  const auto configuration =
+      parse("[surface]\nfile = \"scan.txt\"\nsize_x = \"10um\"\ndetrend = \"mean\"\n" + material +
+            contact + damping);
+  const auto& surface = std::get<MeasuredSurface>(configuration.surfaces);
+  CHECK(surface.file == "/folder/scan.txt");
+  CHECK(surface.size_x == 1e-5);
+  CHECK(surface.detrend == Detrend::mean);
+}
+
+TEST_CASE("Equal frequencies, dead weights and two elastic bodies can be asked for",
+          "[configuration]") {
+  const auto configuration =
+      parse("[material]\nyoung = [\"200GPa\", \"70GPa\"]\npoisson = [0.3, 0.33]\n" + contact +
+            "[damping]\nmode = \"equal-frequency\"\nnormal_amplitude = 1e-9\ntangential_amplitude "
+            "= 2e-9\n"
+            "phase = \"90deg\"\nfrequency = \"1kHz\"\nhold = \"force\"\n");
+  const auto& motion = std::get<EqualFrequency>(configuration.motion);
+  CHECK(motion.phase == Approx(std::numbers::pi / 2).epsilon(1e-15));
+  CHECK(motion.angular_frequency == Approx(2000 * std::numbers::pi).epsilon(1e-15));
+  CHECK(configuration.damping.hold == Hold::force);
+  CHECK(configuration.material.contact_modulus ==
+        Approx(1 / (0.91 / 2e11 + (1 - 0.33 * 0.33) / 7e10)).epsilon(1e-14));
+}
+
+TEST_CASE("What the library itself refuses is told with file, line and key", "[configuration]") {
+  CHECK_THROWS_WITH(
+      parse("\n[material]\ncontact_modulus = 1e9\n\npoisson = 0.6\n" + contact + damping),
+      StartsWith("x.toml:5: material.poisson: 0.6 "));
+  CHECK_THROWS_WITH(parse(material + "[contact]\npressures = \"1:x:3\"\n" + damping),
+                    StartsWith("x.toml:5: contact.pressures: "));
+  CHECK_THROWS_WITH(parse(material + contact), StartsWith("x.toml:1: damping: "));
+  CHECK_THROWS_WITH(parse("[material"), StartsWith("x.toml:1: is not TOML: "));
+  CHECK_THROWS_AS(parse("surface = 3\n"), InvalidInput);
+}
+
+TEST_CASE("The configurations that come with the program are valid", "[configuration]") {
+  for (const std::string name : {"quickstart.toml", "paper.toml", "measured.toml"}) {
+    INFO(name);
+    CHECK_NOTHROW(read_study_configuration(std::string(SALEBRA_DATA) + "/" + name));
+  }
+}

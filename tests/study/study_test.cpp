@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/damping/closed_form.hpp>
+#include <salebra/io/result_file.hpp>
+#include <salebra/study/study.hpp>
+#include <salebra/study/study_file.hpp>
+
+using namespace salebra;
+
+namespace {
+
+StudyConfiguration small_study() {
+  return parse_study_configuration(R"(
+[surface]
+points = 64
+size_x = "4um"
+hurst = 0.8
+rolloff = "1um"
+short_cutoff = "0.5um"
+rms_height = "10nm"
+seeds = [1, 2, 3]
+[material]
+contact_modulus = "10GPa"
+poisson = 0.3
+[contact]
+relative_pressures = "1e-3:0.2:12"
+tolerance = 1e-8
+[damping]
+normal_amplitude = "0.1nm"
+drag_velocity = "1mm/s"
+frequency = "20kHz"
+)",
+                                   "small.toml");
+}
+
+}  // namespace
+
+TEST_CASE("The Student interval of a mean is the textbook's", "[study]") {
+  const EnsembleMean estimate = student_mean({1, 2, 3, 4});
+  // t(0.975, 3) = 3.18244630528371; s = sqrt(5/3).
+  CHECK(estimate.mean == 2.5);
+  CHECK(estimate.high - 2.5 == Approx(3.18244630528371 * std::sqrt(5. / 3) / 2).epsilon(1e-10));
+  CHECK(2.5 - estimate.low == Approx(estimate.high - 2.5).epsilon(1e-14));
+  CHECK(student_mean({1, std::nan(""), 3}).mean == 2);
+  CHECK(std::isnan(student_mean({7}).low));
+  CHECK(std::isnan(student_mean({}).mean));
+}
+
+TEST_CASE(
+    "Eq. (16) in a study is Eq. (16) of the fit, and the curve is near it where the curve is "
+    "exponential",
+    "[study]") {
+  const StudyResult result = run_study(small_study());
+  REQUIRE(result.realisations.size() == 3);
+  const auto& drag = std::get<Drag>(result.configuration.motion);
+  const double ratio = result.configuration.material.modulus_ratio();
+  for (const Realisation& realisation : result.realisations) {
+    REQUIRE(realisation.damping.size() == 12);
+    const DampingPoint& point = realisation.damping[5];
+    CHECK(point.law_work == Approx(closed_form::work_per_cycle_rough(
+                                       ratio, point.force, realisation.bem.fit.decay_length, drag))
+                                .epsilon(1e-12));
+    // γ = P/v².
+    CHECK(point.curve_damping_constant ==
+          Approx(point.curve_work * drag.angular_frequency / (2 * std::numbers::pi) /
+                 (drag.drag_velocity * drag.drag_velocity))
+              .epsilon(1e-12));
+    CHECK(point.force == Approx(point.pressure * 16e-12).epsilon(1e-12));
+    // l varies by tens of per cent along the curve; F'' with its square.
+    CHECK(std::abs(point.deviation()) < 0.8);
+  }
+  CHECK(result.realisations[0].bem.fit.decay_length != result.realisations[1].bem.fit.decay_length);
+  CHECK(result.decay_length(&Realisation::bem).low < result.decay_length(&Realisation::bem).high);
+}
+
+TEST_CASE("A study is the same in every bit for one and two threads and when run again",
+          "[study]") {
+  StudyConfiguration configuration = small_study();
+  std::get<GeneratedSurfaces>(configuration.surfaces).seeds = {4};
+  parallel::set_threads(1);
+  const StudyResult one = run_study(configuration);
+  parallel::set_threads(2);
+  const StudyResult two = run_study(configuration);
+  parallel::set_threads(0);
+  CHECK(one.realisations[0].bem.fit.decay_length == two.realisations[0].bem.fit.decay_length);
+  for (std::size_t i = 0; i < one.pressures.size(); ++i) {
+    const double a = one.realisations[0].damping[i].curve_work,
+                 b = two.realisations[0].damping[i].curve_work;
+    CHECK((a == b || (std::isnan(a) && std::isnan(b))));
+  }
+}
+
+TEST_CASE("A stopped study holds the realisations that were finished", "[study]") {
+  int calls = 0;
+  const StudyResult result = run_study(small_study(), [&](const ProgressReport& report) {
+    ++calls;
+    return report.fraction < 0.5;
+  });
+  CHECK(calls > 1);
+  CHECK(result.interrupted);
+  CHECK(result.realisations.size() == 1);
+}
+
+TEST_CASE("A study's file holds its curves and fits with units", "[study]") {
+  StudyConfiguration configuration = small_study();
+  std::get<GeneratedSurfaces>(configuration.surfaces).seeds = {4, 5};
+  const StudyResult result = run_study(configuration);
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("salebra-study-" + std::to_string(getpid()) + ".h5");
+  write_study(file, result, {}, {.overwrite = true});
+  const ResultReader reader(file);
+  CHECK(reader.coordinates("curve/mean_gap") ==
+        std::vector<std::string>{"model", "realisation", "pressure"});
+  CHECK(reader.shape("curve/mean_gap") == std::vector<Index>{3, 2, 12});
+  CHECK(reader.text_attribute("curve/mean_gap", "units") == "m");
+  CHECK(reader.numbers("curve/pressure") == result.pressures);
+  CHECK(reader.numbers("fit/decay_length")[1] == result.realisations[1].bem.fit.decay_length);
+  CHECK(reader.numbers("damping/curve_work_per_cycle")[12 + 5] ==
+        result.realisations[1].damping[5].curve_work);
+  CHECK(reader.text_attribute("/", "configuration") == configuration.text);
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("A study without a surface is refused", "[study]") {
+  StudyConfiguration configuration = small_study();
+  configuration.surfaces = MeasuredSurface{};
+  CHECK_THROWS_AS(run_study(configuration), InvalidInput);
+}
