@@ -6,6 +6,8 @@
 #include <salebra/base/parallel.hpp>
 #include <type_traits>
 
+#include "gradient_projection.hpp"
+
 namespace salebra::detail {
 namespace {
 
@@ -13,8 +15,8 @@ namespace {
 constexpr double widest_margin = 0.1, narrowest_margin = 0.03;
 // The set of free cells changes when its violations exceed this part of the last step …
 constexpr double usual_threshold = 0.5;
-// … and when e_c has not halved in this many iterations, CG restarts with another threshold.
-constexpr int patience = 40;
+// … and when CG stalls, of these, one after the other.
+constexpr std::array<double, 2> other_thresholds = {1.0, 0.1};
 // In float, the residual is computed afresh when the estimate of e_c has fallen by this factor.
 constexpr double refresh_after = 1e-4;
 // A start for a finer level needs no more than this many refreshes.
@@ -43,26 +45,19 @@ struct ActiveSetCg<Real>::Run {
 
   double count = 0;            // free cells
   double level = 0;            // λ
-  bool set_changed = true;     // count, level and r must be found again
   bool has_direction = false;  // t, w hold a direction and its image
   double curvature = 1;        // <t, w>
   double threshold = usual_threshold;
   double best = std::numeric_limits<double>::infinity();  // estimate of e_c, for patience
   int since_best = 0;
+  std::size_t stalls = 0;
   double at_refresh = 1;  // e_c at the last refresh
   int refreshes = 0;
   double estimate = 0;
   bool finished = false;
 
-  bool load_given() const { return target.kind == ContactTarget::Kind::mean_pressure; }
-};
-
-// Over all cells: what the true e_c and the level need.
-template <class Real>
-struct ActiveSetCg<Real>::DenseSums {
-  double least_gap = std::numeric_limits<double>::infinity();  // least g where p is below its bound
-  double pressure = 0;                                         // Σp
-  double free_count = 0, free_gap = 0;  // cells with 0 < p < bound, and Σg over them
+  bool load_given() const { return target.load_given(); }
+  bool stalled() const { return stalls > other_thresholds.size(); }
 };
 
 template <class Real>
@@ -103,46 +98,31 @@ void ActiveSetCg<Real>::reset() {
             Real(0));
 }
 
-// Multiplies the cells below the bound so that the mean pressure is the one asked.
+// Changes the pressures so that their mean is the one asked, within the bound.
 template <class Real>
-void ActiveSetCg<Real>::scale_to_load(const ContactTarget& target, double* p) const {
-  const double wanted = target.value * static_cast<double>(points()), bound = target.bound;
-  // Scaling may lift cells to the bound, which then scale no more: few rounds, each with at least one cell fewer.
-  for (Index round = 0; round <= points(); ++round) {
-    struct Sums {
-      double below = 0, saturated = 0;
-    };
-    Sums total;
-    for (const Sums& part : over_rows<Sums>([&](Index begin, Index end) {
-           Sums sums;
-           for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k)
-             p[k] < bound ? sums.below += p[k] : sums.saturated += 1;
-           return sums;
-         })) {
-      total.below += part.below;
-      total.saturated += part.saturated;
-    }
-    const double missing = wanted - (total.saturated > 0 ? total.saturated * bound : 0);
-    if (total.below <= 0 || missing <= 0) {
-      // Nothing that could be scaled: start again from a uniform pressure, which is below the bound.
-      std::fill(p, p + points(), target.value);
-      return;
-    }
-    const double scale = missing / total.below;
-    const double above = sum_rows([&](Index begin, Index end) {
-      double lifted = 0;
-      for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) {
-        if (p[k] >= bound) continue;
-        p[k] *= scale;
-        if (p[k] >= bound) {
-          p[k] = bound;
-          lifted += 1;
-        }
-      }
-      return lifted;
-    });
-    if (above == 0) return;
+void ActiveSetCg<Real>::correct_load(const ContactTarget& target, double* p) const {
+  const double load = target.value * static_cast<double>(points()), bound = target.bound;
+  const bool loaded = sum_rows([&](Index begin, Index end) {
+                        return *std::max_element(p + begin * grid_.ny, p + end * grid_.ny);
+                      }) > 0;
+  if (!loaded) {
+    std::fill(p, p + points(), target.value);
+    return;
   }
+  const auto correction = correction_for_load(load, bound, [&](const LoadCorrection& trial) {
+    LoadSums total;
+    for (const LoadSums& part : over_rows<LoadSums>([&](Index begin, Index end) {
+           LoadSums sums;
+           for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k)
+             sums.add(trial(p[k], bound), bound);
+           return sums;
+         }))
+      total += part;
+    return total;
+  });
+  for_rows([&](Index begin, Index end) {
+    for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) p[k] = correction(p[k], bound);
+  });
 }
 
 template <class Real>
@@ -176,50 +156,6 @@ void ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
   for_rows([&](Index begin, Index end) {
     for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) run.g[k] -= heights_[k];
   });
-}
-
-template <class Real>
-auto ActiveSetCg<Real>::dense_sums(const Run& run) const -> DenseSums {
-  const double bound = run.target.bound;
-  DenseSums total;
-  for (const DenseSums& part : over_rows<DenseSums>([&](Index begin, Index end) {
-         DenseSums sums;
-         for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) {
-           const double p = run.p[k], g = run.g[k];
-           sums.pressure += p;
-           if (p >= bound) continue;
-           sums.least_gap = std::min(sums.least_gap, g);
-           if (p > 0) {
-             sums.free_count += 1;
-             sums.free_gap += g;
-           }
-         }
-         return sums;
-       })) {
-    total.least_gap = std::min(total.least_gap, part.least_gap);
-    total.pressure += part.pressure;
-    total.free_count += part.free_count;
-    total.free_gap += part.free_gap;
-  }
-  return total;
-}
-
-// e_c over all cells. Saturated cells must not stand apart from the plane, so they count only where they do.
-template <class Real>
-double ActiveSetCg<Real>::true_residual(const Run& run, const DenseSums& sums) const {
-  const double bound = run.target.bound;
-  const double plane = run.load_given() ? sums.least_gap : run.target.value;
-  const double misfit = sum_rows([&](Index begin, Index end) {
-    double part = 0;
-    for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) {
-      const double apart = run.g[k] - plane;
-      part += run.p[k] * (run.p[k] < bound ? std::abs(apart) : std::max(apart, 0.0));
-    }
-    return part;
-  });
-  double residual = sums.pressure > 0 ? misfit / (sums.pressure * rms_height_) : 0;
-  if (!run.load_given()) residual += std::max(0.0, plane - sums.least_gap) / rms_height_;
-  return residual;
 }
 
 // The tiles that are in use, row by row, with room for what is stored tile after tile.
@@ -256,48 +192,37 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
       }
   });
   list_tiles();
-  for_tiles(tiles_.size(), [&](Index begin, Index end) {
-    for (Index k = begin; k < end; ++k) {
-      const Tile tile = tiles_[static_cast<std::size_t>(k)];
-      const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
-      const Index dense = tile.row * grid_.ny + tile.column;
-      for (Index i = 0; i < width; ++i) {
-        const double p = run.p[dense + i], g = run.g[dense + i];
-        const bool free = p >= bound ? g > run.level : p > 0 || g < run.level;
-        m_[static_cast<std::size_t>(k * tile_width + i)] = free ? Real(1) : Real(0);
-      }
-    }
-  });
-  run.set_changed = true;
+  begin_set(run, over_tiles<SetSums>(tiles_.size(), [&](Index begin, Index end) {
+              SetSums sums;
+              for (Index k = begin; k < end; ++k) {
+                const Tile tile = tiles_[static_cast<std::size_t>(k)];
+                const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
+                const Index dense = tile.row * grid_.ny + tile.column;
+                for (Index i = 0; i < width; ++i) {
+                  const double p = run.p[dense + i], g = run.g[dense + i];
+                  const bool free = p >= bound ? g > run.level : p > 0 || g < run.level;
+                  m_[static_cast<std::size_t>(k * tile_width + i)] = free ? Real(1) : Real(0);
+                  sums.count += free ? 1 : 0;
+                  sums.g += free ? g : 0;
+                }
+              }
+              return sums;
+            }));
 }
 
 // Number of free cells, the level, and the residual on them, after the set or g changed.
 template <class Real>
-void ActiveSetCg<Real>::begin_set(Run& run) {
-  const auto a = arrays(run.p, run.g, run.target.bound);
+void ActiveSetCg<Real>::begin_set(Run& run, const std::vector<SetSums>& parts) {
   SetSums total;
-  for (const SetSums& part : over_tiles<SetSums>(tiles_.size(), [&](Index begin, Index end) {
-         SetSums sums;
-         for (Index k = begin; k < end; ++k) {
-           const Tile tile = tiles_[static_cast<std::size_t>(k)];
-           const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
-           const double* g = run.g + tile.row * grid_.ny + tile.column;
-           for (Index i = 0; i < width; ++i) {
-             const double m = static_cast<double>(m_[static_cast<std::size_t>(k * tile_width + i)]);
-             sums.count += m;
-             sums.g += m * g[i];
-           }
-         }
-         return sums;
-       })) {
+  for (const SetSums& part : parts) {
     total.count += part.count;
     total.g += part.g;
   }
   run.count = total.count;
   if (run.load_given() && run.count > 0) run.level = total.g / run.count;
+  const auto a = arrays(run.p, run.g, run.target.bound);
   for_tiles(tiles_.size(),
             [&](Index begin, Index end) { kernels_.residual(a, begin, end, run.level); });
-  run.set_changed = false;
 }
 
 // Copies the edges of the residual into its frame, so that the stencil sees the periodic images.
@@ -323,33 +248,60 @@ void ActiveSetCg<Real>::frame_residual() {
   }
 }
 
-// Takes new free cells; with truncate also puts p back within its bounds, at the cost of one transform pair.
+// The correction that puts p on the tiles back to the load, given Σp over the cells below the bound.
 template <class Real>
-void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double scale) {
+LoadCorrection ActiveSetCg<Real>::correction_over_tiles(const Run& run, double pressure) const {
+  const double load = run.target.value * static_cast<double>(points()), bound = run.target.bound;
+  if (std::isinf(bound)) return {.scale = pressure > 0 ? load / pressure : 1};
+  return correction_for_load(load, bound, [&](const LoadCorrection& trial) {
+    LoadSums total;
+    for (const LoadSums& part : over_tiles<LoadSums>(tiles_.size(), [&](Index begin, Index end) {
+           LoadSums sums;
+           for (Index k = begin; k < end; ++k) {
+             const Tile tile = tiles_[static_cast<std::size_t>(k)];
+             const double* p = run.p + tile.row * grid_.ny + tile.column;
+             const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
+             for (Index i = 0; i < width; ++i) sums.add(trial(p[i], bound), bound);
+           }
+           return sums;
+         }))
+      total += part;
+    return total;
+  });
+}
+
+// Takes new free cells; with truncate also puts p back within its bounds and to
+// its load, at the cost of one transform pair.
+template <class Real>
+void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
   const auto a = arrays(run.p, run.g, run.target.bound);
-  for_tiles(tiles_.size(),
-            [&](Index begin, Index end) { kernels_.change_set(a, begin, end, run.level); });
+  auto sums = over_tiles<SetSums>(tiles_.size(), [&](Index begin, Index end) {
+    return kernels_.change_set(a, begin, end, run.level);
+  });
   if (truncate) {
-    for_tiles(tiles_.size(),
-              [&](Index begin, Index end) { kernels_.truncate(a, begin, end, scale); });
+    const LoadCorrection correction =
+        run.load_given() ? correction_over_tiles(run, pressure) : LoadCorrection{};
+    for_tiles(tiles_.size(), [&](Index begin, Index end) {
+      kernels_.truncate(a, begin, end, correction.scale, correction.shift);
+    });
     // In place, so that w keeps the image of the last direction: CG goes on without a restart.
     compliance_.apply(t_.data(), t_.data());
     ++run.outcome.fft_count;
-    for_tiles(tiles_.size(),
-              [&](Index begin, Index end) { kernels_.add_displacement(a, begin, end); });
+    sums = over_tiles<SetSums>(tiles_.size(), [&](Index begin, Index end) {
+      return kernels_.add_displacement(a, begin, end);
+    });
     for_rows([&](Index begin, Index end) {
       std::fill(t_.begin() + begin * grid_.ny, t_.begin() + end * grid_.ny, Real(0));
     });
     for_tiles(tiles_.size(),
               [&](Index begin, Index end) { kernels_.restore_direction(a, begin, end); });
   }
-  run.set_changed = true;
+  begin_set(run, sums);
 }
 
 // One step of CG, and the change of the free set that it calls for. Returns false where no free cell is left.
 template <class Real>
 bool ActiveSetCg<Real>::iterate(Run& run) {
-  if (run.set_changed) begin_set(run);
   if (!(run.count > 0)) return false;
   const bool load_given = run.load_given();
   const auto a = arrays(run.p, run.g, run.target.bound);
@@ -431,17 +383,14 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
   if (run.estimate < 0.5 * run.best) {
     run.best = run.estimate;
     run.since_best = 0;
-  } else if (++run.since_best >= patience) {
+  } else if (++run.since_best >= run.limits.patience) {
     run.has_direction = false;
     run.since_best = 0;
-    run.threshold = run.threshold < 1 ? 1.0 : 0.1;
+    if (run.stalls < other_thresholds.size()) run.threshold = other_thresholds[run.stalls];
+    ++run.stalls;
   }
   if (worth_a_change || (done && (step.outside > 0 || step.wrong > 0))) {
-    const double missing =
-        run.target.value * static_cast<double>(points()) - (carried - step.pressure);
-    const double scale =
-        load_given && step.pressure > 0 && missing > 0 ? missing / step.pressure : 1;
-    change_set(run, step.outside > 0, scale);
+    change_set(run, step.outside > 0, step.pressure);
   }
   return true;
 }
@@ -454,12 +403,10 @@ void ActiveSetCg<Real>::refresh(Run& run) {
     for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k)
       run.p[k] = std::clamp(run.p[k], 0.0, bound);
   });
-  if (run.load_given()) scale_to_load(run.target, run.p);
+  if (run.load_given()) correct_load(run.target, run.p);
   dense_gap(run, run.limits.exact);
-  const DenseSums sums = dense_sums(run);
-  const double residual = true_residual(run, sums);
-  if (run.load_given())
-    run.level = sums.free_count > 0 ? sums.free_gap / sums.free_count : sums.least_gap;
+  const auto [level, residual] = contact_residual(grid_, run.target, rms_height_, run.p, run.g);
+  run.level = level;
   run.outcome.residual = residual;
   run.at_refresh = std::max(residual, std::numeric_limits<double>::min());
   ++run.refreshes;
@@ -477,20 +424,18 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
   reset();
   Run run{target, limits, p, g};
   if (run.load_given()) {
-    scale_to_load(target, p);
+    correct_load(target, p);
   } else {
     run.level = target.value;
   }
   dense_gap(run, false);
-  if (run.load_given()) {
-    const DenseSums sums = dense_sums(run);
-    run.level = sums.free_count > 0 ? sums.free_gap / sums.free_count : sums.least_gap;
-  }
+  run.level = contact_residual(grid_, target, rms_height_, p, g).level;
   choose_tiles(run, widest_margin);
   while (!run.finished) {
     const bool progressed = iterate(run);
     if (limits.keep_going && !limits.keep_going(run.outcome.iterations, run.estimate))
       run.outcome.interrupted = true;
+    if (run.stalled()) break;
     const bool fresh_needed =
         run.estimate < 0.7 * limits.tolerance || run.outcome.interrupted ||
         run.outcome.iterations >= limits.max_iterations ||
@@ -499,6 +444,12 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
     if (!progressed) break;
   }
   run.outcome.level = run.level;
+  if (run.stalled() && !run.outcome.interrupted) {
+    refresh(run);
+    if (limits.exact && !run.finished)
+      gradient_projection(exact_compliance(), grid_, boundary_, heights_, rms_height_, target,
+                          limits, p, g, run.outcome);
+  }
   return run.outcome;
 }
 

@@ -1,41 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <functional>
-#include <limits>
 #include <optional>
 #include <salebra/base/convolution.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/half_space.hpp>
 #include <vector>
 
+#include "contact_residual.hpp"
+#include "load_correction.hpp"
 #include "tile_kernels.hpp"
 
 namespace salebra::detail {
-
-// What is prescribed: the mean pressure, or the level λ of the contact plane (gap = g − λ with g = Gp − h).
-struct ContactTarget {
-  enum class Kind { mean_pressure, level } kind = Kind::mean_pressure;
-  double value = 0;
-  double bound = std::numeric_limits<double>::infinity();  // largest pressure
-};
-
-struct ActiveSetLimits {
-  double tolerance = 1e-10;  // of e_c
-  int max_iterations = 1000;
-  bool exact =
-      true;  // accept on a residual in double precision; false: a start for a finer level, a few refreshes will do
-  std::function<bool(int iteration, double residual)> keep_going = {};
-};
-
-struct ActiveSetOutcome {
-  double residual = std::numeric_limits<double>::infinity();  // e_c, over all cells
-  double level = 0;
-  int iterations = 0;
-  int fft_count = 0;
-  bool converged = false;
-  bool interrupted = false;
-};
 
 // Minimises ½p·Gp − p·h over 0 <= p <= bound on one grid: conjugate gradients on the free cells, preconditioned by
 // InverseStencil, that are not restarted when the set of free cells changes. Search directions and their images are Real;
@@ -52,12 +28,11 @@ class ActiveSetCg {
   ActiveSetOutcome solve(const ContactTarget& target, const ActiveSetLimits& limits, double* p,
                          double* g);
 
-  // Σq with Gq = 1 on the cells where p > 0 and q = 0 elsewhere: the load that a unit of rigid approach adds.
-  double punch_load(const double* p);
+  // Σq with Gq = 1 on the cells where 0 < p < bound and q = 0 elsewhere: the load that a unit of rigid approach adds.
+  double punch_load(const double* p, double bound);
 
  private:
   struct Run;  // the state of one call of solve
-  struct DenseSums;
 
   Index points() const { return grid_.points(); }
   Index tile_points() const { return static_cast<Index>(tiles_.size()) * tile_width; }
@@ -79,17 +54,16 @@ class ActiveSetCg {
   }
 
   void reset();
-  void scale_to_load(const ContactTarget& target, double* p) const;
+  void correct_load(const ContactTarget& target, double* p) const;
   Convolution2D<double>& exact_compliance();
   void dense_gap(Run& run, bool exact);
-  DenseSums dense_sums(const Run& run) const;
-  double true_residual(const Run& run, const DenseSums& sums) const;
   void choose_tiles(Run& run, double margin);
   void list_tiles();
-  void begin_set(Run& run);
+  void begin_set(Run& run, const std::vector<SetSums>& parts);
   void frame_residual();
   bool iterate(Run& run);
-  void change_set(Run& run, bool truncate, double scale);
+  LoadCorrection correction_over_tiles(const Run& run, double pressure) const;
+  void change_set(Run& run, bool truncate, double pressure);
   void refresh(Run& run);
 
   Grid2D grid_;

@@ -77,10 +77,10 @@ Field sampled(const Grid2D& fine, const double* heights, Index nx, Index ny, Bou
 }  // namespace
 
 std::vector<ContactLevel> contact_levels(const Grid2D& grid, const Field& heights,
-                                         Boundary boundary) {
+                                         Boundary boundary, int most) {
   std::vector<ContactLevel> levels;
   levels.push_back({grid, {}, heights.data()});
-  while (levels.back().grid.points() > coarsest_points) {
+  while (levels.back().grid.points() > coarsest_points && static_cast<int>(levels.size()) < most) {
     const ContactLevel& fine = levels.back();
     const Index nx = halved(fine.grid.nx), ny = halved(fine.grid.ny);
     if (nx == fine.grid.nx && ny == fine.grid.ny) break;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal.hpp>
@@ -51,6 +54,12 @@ void check(const Surface& surface, double contact_modulus, const NormalContactOp
   require(options.tolerance >= 1e-14 && options.tolerance <= 1e-1, "tolerance", options.tolerance,
           "must lie in 1e-14 … 1e-1");
   require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "must be >= 1");
+  require(options.hardness > 0, "hardness", options.hardness, "must be > 0");
+  if (const Field* start = options.initial_pressure)
+    require(start->rows() == surface.grid.nx && start->cols() == surface.grid.ny &&
+                start->isFinite().all() && start->minCoeff() >= 0,
+            "initial_pressure", start->size(),
+            "cells must fill the grid with finite pressures >= 0");
 }
 
 // Heights stay in metres; pressures are counted in E*/(cell size), which makes Gp a number of order p whatever the units.
@@ -73,13 +82,17 @@ struct Solution {
 template <class Real>
 Solution solve_nested(const Scaled& scaled, const Field& heights, double rms_height,
                       const ContactTarget& target, const NormalContactOptions& options) {
-  const auto levels = detail::contact_levels(scaled.grid, heights, options.boundary);
+  auto levels =
+      detail::contact_levels(scaled.grid, heights, options.boundary,
+                             options.initial_pressure ? 1 : std::numeric_limits<int>::max());
   Solution solution;
   for (std::size_t k = levels.size(); k-- > 0;) {
     const ContactLevel& level = levels[k];
     const Index nx = level.grid.nx, ny = level.grid.ny;
     Field pressure;
-    if (k + 1 == levels.size()) {
+    if (options.initial_pressure) {
+      pressure = (*options.initial_pressure / scaled.pressure_unit).min(target.bound);
+    } else if (k + 1 == levels.size()) {
       pressure = Field::Constant(
           nx, ny, target.kind == ContactTarget::Kind::mean_pressure ? target.value : 0.0);
     } else {
@@ -114,14 +127,8 @@ Solution solve_nested(const Scaled& scaled, const Field& heights, double rms_hei
   return solution;
 }
 
-Solution solve(const Scaled& scaled, const Field& heights, double rms_height,
-               const ContactTarget& target, const NormalContactOptions& options) {
-  return options.precision == Precision::mixed
-             ? solve_nested<float>(scaled, heights, rms_height, target, options)
-             : solve_nested<double>(scaled, heights, rms_height, target, options);
-}
-
-NormalContactState state_of(Solution&& solution, const Scaled& scaled, const Surface& surface) {
+NormalContactState state_of(Solution&& solution, const ContactTarget& target, const Scaled& scaled,
+                            const Surface& surface, double hardness) {
   NormalContactState state;
   const ActiveSetOutcome& outcome = solution.outcome;
   const Field& heights = surface.heights;
@@ -139,13 +146,20 @@ NormalContactState state_of(Solution&& solution, const Scaled& scaled, const Sur
   const double contact =
       slabs([](auto p, auto, auto) { return static_cast<double>((p > 0).count()); });
   const double work = slabs([](auto p, auto g, auto h) { return (p * (g + h)).sum(); });
-  const double gap_sum = slabs([&](auto, auto g, auto) { return (g - outcome.level).sum(); });
   const double points = static_cast<double>(heights.size());
-  parallel::for_slabs(
+  // A saturated cell sinks in: what is below the plane there is plastic flow, not a gap.
+  const double gap_sum = parallel::sum_slabs(
       heights.rows(),
       [&](Index begin, Index end) {
-        solution.pressure.middleRows(begin, end - begin) *= scaled.pressure_unit;
-        solution.gap.middleRows(begin, end - begin) -= outcome.level;
+        double sum = 0;
+        for (Index k = begin * heights.cols(); k < end * heights.cols(); ++k) {
+          double &gap = solution.gap.data()[k], &pressure = solution.pressure.data()[k];
+          const bool flows = pressure >= target.bound;
+          gap = flows ? 0 : gap - outcome.level;
+          pressure = flows ? hardness : pressure * scaled.pressure_unit;
+          sum += gap;
+        }
+        return sum;
       },
       heights.size());
   state.pressure = std::move(solution.pressure);
@@ -176,19 +190,41 @@ NormalContactState full_contact_of_plane(const Surface& surface, double nominal_
   return state;
 }
 
+NormalContactState press(const Surface& surface, const Scaled& scaled, double rms_height,
+                         const ContactTarget& target, const NormalContactOptions& options) {
+  auto solution = options.precision == Precision::mixed
+                      ? solve_nested<float>(scaled, surface.heights, rms_height, target, options)
+                      : solve_nested<double>(scaled, surface.heights, rms_height, target, options);
+  return state_of(std::move(solution), target, scaled, surface, options.hardness);
+}
+
+// Contact with the plane at a height of `level` below the zero of −heights, where the gap Gp − h counts from.
+NormalContactState press_to_level(const Surface& surface, double contact_modulus, double mean,
+                                  double level, const NormalContactOptions& options) {
+  const Scaled scaled(surface.grid, contact_modulus);
+  const ContactTarget target{ContactTarget::Kind::level, level,
+                             options.hardness / scaled.pressure_unit};
+  return press(surface, scaled, rms_about(surface.heights, mean), target, options);
+}
+
 }  // namespace
 
 NormalContactState press_to_pressure(const Surface& surface, double contact_modulus,
                                      double nominal_pressure, const NormalContactOptions& options) {
   check(surface, contact_modulus, options);
   require_positive(nominal_pressure, "nominal_pressure");
+  require(nominal_pressure < options.hardness, "hardness", options.hardness,
+          "must exceed the nominal pressure: no contact carries more than its hardness");
   const double rms_height = rms_about(surface.heights, mean_of(surface.heights));
   if (!(rms_height > 0) && options.boundary == Boundary::periodic)
     return full_contact_of_plane(surface, nominal_pressure);
   const Scaled scaled(surface.grid, contact_modulus);
   const ContactTarget target{ContactTarget::Kind::mean_pressure,
-                             nominal_pressure / scaled.pressure_unit};
-  return state_of(solve(scaled, surface.heights, rms_height, target, options), scaled, surface);
+                             nominal_pressure / scaled.pressure_unit,
+                             options.hardness / scaled.pressure_unit};
+  // A flat punch has no roughness to compare a gap with: its cells are the only length there is.
+  return press(surface, scaled, rms_height > 0 ? rms_height : std::sqrt(surface.grid.cell_area()),
+               target, options);
 }
 
 NormalContactState press_to_mean_gap(const Surface& surface, double contact_modulus,
@@ -196,17 +232,15 @@ NormalContactState press_to_mean_gap(const Surface& surface, double contact_modu
   check(surface, contact_modulus, options);
   require(options.boundary == Boundary::periodic, "boundary", "free",
           "has no mean gap; give a force or an indentation");
+  require(std::isinf(options.hardness), "hardness", options.hardness,
+          "makes the mean gap depend on more than the approach; give a pressure or an indentation");
   require_positive(mean_gap, "mean_gap");
   const double mean = mean_of(surface.heights);
   const double first_touch = greatest_of(surface.heights) - mean;
-  require(
-      mean_gap < first_touch, "mean_gap", mean_gap,
-      "must be below " + std::to_string(first_touch) + " m, where the highest point first touches");
-  const double rms_height = rms_about(surface.heights, mean);
-  const Scaled scaled(surface.grid, contact_modulus);
+  require(mean_gap < first_touch, "mean_gap", mean_gap,
+          fmt::format("must be below {} m, where the highest point first touches", first_touch));
   // The mean of Gp is zero, so the mean of the gap Gp − h − level is −mean − level.
-  const ContactTarget target{ContactTarget::Kind::level, -mean - mean_gap};
-  return state_of(solve(scaled, surface.heights, rms_height, target, options), scaled, surface);
+  return press_to_level(surface, contact_modulus, mean, -mean - mean_gap, options);
 }
 
 NormalContactState press_to_indentation(const Surface& surface, double contact_modulus,
@@ -214,13 +248,10 @@ NormalContactState press_to_indentation(const Surface& surface, double contact_m
   check(surface, contact_modulus, options);
   require_positive(indentation, "indentation");
   const double mean = mean_of(surface.heights), highest = greatest_of(surface.heights);
-  if (options.boundary == Boundary::periodic)
-    require(indentation < highest - mean, "indentation", indentation,
-            "must be below " + std::to_string(highest - mean) + " m, where the mean gap would close");
-  const double rms_height = rms_about(surface.heights, mean);
-  const Scaled scaled(surface.grid, contact_modulus);
-  const ContactTarget target{ContactTarget::Kind::level, indentation - highest};
-  return state_of(solve(scaled, surface.heights, rms_height, target, options), scaled, surface);
+  require(options.boundary == Boundary::free || indentation < highest - mean, "indentation",
+          indentation,
+          fmt::format("must be below {} m, where a periodic contact is full", highest - mean));
+  return press_to_level(surface, contact_modulus, mean, indentation - highest, options);
 }
 
 }  // namespace salebra

@@ -22,16 +22,16 @@ constexpr int most_iterations = 2000;
 // CG as in solve(), on a set of cells that does not change: minimises ½q·Gq − Σq. The load is then taken from
 // 2Σq − q·Gq in double precision, whose error is quadratic in that of q.
 template <class Real>
-double ActiveSetCg<Real>::punch_load(const double* p) {
+double ActiveSetCg<Real>::punch_load(const double* p, double bound) {
   reset();
+  const auto in_set = [bound](double x) { return x > 0 && x < bound; };
   const std::size_t size = static_cast<std::size_t>(points());
   std::vector<double> q(size, 0.0), g(size, -1.0);
   for_rows([&](Index begin, Index end) {
     for (Index k = begin * tiles_per_row_; k < end * tiles_per_row_; ++k) {
       const Index first = k / tiles_per_row_ * grid_.ny + k % tiles_per_row_ * tile_width;
       const Index width = std::min<Index>(tile_width, grid_.ny - k % tiles_per_row_ * tile_width);
-      in_use_[static_cast<std::size_t>(k)] =
-          std::any_of(p + first, p + first + width, [](double x) { return x > 0; });
+      in_use_[static_cast<std::size_t>(k)] = std::any_of(p + first, p + first + width, in_set);
     }
   });
   list_tiles();
@@ -39,7 +39,7 @@ double ActiveSetCg<Real>::punch_load(const double* p) {
     const Index first = tiles_[k].row * grid_.ny + tiles_[k].column;
     const Index width = std::min<Index>(tile_width, grid_.ny - tiles_[k].column);
     for (Index i = 0; i < width; ++i)
-      m_[k * tile_width + static_cast<std::size_t>(i)] = p[first + i] > 0 ? Real(1) : Real(0);
+      m_[k * tile_width + static_cast<std::size_t>(i)] = in_set(p[first + i]) ? Real(1) : Real(0);
   }
   const auto a = arrays(q.data(), g.data(), std::numeric_limits<double>::infinity());
   const auto tiles = static_cast<Index>(tiles_.size());
@@ -87,8 +87,8 @@ double ActiveSetCg<Real>::punch_load(const double* p) {
   });
 }
 
-template double ActiveSetCg<float>::punch_load(const double*);
-template double ActiveSetCg<double>::punch_load(const double*);
+template double ActiveSetCg<float>::punch_load(const double*, double);
+template double ActiveSetCg<double>::punch_load(const double*, double);
 
 }  // namespace detail
 
@@ -99,14 +99,15 @@ double normal_stiffness(const NormalContactState& state, const Grid2D& grid, dou
   require(state.pressure.rows() == grid.nx && state.pressure.cols() == grid.ny, "pressure",
           state.pressure.size(), "points do not fill the grid");
   // In full contact the periodic cell approaches no further: its compliance has no mean.
-  if (options.boundary == Boundary::periodic && (state.pressure > 0).all())
+  const auto elastic = state.pressure > 0 && state.pressure < options.hardness;
+  if (options.boundary == Boundary::periodic && elastic.all())
     return std::numeric_limits<double>::infinity();
-  if (!(state.pressure > 0).any()) return 0;
+  if (!elastic.any()) return 0;
   const double cell = std::sqrt(grid.cell_area());
   const Grid2D scaled{grid.nx, grid.ny, grid.lx / cell, grid.ly / cell};
   const auto load = [&]<class Real>(Real) {
     return detail::ActiveSetCg<Real>(scaled, 1, options.boundary, nullptr, 0)
-        .punch_load(state.pressure.data());
+        .punch_load(state.pressure.data(), options.hardness);
   };
   // With lengths in cells and E* = 1, Σq counts forces in E*·(cell size)² for an approach of one cell size.
   return (options.precision == Precision::mixed ? load(0.0f) : load(0.0)) * contact_modulus * cell;

@@ -72,10 +72,11 @@ struct TileKernels {
   // Frees held cells whose gap has the wrong sign, holds free cells whose pressure left its bounds.
   SetSums (*change_set)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                         double level);
-  // p clipped to its bounds and multiplied by scale; t becomes the change of p, and its old value moves to z.
-  void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double scale);
-  // g += t
-  void (*add_displacement)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end);
+  // p becomes min(scale·max(p, 0) + shift, bound), t the change of p, z the old t.
+  void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double scale,
+                   double shift);
+  // g += t; the free cells and Σg as they are then
+  SetSums (*add_displacement)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end);
   // t = z
   void (*restore_direction)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end);
 };

@@ -213,15 +213,17 @@ SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level
 }
 
 template <class Real>
-void truncate(const TileArrays<Real>& a, Size begin, Size end, double scale) {
+void truncate(const TileArrays<Real>& a, Size begin, Size end, double scale, double shift) {
   const double bound = a.bound;
   for_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
-    Real *z = a.z + packed, *t = a.t + dense;
+    Real *z = a.z + packed, *t = a.t + dense, *m = a.m + packed;
     double* p = a.p + dense;
     for (Size i = 0; i < width; ++i) {
       z[i] = t[i];
-      const double above = p[i] < 0 ? 0 : p[i] >= bound ? p[i] : p[i] * scale;
+      const double above = (p[i] < 0 ? 0 : p[i] * scale) + shift;
       const double kept = above < bound ? above : bound;
+      // A held cell that scaling took off its bound is free again.
+      m[i] = kept > 0 && kept < bound ? Real(1) : m[i];
       t[i] = static_cast<Real>(kept - p[i]);
       p[i] = kept;
     }
@@ -229,12 +231,18 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double scale) {
 }
 
 template <class Real>
-void add_displacement(const TileArrays<Real>& a, Size begin, Size end) {
-  for_tiles(a, begin, end, [&](Size, Size dense, Size, auto width) {
+SetSums add_displacement(const TileArrays<Real>& a, Size begin, Size end) {
+  Lanes count, sum;
+  for_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
     double* g = a.g + dense;
-    const Real* t = a.t + dense;
-    for (Size i = 0; i < width; ++i) g[i] += static_cast<double>(t[i]);
+    const Real *t = a.t + dense, *m = a.m + packed;
+    for (Size i = 0; i < width; ++i) {
+      g[i] += static_cast<double>(t[i]);
+      count.value[i] += static_cast<double>(m[i]);
+      sum.value[i] += static_cast<double>(m[i]) * g[i];
+    }
   });
+  return {count.sum(), sum.sum()};
 }
 
 template <class Real>

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact_residual.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/parallel.hpp>
+
+namespace salebra::detail {
+namespace {
+
+struct DenseSums {
+  double least_gap = std::numeric_limits<double>::infinity();  // least g where p is below its bound
+  double pressure = 0;                                         // Σp
+  double free_count = 0, free_gap = 0;  // cells with 0 < p < bound, and Σg over them
+};
+
+}  // namespace
+
+ContactResidual contact_residual(const Grid2D& grid, const ContactTarget& target, double rms_height,
+                                 const double* p, const double* g) {
+  const double bound = target.bound;
+  DenseSums total;
+  for (const DenseSums& part : parallel::map_slabs<DenseSums>(
+           grid.nx,
+           [&](Index begin, Index end) {
+             DenseSums sums;
+             for (Index k = begin * grid.ny; k < end * grid.ny; ++k) {
+               sums.pressure += p[k];
+               if (p[k] >= bound) continue;
+               sums.least_gap = std::min(sums.least_gap, g[k]);
+               if (p[k] > 0) {
+                 sums.free_count += 1;
+                 sums.free_gap += g[k];
+               }
+             }
+             return sums;
+           },
+           grid.points())) {
+    total.least_gap = std::min(total.least_gap, part.least_gap);
+    total.pressure += part.pressure;
+    total.free_count += part.free_count;
+    total.free_gap += part.free_gap;
+  }
+  const double plane = target.load_given() ? total.least_gap : target.value;
+  const double misfit = parallel::sum_slabs(
+      grid.nx,
+      [&](Index begin, Index end) {
+        double part = 0;
+        for (Index k = begin * grid.ny; k < end * grid.ny; ++k) {
+          const double apart = g[k] - plane;
+          part += p[k] * (p[k] < bound ? std::abs(apart) : std::max(apart, 0.0));
+        }
+        return part;
+      },
+      grid.points());
+  ContactResidual result;
+  result.residual = total.pressure > 0 ? misfit / (total.pressure * rms_height) : 0;
+  if (target.load_given()) {
+    result.level = total.free_count > 0 ? total.free_gap / total.free_count : total.least_gap;
+  } else {
+    result.residual += std::max(0.0, plane - total.least_gap) / rms_height;
+    result.level = target.value;
+  }
+  return result;
+}
+
+}  // namespace salebra::detail

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <salebra/base/grid.hpp>
+
+namespace salebra::detail {
+
+// What is prescribed: the mean pressure, or the level λ of the contact plane (gap = g − λ with g = Gp − h).
+struct ContactTarget {
+  enum class Kind { mean_pressure, level } kind = Kind::mean_pressure;
+  double value = 0;
+  double bound = std::numeric_limits<double>::infinity();  // largest pressure
+
+  bool load_given() const { return kind == Kind::mean_pressure; }
+};
+
+struct ActiveSetLimits {
+  double tolerance = 1e-10;  // of e_c
+  int max_iterations = 1000;
+  bool exact =
+      true;  // accept on a residual in double precision; false: a start for a finer level, a few refreshes will do
+  std::function<bool(int iteration, double residual)> keep_going = {};
+  // When e_c has not halved in this many iterations, CG restarts with another threshold, and at last gives way to
+  // gradient_projection().
+  int patience = 40;
+};
+
+struct ActiveSetOutcome {
+  double residual = std::numeric_limits<double>::infinity();  // e_c, over all cells
+  double level = 0;
+  int iterations = 0;
+  int fft_count = 0;
+  bool converged = false;
+  bool interrupted = false;
+};
+
+// Over all cells: where the contact plane is, and how far p and g are from complementary.
+struct ContactResidual {
+  double level = 0;     // mean g of the cells with 0 < p < bound, or the level prescribed
+  double residual = 0;  // e_c
+};
+
+// e_c = Σp|g − plane|/(Σp·h_rms), with the plane at the least g (load given) or at the level given; a gap below the latter adds
+// its depth. Saturated cells may lie below the plane, so they count only where they stand above it.
+ContactResidual contact_residual(const Grid2D& grid, const ContactTarget& target, double rms_height,
+                                 const double* p, const double* g);
+
+}  // namespace salebra::detail

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gradient_projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace salebra::detail {
+namespace {
+
+// A step is taken when the energy falls by this part of what its slope promises.
+constexpr double sufficient_decrease = 0.1;
+// CG on one set of free cells ends when a step gains less than this part of the best one.
+constexpr double worthwhile_gain = 0.02;
+constexpr int most_steps_on_a_face = 60;
+constexpr int most_backtracks = 30;
+constexpr int most_fruitless_rounds = 3;
+constexpr int refresh_every = 20;  // rounds, against the drift of g
+
+class Descent {
+ public:
+  Descent(Convolution2D<double>& compliance, const Grid2D& grid, Boundary boundary,
+          const double* heights, const ContactTarget& target, double* p, double* g,
+          ActiveSetOutcome& outcome)
+      : compliance_(compliance),
+        boundary_(boundary),
+        target_(target),
+        heights_(heights, grid.nx, grid.ny),
+        p_(p, grid.nx, grid.ny),
+        g_(g, grid.nx, grid.ny),
+        inverse_(grid),
+        outcome_(outcome) {
+    image_.resize(grid.nx, grid.ny);
+  }
+
+  void refresh() {
+    apply(p_);
+    g_ = image_ - heights_;
+  }
+
+  // One step along the projection of p − step·gradient. Returns false where no such step descends: p is the solution.
+  bool project_gradient() {
+    if (!(step_ > 0)) step_ = first_step();
+    for (int trial = 0; trial < most_backtracks; ++trial) {
+      const Field change = projected(p_ - step_ * gradient()) - p_;
+      const double slope = (gradient() * change).sum();
+      if (!(slope < 0)) return false;
+      apply(change);
+      const double curvature = (change * image_).sum();
+      const double best = -slope / curvature;  // of the multiples of this change
+      if (slope + 0.5 * curvature <= sufficient_decrease * slope) {
+        take(change);
+        step_ *= std::clamp(best, 0.5, 4.0);
+        return true;
+      }
+      step_ *= std::clamp(best, 0.1, 0.5);
+    }
+    return false;
+  }
+
+  // Preconditioned CG on the cells strictly between their bounds, until a bound is met or little is gained.
+  void descend_on_face(int most) {
+    const Field mask = (p_ > 0 && p_ < target_.bound).cast<double>();
+    const double count = mask.sum();
+    if (count < 2) return;
+    Field direction = Field::Zero(p_.rows(), p_.cols()), z, old_image;
+    double curvature = 0, best_gain = 0;
+    for (int k = 0; k < most; ++k) {
+      const double level = target_.load_given() ? (mask * g_).sum() / count : target_.value;
+      const Field r = mask * (g_ - level);
+      inverse_.apply(mask, r, boundary_, z);
+      if (target_.load_given()) z -= mask * (z.sum() / count);
+      const double beta = k > 0 ? -(z * old_image).sum() / curvature : 0;
+      direction = z + beta * direction;
+      const double descent = (r * direction).sum();
+      if (!(descent > 0)) return;
+      apply(direction);
+      old_image = image_;
+      curvature = (direction * image_).sum();
+      if (!(curvature > 0)) return;
+      const double step = descent / curvature;
+      ++outcome_.iterations;
+      const double room = room_along(direction);
+      if (step <= room) {
+        take_multiple(direction, -step);
+      } else {
+        // Beyond the first bound: the projected step if it descends, or else as far as the bound.
+        const Field change = projected(p_ - step * direction) - p_;
+        const double slope = (gradient() * change).sum();
+        apply(change);
+        if (slope < 0 && slope + 0.5 * (change * image_).sum() <= sufficient_decrease * slope) {
+          take(change);
+        } else {
+          image_ = old_image;
+          take_multiple(direction, -room);
+        }
+        return;
+      }
+      const double gain = step * descent;
+      best_gain = std::max(best_gain, gain);
+      if (gain < worthwhile_gain * best_gain) return;
+    }
+  }
+
+ private:
+  template <class Change>
+  void apply(const Change& change) {
+    compliance_.apply(change.data(), image_.data());
+    ++outcome_.fft_count;
+  }
+  void take(const Field& change) {
+    p_ = (p_ + change).max(0.0).min(target_.bound);
+    g_ += image_;
+  }
+  void take_multiple(const Field& direction, double multiple) {
+    p_ = (p_ + multiple * direction).max(0.0).min(target_.bound);
+    g_ += multiple * image_;
+  }
+  // At given load a constant may be taken off; the level of the free cells leaves the least to cancel.
+  Field gradient() const {
+    if (!target_.load_given()) return g_ - target_.value;
+    const auto free = p_ > 0 && p_ < target_.bound;
+    const double count = static_cast<double>(free.count());
+    return g_ - (count > 0 ? free.select(g_, 0.0).sum() / count : g_.minCoeff());
+  }
+
+  // A step that would undo the gradient in one cell of the stencil: a scale, corrected by the first trials.
+  double first_step() const { return inverse_.weight(0, 0); }
+
+  double room_along(const Field& direction) const {
+    double room = std::numeric_limits<double>::infinity();
+    for (Index k = 0; k < p_.size(); ++k) {
+      const double t = direction.data()[k], p = p_.data()[k];
+      if (t > 0) room = std::min(room, p / t);
+      if (t < 0) room = std::min(room, (p - target_.bound) / t);
+    }
+    return room;
+  }
+
+  // The nearest point within the bounds, and at the load where that is given: clamp(x + shift) with the right shift.
+  Field projected(const Field& x) const {
+    if (!target_.load_given()) return x.max(0.0).min(target_.bound);
+    const double load = target_.value * static_cast<double>(x.size());
+    double low = -x.maxCoeff(), high = std::isfinite(target_.bound) ? target_.bound - x.minCoeff()
+                                                                    : target_.value - x.minCoeff();
+    double shift = 0;
+    for (int round = 0; round < 100 && low < high; ++round) {
+      if (!(shift > low && shift < high)) shift = 0.5 * (low + high);
+      const Field y = x + shift;
+      const double missing = load - y.max(0.0).min(target_.bound).sum();
+      if (std::abs(missing) < 1e-15 * load) break;
+      (missing > 0 ? low : high) = shift;
+      const double moving = static_cast<double>((y > 0 && y < target_.bound).count());
+      shift = moving > 0 ? shift + missing / moving : 0.5 * (low + high);
+    }
+    return (x + shift).max(0.0).min(target_.bound);
+  }
+
+  using Dense = Eigen::Map<Field>;
+  Convolution2D<double>& compliance_;
+  Boundary boundary_;
+  ContactTarget target_;
+  Eigen::Map<const Field> heights_;
+  Dense p_, g_;
+  InverseStencil inverse_;
+  ActiveSetOutcome& outcome_;
+  Field image_;
+  double step_ = 0;
+};
+
+}  // namespace
+
+void gradient_projection(Convolution2D<double>& compliance, const Grid2D& grid, Boundary boundary,
+                         const double* heights, double rms_height, const ContactTarget& target,
+                         const ActiveSetLimits& limits, double* p, double* g,
+                         ActiveSetOutcome& outcome) {
+  Descent descent(compliance, grid, boundary, heights, target, p, g, outcome);
+  descent.refresh();
+  int fruitless = 0;  // rounds without descent by gradient projection: rounding, or the solution
+  for (int round = 1;; ++round) {
+    fruitless = descent.project_gradient() ? 0 : fruitless + 1;
+    ++outcome.iterations;
+    descent.descend_on_face(
+        std::min(most_steps_on_a_face, limits.max_iterations - outcome.iterations));
+    auto now = contact_residual(grid, target, rms_height, p, g);
+    const bool ends =
+        fruitless >= most_fruitless_rounds || outcome.iterations >= limits.max_iterations;
+    if (limits.keep_going && !limits.keep_going(outcome.iterations, now.residual))
+      outcome.interrupted = true;
+    if (now.residual < limits.tolerance || ends || outcome.interrupted ||
+        round % refresh_every == 0) {
+      descent.refresh();
+      now = contact_residual(grid, target, rms_height, p, g);
+    }
+    outcome.residual = now.residual;
+    outcome.level = now.level;
+    outcome.converged = now.residual < limits.tolerance;
+    if (outcome.converged || ends || outcome.interrupted) return;
+  }
+}
+
+}  // namespace salebra::detail

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace salebra::detail {
+
+// A load of the form Σ min(scale·max(p, 0) + shift, bound).
+struct LoadSums {
+  double below = 0;                       // Σ of the cells below the bound
+  double unsaturated = 0, saturated = 0;  // numbers of cells
+  void add(double p, double bound) {
+    if (p >= bound) {
+      saturated += 1;
+    } else {
+      below += p;
+      unsaturated += 1;
+    }
+  }
+  LoadSums& operator+=(const LoadSums& other) {
+    below += other.below;
+    unsaturated += other.unsaturated;
+    saturated += other.saturated;
+    return *this;
+  }
+};
+struct LoadCorrection {
+  double scale = 1, shift = 0;
+  double operator()(double p, double bound) const {
+    return std::min(scale * std::max(p, 0.0) + shift, bound);
+  }
+};
+
+// The correction that gives the load asked, found from sums_of(correction). Pressures are scaled; where that would have to
+// more than double them, because most loaded cells are at the bound, all are shifted. Both sums are concave, so that Newton's
+// method cannot fail once it is below the load, where its first step leads.
+template <class SumsOf>
+LoadCorrection correction_for_load(double load, double bound, const SumsOf& sums_of) {
+  constexpr double rounding = 1e-14;
+  constexpr int most_rounds = 60;
+  LoadCorrection correction;
+  const auto missing = [&](const LoadSums& sums) {
+    return load - (sums.saturated > 0 ? sums.saturated * bound : 0);
+  };
+  for (int round = 0; round < most_rounds; ++round) {
+    const LoadSums sums = sums_of(correction);
+    const double factor = sums.below > 0      ? missing(sums) / sums.below
+                          : missing(sums) > 0 ? 4.0
+                                              : 0.0;
+    correction.scale *= factor > 0 ? factor : 0.5;
+    if (correction.scale > 2 && std::isfinite(bound)) break;
+    if (!std::isfinite(bound) || std::abs(factor - 1) < rounding) return correction;
+  }
+  correction = {};
+  for (int round = 0; round < most_rounds; ++round) {
+    const LoadSums sums = sums_of(correction);
+    if (!(sums.unsaturated > 0)) break;
+    const double more = (missing(sums) - sums.below) / sums.unsaturated;
+    correction.shift += more;
+    if (std::abs(more) < rounding * bound) break;
+  }
+  return correction;
+}
+
+}  // namespace salebra::detail
