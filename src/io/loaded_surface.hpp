@@ -30,6 +30,10 @@ bool is_hdf5(const std::filesystem::path& file);
 /// Metres in one `unit` of length; throws InvalidInput naming the file for anything else.
 double metres_per(const std::filesystem::path& file, const std::string& unit);
 
+/// The readers of formats, each of a content that begins as its format does.
+bool is_gsf(std::string_view content);
+LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view content);
+LoadedSurface read_netcdf(const std::filesystem::path& file, std::string_view content);
 LoadedSurface read_npy(const std::filesystem::path& file, std::string_view content);
 LoadedSurface read_text(const std::filesystem::path& file, std::string_view content);
 LoadedSurface read_hdf5(const std::filesystem::path& file);

@@ -20,6 +20,9 @@ detail::LoadedSurface load(const std::filesystem::path& file) {
   if (detail::is_hdf5(file)) return detail::read_hdf5(file);
   const std::string content = detail::file_content(file);
   if (content.starts_with(npy_magic)) return detail::read_npy(file, content);
+  if (detail::is_gsf(content)) return detail::read_gsf(file, content);
+  if (content.starts_with("CDF\1") || content.starts_with("CDF\2") || content.starts_with("CDF\5"))
+    return detail::read_netcdf(file, content);
   return detail::read_text(file, content);
 }
 

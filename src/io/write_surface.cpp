@@ -13,6 +13,7 @@
 
 #include "atomic_file.hpp"
 #include "hdf5_output.hpp"
+#include "surface_writers.hpp"
 
 namespace salebra {
 namespace {
@@ -56,27 +57,13 @@ void write_npy(const std::filesystem::path& file, const Surface& surface,
   const char length[] = {static_cast<char>(header.size() % 256),
                          static_cast<char>(header.size() / 256)};
 
-  nlohmann::ordered_json description{
-      {"size_x", surface.grid.lx},
-      {"size_y", surface.grid.ly},
-      {"periodic", surface.periodic},
-      {"units", "m"},
-      {"origin", surface.origin},
-      {"program", "salebra"},
-      {"version", version()},
-      {"libraries", library_versions()},
-      {"created", provenance.created.empty() ? utc_now() : provenance.created},
-      {"command_line", provenance.command_line},
-      {"configuration", provenance.configuration}};
-  if (provenance.seed) description["seed"] = *provenance.seed;
-
   detail::AtomicFile array(file, options), sidecar(file.string() + ".json", options);
   array.write(std::string_view("\x93NUMPY\x01\x00", 8));
   array.write(std::string_view(length, sizeof length));
   array.write(header);
   array.write({reinterpret_cast<const char*>(surface.heights.data()),
                static_cast<std::size_t>(surface.grid.points()) * sizeof(double)});
-  sidecar.write(description.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  sidecar.write(detail::description_of(surface, provenance, 2) + "\n");
   sidecar.commit();
   array.commit();
 }
@@ -110,6 +97,25 @@ void write_text(const std::filesystem::path& file, const Surface& surface,
 
 }  // namespace
 
+std::string detail::description_of(const Surface& surface, const Provenance& provenance,
+                                   int indent) {
+  nlohmann::ordered_json description{
+      {"size_x", surface.grid.lx},
+      {"size_y", surface.grid.ly},
+      {"periodic", surface.periodic},
+      {"units", "m"},
+      {"origin", surface.origin},
+      {"program", "salebra"},
+      {"version", version()},
+      {"libraries", library_versions()},
+      {"created", provenance.created.empty() ? utc_now() : provenance.created},
+      {"command_line", provenance.command_line},
+      {"configuration", provenance.configuration}};
+  if (provenance.seed) description["seed"] = *provenance.seed;
+  // Names of files need not be UTF-8.
+  return description.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 void write_surface(const std::filesystem::path& file, const Surface& surface,
                    const Provenance& provenance, const WriteOptions& options) {
   surface.grid.validate();
@@ -122,9 +128,14 @@ void write_surface(const std::filesystem::path& file, const Surface& surface,
     write_npy(file, surface, provenance, options);
   else if (extension == ".txt" || extension == ".asc")
     write_text(file, surface, options);
+  else if (extension == ".nc")
+    detail::write_netcdf(file, surface, provenance, options);
+  else if (extension == ".gsf")
+    detail::write_gsf(file, surface, options);
   else
-    throw InvalidInput(file.string() + ": has the extension '" + extension +
-                       "', which names no format that is written; use .h5, .npy or .txt");
+    throw InvalidInput(
+        file.string() + ": has the extension '" + extension +
+        "', which names no format that is written; use .h5, .nc, .npy, .gsf or .txt");
 }
 
 }  // namespace salebra

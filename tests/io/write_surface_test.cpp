@@ -32,7 +32,7 @@ bool same(const Field& a, const Field& b) {
 
 TEST_CASE("A surface survives every format to the last bit", "[write]") {
   const Scratch scratch;
-  const std::string extension = GENERATE(".h5", ".hdf5", ".npy", ".txt", ".asc");
+  const std::string extension = GENERATE(".h5", ".hdf5", ".npy", ".nc", ".txt", ".asc");
   const Surface surface = example();
   const auto file = scratch / ("surface" + extension);
   write_surface(file, surface, {.command_line = "salebra generate", .seed = 7});
@@ -42,6 +42,19 @@ TEST_CASE("A surface survives every format to the last bit", "[write]") {
   CHECK(read.origin == file.string());
   const bool is_text = extension == ".txt" || extension == ".asc";
   CHECK(read.periodic != is_text);
+}
+
+TEST_CASE("A GSF file keeps float32 of the heights, whatever the length of its header", "[write]") {
+  const Scratch scratch;
+  for (const double size : {1.0, 1.5, 1.25, 1.125}) {
+    Surface surface = example();
+    surface.grid.lx = size;
+    const auto file = scratch / ("surface" + std::to_string(size) + ".gsf");
+    write_surface(file, surface);
+    const Surface read = read_surface(file);
+    CHECK(read.grid == surface.grid);
+    CHECK(same(read.heights, surface.heights.cast<float>().cast<double>()));
+  }
 }
 
 TEST_CASE("The HDF5 file of a surface says where it comes from", "[write]") {

@@ -12,6 +12,8 @@ namespace salebra {
 ///   .h5 .hdf5   dataset heights (nx, ny) with dimension scales x, y and attributes size_x, size_y, periodic, units, origin;
 ///               provenance at the root
 ///   .npy        float64 [nx, ny], little-endian, and beside it FILE.json with size_x, size_y, periodic, units, provenance
+///   .nc         NetCDF CDF-2 in SurfaceTopography's layout, with size_x, …, provenance in the attribute json; up to 4 GiB
+///   .gsf        Gwyddion Simple Field: heights rounded to float32. Whether it is periodic is lost
 ///   .txt .asc   matrix with Gwyddion's header, a row for each y; undefined points as nan; 17 digits, so that reading gives
 ///               the same doubles. Whether it is periodic is lost
 /// read_surface reads each of them back. throws InvalidInput for another extension, an invalid surface, and as

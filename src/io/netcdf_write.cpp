@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <salebra/base/error.hpp>
+#include <string>
+#include <tuple>
+
+#include "atomic_file.hpp"
+#include "surface_writers.hpp"
+
+namespace salebra::detail {
+namespace {
+
+/// Header of a CDF-2 file: big-endian integers of four bytes, offsets of eight, names and values padded to four.
+class Header {
+ public:
+  void word(std::uint32_t value) { big_endian(value, 4); }
+  void offset(std::uint64_t value) { big_endian(value, 8); }
+  void name(std::string_view value) {
+    word(static_cast<std::uint32_t>(value.size()));
+    bytes_ += value;
+    bytes_.append((4 - value.size() % 4) % 4, '\0');
+  }
+  void note(std::string_view key, std::string_view value) {
+    name(key);
+    word(2);
+    name(value);
+  }
+  void note(std::string_view key, double value) {
+    name(key);
+    word(6);
+    word(1);
+    big_endian(std::bit_cast<std::uint64_t>(value), 8);
+  }
+  void note(std::string_view key, std::int32_t value) {
+    name(key);
+    word(4);
+    word(1);
+    big_endian(static_cast<std::uint32_t>(value), 4);
+  }
+  void list(std::uint32_t tag, std::uint32_t entries) {
+    word(tag);
+    word(entries);
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  void big_endian(std::uint64_t value, int size) {
+    for (int shift = 8 * (size - 1); shift >= 0; shift -= 8)
+      bytes_ += static_cast<char>(value >> shift & 0xff);
+  }
+
+  std::string bytes_ = std::string("CDF\x02", 4);
+};
+
+constexpr std::uint32_t dimension_tag = 10, variable_tag = 11, attribute_tag = 12, float64 = 6;
+
+std::string header_of(const Surface& surface, const std::string& information,
+                      std::uint64_t data_begin) {
+  const Grid2D& grid = surface.grid;
+  Header header;
+  header.word(0);
+  header.list(dimension_tag, 2);
+  header.name("x");
+  header.word(static_cast<std::uint32_t>(grid.nx));
+  header.name("y");
+  header.word(static_cast<std::uint32_t>(grid.ny));
+  header.list(attribute_tag, 1);
+  header.note("json", information);
+  header.list(variable_tag, 3);
+  std::uint64_t begin = data_begin;
+  const auto place = [&](Index points) {
+    header.word(float64);
+    header.word(static_cast<std::uint32_t>(8 * points));
+    header.offset(begin);
+    begin += 8 * static_cast<std::uint64_t>(points);
+  };
+  for (const auto& [name, axis, length, points] :
+       {std::tuple("x", 0u, grid.lx, grid.nx), std::tuple("y", 1u, grid.ly, grid.ny)}) {
+    header.name(name);
+    header.word(1);
+    header.word(axis);
+    header.list(attribute_tag, 3);
+    header.note("length", length);
+    header.note("periodic", std::int32_t{surface.periodic});
+    header.note("unit", "m");
+    place(points);
+  }
+  header.name("heights");
+  header.word(2);
+  header.word(0);
+  header.word(1);
+  header.list(attribute_tag, 1);
+  header.note("unit", "m");
+  place(grid.points());
+  return header.bytes();
+}
+
+void append(std::string& bytes, double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  for (int shift = 56; shift >= 0; shift -= 8) bytes += static_cast<char>(bits >> shift & 0xff);
+}
+
+}  // namespace
+
+void write_netcdf(const std::filesystem::path& file, const Surface& surface,
+                  const Provenance& provenance, const WriteOptions& options) {
+  const Grid2D& grid = surface.grid;
+  if (grid.points() > static_cast<Index>(std::numeric_limits<std::uint32_t>::max() / 8))
+    throw InvalidInput(file.string() +
+                       ": would need more than 4 GiB, which NetCDF CDF-2 cannot "
+                       "hold; write HDF5 (.h5)");
+  const std::string information = description_of(surface, provenance, -1);
+  const std::size_t size = header_of(surface, information, 0).size();
+  AtomicFile output(file, options);
+  output.write(header_of(surface, information, size));
+  std::string bytes;
+  for (Index ix = 0; ix < grid.nx; ++ix) append(bytes, static_cast<double>(ix) * grid.dx());
+  for (Index iy = 0; iy < grid.ny; ++iy) append(bytes, static_cast<double>(iy) * grid.dy());
+  output.write(bytes);
+  for (Index ix = 0; ix < grid.nx; ++ix) {
+    bytes.clear();
+    for (Index iy = 0; iy < grid.ny; ++iy) append(bytes, surface.heights(ix, iy));
+    output.write(bytes);
+  }
+  output.commit();
+}
+
+}  // namespace salebra::detail

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <salebra/base/grid.hpp>
+#include <salebra/io/output.hpp>
+#include <salebra/io/provenance.hpp>
+#include <string>
+
+/// The writers behind write_surface, which has checked the surface.
+namespace salebra::detail {
+
+/// Size, unit, origin and provenance as a JSON object, for formats that have no place of their own for them.
+/// indent   of the members; −1: all on one line
+std::string description_of(const Surface& surface, const Provenance& provenance, int indent);
+
+void write_netcdf(const std::filesystem::path& file, const Surface& surface,
+                  const Provenance& provenance, const WriteOptions& options);
+void write_gsf(const std::filesystem::path& file, const Surface& surface,
+               const WriteOptions& options);
+
+}  // namespace salebra::detail
