@@ -127,8 +127,13 @@ SpectralMoments difference_moments(const Surface& surface) {
       const bool has_up = surface.periodic || iy + 1 < grid.ny;
       const bool has_down = surface.periodic || iy > 0;
       const double height = heights(ix, iy);
-      if (has_right) slope_x.add(heights(right, iy) - height);
-      if (has_up) slope_y.add(heights(ix, up) - height);
+      if (has_right && has_up) {
+        const double along_x = heights(right, iy) - height, along_y = heights(ix, up) - height;
+        if (!std::isnan(along_x + along_y)) {
+          slope_x.add(along_x);
+          slope_y.add(along_y);
+        }
+      }
       if (has_right && has_left)
         curvature_x.add((heights(right, iy) - height) - (height - heights(left, iy)));
       if (has_up && has_down)

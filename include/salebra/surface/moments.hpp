@@ -31,11 +31,12 @@ SpectralMoments spectral_moments(const Surface& surface);
 
 /// Moments by finite differences of neighbouring points:
 ///     m2_x = ⟨((h_{i+1} − h_i)/dx)²⟩, m4_x = ⟨((h_{i+1} − 2h_i + h_{i−1})/dx²)²⟩,
-/// each a mean over all stencils on the grid (with wrap where the surface is periodic) that touch
-/// no undefined point. Where the surface has structure at the scale of the grid they are smaller
-/// than the spectral moments: a mode of wave number q counts with (2 sin(q dx/2)/dx)² in place of
-/// q². The rms slope is SurfaceTopography's for a non-periodic surface. Throws InvalidInput if an
-/// axis has fewer than three points or a moment has no stencil left. Cost: one pass.
+/// m4 a mean over all stencils on the grid (with wrap where the surface is periodic) that touch no
+/// undefined point, m2 over all points whose neighbours of both differences exist, so that the rms
+/// slope is the mean of |∇h|² over one set of points, as SurfaceTopography has it. Where the surface
+/// has structure at the scale of the grid they are smaller than the spectral moments: a mode of wave
+/// number q counts with (2 sin(q dx/2)/dx)² in place of q². Throws InvalidInput if an axis has fewer
+/// than three points or a moment has no stencil left. Cost: one pass.
 SpectralMoments difference_moments(const Surface& surface);
 
 /// spectral_moments of a periodic surface, difference_moments of any other.
