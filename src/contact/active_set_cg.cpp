@@ -72,7 +72,6 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, double contact_modulus, Bound
       compliance_(normal_compliance<Real>(grid, contact_modulus, boundary)),
       kernels_(tile_kernels<Real>()),
       tiles_per_row_((grid.ny + tile_width - 1) / tile_width),
-      // A tile's vectors may end beyond the frame of the last row.
       framed_stride_(grid.ny + 2 * frame) {
   const InverseStencil inverse(grid);
   for (int i = -frame; i <= frame; ++i)
@@ -84,7 +83,7 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, double contact_modulus, Bound
 
 template <class Real>
 TileArrays<Real> ActiveSetCg<Real>::arrays(double* p, double* g, double bound) {
-  return {tiles_.data(), grid_.ny,  framed_stride_,  p,    g, t_.data(), w_.data(), r_.data(),
+  return {tiles_.data(), grid_.ny,  framed_stride_,  p,    g, t_.get(), w_.get(), r_.get(),
           z_.data(),     m_.data(), stencil_.data(), bound};
 }
 
@@ -92,10 +91,20 @@ template <class Real>
 void ActiveSetCg<Real>::reset() {
   tiles_.clear();
   in_use_.assign(static_cast<std::size_t>(grid_.nx * tiles_per_row_), 0);
-  t_.assign(static_cast<std::size_t>(points()), Real(0));
-  w_.assign(static_cast<std::size_t>(points()), Real(0));
-  r_.assign(static_cast<std::size_t>((grid_.nx + 2 * frame) * framed_stride_ + tile_width),
-            Real(0));
+  const Index framed_rows = grid_.nx + 2 * frame;
+  if (!t_) {
+    t_.reset(new Real[static_cast<std::size_t>(points())]);
+    w_.reset(new Real[static_cast<std::size_t>(points())]);
+    // A tile's vectors may end beyond the frame of the last row.
+    r_.reset(new Real[static_cast<std::size_t>(framed_rows * framed_stride_ + tile_width)]);
+  }
+  for_rows([&](Index begin, Index end) {
+    std::fill(t_.get() + begin * grid_.ny, t_.get() + end * grid_.ny, Real(0));
+    std::fill(w_.get() + begin * grid_.ny, w_.get() + end * grid_.ny, Real(0));
+    const Index last = end == grid_.nx ? framed_rows : end;
+    std::fill(r_.get() + begin * framed_stride_, r_.get() + last * framed_stride_, Real(0));
+  });
+  std::fill_n(r_.get() + framed_rows * framed_stride_, tile_width, Real(0));
 }
 
 // Changes the pressures so that their mean is the one asked, within the bound.
@@ -143,14 +152,13 @@ void ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
     exact_compliance().apply(run.p, run.g);
   } else {
     for_rows([&](Index begin, Index end) {
-      for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k)
-        w_[static_cast<std::size_t>(k)] = static_cast<Real>(run.p[k]);
+      for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) w_[k] = static_cast<Real>(run.p[k]);
     });
-    compliance_.apply(w_.data(), w_.data());
+    compliance_.apply(w_.get(), w_.get());
     run.has_direction = false;  // its image is gone
     for_rows([&](Index begin, Index end) {
       for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k)
-        run.g[k] = static_cast<double>(w_[static_cast<std::size_t>(k)]);
+        run.g[k] = static_cast<double>(w_[k]);
     });
   }
   for_rows([&](Index begin, Index end) {
@@ -185,8 +193,8 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
         for (Index i = 0; i < width; ++i) needed |= (p[i] > 0) | (g[i] < near);
         unsigned char& used = in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)];
         if (used && !needed) {
-          std::fill_n(t_.data() + row * grid_.ny + column, width, Real(0));
-          std::fill_n(r_.data() + (row + frame) * framed_stride_ + column + frame, width, Real(0));
+          std::fill_n(t_.get() + row * grid_.ny + column, width, Real(0));
+          std::fill_n(r_.get() + (row + frame) * framed_stride_ + column + frame, width, Real(0));
         }
         used = needed;
       }
@@ -231,16 +239,18 @@ void ActiveSetCg<Real>::frame_residual() {
   if (boundary_ == Boundary::free) return;
   const Index nx = grid_.nx, ny = grid_.ny;
   const auto wrapped = [](Index k, Index n) { return (k % n + n) % n; };
-  for (Index row = 0; row < nx; ++row) {
-    Real* r = r_.data() + (row + frame) * framed_stride_ + frame;
-    for (Index k = 1; k <= frame; ++k) {
-      r[-k] = r[wrapped(-k, ny)];
-      r[ny + k - 1] = r[wrapped(k - 1, ny)];
+  for_rows([&](Index begin, Index end) {
+    for (Index row = begin; row < end; ++row) {
+      Real* r = r_.get() + (row + frame) * framed_stride_ + frame;
+      for (Index k = 1; k <= frame; ++k) {
+        r[-k] = r[wrapped(-k, ny)];
+        r[ny + k - 1] = r[wrapped(k - 1, ny)];
+      }
     }
-  }
+  });
   const auto copy_row = [&](Index to, Index from) {
-    std::copy_n(r_.data() + (from + frame) * framed_stride_, framed_stride_,
-                r_.data() + (to + frame) * framed_stride_);
+    std::copy_n(r_.get() + (from + frame) * framed_stride_, framed_stride_,
+                r_.get() + (to + frame) * framed_stride_);
   };
   for (Index k = 1; k <= frame; ++k) {
     copy_row(-k, wrapped(-k, nx));
@@ -275,27 +285,30 @@ LoadCorrection ActiveSetCg<Real>::correction_over_tiles(const Run& run, double p
 template <class Real>
 void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
   const auto a = arrays(run.p, run.g, run.target.bound);
-  auto sums = over_tiles<SetSums>(tiles_.size(), [&](Index begin, Index end) {
-    return kernels_.change_set(a, begin, end, run.level);
-  });
-  if (truncate) {
-    const LoadCorrection correction =
-        run.load_given() ? correction_over_tiles(run, pressure) : LoadCorrection{};
-    for_tiles(tiles_.size(), [&](Index begin, Index end) {
-      kernels_.truncate(a, begin, end, correction.scale, correction.shift);
-    });
-    // In place, so that w keeps the image of the last direction: CG goes on without a restart.
-    compliance_.apply(t_.data(), t_.data());
-    ++run.outcome.fft_count;
-    sums = over_tiles<SetSums>(tiles_.size(), [&](Index begin, Index end) {
-      return kernels_.add_displacement(a, begin, end);
-    });
-    for_rows([&](Index begin, Index end) {
-      std::fill(t_.begin() + begin * grid_.ny, t_.begin() + end * grid_.ny, Real(0));
-    });
-    for_tiles(tiles_.size(),
-              [&](Index begin, Index end) { kernels_.restore_direction(a, begin, end); });
+  if (!truncate) {
+    begin_set(run, over_tiles<SetSums>(tiles_.size(), [&](Index begin, Index end) {
+                return kernels_.change_set(a, begin, end, run.level);
+              }));
+    return;
   }
+  const LoadCorrection correction =
+      run.load_given() ? correction_over_tiles(run, pressure) : LoadCorrection{};
+  for_tiles(tiles_.size(), [&](Index begin, Index end) {
+    kernels_.truncate(a, begin, end, run.level, correction.scale, correction.shift);
+  });
+  // In place, so that w keeps the image of the last direction: CG goes on without a restart.
+  compliance_.apply(t_.get(), t_.get());
+  ++run.outcome.fft_count;
+  const auto sums = over_tiles<SetSums>(tiles_.size(), [&](Index begin, Index end) {
+    return kernels_.add_displacement(a, begin, end);
+  });
+  for_rows([&](Index begin, Index end) {
+    for (Index row = begin; row < end; ++row)
+      for (Index k = 0; k < tiles_per_row_; ++k)
+        if (!in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)])
+          std::fill_n(t_.get() + row * grid_.ny + k * tile_width,
+                      std::min<Index>(tile_width, grid_.ny - k * tile_width), Real(0));
+  });
   begin_set(run, sums);
 }
 
@@ -334,7 +347,7 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
   double descent = direct(beta);
   if (descent <= 0 && beta > 0) descent = direct(0);
 
-  compliance_.apply(t_.data(), w_.data());
+  compliance_.apply(t_.get(), w_.get());
   ++run.outcome.fft_count;
   run.has_direction = true;
   CurvatureSums curvature;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <salebra/base/convolution.hpp>
 #include <salebra/base/parallel.hpp>
@@ -80,9 +81,10 @@ class ActiveSetCg {
   Index tiles_per_row_, framed_stride_;
   std::vector<Tile> tiles_;
   std::vector<unsigned char> in_use_;  // (nx, tiles_per_row)
-  std::vector<Real> t_, w_;            // dense
-  std::vector<Real> r_;                // framed
-  std::vector<Real> z_, m_;            // tile after tile
+  // Not initialised before reset(), which lets the thread that will use a page touch it first.
+  std::unique_ptr<Real[]> t_, w_;  // dense
+  std::unique_ptr<Real[]> r_;      // framed
+  std::vector<Real> z_, m_;        // tile after tile
 };
 
 }  // namespace salebra::detail

@@ -64,7 +64,7 @@ double ActiveSetCg<Real>::punch_load(const double* p, double bound) {
            return kernels_.direct(a, begin, end, 0, beta, 0);
          }))
       descent += part;
-    compliance_.apply(t_.data(), w_.data());
+    compliance_.apply(t_.get(), w_.get());
     for (const auto& part : over(CurvatureSums{}, [&](Index begin, Index end) {
            return kernels_.curvature(a, begin, end);
          }))

@@ -72,13 +72,11 @@ struct TileKernels {
   // Frees held cells whose gap has the wrong sign, holds free cells whose pressure left its bounds.
   SetSums (*change_set)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                         double level);
-  // p becomes min(scale·max(p, 0) + shift, bound), t the change of p, z the old t.
-  void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double scale,
-                   double shift);
-  // g += t; the free cells and Σg as they are then
+  // The same, and p becomes min(scale·max(p, 0) + shift, bound), t the change of p, z the old t.
+  void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double level,
+                   double scale, double shift);
+  // g += t, t = z; the free cells and Σg as they are then
   SetSums (*add_displacement)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end);
-  // t = z
-  void (*restore_direction)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end);
 };
 
 // The table for the widest vectors that this processor has.

@@ -193,6 +193,12 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
           misfit.sum(),  signed_misfit.sum(), saturated.sum(), lowest};
 }
 
+SALEBRA_INLINE bool becomes_free(bool free, double p, double g, double level, double bound) {
+  const bool stays = p >= 0 && p <= bound;
+  const bool enters = p > 0 ? g > level : g < level;
+  return free ? stays : enters;
+}
+
 template <class Real>
 SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level) {
   Lanes count, sum;
@@ -201,9 +207,7 @@ SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level
     Real* m = a.m + packed;
     const double *p = a.p + dense, *g = a.g + dense;
     for (Size i = 0; i < width; ++i) {
-      const bool stays = p[i] >= 0 && p[i] <= bound;
-      const bool enters = p[i] > 0 ? g[i] > level : g[i] < level;
-      const bool free = m[i] != 0 ? stays : enters;
+      const bool free = becomes_free(m[i] != 0, p[i], g[i], level, bound);
       m[i] = free ? Real(1) : Real(0);
       count.value[i] += free ? 1 : 0;
       sum.value[i] += free ? g[i] : 0;
@@ -213,17 +217,21 @@ SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level
 }
 
 template <class Real>
-void truncate(const TileArrays<Real>& a, Size begin, Size end, double scale, double shift) {
+void truncate(const TileArrays<Real>& a, Size begin, Size end, double level, double scale,
+              double shift) {
   const double bound = a.bound;
   for_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
     Real *z = a.z + packed, *t = a.t + dense, *m = a.m + packed;
     double* p = a.p + dense;
+    const double* g = a.g + dense;
     for (Size i = 0; i < width; ++i) {
       z[i] = t[i];
       const double above = (p[i] < 0 ? 0 : p[i] * scale) + shift;
       const double kept = above < bound ? above : bound;
-      // A held cell that scaling took off its bound is free again.
-      m[i] = kept > 0 && kept < bound ? Real(1) : m[i];
+      // A held cell that the correction of the load took off its bound is free again.
+      const bool free =
+          becomes_free(m[i] != 0, p[i], g[i], level, bound) | (kept > 0 && kept < bound);
+      m[i] = free ? Real(1) : Real(0);
       t[i] = static_cast<Real>(kept - p[i]);
       p[i] = kept;
     }
@@ -235,9 +243,11 @@ SetSums add_displacement(const TileArrays<Real>& a, Size begin, Size end) {
   Lanes count, sum;
   for_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
     double* g = a.g + dense;
-    const Real *t = a.t + dense, *m = a.m + packed;
+    Real* t = a.t + dense;
+    const Real *m = a.m + packed, *z = a.z + packed;
     for (Size i = 0; i < width; ++i) {
       g[i] += static_cast<double>(t[i]);
+      t[i] = z[i];
       count.value[i] += static_cast<double>(m[i]);
       sum.value[i] += static_cast<double>(m[i]) * g[i];
     }
@@ -246,25 +256,9 @@ SetSums add_displacement(const TileArrays<Real>& a, Size begin, Size end) {
 }
 
 template <class Real>
-void restore_direction(const TileArrays<Real>& a, Size begin, Size end) {
-  for_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
-    const Real* z = a.z + packed;
-    Real* t = a.t + dense;
-    for (Size i = 0; i < width; ++i) t[i] = z[i];
-  });
-}
-
-template <class Real>
 TileKernels<Real> table() {
-  return {residual<Real>,
-          precondition<Real>,
-          direct<Real>,
-          curvature<Real>,
-          step<Real>,
-          change_set<Real>,
-          truncate<Real>,
-          add_displacement<Real>,
-          restore_direction<Real>};
+  return {residual<Real>, precondition<Real>, direct<Real>,   curvature<Real>,
+          step<Real>,     change_set<Real>,   truncate<Real>, add_displacement<Real>};
 }
 
 TileKernels<float> table_float() { return table<float>(); }
