@@ -8,6 +8,7 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/contact/stick.hpp>
 #include <salebra/contact/sweep.hpp>
 
 namespace salebra {
@@ -25,9 +26,18 @@ ForceSample sample_of(const NormalContactState& state, const Surface& surface,
   if (options.stiffness && state.converged) {
     sample.normal_stiffness =
         normal_stiffness(state, surface.grid, material.contact_modulus, options.contact);
-    // Exact for circular contacts and for ν = 0; about 1 % off for rough ones at ν = 0.3 (PHYSICS section 7).
-    if (std::isfinite(material.tangential_modulus))
+    if (options.stick) {
+      StickOptions stick;
+      stick.boundary = options.contact.boundary;
+      stick.on_progress = options.contact.on_progress;
+      const StickStiffness stiffness =
+          stick_stiffness(contact_set(state), surface.grid, material, stick, true);
+      sample.tangential_stiffness = stiffness.xx;
+      sample.converged = sample.converged && stiffness.converged;
+    } else if (std::isfinite(material.tangential_modulus)) {
+      // Exact for circular contacts and for ν = 0; about 1 % off for rough ones at ν = 0.3 (PHYSICS section 7).
       sample.tangential_stiffness = material.modulus_ratio() * sample.normal_stiffness;
+    }
   }
   return sample;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/sweep.hpp>
 
 using namespace salebra;
 
@@ -261,4 +262,27 @@ TEST_CASE("A stick solve that stops early says so, and bad input is named", "[st
       Catch::Contains("full contact"));
   const ContactSet none = ContactSet::Constant(32, 32, false);
   CHECK(stick_stiffness(none, grid, material, free_boundary()).xx == 0);
+}
+
+TEST_CASE("A sweep takes K_t from stick solves on its contact sets", "[stick]") {
+  const Grid2D grid{32, 32, 1e-3, 1e-3};
+  Surface surface{grid, Field(grid.nx, grid.ny), true, "waves"};
+  for (Index ix = 0; ix < grid.nx; ++ix)
+    for (Index iy = 0; iy < grid.ny; ++iy)
+      surface.heights(ix, iy) = 1e-6 * std::cos(2 * pi * static_cast<double>(ix) / 32) +
+                                0.3e-6 * std::cos(2 * pi * static_cast<double>(iy) / 16);
+  const Material material = Material::of_contact_modulus(contact_modulus, 0.4);
+  const std::vector<double> pressures{1e5, 1e6};
+  SweepOptions options;
+  const ForceCurve plain = sweep_pressures(surface, material, pressures, options);
+  options.stick = true;
+  const ForceCurve stuck = sweep_pressures(surface, material, pressures, options);
+  for (std::size_t k = 0; k < pressures.size(); ++k) {
+    const NormalContactState state = press_to_pressure(surface, contact_modulus, pressures[k]);
+    const StickStiffness direct = stick_stiffness(contact_set(state), grid, material);
+    CHECK(stuck.samples[k].tangential_stiffness == Approx(direct.xx).epsilon(1e-9));
+    CHECK(stuck.samples[k].normal_stiffness == plain.samples[k].normal_stiffness);
+    // Ridges along y: stiffer across them than a round contact would be.
+    CHECK(stuck.samples[k].tangential_stiffness > 1.02 * plain.samples[k].tangential_stiffness);
+  }
 }
