@@ -13,8 +13,8 @@ namespace detail {
 namespace {
 
 // The load is a maximum over q, so its error is the square of the error of q: a loose solve is enough for a sharp load.
-constexpr double relative_gain = 1e-13;
-constexpr int gains_in_a_row = 3;
+constexpr double relative_gain = 1e-11;
+constexpr int gains_in_a_row = 2;
 constexpr int most_iterations = 2000;
 
 }  // namespace
