@@ -22,43 +22,38 @@ constexpr double refresh_after = 1e-4;
 // A start for a finer level needs no more than this many refreshes.
 constexpr int most_inexact_refreshes = 3;
 
-template <class Sums, class Kernel>
-std::vector<Sums> over_tiles(std::size_t tiles, const Kernel& kernel) {
-  return parallel::map_slabs<Sums>(static_cast<Index>(tiles), kernel,
-                                   static_cast<Index>(tiles) * tile_width);
+void add(PreconditionSums& total, const PreconditionSums& part) {
+  total.z += part.z;
+  total.zw += part.zw;
+  total.zz += part.zz;
+  total.t += part.t;
+  total.w += part.w;
 }
+void add(CurvatureSums& total, const CurvatureSums& part) {
+  total.tw += part.tw;
+  total.w += part.w;
+}
+void add(StepSums& total, const StepSums& part) {
+  total.outside += part.outside;
+  total.wrong += part.wrong;
+  total.clipped += part.clipped;
+  total.pressure += part.pressure;
+  total.misfit += part.misfit;
+  total.signed_misfit += part.signed_misfit;
+  total.saturated += part.saturated;
+  total.least = std::min(total.least, part.least);
+}
+void add(double& total, double part) { total += part; }
 
-template <class Kernel>
-void for_tiles(std::size_t tiles, const Kernel& kernel) {
-  parallel::for_slabs(static_cast<Index>(tiles), kernel, static_cast<Index>(tiles) * tile_width);
+// In the order of the slabs, so that the sum has the same bits for every thread count.
+template <class Sums>
+Sums total_of(const std::vector<Sums>& parts) {
+  Sums total = parts.front();
+  for (std::size_t k = 1; k < parts.size(); ++k) add(total, parts[k]);
+  return total;
 }
 
 }  // namespace
-
-template <class Real>
-struct ActiveSetCg<Real>::Run {
-  ContactTarget target;
-  ActiveSetLimits limits;
-  double* p;
-  double* g;
-  ActiveSetOutcome outcome = {};
-
-  double count = 0;            // free cells
-  double level = 0;            // λ
-  bool has_direction = false;  // t, w hold a direction and its image
-  double curvature = 1;        // <t, w>
-  double threshold = usual_threshold;
-  double best = std::numeric_limits<double>::infinity();  // estimate of e_c, for patience
-  int since_best = 0;
-  std::size_t stalls = 0;
-  double at_refresh = 1;  // e_c at the last refresh
-  int refreshes = 0;
-  double estimate = 0;
-  bool finished = false;
-
-  bool load_given() const { return target.load_given(); }
-  bool stalled() const { return stalls > other_thresholds.size(); }
-};
 
 template <class Real>
 ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, double contact_modulus, Boundary boundary,
@@ -79,32 +74,6 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, double contact_modulus, Bound
       stencil_[static_cast<std::size_t>((i + frame) * (2 * frame + 1) + j + frame)] =
           static_cast<Real>(contact_modulus * inverse.weight(i, j));
   static_assert(frame == InverseStencil::radius);
-}
-
-template <class Real>
-TileArrays<Real> ActiveSetCg<Real>::arrays(double* p, double* g, double bound) {
-  return {tiles_.data(), grid_.ny,  framed_stride_,  p,    g, t_.get(), w_.get(), r_.get(),
-          z_.data(),     m_.data(), stencil_.data(), bound};
-}
-
-template <class Real>
-void ActiveSetCg<Real>::reset() {
-  tiles_.clear();
-  in_use_.assign(static_cast<std::size_t>(grid_.nx * tiles_per_row_), 0);
-  const Index framed_rows = grid_.nx + 2 * frame;
-  if (!t_) {
-    t_.reset(new Real[static_cast<std::size_t>(points())]);
-    w_.reset(new Real[static_cast<std::size_t>(points())]);
-    // A tile's vectors may end beyond the frame of the last row.
-    r_.reset(new Real[static_cast<std::size_t>(framed_rows * framed_stride_ + tile_width)]);
-  }
-  for_rows([&](Index begin, Index end) {
-    std::fill(t_.get() + begin * grid_.ny, t_.get() + end * grid_.ny, Real(0));
-    std::fill(w_.get() + begin * grid_.ny, w_.get() + end * grid_.ny, Real(0));
-    const Index last = end == grid_.nx ? framed_rows : end;
-    std::fill(r_.get() + begin * framed_stride_, r_.get() + last * framed_stride_, Real(0));
-  });
-  std::fill_n(r_.get() + framed_rows * framed_stride_, tile_width, Real(0));
 }
 
 // Changes the pressures so that their mean is the one asked, within the bound.
@@ -166,152 +135,6 @@ void ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
   });
 }
 
-// The tiles that are in use, row by row, with room for what is stored tile after tile.
-template <class Real>
-void ActiveSetCg<Real>::list_tiles() {
-  tiles_.clear();
-  for (Index row = 0; row < grid_.nx; ++row)
-    for (Index k = 0; k < tiles_per_row_; ++k)
-      if (in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)])
-        tiles_.push_back(
-            {static_cast<std::int32_t>(row), static_cast<std::int32_t>(k * tile_width)});
-  z_.assign(static_cast<std::size_t>(tile_points()), Real(0));
-  m_.assign(static_cast<std::size_t>(tile_points()), Real(0));
-}
-
-// The tiles of all cells that carry pressure or are closer to the plane than margin·h_rms, and the free cells in them.
-template <class Real>
-void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
-  const double near = run.level + margin * rms_height_, bound = run.target.bound;
-  for_rows([&](Index begin, Index end) {
-    for (Index row = begin; row < end; ++row)
-      for (Index k = 0; k < tiles_per_row_; ++k) {
-        const Index column = k * tile_width, width = std::min<Index>(tile_width, grid_.ny - column);
-        const double* p = run.p + row * grid_.ny + column;
-        const double* g = run.g + row * grid_.ny + column;
-        bool needed = false;
-        for (Index i = 0; i < width; ++i) needed |= (p[i] > 0) | (g[i] < near);
-        unsigned char& used = in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)];
-        if (used && !needed) {
-          std::fill_n(t_.get() + row * grid_.ny + column, width, Real(0));
-          std::fill_n(r_.get() + (row + frame) * framed_stride_ + column + frame, width, Real(0));
-        }
-        used = needed;
-      }
-  });
-  list_tiles();
-  begin_set(run, over_tiles<SetSums>(tiles_.size(), [&](Index begin, Index end) {
-              SetSums sums;
-              for (Index k = begin; k < end; ++k) {
-                const Tile tile = tiles_[static_cast<std::size_t>(k)];
-                const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
-                const Index dense = tile.row * grid_.ny + tile.column;
-                for (Index i = 0; i < width; ++i) {
-                  const double p = run.p[dense + i], g = run.g[dense + i];
-                  const bool free = p >= bound ? g > run.level : p > 0 || g < run.level;
-                  m_[static_cast<std::size_t>(k * tile_width + i)] = free ? Real(1) : Real(0);
-                  sums.count += free ? 1 : 0;
-                  sums.g += free ? g : 0;
-                }
-              }
-              return sums;
-            }));
-}
-
-// Number of free cells, the level, and the residual on them, after the set or g changed.
-template <class Real>
-void ActiveSetCg<Real>::begin_set(Run& run, const std::vector<SetSums>& parts) {
-  SetSums total;
-  for (const SetSums& part : parts) {
-    total.count += part.count;
-    total.g += part.g;
-  }
-  run.count = total.count;
-  if (run.load_given() && run.count > 0) run.level = total.g / run.count;
-  const auto a = arrays(run.p, run.g, run.target.bound);
-  for_tiles(tiles_.size(),
-            [&](Index begin, Index end) { kernels_.residual(a, begin, end, run.level); });
-}
-
-// Copies the edges of the residual into its frame, so that the stencil sees the periodic images.
-template <class Real>
-void ActiveSetCg<Real>::frame_residual() {
-  if (boundary_ == Boundary::free) return;
-  const Index nx = grid_.nx, ny = grid_.ny;
-  const auto wrapped = [](Index k, Index n) { return (k % n + n) % n; };
-  for_rows([&](Index begin, Index end) {
-    for (Index row = begin; row < end; ++row) {
-      Real* r = r_.get() + (row + frame) * framed_stride_ + frame;
-      for (Index k = 1; k <= frame; ++k) {
-        r[-k] = r[wrapped(-k, ny)];
-        r[ny + k - 1] = r[wrapped(k - 1, ny)];
-      }
-    }
-  });
-  const auto copy_row = [&](Index to, Index from) {
-    std::copy_n(r_.get() + (from + frame) * framed_stride_, framed_stride_,
-                r_.get() + (to + frame) * framed_stride_);
-  };
-  for (Index k = 1; k <= frame; ++k) {
-    copy_row(-k, wrapped(-k, nx));
-    copy_row(nx + k - 1, wrapped(k - 1, nx));
-  }
-}
-
-// The correction that puts p on the tiles back to the load, given Σp over the cells below the bound.
-template <class Real>
-LoadCorrection ActiveSetCg<Real>::correction_over_tiles(const Run& run, double pressure) const {
-  const double load = run.target.value * static_cast<double>(points()), bound = run.target.bound;
-  if (std::isinf(bound)) return {.scale = pressure > 0 ? load / pressure : 1};
-  return correction_for_load(load, bound, [&](const LoadCorrection& trial) {
-    LoadSums total;
-    for (const LoadSums& part : over_tiles<LoadSums>(tiles_.size(), [&](Index begin, Index end) {
-           LoadSums sums;
-           for (Index k = begin; k < end; ++k) {
-             const Tile tile = tiles_[static_cast<std::size_t>(k)];
-             const double* p = run.p + tile.row * grid_.ny + tile.column;
-             const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
-             for (Index i = 0; i < width; ++i) sums.add(trial(p[i], bound), bound);
-           }
-           return sums;
-         }))
-      total += part;
-    return total;
-  });
-}
-
-// Takes new free cells; with truncate also puts p back within its bounds and to
-// its load, at the cost of one transform pair.
-template <class Real>
-void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
-  const auto a = arrays(run.p, run.g, run.target.bound);
-  if (!truncate) {
-    begin_set(run, over_tiles<SetSums>(tiles_.size(), [&](Index begin, Index end) {
-                return kernels_.change_set(a, begin, end, run.level);
-              }));
-    return;
-  }
-  const LoadCorrection correction =
-      run.load_given() ? correction_over_tiles(run, pressure) : LoadCorrection{};
-  for_tiles(tiles_.size(), [&](Index begin, Index end) {
-    kernels_.truncate(a, begin, end, run.level, correction.scale, correction.shift);
-  });
-  // In place, so that w keeps the image of the last direction: CG goes on without a restart.
-  compliance_.apply(t_.get(), t_.get());
-  ++run.outcome.fft_count;
-  const auto sums = over_tiles<SetSums>(tiles_.size(), [&](Index begin, Index end) {
-    return kernels_.add_displacement(a, begin, end);
-  });
-  for_rows([&](Index begin, Index end) {
-    for (Index row = begin; row < end; ++row)
-      for (Index k = 0; k < tiles_per_row_; ++k)
-        if (!in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)])
-          std::fill_n(t_.get() + row * grid_.ny + k * tile_width,
-                      std::min<Index>(tile_width, grid_.ny - k * tile_width), Real(0));
-  });
-  begin_set(run, sums);
-}
-
 // One step of CG, and the change of the free set that it calls for. Returns false where no free cell is left.
 template <class Real>
 bool ActiveSetCg<Real>::iterate(Run& run) {
@@ -320,28 +143,17 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
   const auto a = arrays(run.p, run.g, run.target.bound);
 
   frame_residual();
-  PreconditionSums preconditioned;
-  for (const auto& part : over_tiles<PreconditionSums>(tiles_.size(), [&](Index begin, Index end) {
-         return kernels_.precondition(a, begin, end);
-       })) {
-    preconditioned.z += part.z;
-    preconditioned.zw += part.zw;
-    preconditioned.zz += part.zz;
-    preconditioned.t += part.t;
-    preconditioned.w += part.w;
-  }
+  const auto preconditioned = total_of(over_tiles<PreconditionSums>(
+      [&](Index begin, Index end) { return kernels_.precondition(a, begin, end); }));
   // At given load the steps must keep it: directions have no mean over the free cells.
   const double z_mean = load_given ? preconditioned.z / run.count : 0;
   const double t_mean = load_given ? preconditioned.t / run.count : 0;
   const double zw = preconditioned.zw - z_mean * preconditioned.w;
   const double zz = std::max(0.0, preconditioned.zz - preconditioned.z * z_mean);
   const auto direct = [&](double beta) {
-    double sum = 0;
-    for (const double part : over_tiles<double>(tiles_.size(), [&](Index begin, Index end) {
-           return kernels_.direct(a, begin, end, z_mean, beta, t_mean);
-         }))
-      sum += part;
-    return sum;
+    return total_of(over_tiles<double>([&](Index begin, Index end) {
+      return kernels_.direct(a, begin, end, z_mean, beta, t_mean);
+    }));
   };
   const double beta = run.has_direction ? std::max(0.0, -zw / run.curvature) : 0;
   double descent = direct(beta);
@@ -350,32 +162,15 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
   compliance_.apply(t_.get(), w_.get());
   ++run.outcome.fft_count;
   run.has_direction = true;
-  CurvatureSums curvature;
-  for (const auto& part : over_tiles<CurvatureSums>(tiles_.size(), [&](Index begin, Index end) {
-         return kernels_.curvature(a, begin, end);
-       })) {
-    curvature.tw += part.tw;
-    curvature.w += part.w;
-  }
+  const auto curvature = total_of(over_tiles<CurvatureSums>(
+      [&](Index begin, Index end) { return kernels_.curvature(a, begin, end); }));
   run.curvature = curvature.tw;
   const double alpha =
       curvature.tw > 0 && std::isfinite(descent / curvature.tw) ? descent / curvature.tw : 0;
   if (load_given) run.level -= alpha * curvature.w / run.count;
 
-  StepSums step;
-  step.least = std::numeric_limits<double>::infinity();
-  for (const auto& part : over_tiles<StepSums>(tiles_.size(), [&](Index begin, Index end) {
-         return kernels_.step(a, begin, end, alpha, run.level);
-       })) {
-    step.outside += part.outside;
-    step.wrong += part.wrong;
-    step.clipped += part.clipped;
-    step.pressure += part.pressure;
-    step.misfit += part.misfit;
-    step.signed_misfit += part.signed_misfit;
-    step.saturated += part.saturated;
-    step.least = std::min(step.least, part.least);
-  }
+  const auto step = total_of(over_tiles<StepSums>(
+      [&](Index begin, Index end) { return kernels_.step(a, begin, end, alpha, run.level); }));
   ++run.outcome.iterations;
   const double carried =
       step.pressure + (step.saturated > 0 ? step.saturated * run.target.bound : 0);
@@ -436,6 +231,7 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
                                           const ActiveSetLimits& limits, double* p, double* g) {
   reset();
   Run run{target, limits, p, g};
+  run.threshold = usual_threshold;
   if (run.load_given()) {
     correct_load(target, p);
   } else {
@@ -444,25 +240,26 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
   dense_gap(run, false);
   run.level = contact_residual(grid_, target, rms_height_, p, g).level;
   choose_tiles(run, widest_margin);
-  while (!run.finished) {
+  for (;;) {
     const bool progressed = iterate(run);
     if (limits.keep_going && !limits.keep_going(run.outcome.iterations, run.estimate))
       run.outcome.interrupted = true;
-    if (run.stalled()) break;
+    const bool stalled = run.stalls > other_thresholds.size();
     const bool fresh_needed =
         run.estimate < 0.7 * limits.tolerance || run.outcome.interrupted ||
         run.outcome.iterations >= limits.max_iterations ||
         (std::is_same_v<Real, float> && run.estimate < refresh_after * run.at_refresh);
-    if (fresh_needed || !progressed) refresh(run);
-    if (!progressed) break;
+    if (fresh_needed || stalled || !progressed) refresh(run);
+    if (run.finished) break;
+    if (stalled || !progressed) {
+      // Where no cell is free, or the set flutters, a slower method finishes; a coarse level is left as it is.
+      if (limits.exact)
+        gradient_projection(exact_compliance(), grid_, boundary_, heights_, rms_height_, target,
+                            limits, p, g, run.outcome);
+      break;
+    }
   }
-  run.outcome.level = run.level;
-  if (run.stalled() && !run.outcome.interrupted) {
-    refresh(run);
-    if (limits.exact && !run.finished)
-      gradient_projection(exact_compliance(), grid_, boundary_, heights_, rms_height_, target,
-                          limits, p, g, run.outcome);
-  }
+  if (run.finished || !limits.exact) run.outcome.level = run.level;
   return run.outcome;
 }
 

@@ -33,7 +33,29 @@ class ActiveSetCg {
   double punch_load(const double* p, double bound);
 
  private:
-  struct Run;  // the state of one call of solve
+  // The state of one call of solve().
+  struct Run {
+    ContactTarget target;
+    ActiveSetLimits limits;
+    double* p;
+    double* g;
+    ActiveSetOutcome outcome = {};
+
+    double count = 0;                                       // free cells
+    double level = 0;                                       // λ
+    bool has_direction = false;                             // t, w hold a direction and its image
+    double curvature = 1;                                   // <t, w>
+    double threshold = 0;                                   // see worth_a_change in iterate()
+    double best = std::numeric_limits<double>::infinity();  // estimate of e_c, for patience
+    int since_best = 0;
+    std::size_t stalls = 0;
+    double at_refresh = 1;  // e_c at the last refresh
+    int refreshes = 0;
+    double estimate = 0;
+    bool finished = false;
+
+    bool load_given() const { return target.load_given(); }
+  };
 
   Index points() const { return grid_.points(); }
   Index tile_points() const { return static_cast<Index>(tiles_.size()) * tile_width; }
@@ -52,6 +74,16 @@ class ActiveSetCg {
   template <class Body>
   double sum_rows(const Body& body) const {
     return parallel::sum_slabs(grid_.nx, body, points());
+  }
+
+  // Passes over the tiles in fixed slabs of their list.
+  template <class Body>
+  void for_tiles(const Body& body) const {
+    parallel::for_slabs(static_cast<Index>(tiles_.size()), body, tile_points());
+  }
+  template <class Sums, class Body>
+  std::vector<Sums> over_tiles(const Body& body) const {
+    return parallel::map_slabs<Sums>(static_cast<Index>(tiles_.size()), body, tile_points());
   }
 
   void reset();
