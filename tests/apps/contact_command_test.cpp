@@ -2,8 +2,12 @@
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <salebra/io/result_file.hpp>
 
 #include "run_program.hpp"
+
+using namespace salebra;
 
 namespace {
 
@@ -33,7 +37,12 @@ TEST_CASE("A contact is described by the agreed keys and is the same for one and
   CHECK(answer["force"].get<double>() == Approx(2e7 * 16e-12).epsilon(1e-9));
   CHECK(answer["residual"].get<double>() < 1e-10);
 
-  const auto other = test.run(press + "--threads 2").json();
+  const auto other = test.run(press + "--threads 2 -o two.h5").json();
+  REQUIRE(test.run(press + "--threads 1 -o one.h5").status == 0);
+  const Field first = ResultReader(test.folder() / "one.h5").field("contact/contact_pressure");
+  const Field second = ResultReader(test.folder() / "two.h5").field("contact/contact_pressure");
+  CHECK(((first > 0) == (second > 0)).all());
+  CHECK((first > 0).count() > 10);
   CHECK(other["contact_area_fraction"] == answer["contact_area_fraction"]);
   for (const char* key : {"mean_gap", "indentation", "max_pressure", "elastic_energy"}) {
     INFO(key);
