@@ -105,6 +105,22 @@ std::string verdict(const std::vector<EnsembleMean>& deviation, const std::strin
       law, 100 * low, 100 * high);
 }
 
+/// Whether the law holds at all, in one sentence.
+std::string bend(const StudyResult& result) {
+  std::vector<double> closest, farthest;
+  for (const Realisation& realisation : result.realisations) {
+    const ExponentialTest& test = realisation.bem.test;
+    if (test.window.points < 4) continue;
+    closest.push_back(test.decay_length_closest / realisation.heights.rms_height);
+    farthest.push_back(test.decay_length_farthest / realisation.heights.rms_height);
+  }
+  if (closest.empty()) return "";
+  return fmt::format(
+      "  Over the fitted window the local l of boundary elements runs from {:.2f} h_rms (closest) "
+      "to {:.2f} h_rms (farthest).\n",
+      student_mean(closest).mean, student_mean(farthest).mean);
+}
+
 std::string to_text(const StudyResult& result, const std::string& file) {
   std::vector<double> rms_heights, rms_slopes;
   for (const Realisation& realisation : result.realisations) {
@@ -134,7 +150,7 @@ std::string to_text(const StudyResult& result, const std::string& file) {
                     interval(length, Dimension::length), fmt::format("{:.3f}", ratio.mean),
                     interval(ratio, Dimension::dimensionless)});
   }
-  text += to_table(rows, 2, true) + "  (" + result.interval_method() + ")\n\n";
+  text += to_table(rows, 2, true) + "  (" + result.interval_method() + ")\n" + bend(result) + "\n";
 
   const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
   const std::string law = drag ? "Eq. (16)" : "Eq. (12)";

@@ -47,6 +47,7 @@ double seam_step(const Surface& surface) {
 ModelResult fitted(ForceCurve curve, const StudyConfiguration& configuration) {
   ModelResult result;
   result.fit = fit_exponential(curve, configuration.window);
+  if (result.fit.window.points >= 4) result.test = test_exponential(curve, configuration.window);
   result.local = local_decay_length(curve);
   result.curve = std::move(curve);
   return result;

@@ -152,6 +152,17 @@ void write_fits(ResultGroup group, const StudyResult& result) {
   column("r_squared", [](const ExponentialFit& fit) { return fit.r_squared; });
   column("pressure_min", [](const ExponentialFit& fit) { return fit.window.pressure_min; });
   column("pressure_max", [](const ExponentialFit& fit) { return fit.window.pressure_max; });
+  const auto bend = [&](const std::string& suffix, double ExponentialTest::*quantity) {
+    std::vector<double> values;
+    for (const StudyModel& model : study_models) {
+      for (const Realisation& realisation : result.realisations) {
+        values.push_back((realisation.*model.result).test.*quantity);
+      }
+    }
+    put(group, "decay_length", values, {"model", "realisation"}, "", suffix);
+  };
+  bend("_closest", &ExponentialTest::decay_length_closest);
+  bend("_farthest", &ExponentialTest::decay_length_farthest);
   std::vector<EnsembleMean> lengths, ratios;
   for (const StudyModel& model : study_models) {
     lengths.push_back(result.decay_length(model.result));

@@ -29,6 +29,8 @@ EnsembleMean student_mean(const std::vector<double>& values);
 struct ModelResult {
   ForceCurve curve;
   ExponentialFit fit;
+  ExponentialTest
+      test;  ///< how far the law bends over the window of the fit; all zero for fewer than four points
   LocalDecayLength local;
 };
 
