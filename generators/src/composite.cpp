@@ -29,8 +29,7 @@ Surface crop_surface(const Surface& surface, Index first_x, Index first_y, Index
     require(count >= 1 && count <= points, std::string("n") + axis, count,
             "must lie in 1 … the " + of);
     require(first >= 0 && first < points && (surface.periodic || first + count <= points),
-            std::string("first_") + axis, first,
-            "must leave room for the part in the " + of + ", which is not periodic");
+            std::string("first_") + axis, first, "must leave room for the part in the " + of);
   };
   check(first_x, nx, grid.nx, "x");
   check(first_y, ny, grid.ny, "y");

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Time the generation of one self-affine surface by salebra, Tamaas, SurfaceTopography and plain numpy, side by side.
+
+All make n x n points with Hurst exponent 0.8, roll-off at an eighth of the side and the shortest wavelength of eight cells, on one
+thread. Times are medians; the programs take turns, so that a busy machine is unkind to all of them alike.
+"""
+
+import argparse
+import json
+import statistics
+import subprocess
+import time
+
+import numpy as np
+
+
+def tamaas(n, cells):
+    import tamaas as tm
+
+    tm.set_log_level(tm.LogLevel.error)
+    spectrum = tm.Isopowerlaw2D()
+    spectrum.q0, spectrum.q1, spectrum.q2, spectrum.hurst = 8, 8, int(n / cells), 0.8
+
+    def run(seed):
+        generator = tm.SurfaceGeneratorFilter2D([n, n])
+        generator.spectrum = spectrum
+        generator.random_seed = seed
+        return generator.buildSurface()
+
+    return run
+
+
+def surface_topography(n, cells):
+    from SurfaceTopography.Generation import fourier_synthesis
+
+    def run(seed):
+        np.random.seed(seed)
+        return fourier_synthesis((n, n), (1.0, 1.0), 0.8, rms_slope=0.1, long_cutoff=1 / 8,
+                                 short_cutoff=cells / n).heights()
+
+    return run
+
+
+def plain_numpy(n, cells):
+    def run(seed):
+        random = np.random.default_rng(seed)
+        q = np.hypot(np.fft.fftfreq(n, 1 / n)[:, None], np.fft.rfftfreq(n, 1 / n)[None, :])
+        amplitude = np.where(q < 8, 1.0, (np.maximum(q, 8) / 8) ** -1.8)
+        amplitude[(q == 0) | (q > n / cells)] = 0
+        noise = random.standard_normal(q.shape) + 1j * random.standard_normal(q.shape)
+        return np.fft.irfft2(noise * amplitude, s=(n, n))
+
+    return run
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--program", required=True, help="the benchmark program `generate`")
+    parser.add_argument("--points", type=int, nargs="+", default=[2048, 4096])
+    parser.add_argument("--cells", type=float, default=8)
+    parser.add_argument("--repeats", type=int, default=5)
+    args = parser.parse_args()
+
+    print(f"{'points':>7} {'program':<20} {'seconds':>9} {'over salebra':>13}")
+    for n in args.points:
+        peers = {"Tamaas": tamaas, "SurfaceTopography": surface_topography, "numpy": plain_numpy}
+        makers = {name: make(n, args.cells) for name, make in peers.items()}
+        times = {name: [] for name in makers}
+        own = []
+        for seed in range(1, args.repeats + 1):
+            command = [args.program, str(n), str(args.cells), "1", "3"]
+            own.append(json.loads(subprocess.run(command, check=True, capture_output=True).stdout))
+            for name, make in makers.items():
+                start = time.perf_counter()
+                make(seed)
+                times[name].append(time.perf_counter() - start)
+        reference = statistics.median(run["filtered_noise"] for run in own)
+        fft = statistics.median(min(run["fft_estimate"], run["fft_measured"]) for run in own)
+        rows = {"salebra": reference, "one c2r FFT (FFTW)": fft}
+        rows |= {name: statistics.median(values) for name, values in times.items()}
+        for name, seconds in rows.items():
+            print(f"{n:>7} {name:<20} {seconds:>9.4f} {seconds / reference:>13.2f}")
+        print(f"{n:>7} peak memory of salebra over the heights: {own[0]['memory_over_heights']:.2f}")
+
+
+if __name__ == "__main__":
+    main()

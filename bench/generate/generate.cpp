@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Cost of a generated surface beside that of one bare complex-to-real FFT of the same size, as one JSON object.
+//   generate [points [cells [threads [repeats]]]]
+// cells: the shortest wavelength in cells. Times are medians of alternating runs; `measured` is a plan that FFTW chose by trial.
+#include <fftw3.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <complex>
+#include <cstdio>
+#include <cstdlib>
+#include <salebra/base/parallel.hpp>
+#include <salebra/base/random.hpp>
+#include <salebra/generators/filtered_noise.hpp>
+#include <salebra/generators/random_phase.hpp>
+#include <vector>
+
+namespace {
+
+using namespace salebra;
+
+class Stopwatch {
+ public:
+  template <class Work>
+  void run(const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    seconds_.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  double median() {
+    std::sort(seconds_.begin(), seconds_.end());
+    return seconds_[seconds_.size() / 2];
+  }
+
+ private:
+  std::vector<double> seconds_;
+};
+
+double peak_memory() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int n = argc > 1 ? std::atoi(argv[1]) : 2048;
+  const double cells = argc > 2 ? std::atof(argv[2]) : 8;
+  const int threads = argc > 3 ? std::atoi(argv[3]) : 1;
+  const int repeats = argc > 4 ? std::atoi(argv[4]) : 9;
+  parallel::set_threads(threads);
+  const Grid2D grid{n, n, 1, 1};
+  const SelfAffineSpectrum spectrum(
+      {.hurst = 0.8, .rolloff = 0.125, .short_cutoff = cells / n, .rms_slope = 0.1});
+
+  // Before the arrays of the bare transform exist.
+  const double memory_before = peak_memory();
+  { const Surface surface = filtered_noise(grid, spectrum, 1); }
+  const double memory = peak_memory() - memory_before;
+
+  const auto points = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
+  const auto half = static_cast<std::size_t>(n) * static_cast<std::size_t>(n / 2 + 1);
+  fftw_complex* modes = fftw_alloc_complex(half);
+  double* heights = fftw_alloc_real(points);
+  const fftw_plan estimated = fftw_plan_dft_c2r_2d(n, n, modes, heights, FFTW_ESTIMATE);
+  const fftw_plan measured = fftw_plan_dft_c2r_2d(n, n, modes, heights, FFTW_MEASURE);
+  std::fill_n(reinterpret_cast<double*>(modes), 2 * half, 0.0);
+
+  Stopwatch noise, phase, transform_estimated, transform_measured, random;
+  std::vector<std::complex<double>> row(static_cast<std::size_t>(n));
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    transform_estimated.run([&] { fftw_execute(estimated); });
+    transform_measured.run([&] { fftw_execute(measured); });
+    noise.run([&] { filtered_noise(grid, spectrum, 1); });
+    phase.run([&] { random_phase(grid, spectrum, 1); });
+    random.run([&] {
+      for (int j = 0; j <= n / 2; ++j) fill_gaussian(1, 0, j, row);
+    });
+  }
+  const double best_transform = std::min(transform_estimated.median(), transform_measured.median());
+  std::printf(
+      "{\"points\": %d, \"cells\": %g, \"threads\": %d, \"filtered_noise\": %.4g, "
+      "\"random_phase\": %.4g, \"fft_estimate\": %.4g, \"fft_measured\": %.4g, "
+      "\"random_numbers_of_all_modes\": %.4g, \"noise_over_fft\": %.3f, "
+      "\"memory_over_heights\": %.3f}\n",
+      n, cells, threads, noise.median(), phase.median(), transform_estimated.median(),
+      transform_measured.median(), random.median(), noise.median() / best_transform,
+      memory / (8 * static_cast<double>(points)));
+}
