@@ -2,7 +2,7 @@
 """Time the generation of one self-affine surface by salebra, Tamaas, SurfaceTopography and plain numpy, side by side.
 
 All make n x n points with Hurst exponent 0.8, roll-off at an eighth of the side and the shortest wavelength of eight cells, on one
-thread. Times are medians; the programs take turns, so that a busy machine is unkind to all of them alike.
+thread. Times are medians of processor time, which a busy machine disturbs little; the programs take turns.
 """
 
 import argparse
@@ -71,9 +71,9 @@ def main():
             command = [args.program, str(n), str(args.cells), "1", "3"]
             own.append(json.loads(subprocess.run(command, check=True, capture_output=True).stdout))
             for name, make in makers.items():
-                start = time.perf_counter()
+                start = time.process_time()
                 make(seed)
-                times[name].append(time.perf_counter() - start)
+                times[name].append(time.process_time() - start)
         reference = statistics.median(run["filtered_noise"] for run in own)
         fft = statistics.median(min(run["fft_estimate"], run["fft_measured"]) for run in own)
         rows = {"salebra": reference, "one c2r FFT (FFTW)": fft}
