@@ -19,6 +19,9 @@ namespace {
 struct StudyArguments {
   std::string configuration;
   SurfaceOptions surface;
+  MaterialOptions material;
+  MotionOptions motion;
+  std::vector<double> pressures;
 };
 
 std::string title_of(std::string_view model) {
@@ -174,13 +177,37 @@ std::string to_text(const StudyResult& result, const std::string& file) {
   return text;
 }
 
+/// The study file, or what a measured surface needs without one, with the options in place of what either says.
 StudyConfiguration configuration_of(const StudyArguments& arguments) {
-  StudyConfiguration configuration = read_study_configuration(arguments.configuration);
-  if (!arguments.surface.given()) return configuration;
-  MeasuredSurface surface{arguments.surface.file, arguments.surface.size_x,
-                          arguments.surface.size_y, arguments.surface.detrend_method(),
-                          arguments.surface.height_unit};
-  return with_surface(std::move(configuration), std::move(surface));
+  const bool from_file = !arguments.configuration.empty();
+  if (!from_file && !arguments.surface.given())
+    throw InvalidInput("CONFIG: none; give a study file, or --surface with material and motion");
+  StudyConfiguration configuration;
+  if (from_file) {
+    configuration = read_study_configuration(arguments.configuration);
+  } else {
+    configuration.pressures = parse_values("5e-4:0.2:16", Dimension::dimensionless, "pressures");
+    configuration.relative_pressures = true;
+  }
+  if (arguments.surface.given()) {
+    configuration = with_surface(
+        std::move(configuration),
+        {arguments.surface.file, arguments.surface.size_x, arguments.surface.size_y,
+         arguments.surface.detrend_method(), arguments.surface.height_unit});
+  }
+  if (!from_file || arguments.material.given())
+    configuration.material = arguments.material.material_with_tangential_modulus();
+  if (!from_file || arguments.motion.given()) {
+    const auto motions = arguments.motion.motions();
+    require(motions.size() == 1, arguments.motion.varied().first, motions.size(),
+            "values; a study has one motion");
+    configuration.motion = motions.front();
+  }
+  if (!arguments.pressures.empty()) {
+    configuration.pressures = arguments.pressures;
+    configuration.relative_pressures = false;
+  }
+  return configuration;
 }
 
 void run(const StudyArguments& arguments, Session& session) {
@@ -206,15 +233,20 @@ void run(const StudyArguments& arguments, Session& session) {
 
 void add_study_command(Program& program) {
   auto arguments = std::make_shared<StudyArguments>();
-  CLI::App& command =
-      program.add_command("study", "from surfaces to damping constants: the whole job",
-                          {"salebra study data/quickstart.toml -o quickstart.h5",
-                           "salebra study data/measured.toml --surface scan.txt -o scan.h5"},
-                          [arguments](Session& session) { run(*arguments, session); });
-  command.add_option("CONFIG", arguments->configuration, "study file (TOML)")
-      ->required()
+  CLI::App& command = program.add_command(
+      "study", "from surfaces to damping constants: the whole job",
+      {"salebra study data/quickstart.toml -o quickstart.h5",
+       "salebra study --surface scan.txt --contact-modulus 115GPa --poisson 0.3 "
+       "--normal-amplitude 1nm --drag-velocity 1mm/s --frequency 20kHz"},
+      [arguments](Session& session) { run(*arguments, session); });
+  command.add_option("CONFIG", arguments->configuration,
+                     "study file (TOML); options take the place of what it says")
       ->type_name("FILE");
   arguments->surface.add_to(command, false, "--surface");
+  arguments->material.add_to(command);
+  arguments->motion.add_to(command);
+  add_values(command, "--pressures", arguments->pressures, Dimension::pressure,
+             "loads of the boundary elements, such as 1MPa:1GPa:16");
 }
 
 }  // namespace salebra::cli

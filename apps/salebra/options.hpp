@@ -39,6 +39,9 @@ struct MaterialOptions {
   std::optional<double> contact_modulus, tangential_modulus;
 
   void add_to(CLI::App& app);
+  bool given() const {
+    return !young.empty() || !poisson.empty() || contact_modulus || tangential_modulus;
+  }
   /// E*, and G* where it is known.
   Material material() const;
   /// E* and G*; an error where G* was not given one way or another.
@@ -78,6 +81,11 @@ struct MotionOptions {
       drag_velocity;
 
   void add_to(CLI::App& app);
+  /// Whether any of its quantities was.
+  bool given() const {
+    return !normal_amplitude.empty() || !tangential_amplitude.empty() || !phase.empty() ||
+           !frequency.empty() || !angular_frequency.empty() || !drag_velocity.empty();
+  }
   /// Motions of all combinations, which is one line of them: throws InvalidInput if two quantities have several values.
   std::vector<Oscillation> motions() const;
   /// Name and values of the quantity with several values; empty if there is none.
