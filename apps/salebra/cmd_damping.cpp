@@ -10,6 +10,7 @@
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/io/force_curve_file.hpp>
 
+#include "answer_file.hpp"
 #include "options.hpp"
 #include "program.hpp"
 
@@ -148,6 +149,7 @@ void run(const DampingArguments& arguments, Session& session) {
   object["damping_constant"] = column(&DampingResult::damping_constant);
   object["curvature"] = column(&DampingResult::curvature);
   object["force"] = column(&DampingResult::force);
+  if (lost == 0) write_answer(session, "damping", object);
   session.answer(object);
   if (lost > 0) {
     throw NotConverged(fmt::format("damping: {} of {} integrals did not reach the tolerance", lost,

@@ -4,6 +4,7 @@
 #include <salebra/contact/fit.hpp>
 #include <salebra/io/force_curve_file.hpp>
 
+#include "answer_file.hpp"
 #include "options.hpp"
 #include "program.hpp"
 
@@ -24,16 +25,18 @@ void run(const FitArguments& arguments, Session& session) {
     window = PressureWindow{arguments.window[0], arguments.window[1], 0};
   }
   const ExponentialFit fit = fit_exponential(curve, window);
-  session.answer({{"decay_length", fit.decay_length},
-                  {"decay_length_low", fit.decay_length_low},
-                  {"decay_length_high", fit.decay_length_high},
-                  {"reference_pressure", fit.reference_pressure},
-                  {"r_squared", fit.r_squared},
-                  {"window",
-                   {{"pressure_min", fit.window.pressure_min},
-                    {"pressure_max", fit.window.pressure_max},
-                    {"points", fit.window.points}}},
-                  {"decay_length_over_rms_height", fit.decay_length_over_rms_height}});
+  const Json answer{{"decay_length", fit.decay_length},
+                    {"decay_length_low", fit.decay_length_low},
+                    {"decay_length_high", fit.decay_length_high},
+                    {"reference_pressure", fit.reference_pressure},
+                    {"r_squared", fit.r_squared},
+                    {"window",
+                     {{"pressure_min", fit.window.pressure_min},
+                      {"pressure_max", fit.window.pressure_max},
+                      {"points", fit.window.points}}},
+                    {"decay_length_over_rms_height", fit.decay_length_over_rms_height}};
+  write_answer(session, "fit", answer);
+  session.answer(answer);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <salebra/surface/spectrum.hpp>
 #include <salebra/surface/summits.hpp>
 
+#include "answer_file.hpp"
 #include "options.hpp"
 #include "program.hpp"
 
@@ -21,26 +22,28 @@ void run(const SurfaceOptions& options, Session& session) {
   HurstEstimate hurst;
   hurst.value = hurst.low = hurst.high = std::numeric_limits<double>::quiet_NaN();
   if (surface.undefined_points() == 0) hurst = estimate_hurst(power_spectrum(surface));
-  session.answer({{"nx", surface.grid.nx},
-                  {"ny", surface.grid.ny},
-                  {"size_x", surface.grid.lx},
-                  {"size_y", surface.grid.ly},
-                  {"undefined_points", surface.undefined_points()},
-                  {"mean", heights.mean},
-                  {"rms_height", heights.rms_height},
-                  {"rms_slope", moments.rms_slope()},
-                  {"skewness", heights.skewness},
-                  {"kurtosis", heights.kurtosis},
-                  {"moment0", moments.moment0},
-                  {"moment2", moments.moment2()},
-                  {"moment4", moments.moment4()},
-                  {"nayak", moments.nayak()},
-                  {"hurst", {{"value", hurst.value}, {"low", hurst.low}, {"high", hurst.high}}},
-                  {"summits",
-                   {{"density", summits.density},
-                    {"mean_height", summits.mean_height},
-                    {"rms_height", summits.rms_height},
-                    {"mean_radius", summits.mean_radius}}}});
+  const Json answer{{"nx", surface.grid.nx},
+                    {"ny", surface.grid.ny},
+                    {"size_x", surface.grid.lx},
+                    {"size_y", surface.grid.ly},
+                    {"undefined_points", surface.undefined_points()},
+                    {"mean", heights.mean},
+                    {"rms_height", heights.rms_height},
+                    {"rms_slope", moments.rms_slope()},
+                    {"skewness", heights.skewness},
+                    {"kurtosis", heights.kurtosis},
+                    {"moment0", moments.moment0},
+                    {"moment2", moments.moment2()},
+                    {"moment4", moments.moment4()},
+                    {"nayak", moments.nayak()},
+                    {"hurst", {{"value", hurst.value}, {"low", hurst.low}, {"high", hurst.high}}},
+                    {"summits",
+                     {{"density", summits.density},
+                      {"mean_height", summits.mean_height},
+                      {"rms_height", summits.rms_height},
+                      {"mean_radius", summits.mean_radius}}}};
+  write_answer(session, "info", answer);
+  session.answer(answer);
 }
 
 }  // namespace

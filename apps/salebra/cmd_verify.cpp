@@ -12,6 +12,8 @@ namespace salebra::cli {
 namespace {
 
 void run(Session& session) {
+  require(!session.has_output(), "--output", session.output().string(),
+          "is not for this command, which writes no file; use --json and redirect");
   const auto checks = verify_installation(session.progress());
   Json list = Json::array();
   std::vector<std::vector<std::string>> rows{{"check", "value", "expected", "tolerance", "result"}};

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <salebra/io/result_file.hpp>
 
 #include "run_program.hpp"
 
@@ -55,6 +56,21 @@ TEST_CASE("One quantity may be a range and makes the answers arrays", "[damping]
           law +
           "--force-newton 1,2 --normal-amplitude 1nm,2nm --drag-velocity 1mm/s --frequency 1kHz"),
       "range");
+}
+
+TEST_CASE("A damping curve is kept with units where a file is asked for", "[damping]") {
+  const ProgramTest test;
+  const auto answer = test.run(
+                              "damping --law exponential --decay-length 100nm --poisson 0.3 "
+                              "--force-newton 1,2,4 --json -o d.h5 " +
+                              drag)
+                          .json();
+  const salebra::ResultReader file(test.folder() / "d.h5");
+  CHECK(file.numbers("damping/damping_constant") ==
+        answer["damping_constant"].get<std::vector<double>>());
+  CHECK(file.text_attribute("damping/damping_constant", "units") == "N s/m");
+  check_refused(test.run("verify -o d2.h5"), "--output");
+  CHECK(test.files() == std::set<std::string>{"d.h5"});
 }
 
 TEST_CASE("A cone loses what Eqs (12) and (15) say at any amplitude", "[damping]") {
