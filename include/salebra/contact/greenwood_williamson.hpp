@@ -20,9 +20,8 @@ enum class SummitDistribution { gaussian, exponential, tabulated };
 
 /// A point of a height density that is linear between its points and zero beyond them.
 struct HeightDensityPoint {
-  double height = 0;  ///< z, m
-  double density =
-      0;  ///< φ(z), 1/m, or any multiple of it: tables are normalised where they are used
+  double height = 0;   ///< z, m
+  double density = 0;  ///< φ(z), 1/m, or any multiple of it: a table is normalised in use
 };
 
 /// A statistical ensemble of equal spherical caps whose heights z are distributed as φ(z):
@@ -32,8 +31,8 @@ struct HeightDensityPoint {
 struct SummitEnsemble {
   double density = 0;  ///< η, 1/m²
   double radius = 0;   ///< R, m
-  double summit_rms =
-      0;  ///< σ_s, m: standard deviation (Gaussian), decay length (exponential), unused (tabulated)
+  /// σ_s, m: standard deviation (Gaussian), decay length (exponential); not used with a table.
+  double summit_rms = 0;
   double mean_height = 0;  ///< height of the plane z = 0 above the mean plane of the surface, m
   SummitDistribution distribution = SummitDistribution::gaussian;
   double rms_height = ForceSample::unknown;    ///< h_rms of the surface, m, where there is one
@@ -69,8 +68,8 @@ class AsperityModel {
     double mean_height = 0;       ///< of the plane z = 0 above the mean plane of the surface, m
     double first_touch = 0;       ///< s where δ = 0; 0 where there is no highest summit
     double upper_separation = 0;  ///< no force above this s, m
-    double height_scale =
-        0;  ///< > 0: a step of s in which the force changes by a factor of a few, m
+    /// A step > 0 of s in which the force changes by a factor of a few, m.
+    double height_scale = 0;
     double rms_height = ForceSample::unknown;  ///< m
   };
   /// Throws InvalidInput unless material.contact_modulus and nominal_area are > 0.

@@ -6,8 +6,8 @@
 namespace salebra {
 
 struct InteractionOptions {
-  double tolerance =
-      1e-10;  ///< of the greatest error of a summit's indentation, over the greatest indentation
+  /// Of the greatest error of a summit's indentation, over the greatest indentation.
+  double tolerance = 1e-10;
   int max_iterations = 100;  ///< Newton steps, >= 1
 };
 

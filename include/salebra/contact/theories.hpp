@@ -53,8 +53,8 @@ class PerssonTheory {
 
   /// p = factor·E*·exp(−ū/decay_length), the limit of small pressures.
   struct Asymptote {
-    double decay_length =
-        0;  ///< u0, m; K/A0 = p/u0 (Campañá, Persson, Müser, J. Phys.: Condens. Matter 23 (2011) 085001)
+    /// u0, m; K/A0 = p/u0 (Campañá, Persson, Müser, J. Phys.: Condens. Matter 23 (2011) 085001).
+    double decay_length = 0;
     double factor = 0;  ///< β
   };
   Asymptote asymptote() const;

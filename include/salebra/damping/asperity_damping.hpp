@@ -12,8 +12,8 @@ struct AsperityDamping {
   std::vector<double> work;      ///< W_i of each summit, in the order given, J
   double work_per_cycle = 0;     ///< Σ W_i, J
   double intermittent_work = 0;  ///< of it, by summits that lose contact during the cycle, J
-  double small_amplitude_work =
-      0;                   ///< Eq. (12) or (15) with F'' of all summits at the mean separation, J
+  /// Eq. (12) or (15) with F'' of all summits at the mean separation, J.
+  double small_amplitude_work = 0;
   int contacts_most = 0;   ///< summits in contact where the body is closest …
   int contacts_least = 0;  ///< … and farthest
   double power = 0;        ///< P, W; NaN where ω is not known
