@@ -57,7 +57,7 @@ Sums total_of(const std::vector<Sums>& parts) {
 
 template <class Real>
 ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, double contact_modulus, Boundary boundary,
-                               const double* heights, double rms_height)
+                               const Heights& heights, double rms_height)
     : grid_(grid),
       boundary_(boundary),
       heights_(heights),

@@ -22,7 +22,7 @@ namespace salebra::detail {
 template <class Real>
 class ActiveSetCg {
  public:
-  ActiveSetCg(const Grid2D& grid, double contact_modulus, Boundary boundary, const double* heights,
+  ActiveSetCg(const Grid2D& grid, double contact_modulus, Boundary boundary, const Heights& heights,
               double rms_height);
 
   // p: the start on entry, the solution on return; g = Gp − h on return.
@@ -101,7 +101,7 @@ class ActiveSetCg {
 
   Grid2D grid_;
   Boundary boundary_;
-  const double* heights_;
+  Heights heights_;
   double rms_height_;
   double cell_compliance_;
   double contact_modulus_;

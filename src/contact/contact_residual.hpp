@@ -7,6 +7,13 @@
 
 namespace salebra::detail {
 
+// Heights counted from a zero near them, so that a large mean costs no digits of the gap.
+struct Heights {
+  const double* values = nullptr;
+  double zero = 0;
+  double operator[](Index k) const { return values[k] - zero; }
+};
+
 // What is prescribed: the mean pressure, or the level λ of the contact plane (gap = g − λ with g = Gp − h).
 struct ContactTarget {
   enum class Kind { mean_pressure, level } kind = Kind::mean_pressure;

@@ -19,12 +19,13 @@ constexpr int refresh_every = 20;  // rounds, against the drift of g
 class Descent {
  public:
   Descent(Convolution2D<double>& compliance, const Grid2D& grid, Boundary boundary,
-          const double* heights, const ContactTarget& target, double* p, double* g,
+          const Heights& heights, const ContactTarget& target, double* p, double* g,
           ActiveSetOutcome& outcome)
       : compliance_(compliance),
         boundary_(boundary),
         target_(target),
-        heights_(heights, grid.nx, grid.ny),
+        heights_(heights.values, grid.nx, grid.ny),
+        zero_(heights.zero),
         p_(p, grid.nx, grid.ny),
         g_(g, grid.nx, grid.ny),
         inverse_(grid),
@@ -34,7 +35,7 @@ class Descent {
 
   void refresh() {
     apply(p_);
-    g_ = image_ - heights_;
+    g_ = image_ - (heights_ - zero_);
   }
 
   // One step along the projection of p − step·gradient. Returns false where no such step descends: p is the solution.
@@ -160,6 +161,7 @@ class Descent {
   Boundary boundary_;
   ContactTarget target_;
   Eigen::Map<const Field> heights_;
+  double zero_;
   Dense p_, g_;
   InverseStencil inverse_;
   ActiveSetOutcome& outcome_;
@@ -170,7 +172,7 @@ class Descent {
 }  // namespace
 
 void gradient_projection(Convolution2D<double>& compliance, const Grid2D& grid, Boundary boundary,
-                         const double* heights, double rms_height, const ContactTarget& target,
+                         const Heights& heights, double rms_height, const ContactTarget& target,
                          const ActiveSetLimits& limits, double* p, double* g,
                          ActiveSetOutcome& outcome) {
   Descent descent(compliance, grid, boundary, heights, target, p, g, outcome);

@@ -12,7 +12,7 @@ namespace salebra::detail {
 // doi:10.1137/0801008). Each step lowers ½p·Gp − p·h, so it converges from any start; several times the iterations of ActiveSetCg.
 // p: within its bounds on entry, the solution on return; g = Gp − h on return. outcome goes on counting.
 void gradient_projection(Convolution2D<double>& compliance, const Grid2D& grid, Boundary boundary,
-                         const double* heights, double rms_height, const ContactTarget& target,
+                         const Heights& heights, double rms_height, const ContactTarget& target,
                          const ActiveSetLimits& limits, double* p, double* g,
                          ActiveSetOutcome& outcome);
 

@@ -51,7 +51,7 @@ std::vector<Weights> interpolation(Index coarse, Index fine, Boundary boundary) 
   return weights;
 }
 
-Field sampled(const Grid2D& fine, const double* heights, Index nx, Index ny, Boundary boundary) {
+Field sampled(const Grid2D& fine, const Heights& heights, Index nx, Index ny, Boundary boundary) {
   Field coarse(nx, ny);
   const auto at = [&](Index i, Index j) {
     return heights[into(i, fine.nx, boundary) * fine.ny + into(j, fine.ny, boundary)];
@@ -76,19 +76,19 @@ Field sampled(const Grid2D& fine, const double* heights, Index nx, Index ny, Bou
 
 }  // namespace
 
-std::vector<ContactLevel> contact_levels(const Grid2D& grid, const Field& heights,
+std::vector<ContactLevel> contact_levels(const Grid2D& grid, const Heights& heights,
                                          Boundary boundary, int most) {
   std::vector<ContactLevel> levels;
-  levels.push_back({grid, {}, heights.data()});
+  levels.push_back({grid, {}, heights});
   while (levels.back().grid.points() > coarsest_points && static_cast<int>(levels.size()) < most) {
     const ContactLevel& fine = levels.back();
     const Index nx = halved(fine.grid.nx), ny = halved(fine.grid.ny);
     if (nx == fine.grid.nx && ny == fine.grid.ny) break;
-    ContactLevel coarse{{nx, ny, grid.lx, grid.ly},
-                        sampled(fine.grid, fine.heights, nx, ny, boundary)};
+    ContactLevel coarse{
+        {nx, ny, grid.lx, grid.ly}, sampled(fine.grid, fine.heights, nx, ny, boundary), {}};
     levels.push_back(std::move(coarse));
-    levels.back().heights =
-        levels.back().coarse_heights.data();  // a moved Eigen array keeps its memory
+    levels.back().heights = {
+        levels.back().coarse_heights.data()};  // a moved Eigen array keeps its memory
   }
   return levels;
 }

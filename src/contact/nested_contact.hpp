@@ -12,12 +12,12 @@ namespace salebra::detail {
 struct ContactLevel {
   Grid2D grid;
   Field coarse_heights;  // empty on the finest level, which reads the caller's
-  const double* heights = nullptr;
+  Heights heights;
 };
 
 // Halves the grid while it has more than 64² cells, by point sampling where it divides and by interpolation where it does not.
 // levels.front() is the finest; there are at most `most`.
-std::vector<ContactLevel> contact_levels(const Grid2D& grid, const Field& heights,
+std::vector<ContactLevel> contact_levels(const Grid2D& grid, const Heights& heights,
                                          Boundary boundary, int most);
 
 // A start for the finer level: bilinear pressure, then one pointwise step towards the gap that the cubic displacement predicts,

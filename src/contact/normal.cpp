@@ -18,35 +18,46 @@ using detail::ActiveSetLimits;
 using detail::ActiveSetOutcome;
 using detail::ContactLevel;
 using detail::ContactTarget;
+using detail::Heights;
 
 // Coarse levels only give a start: solving them further gains nothing.
 constexpr double coarse_tolerance = 1e-3;
 // Part of a full Jacobi step that the prolongation takes.
 constexpr double prediction = 0.6;
 
-double mean_of(const Field& field) {
-  return parallel::sum_slabs(
-             field.rows(),
-             [&](Index begin, Index end) { return field.middleRows(begin, end - begin).sum(); }) /
-         static_cast<double>(field.size());
-}
+// What the targets need of the heights, counted downwards from the highest point.
+struct Depths {
+  double highest = 0;  // height of first touch
+  double mean = 0;     // mean of highest − h: the mean gap at first touch
+  double rms = 0;      // h_rms
 
-double greatest_of(const Field& field) {
-  return -parallel::min_slabs(
-      field.rows(),
-      [&](Index begin, Index end) { return -field.middleRows(begin, end - begin).maxCoeff(); },
-      field.size());
-}
-
-double rms_about(const Field& field, double mean) {
-  return std::sqrt(parallel::sum_slabs(
-                       field.rows(),
-                       [&](Index begin, Index end) {
-                         return (field.middleRows(begin, end - begin) - mean).square().sum();
-                       },
-                       field.size()) /
-                   static_cast<double>(field.size()));
-}
+  explicit Depths(const Field& heights) {
+    const Index rows = heights.rows(), columns = heights.cols();
+    const double* h = heights.data();
+    const auto mean_over = [&](auto value) {
+      return parallel::sum_slabs(
+                 rows,
+                 [&](Index begin, Index end) {
+                   double sum = 0;
+                   for (Index k = begin * columns; k < end * columns; ++k) sum += value(h[k]);
+                   return sum;
+                 },
+                 heights.size()) /
+             static_cast<double>(heights.size());
+    };
+    highest = -parallel::min_slabs(
+        rows,
+        [&](Index begin, Index end) {
+          return -*std::max_element(h + begin * columns, h + end * columns);
+        },
+        heights.size());
+    mean = mean_over([&](double height) { return highest - height; });
+    rms = std::sqrt(mean_over([&](double height) {
+      const double deviation = highest - height - mean;
+      return deviation * deviation;
+    }));
+  }
+};
 
 void check(const Surface& surface, double contact_modulus, const NormalContactOptions& options) {
   surface.require_complete("a contact calculation");
@@ -80,7 +91,7 @@ struct Solution {
 
 // From the coarsest level to the finest.
 template <class Real>
-Solution solve_nested(const Scaled& scaled, const Field& heights, double rms_height,
+Solution solve_nested(const Scaled& scaled, const Heights& heights, double rms_height,
                       const ContactTarget& target, const NormalContactOptions& options) {
   auto levels =
       detail::contact_levels(scaled.grid, heights, options.boundary,
@@ -117,9 +128,11 @@ Solution solve_nested(const Scaled& scaled, const Field& heights, double rms_hei
     solution.outcome = solver.solve(target, limits, solution.pressure.data(), solution.gap.data());
     if (solution.outcome.interrupted && k > 0) {
       // Nothing on the finest grid to show: an empty contact that says so.
-      solution.pressure = Field::Zero(heights.rows(), heights.cols());
-      solution.gap = -heights;
-      solution.outcome.level = -greatest_of(heights);
+      solution.pressure = Field::Zero(scaled.grid.nx, scaled.grid.ny);
+      solution.gap = Field::NullaryExpr(scaled.grid.nx, scaled.grid.ny, [&](Index i, Index j) {
+        return -heights[i * scaled.grid.ny + j];
+      });
+      solution.outcome.level = 0;
       solution.outcome.converged = false;
       break;
     }
@@ -128,48 +141,46 @@ Solution solve_nested(const Scaled& scaled, const Field& heights, double rms_hei
 }
 
 NormalContactState state_of(Solution&& solution, const ContactTarget& target, const Scaled& scaled,
-                            const Surface& surface, double hardness) {
+                            const Surface& surface, const Heights& below_summit, double hardness) {
   NormalContactState state;
   const ActiveSetOutcome& outcome = solution.outcome;
   const Field& heights = surface.heights;
-  const auto slabs = [&](auto body) {
-    return parallel::sum_slabs(
-        heights.rows(),
-        [&](Index begin, Index end) {
-          const Index rows = end - begin;
-          return body(solution.pressure.middleRows(begin, rows),
-                      solution.gap.middleRows(begin, rows), heights.middleRows(begin, rows));
-        },
-        heights.size());
+  struct Sums {
+    double pressure = 0, contact = 0, work = 0, gap = 0;
   };
-  const double pressure_sum = slabs([](auto p, auto, auto) { return p.sum(); });
-  const double contact =
-      slabs([](auto p, auto, auto) { return static_cast<double>((p > 0).count()); });
-  const double work = slabs([](auto p, auto g, auto h) { return (p * (g + h)).sum(); });
+  Sums total;
+  for (const Sums& part : parallel::map_slabs<Sums>(
+           heights.rows(),
+           [&](Index begin, Index end) {
+             Sums sums;
+             for (Index k = begin * heights.cols(); k < end * heights.cols(); ++k) {
+               double &gap = solution.gap.data()[k], &pressure = solution.pressure.data()[k];
+               sums.pressure += pressure;
+               sums.contact += pressure > 0 ? 1 : 0;
+               sums.work += pressure * (gap + below_summit[k]);
+               // A saturated cell sinks in: what is below the plane there is plastic flow, not a gap.
+               const bool flows = pressure >= target.bound;
+               gap = flows ? 0 : gap - outcome.level;
+               pressure = flows ? hardness : pressure * scaled.pressure_unit;
+               sums.gap += gap;
+             }
+             return sums;
+           },
+           heights.size())) {
+    total.pressure += part.pressure;
+    total.contact += part.contact;
+    total.work += part.work;
+    total.gap += part.gap;
+  }
   const double points = static_cast<double>(heights.size());
-  // A saturated cell sinks in: what is below the plane there is plastic flow, not a gap.
-  const double gap_sum = parallel::sum_slabs(
-      heights.rows(),
-      [&](Index begin, Index end) {
-        double sum = 0;
-        for (Index k = begin * heights.cols(); k < end * heights.cols(); ++k) {
-          double &gap = solution.gap.data()[k], &pressure = solution.pressure.data()[k];
-          const bool flows = pressure >= target.bound;
-          gap = flows ? 0 : gap - outcome.level;
-          pressure = flows ? hardness : pressure * scaled.pressure_unit;
-          sum += gap;
-        }
-        return sum;
-      },
-      heights.size());
   state.pressure = std::move(solution.pressure);
   state.gap = std::move(solution.gap);
-  state.mean_pressure = pressure_sum / points * scaled.pressure_unit;
+  state.mean_pressure = total.pressure / points * scaled.pressure_unit;
   state.force = state.mean_pressure * surface.grid.area();
-  state.mean_gap = gap_sum / points;
-  state.indentation = greatest_of(heights) + outcome.level;
-  state.contact_area_fraction = contact / points;
-  state.elastic_energy = 0.5 * work * scaled.pressure_unit * surface.grid.cell_area();
+  state.mean_gap = total.gap / points;
+  state.indentation = outcome.level;
+  state.contact_area_fraction = total.contact / points;
+  state.elastic_energy = 0.5 * total.work * scaled.pressure_unit * surface.grid.cell_area();
   state.residual = outcome.residual;
   state.iterations = outcome.iterations;
   state.fft_count = outcome.fft_count;
@@ -190,21 +201,21 @@ NormalContactState full_contact_of_plane(const Surface& surface, double nominal_
   return state;
 }
 
-NormalContactState press(const Surface& surface, const Scaled& scaled, double rms_height,
-                         const ContactTarget& target, const NormalContactOptions& options) {
-  auto solution = options.precision == Precision::mixed
-                      ? solve_nested<float>(scaled, surface.heights, rms_height, target, options)
-                      : solve_nested<double>(scaled, surface.heights, rms_height, target, options);
-  return state_of(std::move(solution), target, scaled, surface, options.hardness);
-}
-
-// Contact with the plane at a height of `level` below the zero of −heights, where the gap Gp − h counts from.
-NormalContactState press_to_level(const Surface& surface, double contact_modulus, double mean,
-                                  double level, const NormalContactOptions& options) {
+// Heights count from the highest point, so that the level of the plane is the indentation.
+NormalContactState press(const Surface& surface, double contact_modulus, const Depths& depths,
+                         ContactTarget::Kind kind, double value,
+                         const NormalContactOptions& options) {
   const Scaled scaled(surface.grid, contact_modulus);
-  const ContactTarget target{ContactTarget::Kind::level, level,
+  const bool load_given = kind == ContactTarget::Kind::mean_pressure;
+  const ContactTarget target{kind, load_given ? value / scaled.pressure_unit : value,
                              options.hardness / scaled.pressure_unit};
-  return press(surface, scaled, rms_about(surface.heights, mean), target, options);
+  const Heights heights{surface.heights.data(), depths.highest};
+  // A flat punch has no roughness to compare a gap with: its cells are the only length there is.
+  const double length = depths.rms > 0 ? depths.rms : std::sqrt(surface.grid.cell_area());
+  auto solution = options.precision == Precision::mixed
+                      ? solve_nested<float>(scaled, heights, length, target, options)
+                      : solve_nested<double>(scaled, heights, length, target, options);
+  return state_of(std::move(solution), target, scaled, surface, heights, options.hardness);
 }
 
 }  // namespace
@@ -215,16 +226,11 @@ NormalContactState press_to_pressure(const Surface& surface, double contact_modu
   require_positive(nominal_pressure, "nominal_pressure");
   require(nominal_pressure < options.hardness, "hardness", options.hardness,
           "must exceed the nominal pressure: no contact carries more than its hardness");
-  const double rms_height = rms_about(surface.heights, mean_of(surface.heights));
-  if (!(rms_height > 0) && options.boundary == Boundary::periodic)
+  const Depths depths(surface.heights);
+  if (!(depths.rms > 0) && options.boundary == Boundary::periodic)
     return full_contact_of_plane(surface, nominal_pressure);
-  const Scaled scaled(surface.grid, contact_modulus);
-  const ContactTarget target{ContactTarget::Kind::mean_pressure,
-                             nominal_pressure / scaled.pressure_unit,
-                             options.hardness / scaled.pressure_unit};
-  // A flat punch has no roughness to compare a gap with: its cells are the only length there is.
-  return press(surface, scaled, rms_height > 0 ? rms_height : std::sqrt(surface.grid.cell_area()),
-               target, options);
+  return press(surface, contact_modulus, depths, ContactTarget::Kind::mean_pressure,
+               nominal_pressure, options);
 }
 
 NormalContactState press_to_mean_gap(const Surface& surface, double contact_modulus,
@@ -235,23 +241,23 @@ NormalContactState press_to_mean_gap(const Surface& surface, double contact_modu
   require(std::isinf(options.hardness), "hardness", options.hardness,
           "makes the mean gap depend on more than the approach; give a pressure or an indentation");
   require_positive(mean_gap, "mean_gap");
-  const double mean = mean_of(surface.heights);
-  const double first_touch = greatest_of(surface.heights) - mean;
-  require(mean_gap < first_touch, "mean_gap", mean_gap,
-          fmt::format("must be below {} m, where the highest point first touches", first_touch));
-  // The mean of Gp is zero, so the mean of the gap Gp − h − level is −mean − level.
-  return press_to_level(surface, contact_modulus, mean, -mean - mean_gap, options);
+  const Depths depths(surface.heights);
+  require(mean_gap < depths.mean, "mean_gap", mean_gap,
+          fmt::format("must be below {} m, where the highest point first touches", depths.mean));
+  // The mean of Gp is zero, so approach and mean gap add up to the mean gap at first touch.
+  return press(surface, contact_modulus, depths, ContactTarget::Kind::level, depths.mean - mean_gap,
+               options);
 }
 
 NormalContactState press_to_indentation(const Surface& surface, double contact_modulus,
                                         double indentation, const NormalContactOptions& options) {
   check(surface, contact_modulus, options);
   require_positive(indentation, "indentation");
-  const double mean = mean_of(surface.heights), highest = greatest_of(surface.heights);
-  require(options.boundary == Boundary::free || indentation < highest - mean, "indentation",
+  const Depths depths(surface.heights);
+  require(options.boundary == Boundary::free || indentation < depths.mean, "indentation",
           indentation,
-          fmt::format("must be below {} m, where a periodic contact is full", highest - mean));
-  return press_to_level(surface, contact_modulus, mean, indentation - highest, options);
+          fmt::format("must be below {} m, where a periodic contact is full", depths.mean));
+  return press(surface, contact_modulus, depths, ContactTarget::Kind::level, indentation, options);
 }
 
 }  // namespace salebra

@@ -106,7 +106,7 @@ double normal_stiffness(const NormalContactState& state, const Grid2D& grid, dou
   const double cell = std::sqrt(grid.cell_area());
   const Grid2D scaled{grid.nx, grid.ny, grid.lx / cell, grid.ly / cell};
   const auto load = [&]<class Real>(Real) {
-    return detail::ActiveSetCg<Real>(scaled, 1, options.boundary, nullptr, 0)
+    return detail::ActiveSetCg<Real>(scaled, 1, options.boundary, {}, 0)
         .punch_load(state.pressure.data(), options.hardness);
   };
   // With lengths in cells and E* = 1, Σq counts forces in E*·(cell size)² for an approach of one cell size.

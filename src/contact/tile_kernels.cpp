@@ -31,10 +31,14 @@ TileKernels<Real> choose(TileKernels<float> (*single)(), TileKernels<double> (*d
 template <class Real>
 TileKernels<Real> widest() {
 #ifdef SALEBRA_X86_KERNELS
-  if (__builtin_cpu_supports("x86-64-v4"))
-    return choose<Real>(avx512::table_float, avx512::table_double);
-  if (__builtin_cpu_supports("x86-64-v3"))
-    return choose<Real>(avx2::table_float, avx2::table_double);
+  // What the two files are compiled for, by the names that every compiler knows.
+  const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                        __builtin_cpu_supports("bmi2");
+  const bool has_avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                          __builtin_cpu_supports("avx512bw") &&
+                          __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512cd");
+  if (has_avx2 && has_avx512) return choose<Real>(avx512::table_float, avx512::table_double);
+  if (has_avx2) return choose<Real>(avx2::table_float, avx2::table_double);
 #endif
   return choose<Real>(baseline::table_float, baseline::table_double);
 }

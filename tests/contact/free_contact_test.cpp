@@ -160,6 +160,28 @@ TEST_CASE("Hertz: force, indentation and stiffness are one curve", "[normal]") {
   CHECK(stiffness == Approx(2 * contact_modulus * std::sqrt(1e-2 * indentation)).epsilon(1e-2));
 }
 
+TEST_CASE("A flat square punch is linear: its force is its stiffness times its indentation",
+          "[normal]") {
+  const double side = 1e-3, indentation = 1e-6;
+  const auto stiffness = [&](Index n) {
+    const Surface punch = surface_of({n, n, side, side}, [](double, double) { return 0.25; });
+    const auto state = press_to_indentation(punch, contact_modulus, indentation, free_contact());
+    REQUIRE(state.converged);
+    CHECK(state.contact_area_fraction == 1);
+    const double value = normal_stiffness(state, punch.grid, contact_modulus, free_contact());
+    CHECK(value * indentation == Approx(state.force).epsilon(1e-8));
+    const auto back =
+        press_to_pressure(punch, contact_modulus, state.mean_pressure, free_contact());
+    CHECK(back.indentation == Approx(indentation).epsilon(1e-8));
+    return value / (contact_modulus * side);
+  };
+  // Collocation at cell centres converges at first order to the edge singularity: one Richardson step.
+  const double coarse = stiffness(32), fine = stiffness(64), extrapolated = 2 * fine - coarse;
+  INFO(coarse << ' ' << fine << ' ' << extrapolated);
+  // π/(4πε0) times the capacity of a square plate, 0.36679 × 4πε0 × side: electrostatics has the same kernel.
+  CHECK(extrapolated == Approx(0.36679 * pi).epsilon(1e-3));
+}
+
 TEST_CASE("A free contact does not feel the size of its grid", "[normal]") {
   const auto pressed = [](Index n, double side) {
     const double cell = side / double(n);

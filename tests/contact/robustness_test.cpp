@@ -44,7 +44,7 @@ struct SingleGrid {
 
   template <class Real>
   detail::ActiveSetOutcome solve() {
-    detail::ActiveSetCg<Real> solver(surface.grid, 1, Boundary::periodic, surface.heights.data(),
+    detail::ActiveSetCg<Real> solver(surface.grid, 1, Boundary::periodic, {surface.heights.data()},
                                      rms);
     return solver.solve(target, limits, p.data(), g.data());
   }
@@ -92,7 +92,7 @@ TEST_CASE("Gradient projection solves a contact on its own, from any start", "[n
   auto compliance = normal_compliance<double>(projected.surface.grid, 1, Boundary::periodic);
   detail::ActiveSetOutcome outcome;
   detail::gradient_projection(compliance, projected.surface.grid, Boundary::periodic,
-                              projected.surface.heights.data(), projected.rms, projected.target,
+                              {projected.surface.heights.data()}, projected.rms, projected.target,
                               projected.limits, projected.p.data(), projected.g.data(), outcome);
   CHECK(outcome.converged);
   CHECK(((projected.p > 0) == (usual.p > 0)).all());
