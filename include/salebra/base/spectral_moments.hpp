@@ -16,7 +16,7 @@ struct SpectralMoments {
   double moment4() const { return (moment4_x + moment4_y) / 2; }  ///< m4, 1/m²
   double rms_height() const;                                      ///< h_rms = √m0, m
   double rms_slope() const;  ///< h' = √⟨|∇h|²⟩ = √(2 m2), exact for an anisotropic surface too
-  double nayak() const;      ///< α = m0 m4/m2²; at least 1.5 for a Gaussian isotropic surface
+  double nayak() const;  ///< α = m0 m4/m2²; at least 1.5 for a Gaussian isotropic surface
 };
 
 }  // namespace salebra
