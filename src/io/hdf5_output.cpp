@@ -20,6 +20,7 @@ struct Types {
 };
 Types types_of(const double*) { return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE}; }
 Types types_of(const std::int64_t*) { return {H5T_STD_I64LE, H5T_NATIVE_INT64}; }
+Types types_of(const std::uint64_t*) { return {H5T_STD_U64LE, H5T_NATIVE_UINT64}; }
 Types types_of(const std::int8_t*) { return {H5T_STD_I8LE, H5T_NATIVE_INT8}; }
 
 Type text_type(std::size_t size) {
@@ -60,7 +61,7 @@ Output::Output(const std::filesystem::path& file, const Provenance& provenance,
   attribute(root_, "created", provenance.created.empty() ? utc_now() : provenance.created);
   attribute(root_, "command_line", provenance.command_line);
   attribute(root_, "configuration", provenance.configuration);
-  if (provenance.seed) attribute(root_, "seed", static_cast<std::int64_t>(*provenance.seed));
+  if (provenance.seed) attribute(root_, "seed", *provenance.seed);
 }
 
 void Output::make_room(std::uint64_t bytes) {
@@ -83,22 +84,27 @@ Group Output::group(const std::string& path) {
           "create the group " + path};
 }
 
-void Output::attribute(hid_t object, const std::string& name, double value) {
+template <class T>
+void Output::number(hid_t object, const std::string& name, const T& value) {
   make_room(0);
+  const Types types = types_of(&value);
   const Space space(H5Screate(H5S_SCALAR), "write " + name);
   const Attribute attribute(
-      H5Acreate2(object, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT),
+      H5Acreate2(object, name.c_str(), types.file, space, H5P_DEFAULT, H5P_DEFAULT),
       "write " + name);
-  check(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value), "write " + name);
+  check(H5Awrite(attribute, types.memory, &value), "write " + name);
+}
+
+void Output::attribute(hid_t object, const std::string& name, double value) {
+  number(object, name, value);
 }
 
 void Output::attribute(hid_t object, const std::string& name, std::int64_t value) {
-  make_room(0);
-  const Space space(H5Screate(H5S_SCALAR), "write " + name);
-  const Attribute attribute(
-      H5Acreate2(object, name.c_str(), H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT),
-      "write " + name);
-  check(H5Awrite(attribute, H5T_NATIVE_INT64, &value), "write " + name);
+  number(object, name, value);
+}
+
+void Output::attribute(hid_t object, const std::string& name, std::uint64_t value) {
+  number(object, name, value);
 }
 
 void Output::attribute(hid_t object, const std::string& name, std::string_view value) {

@@ -33,6 +33,7 @@ class Output {
 
   void attribute(hid_t object, const std::string& name, double value);
   void attribute(hid_t object, const std::string& name, std::int64_t value);
+  void attribute(hid_t object, const std::string& name, std::uint64_t value);
   void attribute(hid_t object, const std::string& name, std::string_view value);
 
   /// A dataset whose dimensions are the named scales of the group (none: a scalar). T: double, int64_t, int8_t.
@@ -51,6 +52,8 @@ class Output {
   void commit();
 
  private:
+  template <class T>
+  void number(hid_t object, const std::string& name, const T& value);
   template <class T>
   Dataset create(hid_t group, const std::string& name, const T* values,
                  const std::vector<hsize_t>& shape, const Label& label);

@@ -35,6 +35,8 @@ bool is_gsf(std::string_view content);
 LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view content);
 LoadedSurface read_netcdf(const std::filesystem::path& file, std::string_view content);
 LoadedSurface read_npy(const std::filesystem::path& file, std::string_view content);
+bool is_sur(std::string_view content);
+LoadedSurface read_sur(const std::filesystem::path& file, std::string_view content);
 LoadedSurface read_text(const std::filesystem::path& file, std::string_view content);
 LoadedSurface read_hdf5(const std::filesystem::path& file);
 

@@ -21,6 +21,7 @@ detail::LoadedSurface load(const std::filesystem::path& file) {
   const std::string content = detail::file_content(file);
   if (content.starts_with(npy_magic)) return detail::read_npy(file, content);
   if (detail::is_gsf(content)) return detail::read_gsf(file, content);
+  if (detail::is_sur(content)) return detail::read_sur(file, content);
   if (content.starts_with("CDF\1") || content.starts_with("CDF\2") || content.starts_with("CDF\5"))
     return detail::read_netcdf(file, content);
   return detail::read_text(file, content);

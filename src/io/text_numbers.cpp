@@ -56,6 +56,22 @@ const char* parse_comma_number(const char* at, const char* end, double& value) {
   return stop ? at + (stop - buffer.data()) : nullptr;
 }
 
+bool is_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const std::size_t length = byte < 0x80   ? 1
+                               : byte < 0xc2 ? 0
+                               : byte < 0xe0 ? 2
+                               : byte < 0xf0 ? 3
+                                             : 4;
+    if (length == 0 || i + length > text.size()) return false;
+    for (std::size_t k = 1; k < length; ++k)
+      if ((static_cast<unsigned char>(text[i + k]) & 0xc0) != 0x80) return false;
+    i += length;
+  }
+  return true;
+}
+
 }  // namespace
 
 Lines::Lines(std::string_view text)
@@ -86,6 +102,21 @@ std::string_view require_text(const std::filesystem::path& file, std::string_vie
            "of these");
   if (content.starts_with("\xef\xbb\xbf")) content.remove_prefix(3);
   return content;
+}
+
+std::string utf8(std::string_view text) {
+  if (is_utf8(text)) return std::string(text);
+  std::string result;
+  for (const char symbol : text) {
+    const auto byte = static_cast<unsigned char>(symbol);
+    if (byte < 0x80) {
+      result += symbol;
+    } else {
+      result += static_cast<char>(0xc0 | (byte >> 6));
+      result += static_cast<char>(0x80 | (byte & 0x3f));
+    }
+  }
+  return result;
 }
 
 bool starts_with_number(std::string_view line) {

@@ -37,6 +37,9 @@ struct NumberFormat {
 /// Without a byte order mark. Throws InvalidInput for UTF-16 and for text with NUL bytes.
 std::string_view require_text(const std::filesystem::path& file, std::string_view content);
 
+/// Text that is not UTF-8 is taken for Latin-1, in which older programs write "µm" and "Höhe".
+std::string utf8(std::string_view text);
+
 /// Whether the first value of the line is a number, "nan" or (an undefined point) empty.
 bool starts_with_number(std::string_view line);
 

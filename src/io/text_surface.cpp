@@ -28,38 +28,6 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-bool is_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const std::size_t length = byte < 0x80   ? 1
-                               : byte < 0xc2 ? 0
-                               : byte < 0xe0 ? 2
-                               : byte < 0xf0 ? 3
-                                             : 4;
-    if (length == 0 || i + length > text.size()) return false;
-    for (std::size_t k = 1; k < length; ++k)
-      if ((static_cast<unsigned char>(text[i + k]) & 0xc0) != 0x80) return false;
-    i += length;
-  }
-  return true;
-}
-
-/// Text that is not UTF-8 is taken for Latin-1, in which older programs write "µm" and "Höhe".
-std::string utf8(std::string_view text) {
-  if (is_utf8(text)) return std::string(text);
-  std::string result;
-  for (const char symbol : text) {
-    const auto byte = static_cast<unsigned char>(symbol);
-    if (byte < 0x80) {
-      result += symbol;
-    } else {
-      result += static_cast<char>(0xc0 | (byte >> 6));
-      result += static_cast<char>(0x80 | (byte & 0x3f));
-    }
-  }
-  return result;
-}
-
 /// The length that a header states, where it has a unit: a bare "width = 256" may well count points.
 std::optional<double> stated_length(std::string_view text) {
   double number;

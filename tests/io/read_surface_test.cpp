@@ -23,7 +23,7 @@ TEST_CASE("Measured surfaces have the statistics of the reference", "[read]") {
   const auto reference = nlohmann::json::parse(std::ifstream(measured / "reference.json"));
   for (const char* name :
        {"matrix-2.txt", "matrix-3.txt", "gwyddion-export-english.txt", "gwyddion-export-german.txt",
-        "txt_example.txt", "xyz-1.txt", "xyz-2.txt", "nc-1.nc"}) {
+        "txt_example.txt", "xyz-1.txt", "xyz-2.txt", "nc-1.nc", "sur-2.sur"}) {
     INFO(name);
     const nlohmann::json& expected = reference.at(name);
     const auto number = [&](const char* key) { return expected.at(key).get<double>(); };
@@ -67,7 +67,7 @@ TEST_CASE("A bare array needs its size from the user and keeps its axes", "[read
 TEST_CASE("Files that are broken on purpose give one line that names them", "[read]") {
   if (!std::filesystem::exists(measured)) return;
   for (const char* name :
-       {"wrongnpyfile.npy", "nonsense_txt_file.txt", "sur-2.sur", "x3p-2.x3p", "absent.txt", "."}) {
+       {"wrongnpyfile.npy", "nonsense_txt_file.txt", "x3p-2.x3p", "absent.txt", "."}) {
     INFO(name);
     CHECK_THROWS_AS(read_surface(measured / name), InvalidInput);
     CHECK_THROWS_WITH(read_surface(measured / name), Contains(name) && !Contains("\n"));
@@ -224,6 +224,26 @@ TEST_CASE("A NetCDF or GSF header that promises more than the file holds is refu
                                 "YRes = 4000000000000000000\n" +
                                     std::string(4, '\0'))),
       Contains("more than it holds"));
+}
+
+TEST_CASE("A SUR file is refused where it is cut or of another kind", "[read]") {
+  if (!std::filesystem::exists(measured)) return;
+  const Scratch scratch;
+  std::ifstream stream(measured / "sur-2.sur", std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  const auto refused = [&](std::size_t at, char byte, const std::string& why) {
+    std::string changed = content;
+    changed[at] = byte;
+    CHECK_THROWS_WITH(read_surface(scratch.file("a.sur", changed)), Contains(why));
+  };
+  CHECK_THROWS_AS(read_surface(scratch.file("a.sur", content.substr(0, 511))), InvalidInput);
+  CHECK_THROWS_AS(read_surface(scratch.file("a.sur", content.substr(0, content.size() - 1))),
+                  InvalidInput);
+  refused(111, 0x7f, "truncated");      // points along x
+  refused(111, '\x80', "points");       // a negative number of them
+  refused(98, 8, "bits");               // bits of a point
+  refused(14, 2, "one surface");        // objects in the file
+  refused(212, 'V', "unit of length");  // unit of heights
 }
 
 TEST_CASE("A damaged HDF5 file is refused, without a word on standard error", "[read]") {

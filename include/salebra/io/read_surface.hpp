@@ -23,6 +23,7 @@ struct ReadOptions {
 ///           unit from the sidecar FILE.json where there is one
 ///   NetCDF  classic (CDF-1, 2, 5) in SurfaceTopography's layout: heights(x, y) with unit, x and y with length, periodic, unit; a mask
 ///   GSF     Gwyddion Simple Field
+///   SUR     Digital Surf, one surface of 16 or 32 bits
 ///   text    a matrix whose columns run along x and whose rows along y: heights(ix, iy) is the value in column ix of row
 ///           iy. Headers of Gwyddion (English and German) and of instruments (h=, w=, pixel size=, height conversion
 ///           factor=). Values separated by blanks, ';' or ','; decimal point, or decimal comma where that is not

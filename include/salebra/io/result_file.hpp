@@ -49,6 +49,7 @@ class ResultGroup {
 
   void attribute(const std::string& name, double value);
   void attribute(const std::string& name, std::int64_t value);
+  void attribute(const std::string& name, int value) { attribute(name, std::int64_t{value}); }
   void attribute(const std::string& name, std::string_view value);
   void attribute(const std::string& name, const char* value) {
     attribute(name, std::string_view(value));

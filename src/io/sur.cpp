@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "loaded_surface.hpp"
+#include "text_numbers.hpp"
+
+/// Digital Surf's SUR: a header of 512 bytes at fixed places, a comment, a private zone, then heights as integers row after row. All
+/// numbers are little-endian. Places and meanings are those that the files of MountainsMap and of its readers agree on.
+namespace salebra::detail {
+namespace {
+
+constexpr std::size_t header_size = 512;
+
+class Header {
+ public:
+  explicit Header(std::string_view content) : content_(content) {}
+
+  std::int16_t int16(std::size_t at) const { return static_cast<std::int16_t>(bits(at, 2)); }
+  std::int32_t int32(std::size_t at) const { return static_cast<std::int32_t>(bits(at, 4)); }
+  double float32(std::size_t at) const {
+    return static_cast<double>(std::bit_cast<float>(bits(at, 4)));
+  }
+  std::string words(std::size_t at) const {
+    const std::string_view field = content_.substr(at, 16);
+    return utf8(trimmed(field.substr(0, field.find('\0'))));
+  }
+
+ private:
+  std::uint32_t bits(std::size_t at, std::size_t bytes) const {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < bytes; ++i)
+      value |= static_cast<std::uint32_t>(static_cast<unsigned char>(content_[at + i])) << (8 * i);
+    return value;
+  }
+
+  std::string_view content_;
+};
+
+}  // namespace
+
+bool is_sur(std::string_view content) { return content.starts_with("DIGITAL SURF"); }
+
+LoadedSurface read_sur(const std::filesystem::path& file, std::string_view content) {
+  if (content.size() < header_size) refuse(file, "ends within its SUR header; it is truncated");
+  const Header header(content);
+  if (header.int16(14) > 1)
+    refuse(file, "holds " + std::to_string(header.int16(14)) +
+                     " objects; export one surface of them to a file");
+  const std::int16_t bits = header.int16(98);
+  if (bits != 16 && bits != 32)
+    refuse(file,
+           "has points of " + std::to_string(bits) + " bits, not 16 or 32; is it a SUR file?");
+  const std::int32_t nx = header.int32(108), ny = header.int32(112);
+  if (nx < 1 || ny < 1)
+    refuse(file, "declares " + std::to_string(nx) + " x " + std::to_string(ny) + " points");
+  const std::int16_t comment = header.int16(334), zone = header.int16(336);
+  const std::uint64_t begin = header_size + static_cast<std::uint64_t>(comment > 0 ? comment : 0) +
+                              static_cast<std::uint64_t>(zone > 0 ? zone : 0);
+  const std::uint64_t bytes = static_cast<std::uint64_t>(nx) * static_cast<std::uint64_t>(ny) *
+                              static_cast<std::uint64_t>(bits / 8);
+  if (begin > content.size() || bytes > content.size() - begin)
+    refuse(file, "declares more points than it holds; it is truncated");
+
+  LoadedSurface surface;
+  const auto length = [&](std::size_t step, std::size_t unit) {
+    return header.float32(step) * metres_per(file, header.words(unit));
+  };
+  surface.size_x = nx * length(120, 180);
+  surface.size_y = ny * length(124, 196);
+  const double step = length(128, 212);
+  if (!std::isfinite(step) || step == 0) refuse(file, "has no step of heights; is it a SUR file?");
+  const bool has_undefined = header.int16(86) == 1;
+  const std::int64_t undefined = std::int64_t{header.int32(100)} - 2;
+  surface.heights.resize(nx, ny);
+  const Header data(content.substr(begin));
+  for (Index iy = 0; iy < ny; ++iy) {
+    for (Index ix = 0; ix < nx; ++ix) {
+      const auto place = static_cast<std::size_t>(iy * nx + ix);
+      const std::int32_t value = bits == 16 ? data.int16(2 * place) : data.int32(4 * place);
+      surface.heights(ix, iy) = has_undefined && value == undefined
+                                    ? std::numeric_limits<double>::quiet_NaN()
+                                    : value * step;
+    }
+  }
+  return surface;
+}
+
+}  // namespace salebra::detail
