@@ -193,10 +193,12 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
           misfit.sum(),  signed_misfit.sum(), saturated.sum(), lowest};
 }
 
-SALEBRA_INLINE bool becomes_free(bool free, double p, double g, double level, double bound) {
-  const bool stays = p >= 0 && p <= bound;
-  const bool enters = p > 0 ? g > level : g < level;
-  return free ? stays : enters;
+// 1 for a cell that is free from now on, else 0; in numbers, because mixed tests of float and double do not vectorise.
+SALEBRA_INLINE double freed(double free, double p, double g, double level, double bound) {
+  const double above = p < 0 ? 0.0 : 1.0, stays = p > bound ? 0.0 : above;
+  const double open = g > level ? 1.0 : 0.0, closed = g < level ? 1.0 : 0.0;
+  const double enters = p > 0 ? open : closed;
+  return free * stays + (1 - free) * enters;
 }
 
 template <class Real>
@@ -207,10 +209,10 @@ SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level
     Real* m = a.m + packed;
     const double *p = a.p + dense, *g = a.g + dense;
     for (Size i = 0; i < width; ++i) {
-      const bool free = becomes_free(m[i] != 0, p[i], g[i], level, bound);
-      m[i] = free ? Real(1) : Real(0);
-      count.value[i] += free ? 1 : 0;
-      sum.value[i] += free ? g[i] : 0;
+      const double free = freed(m[i], p[i], g[i], level, bound);
+      m[i] = static_cast<Real>(free);
+      count.value[i] += free;
+      sum.value[i] += free * g[i];
     }
   });
   return {count.sum(), sum.sum()};
@@ -228,10 +230,10 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double level, dou
       z[i] = t[i];
       const double above = (p[i] < 0 ? 0 : p[i] * scale) + shift;
       const double kept = above < bound ? above : bound;
+      const double free = freed(m[i], p[i], g[i], level, bound);
       // A held cell that the correction of the load took off its bound is free again.
-      const bool free =
-          becomes_free(m[i] != 0, p[i], g[i], level, bound) | (kept > 0 && kept < bound);
-      m[i] = free ? Real(1) : Real(0);
+      const double loaded = kept > 0 ? 1.0 : 0.0, inside = kept < bound ? loaded : 0.0;
+      m[i] = static_cast<Real>(inside > free ? inside : free);
       t[i] = static_cast<Real>(kept - p[i]);
       p[i] = kept;
     }
