@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/damping/damper.hpp>
+#include <salebra/io/result_file.hpp>
+
+#include "law_options.hpp"
+#include "options.hpp"
+#include "program.hpp"
+
+namespace salebra::cli {
+namespace {
+
+struct DamperArguments {
+  LawOptions law;
+  MaterialOptions material;
+  std::string amplitude = "finite", hold = "indentation";
+  std::vector<double> normal_amplitude, frequency, angular_frequency;
+  std::optional<double> mass, spring_stiffness, falling_slope, largest_amplitude;
+};
+
+std::vector<double> angular_frequencies(const DamperArguments& arguments) {
+  require(arguments.frequency.empty() != arguments.angular_frequency.empty(), "--frequency",
+          arguments.frequency.empty() ? "missing;" : "given beside --angular-frequency;",
+          "give one of --frequency and --angular-frequency");
+  std::vector<double> omega = arguments.angular_frequency;
+  for (const double hertz : arguments.frequency) omega.push_back(2 * std::numbers::pi * hertz);
+  for (const double value : omega) require_positive(value, "--frequency");
+  return omega;
+}
+
+void write_map(const DamperMap& map, const std::optional<double>& falling_slope,
+               const Session& session) {
+  ResultFile file(session.output(), session.provenance(), session.write_options());
+  ResultGroup group = file.group("damper");
+  group.coordinate("normal_amplitude", map.normal_amplitude, "m",
+                   "amplitude of the normal oscillation");
+  group.coordinate("angular_frequency", map.angular_frequency, "rad/s", "angular frequency");
+  group.dataset("damping_constant", map.damping_constant, "normal_amplitude", "angular_frequency",
+                "N s/m", "damping constant P/v^2");
+  if (falling_slope) {
+    std::vector<bool> stable;
+    for (Index i = 0; i < map.damping_constant.rows(); ++i)
+      for (Index j = 0; j < map.damping_constant.cols(); ++j)
+        stable.push_back(map.damping_constant(i, j) >= *falling_slope);
+    group.flags("stable", stable, {"normal_amplitude", "angular_frequency"},
+                "steady sliding is stable");
+    group.scalar("falling_slope", *falling_slope, "N s/m", "decrease of friction with velocity");
+  }
+  file.commit();
+}
+
+// γ: a number, a row over the one quantity that varies, or rows over frequencies for each amplitude.
+Json constants(const DamperMap& map) {
+  Json rows = Json::array();
+  for (Index i = 0; i < map.damping_constant.rows(); ++i) {
+    Json row = Json::array();
+    for (Index j = 0; j < map.damping_constant.cols(); ++j)
+      row.push_back(map.damping_constant(i, j));
+    rows.push_back(row.size() == 1 ? row[0] : row);
+  }
+  return rows.size() == 1 ? rows[0] : rows;
+}
+
+Json decay_of(const OscillatorDecay& decay) {
+  return {{"contact_stiffness", decay.contact_stiffness},
+          {"natural_frequency", decay.natural_frequency},
+          {"damping_ratio", decay.damping_ratio},
+          {"quality_factor", decay.quality_factor},
+          {"decay_time", decay.decay_time},
+          {"logarithmic_decrement", decay.logarithmic_decrement},
+          {"frequency_ratio", decay.frequency_ratio}};
+}
+
+void run(const DamperArguments& arguments, Session& session) {
+  const LawOptions::Contact contact = arguments.law.contact(arguments.material);
+  require(contact.positions.size() == 1, "--force-newton",
+          fmt::format("{} positions", contact.positions.size()),
+          "are given; damper takes one, salebra damping takes ranges");
+  const Position& position = contact.positions.front();
+  const std::vector<double> omega = angular_frequencies(arguments);
+  DampingOptions options;
+  options.hold = arguments.hold == "force" ? Hold::force : Hold::indentation;
+  options.amplitude = arguments.amplitude == "small" ? Amplitude::small : Amplitude::finite;
+  options.on_progress = session.progress();
+  const bool one = arguments.normal_amplitude.size() == 1 && omega.size() == 1;
+
+  Json object;
+  if (!arguments.normal_amplitude.empty()) {
+    const DamperMap map =
+        damper_map(*contact.law, position, arguments.normal_amplitude, omega, options);
+    if (arguments.normal_amplitude.size() > 1)
+      object["normal_amplitude"] = arguments.normal_amplitude;
+    if (omega.size() > 1) object["angular_frequency"] = omega;
+    object["damping_constant"] = constants(map);
+    if (session.has_output()) write_map(map, arguments.falling_slope, session);
+  } else {
+    require(arguments.falling_slope.has_value(), "--normal-amplitude", "missing;",
+            "give it, or --falling-slope to have it computed");
+    require(!session.has_output(), "--output", session.output().string(),
+            "is for a map over --normal-amplitude and --frequency");
+  }
+  if (arguments.mass) {
+    require(one, "--mass", *arguments.mass, "kg needs one --normal-amplitude and one --frequency");
+    object["decay"] = decay_of(oscillator_decay(
+        *contact.law, position, {arguments.normal_amplitude.front(), omega.front()},
+        {*arguments.mass, arguments.spring_stiffness.value_or(0)}, options));
+  } else {
+    require(!arguments.spring_stiffness, "--spring-stiffness", "given,",
+            "but there is no --mass to oscillate");
+  }
+  if (arguments.falling_slope) {
+    require_positive(*arguments.falling_slope, "--falling-slope");
+    const double largest = arguments.largest_amplitude.value_or(
+        arguments.normal_amplitude.empty() ? 1e-6 : std::ranges::max(arguments.normal_amplitude));
+    Json least = Json::array();
+    for (const double frequency : omega)
+      least.push_back(stabilising_amplitude(*contact.law, position, frequency,
+                                            *arguments.falling_slope, largest, options));
+    object["stabilising_amplitude"] = least.size() == 1 ? least[0] : least;
+  }
+  session.answer(object);
+}
+
+}  // namespace
+
+void add_damper_command(Program& program) {
+  auto arguments = std::make_shared<DamperArguments>();
+  CLI::App& command = program.add_command(
+      "damper", "a contact under fast normal oscillation as a tunable damper",
+      {"salebra damper --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 "
+       "--normal-amplitude 20nm --frequency 20kHz --mass 10g --spring-stiffness 1kN/m",
+       "salebra damper --curve curve.h5 --pressure 10MPa --poisson 0.3 --normal-amplitude "
+       "1:50nm:20 --frequency 1:100kHz:20 --falling-slope 5 --output map.h5"},
+      [arguments](Session& session) { run(*arguments, session); });
+  arguments->law.add_to(command);
+  arguments->material.add_to(command);
+  const std::string motion = "Normal oscillation (both may be ranges)";
+  add_values(command, "--normal-amplitude", arguments->normal_amplitude, Dimension::length, "u_z")
+      ->group(motion);
+  add_values(command, "--frequency", arguments->frequency, Dimension::frequency, "in Hz")
+      ->group(motion);
+  add_values(command, "--angular-frequency", arguments->angular_frequency,
+             Dimension::angular_frequency, "in rad/s, instead of --frequency")
+      ->group(motion);
+  add_choice(command, "--amplitude", arguments->amplitude, {"small", "finite"},
+             "of the normal oscillation; default finite")
+      ->group(motion);
+  add_choice(command, "--hold", arguments->hold, {"indentation", "force"},
+             "what stays in the mean; default indentation")
+      ->group(motion);
+  const std::string use = "Use";
+  add_quantity(command, "--mass", arguments->mass, Dimension::mass,
+               "of a tangential oscillator on the contact")
+      ->group(use);
+  add_quantity(command, "--spring-stiffness", arguments->spring_stiffness, Dimension::stiffness,
+               "of its spring beside the contact")
+      ->group(use);
+  add_quantity(command, "--falling-slope", arguments->falling_slope, Dimension::damping,
+               "b of a friction force that falls by b per velocity")
+      ->group(use);
+  add_quantity(command, "--largest-amplitude", arguments->largest_amplitude, Dimension::length,
+               "to look for stability in; default the largest --normal-amplitude, or 1um")
+      ->group(use);
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "law_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/profile_law.hpp>
+#include <salebra/io/force_curve_file.hpp>
+#include <utility>
+
+namespace salebra::cli {
+namespace {
+
+/// The one position option that was given, and its values.
+std::pair<std::string, std::vector<double>> position_of(const LawOptions& arguments,
+                                                        const std::vector<std::string>& allowed) {
+  std::pair<std::string, std::vector<double>> found;
+  for (const auto& [name, values] : {std::pair{"force", &arguments.force},
+                                     {"indentation", &arguments.indentation},
+                                     {"pressure", &arguments.pressure},
+                                     {"mean_gap", &arguments.mean_gap}}) {
+    if (values->empty()) continue;
+    require(found.first.empty(), name, "given", "beside " + found.first + "; give one position");
+    found = {name, *values};
+  }
+  require(std::ranges::find(allowed, found.first) != allowed.end(), "position",
+          found.first.empty() ? "none" : found.first,
+          fmt::format("is given, but this law stands at one of: {}", fmt::join(allowed, ", ")));
+  return found;
+}
+
+std::vector<Position> positions_of(const std::string& name, const std::vector<double>& values) {
+  std::vector<Position> positions;
+  for (const double value : values) {
+    if (name == "indentation") {
+      positions.emplace_back(AtIndentation{value});
+    } else {
+      require_positive(value, "--force-newton");
+      positions.emplace_back(AtForce{value});
+    }
+  }
+  return positions;
+}
+
+LawOptions::Contact exponential(const LawOptions& arguments, const MaterialOptions& material) {
+  const double decay_length =
+      required(arguments.decay_length, "--decay-length", "--law exponential needs it");
+  require_positive(decay_length, "--decay-length");
+  const auto [name, values] = position_of(arguments, {"force"});
+  // The law has no scale of its own: F'' = F/l² whatever the reference force.
+  const auto positions = positions_of(name, values);
+  return {std::make_unique<ExponentialLaw>(values.front(), decay_length, material.modulus_ratio()),
+          positions};
+}
+
+std::shared_ptr<const IndenterProfile> profile_of(const LawOptions& arguments) {
+  if (arguments.law == "cone")
+    return cone_profile(required(arguments.angle, "--angle", "--law cone needs it"));
+  if (arguments.law == "parabola") {
+    return paraboloid_profile(required(arguments.radius, "--radius", "--law parabola needs it"));
+  }
+  return power_profile(required(arguments.coefficient, "--coefficient", "--law power needs it"),
+                       required(arguments.exponent, "--exponent", "--law power needs it"));
+}
+
+LawOptions::Contact of_profile(const LawOptions& arguments, const MaterialOptions& bodies) {
+  const Material material = bodies.material_with_tangential_modulus();
+  const auto [name, values] = position_of(arguments, {"force", "indentation"});
+  return {std::make_unique<IndenterLaw>(profile_of(arguments), material),
+          positions_of(name, values)};
+}
+
+LawOptions::Contact of_curve(const LawOptions& arguments, const MaterialOptions& material) {
+  const ForceCurve curve = read_force_curve(arguments.curve);
+  auto law = std::make_unique<TabulatedLaw>(curve, material.modulus_ratio());
+  auto [name, values] = position_of(arguments, {"force", "indentation", "pressure", "mean_gap"});
+  if (name == "pressure") {
+    require_positive(curve.nominal_area, "nominal_area of " + arguments.curve);
+    for (double& value : values) value *= curve.nominal_area;
+    name = "force";
+  } else if (name == "mean_gap") {
+    const ForceSample& any = curve.samples.front();
+    require(!std::isnan(any.mean_gap), "--mean-gap", arguments.curve,
+            "has no mean gap; give another position");
+    const double origin = std::isnan(any.indentation) ? 0 : any.indentation + any.mean_gap;
+    for (double& value : values) value = origin - value;
+    name = "indentation";
+  }
+  return {std::move(law), positions_of(name, values)};
+}
+
+}  // namespace
+
+void LawOptions::add_to(CLI::App& command) {
+  const std::string group = "Law";
+  add_choice(command, "--law", law, {"exponential", "cone", "parabola", "power"}, "F(indentation)")
+      ->group(group);
+  command.add_option("--curve", curve, "file of sweep or gw, instead of --law")
+      ->type_name("FILE")
+      ->group(group);
+  add_quantity(command, "--decay-length", decay_length, Dimension::length,
+               "l of the exponential law")
+      ->group(group);
+  add_quantity(command, "--angle", angle, Dimension::angle, "of the cone's flank to the plane")
+      ->group(group);
+  add_quantity(command, "--radius", radius, Dimension::length, "of the paraboloid")->group(group);
+  add_quantity(command, "--exponent", exponent, Dimension::dimensionless,
+               "N of the profile f = B r^N")
+      ->group(group);
+  add_quantity(command, "--coefficient", coefficient, Dimension::dimensionless,
+               "B of the profile f = B r^N, m^(1-N)")
+      ->group(group);
+  const std::string position = "Position (may be a range)";
+  add_values(command, "--force-newton", force, Dimension::force, "normal force")->group(position);
+  add_values(command, "--indentation", indentation, Dimension::length, "from first touch")
+      ->group(position);
+  add_values(command, "--pressure", pressure, Dimension::pressure, "nominal pressure, of a curve")
+      ->group(position);
+  add_values(command, "--mean-gap", mean_gap, Dimension::length, "mean gap, of a curve")
+      ->group(position);
+}
+
+LawOptions::Contact LawOptions::contact(const MaterialOptions& material) const {
+  require(law.empty() != curve.empty(), "--law", law.empty() ? "missing;" : "given beside --curve;",
+          "give exactly one of --law and --curve");
+  if (!curve.empty()) return of_curve(*this, material);
+  return law == "exponential" ? exponential(*this, material) : of_profile(*this, material);
+}
+
+}  // namespace salebra::cli

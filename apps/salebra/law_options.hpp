@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <salebra/contact/law.hpp>
+#include <salebra/damping/dissipation.hpp>
+#include <string>
+#include <vector>
+
+#include "options.hpp"
+
+namespace salebra::cli {
+
+/// A force law, or a curve from a file, and where the contact stands on it.
+struct LawOptions {
+  std::string law, curve;
+  std::vector<double> force, indentation, pressure, mean_gap;
+  std::optional<double> decay_length, angle, radius, exponent, coefficient;
+
+  struct Contact {
+    std::unique_ptr<ContactLaw> law;
+    std::vector<Position> positions;
+  };
+
+  void add_to(CLI::App& command);
+  /// Throws InvalidInput naming the option that is missing or one too many.
+  Contact contact(const MaterialOptions& material) const;
+};
+
+}  // namespace salebra::cli

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <optional>
+#include <salebra/base/error.hpp>
+#include <salebra/io/number_table.hpp>
+#include <string>
+
+#include "loaded_surface.hpp"
+#include "text_numbers.hpp"
+
+namespace salebra {
+
+std::vector<std::vector<double>> read_number_table(const std::filesystem::path& file,
+                                                   std::size_t columns) {
+  const std::string content = detail::file_content(file);
+  std::vector<std::vector<double>> table(columns);
+  std::optional<detail::NumberFormat> format;
+  std::vector<double> values;
+  detail::Lines lines(detail::require_text(file, content));
+  bool titled = false;
+  for (std::string_view raw; lines.next(raw);) {
+    const std::string_view line = detail::trimmed(raw);
+    if (line.empty() || line.front() == '#') continue;
+    const std::string place = file.string() + ": line " + std::to_string(lines.number());
+    if (!detail::starts_with_number(line)) {
+      if (titled || format) throw InvalidInput(place + " holds no numbers; remove it");
+      titled = true;
+      continue;
+    }
+    if (!format) format = detail::number_format(file, line, lines.number());
+    values.clear();
+    detail::append_numbers(file, line, lines.number(), *format, values);
+    if (values.size() != columns)
+      throw InvalidInput(place + " holds " + std::to_string(values.size()) +
+                         " values; give the same " + std::to_string(columns) + " in each line");
+    for (std::size_t i = 0; i < columns; ++i) table[i].push_back(values[i]);
+  }
+  if (!format) throw InvalidInput(file.string() + ": holds no numbers");
+  return table;
+}
+
+}  // namespace salebra
