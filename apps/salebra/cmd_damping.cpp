@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <memory>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/mdr.hpp>
 #include <salebra/damping/dissipation.hpp>
 
 #include "answer_file.hpp"

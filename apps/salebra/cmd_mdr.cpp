@@ -12,6 +12,7 @@
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/io/number_table.hpp>
+#include <salebra/io/output.hpp>
 #include <salebra/io/result_file.hpp>
 
 #include "indenter_options.hpp"
@@ -123,9 +124,7 @@ void run(const MdrArguments& arguments, Session& session) {
           arguments.indentation ? "--force-newton; give one of them" : "give one of them");
   if (arguments.indentation) require_positive(*arguments.indentation, "--indentation");
   for (const std::string* path : {&arguments.stress_map, &arguments.friction_map})
-    if (!path->empty())
-      session.require_writable(*path,
-                               path == &arguments.stress_map ? "--stress-map" : "--friction-map");
+    if (!path->empty()) require_output(*path, session.write_options());
 
   const double settled =
       arguments.indentation ? *arguments.indentation : law.indentation_of(*arguments.force);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/profile_law.hpp>
+#include <salebra/contact/mdr.hpp>
 #include <salebra/io/force_curve_file.hpp>
 #include <utility>
 

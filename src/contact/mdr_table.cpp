@@ -12,8 +12,8 @@
 namespace salebra {
 namespace {
 
-// Σ over the pieces of f below x of ∫ integrand(r, f', f'') dφ, r = x sinφ. On each piece f' is a parabola in r, hence smooth in φ, and eight
-// Gauss points are exact to round-off.
+// Σ over the pieces of f below x of ∫ integrand(r, f', f'') dφ, r = x sinφ. On each piece f' is a parabola in r,
+// hence smooth in φ, and eight Gauss points are exact to round-off.
 template <class Integrand>
 double sum_of_pieces(const detail::MonotoneHermite& f, double x, const Integrand& integrand) {
   constexpr double node[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,

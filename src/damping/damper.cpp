@@ -83,7 +83,8 @@ double stabilising_amplitude(const ContactLaw& law, const Position& position,
     return damper_at(law, position, amplitude, angular_frequency, options).damping_constant -
            falling_slope;
   };
-  // γ starts in proportion to u_z and may have a maximum: the first of fine steps that is enough brackets the least amplitude.
+  // γ starts in proportion to u_z and may have a maximum: the first of fine steps that is enough brackets the least
+  // amplitude.
   constexpr int steps_per_octave = 4, octaves = 40;
   double below = 0;
   for (int i = -octaves * steps_per_octave; i <= 0; ++i) {

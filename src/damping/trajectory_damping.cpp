@@ -96,7 +96,8 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
     previous = result.work_per_cycle;
     if (drifts && result.converged) break;
   }
-  // Friction without drift is steady from its second period, which is the last; where the first already lost the same or not is no matter.
+  // Friction without drift is steady from its second period, which is the last; where the first already lost the same
+  // or not is no matter.
   if (!drifts) result.converged = true;
   result.relaxation_work = result.work_per_cycle - result.slip_work;
 

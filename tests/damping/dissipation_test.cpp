@@ -161,8 +161,8 @@ TEST_CASE("Power laws at finite amplitude are what the springs lose, open contac
     auto error = [&](int levels) {
       return std::abs(work_of_springs(law, indentation, motion, levels, 4 * levels) / exact - 1);
     };
-    // Second order where K_t' and s² are smooth. At the ends of the sweep s² goes like a root of the distance in (b), which leaves 1.25
-    // and more; where first touch, K_t ~ δ^{n−1}, coincides with an end, n − 1/2.
+    // Second order where K_t' and s² are smooth. At the ends of the sweep s² goes like a root of the distance in (b),
+    // which leaves 1.25 and more; where first touch, K_t ~ δ^{n−1}, coincides with an end, n − 1/2.
     const double coarse = error(100), fine = error(400);
     const double order = std::log(coarse / fine) / std::log(4.0);
     CHECK(fine < 1e-2);

@@ -115,7 +115,8 @@ TEST_CASE("Along any path the stack of turning points is the spring foundation",
     }
     return error;
   };
-  // A step of the path cuts a spring's step of levels at random: first order for the force, and the constants scatter.
+  // A step of the path cuts a spring's step of levels at random: first order for the force, and the constants
+  // scatter.
   const double coarse = worst(500), fine = worst(8000);
   CHECK(fine < 5e-4);
   CHECK(fine < coarse / 4);
@@ -190,7 +191,8 @@ TEST_CASE("The memory holds one descent, not the past", "[tangential]") {
   };
   CHECK(memory_after(20, 200, 0).first == memory_after(2, 200, 0).first);
   CHECK(memory_after(2, 200, 0).first <= 102);
-  // 100 times the steps: without merging 100 times the memory, with it the same, and W changes by the tolerance at most.
+  // 100 times the steps: without merging 100 times the memory, with it the same, and W changes by the tolerance at
+  // most.
   const auto [merged, merged_loss] = memory_after(2, 20000, 1e-13);
   const auto [kept, kept_loss] = memory_after(2, 20000, 0);
   CHECK(kept > 9000);
@@ -249,7 +251,8 @@ TEST_CASE("Varying normal force: the friction stack is springs with a limit", "[
   };
   const Outcome coarse = springs_with(200), fine = springs_with(400);
   CHECK(std::abs(fine.force) < 1e-2);
-  // First order in level and substep: what halving both leaves is twice as small, and the extrapolation to 0 is of second order.
+  // First order in level and substep: what halving both leaves is twice as small, and the extrapolation to 0 is of
+  // second order.
   CHECK(coarse.lost / fine.lost == Approx(2).margin(0.1));
   CHECK(2 * fine.lost - coarse.lost == Approx(0).margin(5e-4));
   CHECK(2 * fine.force - coarse.force == Approx(0).margin(5e-4));

@@ -9,7 +9,8 @@
 #include <span>
 #include <vector>
 
-/// Method of dimensionality reduction: an axisymmetric contact as a one-dimensional elastic foundation (Popov and Heß 2014).
+/// Method of dimensionality reduction: an axisymmetric contact as a one-dimensional elastic foundation (Popov and Heß
+/// 2014).
 namespace salebra {
 
 /// A number with the estimate of its error.
@@ -18,8 +19,9 @@ struct Estimate {
   double error = 0;
 };
 
-/// Eq. (3): g(x) = |x| ∫_0^{|x|} f'(r)/√(x² − r²) dr = |x| ∫_0^{π/2} f'(|x| sin φ) dφ, by adaptive quadrature in φ, where the singularity is gone.
-/// slope: f'(r), r >= 0; breaks: radii at which f' is not smooth, increasing. Cost: 20 to 1000 evaluations of f'.
+/// Eq. (3): g(x) = |x| ∫_0^{|x|} f'(r)/√(x² − r²) dr = |x| ∫_0^{π/2} f'(|x| sin φ) dφ, by adaptive quadrature in φ,
+/// where the singularity is gone. slope: f'(r), r >= 0; breaks: radii at which f' is not smooth, increasing. Cost: 20
+/// to 1000 evaluations of f'.
 Estimate mdr_transform(const std::function<double(double)>& slope, double x,
                        std::span<const double> breaks = {});
 
@@ -51,7 +53,8 @@ class IndenterProfile {
   virtual bool has_side() const { return false; }
   /// Radii at which f' is not smooth.
   virtual std::vector<double> breaks() const { return {}; }
-  /// Contact radius a with g(a) = indentation > 0. Throws InvalidInput beyond the largest radius of a profile without a side.
+  /// Contact radius a with g(a) = indentation > 0. Throws InvalidInput beyond the largest radius of a profile without
+  /// a side.
   virtual double contact_radius(double indentation) const;
 };
 
@@ -68,12 +71,13 @@ std::unique_ptr<IndenterProfile> flat_punch_profile(double radius);
 /// Flat end with rounded edge: f = 0 for r < flat_radius, (r − b)²/2R beyond, R = edge_radius.
 std::unique_ptr<IndenterProfile> rounded_punch_profile(double flat_radius, double edge_radius);
 
-/// A profile measured or computed at radii r_i: f between them by a monotone cubic, its image by exact quadrature of each piece.
+/// A profile measured or computed at radii r_i: f between them by a monotone cubic, its image by exact quadrature of
+/// each piece.
 class TabulatedProfile final : public IndenterProfile {
  public:
-  /// radii: from 0, strictly increasing; heights: rising from their first value, which is taken as 0; at least five points.
-  /// Throws InvalidInput that names the row otherwise, and where the points are so few that leaving out every other one changes the image by more than
-  /// 20 % anywhere.
+  /// radii: from 0, strictly increasing; heights: rising from their first value, which is taken as 0; at least seven
+  /// points. Throws InvalidInput that names the row otherwise, and where the points are so few that leaving out every
+  /// other one changes the image by more than 20 % in the outer three quarters.
   TabulatedProfile(std::vector<double> radii, std::vector<double> heights);
   ~TabulatedProfile() override;
   double height(double r) const override;

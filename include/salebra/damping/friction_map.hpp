@@ -14,7 +14,8 @@ struct FrictionMapOptions {
   Progress on_progress = {};
 };
 
-/// How far the paper's "infinite" friction reaches, for equal frequencies: losses over the full-stick loss at the same u_z, u_x and phase.
+/// How far the paper's "infinite" friction reaches, for equal frequencies: losses over the full-stick loss at the
+/// same u_z, u_x and phase.
 struct FrictionMap {
   std::vector<double> friction_number;  ///< M = μE*u_z/(G*u_x)
   std::vector<double> phase;            ///< φ0, rad

@@ -11,26 +11,29 @@ namespace salebra {
 struct TangentialContactOptions {
   /// μ >= 0; infinite: full stick, the case of the paper.
   double friction = std::numeric_limits<double>::infinity();
-  /// m, >= 0: how far the stored history may deviate from the motion. 0 keeps every turning point and every bend of the path; a
-  /// positive value bounds the memory of one rise by (path curvature/tolerance)^{1/2}, whatever the number of its steps.
+  /// m, >= 0: how far the stored history may deviate from the motion. 0 keeps every turning point and every bend of
+  /// the path; a positive value bounds the memory of one rise by (path curvature/tolerance)^{1/2}, whatever the
+  /// number of its steps.
   double merge_tolerance = 0;
   /// Relative, of the table of K_t that the law is replaced by; 1e-14 … 1e-3.
   double table_tolerance = 1e-12;
-  /// m, largest |x − x'| between two positions of the motion. Needed where friction is finite, not used otherwise: it says how deep below the
-  /// edge slip may reach.
+  /// m, largest |x − x'| between two positions of the motion. Needed where friction is finite, not used otherwise: it
+  /// says how deep below the edge slip may reach.
   double tangential_range = 0;
 };
 
 /// The tangential state of any contact with nested contact sets, along any path (PHYSICS sections 7 and 8):
 ///     F_x = ∫_{−∞}^{δ} K_t'(ζ)[x − x0(ζ)]dζ,
-/// x0(ζ): where the springs of indentation level ζ are anchored. A level is anchored where it touches. With finite friction its stretch
-/// obeys |x − x0| <= (μE*/G*)(δ − ζ), and its anchor slips along otherwise; without, it is let go at once with all its stretch when δ falls
-/// through ζ. Exact for motion in straight steps, up to the table of K_t: x0 is piecewise linear in ζ, and the pieces form a stack (a memory of
-/// turning points) on which every step pushes at most two and removes those that it wipes out, so that a step costs O(1) on average and the memory
-/// does not grow with the number of cycles.
+/// x0(ζ): where the springs of indentation level ζ are anchored. A level is anchored where it touches. With finite
+/// friction its stretch obeys |x − x0| <= (μE*/G*)(δ − ζ), and its anchor slips along otherwise; without, it is let
+/// go at once with all its stretch when δ falls through ζ. Exact for motion in straight steps, up to the table of
+/// K_t: x0 is piecewise linear in ζ, and the pieces form a stack (a memory of turning points) on which every step
+/// pushes at most two and removes those that it wipes out, so that a step costs O(1) on average and the memory does
+/// not grow with the number of cycles.
 class TangentialContact {
  public:
-  /// The motion must stay within lowest <= δ <= highest. Throws InvalidInput where the law does not cover it, and for options out of range.
+  /// The motion must stay within lowest <= δ <= highest. Throws InvalidInput where the law does not cover it, and for
+  /// options out of range.
   TangentialContact(const ContactLaw& law, double lowest, double highest,
                     const TangentialContactOptions& options = {});
   TangentialContact(TangentialContact&&) noexcept;
@@ -39,14 +42,15 @@ class TangentialContact {
 
   /// Puts the indenter down at (indentation, x), all springs free of stress; sets the energies to 0.
   void start(double indentation, double x);
-  /// Moves on a straight line in (δ, x). Throws InvalidInput outside the range, and where slip would reach levels below the law's own range.
+  /// Moves on a straight line in (δ, x). Throws InvalidInput outside the range, and where slip would reach levels
+  /// below the law's own range.
   void move_to(double indentation, double x);
 
   double tangential_force() const;  ///< F_x, N
   double stored_energy() const;     ///< ½∫K_t'(x − x0)²dζ, J
   double dissipated() const;        ///< lost since start(), J: by levels let go and by slip
-  /// Of dissipated(), what levels below `lowest` lost, which never leave contact: slip as of Cattaneo and Mindlin. The rest is what levels lost
-  /// that open and close; it becomes the relaxation loss for μ → ∞.
+  /// Of dissipated(), what levels below `lowest` lost, which never leave contact: slip as of Cattaneo and Mindlin.
+  /// The rest is what levels lost that open and close; it becomes the relaxation loss for μ → ∞.
   double dissipated_in_permanent_contact() const;
   double external_work()
       const;  ///< ∫F_x dx since start(), J: stored_energy() and dissipated() together

@@ -9,8 +9,8 @@ namespace salebra {
 
 struct TrajectoryDampingOptions {
   double friction = std::numeric_limits<double>::infinity();  ///< μ; infinite: full stick
-  /// Periods after which a motion with friction and drift may still change from one to the next; >= 2. Full stick needs one period, friction
-  /// without drift two: a play with periodic bounds repeats after its first period.
+  /// Periods after which a motion with friction and drift may still change from one to the next; >= 2. Full stick
+  /// needs one period, friction without drift two: a play with periodic bounds repeats after its first period.
   int max_periods = 200;
 };
 
@@ -22,13 +22,15 @@ struct TrajectoryDamping {
   double slip_work = 0;  ///< of it, by levels in permanent contact: slip of Cattaneo and Mindlin, J
   double power = 0;      ///< W per period, W
   double damping_constant = 0;  ///< γ = P/⟨ẋ²⟩, N s/m; NaN for a motion without ẋ
-  /// Part of F_x in phase with x: ⟨F_x(x − ⟨x⟩)⟩/⟨(x − ⟨x⟩)²⟩ over a period, N/m; NaN for a motion with drift or without x.
+  /// Part of F_x in phase with x: ⟨F_x(x − ⟨x⟩)⟩/⟨(x − ⟨x⟩)²⟩ over a period, N/m; NaN for a motion with drift or
+  /// without x.
   double storage_stiffness = 0;
   double loss_factor =
       0;  ///< W/(2π · storage_stiffness · ⟨(x − ⟨x⟩)²⟩), W/(2πU) of a harmonic motion; NaN as storage_stiffness
   /// At the samples of the trajectory, in its order: the loop is (displacement, tangential_force).
   std::vector<double>
-      tangential_force;  ///< F_x, N; with drift without the permanent levels' share, which grows for ever in full stick
+      tangential_force;  ///< F_x, N; with drift without the permanent levels' share, which grows for
+                         ///< ever in full stick
   std::vector<double> dissipated;  ///< energy lost since the first sample, J
   std::size_t memory = 0;          ///< most pieces of history held at a time
   int periods = 0;                 ///< periods computed
@@ -36,10 +38,9 @@ struct TrajectoryDamping {
       false;  ///< whether the last two periods lost the same to 1e-10; in full stick always
 };
 
-/// Follows a periodic trajectory with a TangentialContact until it is steady. Exact for the straight steps of the trajectory; a sampled
-/// harmonic motion is met at second order in its step.
-/// Throws InvalidInput for a trajectory that is not valid or leaves the law's range, and for friction < 0.
-/// Cost: O(samples · periods).
+/// Follows a periodic trajectory with a TangentialContact until it is steady. Exact for the straight steps of the
+/// trajectory; a sampled harmonic motion is met at second order in its step. Throws InvalidInput for a trajectory
+/// that is not valid or leaves the law's range, and for friction < 0. Cost: O(samples · periods).
 TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& trajectory,
                                      const TrajectoryDampingOptions& options = {});
 
