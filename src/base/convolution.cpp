@@ -32,7 +32,7 @@ struct Convolution2D<Real>::Passes {
   Index column_stride;                        // from one column to the next
   detail::FftwArray<Real, Complex> spectrum;  // [component][column][row]
   struct Table {
-    std::vector<Real> values;  // [column][i = 0 … period_x/2], with 1/points of the transform
+    detail::FftwArray<Real> values;  // [column][i = 0 … period_x/2], with 1/points of the transform
     Parity parity = Parity::even;
   };
   std::array<Table, 3> tables;  // K_00, K_01 = K_10, K_11
@@ -86,7 +86,7 @@ struct Convolution2D<Real>::Passes {
   void set_symbol(int a, int b, const Symbol& symbol, Parity parity) {
     Table& table = tables[static_cast<std::size_t>(a + b)];
     table.parity = parity;
-    table.values.resize(count(modes * table_rows()));
+    table.values = detail::fftw_array<Real>(count(modes * table_rows()));
     const double in_all = static_cast<double>(points());
     parallel::for_slabs(
         modes,
@@ -151,7 +151,7 @@ struct Convolution2D<Real>::Passes {
   }
 
   void multiply(Index j, Complex* numbers) const {
-    const Real* symbol = tables[0].values.data() + j * table_rows();
+    const Real* symbol = tables[0].values.get() + j * table_rows();
     const Real sign = tables[0].parity == Parity::odd ? Real(-1) : Real(1);
     for (Index i = 0; i < table_rows(); ++i) numbers[i] *= symbol[i];
     for (Index i = 1; i < shape.period_x - shape.period_x / 2; ++i)
@@ -162,7 +162,7 @@ struct Convolution2D<Real>::Passes {
     std::array<const Real*, 3> symbol;
     std::array<Real, 3> sign;
     for (std::size_t t = 0; t < 3; ++t) {
-      symbol[t] = tables[t].values.data() + j * table_rows();
+      symbol[t] = tables[t].values.get() + j * table_rows();
       sign[t] = tables[t].parity == Parity::odd ? Real(-1) : Real(1);
     }
     const auto at = [&](Index place, Index i, Real s0, Real s1, Real s2) {
@@ -202,7 +202,7 @@ struct Convolution2D<Real>::Passes {
 
   void apply(const Real* const* fields, Real* const* results) {
     for (int t = 0; t < (components == 1 ? 1 : 3); ++t)
-      if (tables[static_cast<std::size_t>(t)].values.empty())
+      if (tables[static_cast<std::size_t>(t)].values == nullptr)
         set_symbol(
             t / 2, t - t / 2, [](Index, Index) { return 0.0; }, Parity::even);
     rows_forward(fields);

@@ -116,7 +116,7 @@ class ActiveSetCg {
   // Not initialised before reset(), which lets the thread that will use a page touch it first.
   std::unique_ptr<Real[]> t_, w_;  // dense
   std::unique_ptr<Real[]> r_;      // framed
-  std::vector<Real> z_, m_;        // tile after tile
+  std::unique_ptr<Real[]> z_, m_;  // tile after tile
 };
 
 }  // namespace salebra::detail

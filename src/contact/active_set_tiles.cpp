@@ -8,8 +8,8 @@ namespace salebra::detail {
 
 template <class Real>
 TileArrays<Real> ActiveSetCg<Real>::arrays(double* p, double* g, double bound) {
-  return {tiles_.data(), grid_.ny,  framed_stride_,  p,    g, t_.get(), w_.get(), r_.get(),
-          z_.data(),     m_.data(), stencil_.data(), bound};
+  return {tiles_.data(), grid_.ny, framed_stride_,  p,    g, t_.get(), w_.get(), r_.get(),
+          z_.get(),      m_.get(), stencil_.data(), bound};
 }
 
 template <class Real>
@@ -41,8 +41,8 @@ void ActiveSetCg<Real>::list_tiles() {
       if (in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)])
         tiles_.push_back(
             {static_cast<std::int32_t>(row), static_cast<std::int32_t>(k * tile_width)});
-  z_.assign(static_cast<std::size_t>(tile_points()), Real(0));
-  m_.assign(static_cast<std::size_t>(tile_points()), Real(0));
+  z_.reset(new Real[static_cast<std::size_t>(tile_points())]);
+  m_.reset(new Real[static_cast<std::size_t>(tile_points())]);
 }
 
 // The tiles of all cells that carry pressure or are closer to the plane than margin·h_rms, and the free cells in them.
