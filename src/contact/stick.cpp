@@ -20,11 +20,12 @@ void validate(const StickOptions& options) {
 }
 
 void require_tangential(const Material& material) {
-  require(std::isfinite(material.cerruti_isotropic) && std::isfinite(material.cerruti_directed) &&
-              material.cerruti_isotropic > 0,
-          "material", material.cerruti_isotropic,
-          "as Cerruti's constant cannot be used for a stick solve; give Young's moduli and Poisson's "
-          "ratios, or a contact modulus with Poisson's ratio");
+  require(
+      std::isfinite(material.cerruti_isotropic) && std::isfinite(material.cerruti_directed) &&
+          material.cerruti_isotropic > 0,
+      "material", material.cerruti_isotropic,
+      "as Cerruti's constant cannot be used for a stick solve; give Young's moduli and Poisson's "
+      "ratios, or a contact modulus with Poisson's ratio");
 }
 
 void require_shape(const ContactSet& contact, const Grid2D& grid, Boundary boundary) {
@@ -66,9 +67,9 @@ UnitMotion move_by_one(detail::ContactSystem& system, const detail::PointList& p
   UnitMotion motion;
   motion.tractions.assign(displacements.size(), 0.0);
   // The residual is a mean over the components; the tolerance is one over the contact set.
-  motion.report = system.solve(points, displacements, options.tolerance / std::sqrt(components),
-                               options.max_iterations, options.on_progress, motion.tractions,
-                               motion.misfit);
+  motion.report =
+      system.solve(points, displacements, options.tolerance / std::sqrt(components),
+                   options.max_iterations, options.on_progress, motion.tractions, motion.misfit);
   motion.report.residual *= std::sqrt(components);
   return motion;
 }
@@ -86,9 +87,9 @@ struct StickSolver::Parts {
   detail::ContactSystem& system_for(const ContactSet& contact) {
     const detail::CellWindow window = window_for(contact, grid, options.boundary);
     if (!system || !system->window().contains(window))
-      system.emplace(grid, material, options.boundary,
-                     options.hold_lateral ? detail::Traction::tangential : detail::Traction::along_x,
-                     window);
+      system.emplace(
+          grid, material, options.boundary,
+          options.hold_lateral ? detail::Traction::tangential : detail::Traction::along_x, window);
     return *system;
   }
   std::vector<double> gather(const TangentialField& field, const detail::PointList& points) const {
@@ -140,9 +141,8 @@ StickReport StickSolver::solve(const ContactSet& contact, const TangentialField&
   }
   const StickOptions& options = parts_->options;
   const double per_point = std::sqrt(static_cast<double>(system.response().components()));
-  StickReport report =
-      system.solve(points, displacements, options.tolerance * scale / per_point,
-                   options.max_iterations, options.on_progress, tractions, misfit);
+  StickReport report = system.solve(points, displacements, options.tolerance * scale / per_point,
+                                    options.max_iterations, options.on_progress, tractions, misfit);
   report.residual *= per_point / scale;
   parts_->scatter(tractions, points, traction);
   return report;
@@ -179,8 +179,8 @@ StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
   const auto system_of = [&](detail::Traction traction) {
     return detail::ContactSystem(grid, material, options.boundary, traction, window);
   };
-  detail::ContactSystem system = system_of(options.hold_lateral ? detail::Traction::tangential
-                                                                : detail::Traction::along_x);
+  detail::ContactSystem system =
+      system_of(options.hold_lateral ? detail::Traction::tangential : detail::Traction::along_x);
   const detail::PointList points = system.points(contact);
   const Index count = points.size();
   const UnitMotion along_x = move_by_one(system, points, 0, options);
@@ -226,13 +226,13 @@ PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
                                window_for(contact, grid, options.boundary));
   const detail::PointList points = system.points(contact);
   const UnitMotion press = move_by_one(system, points, 0, options);
-  return {.normal_stiffness =
-              (sum_of(press.tractions, 0, points.size()) + correction(press, press)) *
-              grid.cell_area(),
-          .iterations = press.report.iterations,
-          .fft_count = press.report.fft_count,
-          .residual = press.report.residual,
-          .converged = press.report.converged};
+  return {
+      .normal_stiffness =
+          (sum_of(press.tractions, 0, points.size()) + correction(press, press)) * grid.cell_area(),
+      .iterations = press.report.iterations,
+      .fft_count = press.report.fft_count,
+      .residual = press.report.residual,
+      .converged = press.report.converged};
 }
 
 }  // namespace salebra

@@ -133,11 +133,11 @@ void StencilPreconditioner::apply(const PointList& points, const double* in, dou
   if (periodic_) fill_ghosts();
   for_points(points.size(), [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
-      const double* corner =
-          field_.data() + points.framed[size_of(k)] - reach * length - reach;
+      const double* corner = field_.data() + points.framed[size_of(k)] - reach * length - reach;
       double sum = 0;
       for (Index a = 0; a < width; ++a)
-        for (Index b = 0; b < width; ++b) sum += weights_[size_of(a * width + b)] * corner[a * length + b];
+        for (Index b = 0; b < width; ++b)
+          sum += weights_[size_of(a * width + b)] * corner[a * length + b];
       out[k] = sum;
     }
   });

@@ -38,8 +38,8 @@ enum class Traction { normal, along_x, along_y, tangential };
 /// where free. A component of a vector of points is contiguous.
 class SurfaceResponse {
  public:
-  SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary, Traction traction,
-                  const CellWindow& window);
+  SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,
+                  Traction traction, const CellWindow& window);
 
   int components() const { return traction_ == Traction::tangential ? 2 : 1; }
   Index window_index(Index ix, Index iy) const {
@@ -54,7 +54,8 @@ class SurfaceResponse {
   CellWindow window_;
   Traction traction_;
   Convolution2D<double> compliance_;
-  std::array<std::vector<double>, 2> loads_, values_;  ///< the second where the compliance has two components
+  std::array<std::vector<double>, 2> loads_,
+      values_;  ///< the second where the compliance has two components
   int fft_count_ = 0;
 };
 

@@ -110,7 +110,8 @@ class StuckContact {
   ContactSet contact_;
   TangentialField displacement_;  // of the cells in contact, 0 elsewhere
   TangentialField traction_;
-  TangentialField unit_motion_, unit_traction_;  // the body's direction, and the stick traction of a unit move
+  TangentialField unit_motion_,
+      unit_traction_;  // the body's direction, and the stick traction of a unit move
   bool converged_ = true, interrupted_ = false;
   long iterations_ = 0, fft_count_ = 0;
 };

@@ -71,7 +71,8 @@ double chebyshev_slope(Index l, double theta) {
 
 double Series::slope(double theta) const {
   double sum = 0;
-  for (Index l = 1; l < coefficients.size(); ++l) sum += coefficients(l) * chebyshev_slope(l, theta);
+  for (Index l = 1; l < coefficients.size(); ++l)
+    sum += coefficients(l) * chebyshev_slope(l, theta);
   return sum;
 }
 
@@ -90,9 +91,8 @@ Series fit(const FitData& data, int degree) {
     const std::size_t at = static_cast<std::size_t>(k < values ? k : k - values);
     right(k) = k < values ? data.values[at] : data.slope_weight * data.slopes[at];
     for (Index l = 0; l <= degree; ++l)
-      basis(k, l) = k < values
-                        ? std::cos(static_cast<double>(l) * data.theta[at])
-                        : data.slope_weight * chebyshev_slope(l, data.slope_theta[at]);
+      basis(k, l) = k < values ? std::cos(static_cast<double>(l) * data.theta[at])
+                               : data.slope_weight * chebyshev_slope(l, data.slope_theta[at]);
   }
   Series series;
   series.coefficients = basis.colPivHouseholderQr().solve(right);
@@ -187,8 +187,8 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
         static_cast<double>(level.contact.count()) / static_cast<double>(grid.points());
     values.sample.converged = level.converged;
     if (with_stiffness) {
-      const StickStiffness stick = stick_stiffness(level.contact, grid, material, options.stick,
-                                                   options.direction == 0);
+      const StickStiffness stick =
+          stick_stiffness(level.contact, grid, material, options.stick, options.direction == 0);
       const PunchStiffness punch =
           punch_stiffness(level.contact, grid, material.contact_modulus, options.stick);
       const double c = std::cos(options.direction), s = std::sin(options.direction);
@@ -239,8 +239,7 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
     ratios.values.push_back(values[k].ratio);
   }
   result.work_by_levels = loss(
-      motion, nodes,
-      [&](std::size_t k) { return values[k + 1].sample.tangential_stiffness; },
+      motion, nodes, [&](std::size_t k) { return values[k + 1].sample.tangential_stiffness; },
       drag ? values.back().sample.tangential_stiffness : 0);
 
   // Eighth degree: what follows the indentation faster is noise of the cells.
@@ -255,7 +254,9 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
   const Series smooth = best_fit(normal, std::min(highest, 5));
   result.curvature = smooth.second_slope_at_middle() / (amplitude * amplitude);
   result.small_amplitude_work = std::visit(
-      [&](const auto& m) { return closed_form::work_per_cycle(modulus_ratio, result.curvature, m); },
+      [&](const auto& m) {
+        return closed_form::work_per_cycle(modulus_ratio, result.curvature, m);
+      },
       motion);
   // The same integral from the stiffness of the levels as they are, and from a fit of more freedom.
   const double by_stiffness = loss(

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <salebra/contact/stick.hpp>
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/stick.hpp>
 #include <salebra/contact/sweep.hpp>
 
 using namespace salebra;
@@ -34,7 +33,8 @@ ContactSet islands(const Grid2D& grid) {
       const double x = 2 * pi * static_cast<double>(ix) / static_cast<double>(grid.nx);
       const double y = 2 * pi * static_cast<double>(iy) / static_cast<double>(grid.ny);
       contact(ix, iy) = std::sin(x + 0.3) * std::cos(2 * y) + 0.7 * std::sin(3 * x - y) +
-                            0.5 * std::cos(5 * x + 4 * y) > 0.6;
+                            0.5 * std::cos(5 * x + 4 * y) >
+                        0.6;
     }
   return contact;
 }
@@ -48,8 +48,7 @@ double ellipse_stiffness(double a, double b, double inverse_shear, double poisso
   const double m = 1 - std::pow(shorter / longer, 2);
   const double first = std::comp_ellint_1(std::sqrt(m)), second = std::comp_ellint_2(std::sqrt(m));
   const double total = 4 * first / longer;
-  const double directed =
-      4 / (m * longer) * (a > b ? second - (1 - m) * first : first - second);
+  const double directed = 4 / (m * longer) * (a > b ? second - (1 - m) * first : first - second);
   return 8 * pi / (inverse_shear * total - poisson_over_shear * directed);
 }
 
@@ -157,7 +156,8 @@ TEST_CASE("Exchanging x and y exchanges the stiffnesses", "[stick]") {
   CHECK(stick_stiffness(contact, grid, material, options, true).xx == k.xx);
 }
 
-TEST_CASE("A periodic cell stiffens an isolated contact by a compliance that falls like 1/L", "[stick]") {
+TEST_CASE("A periodic cell stiffens an isolated contact by a compliance that falls like 1/L",
+          "[stick]") {
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const double cell = 1e-5;
   const auto difference = [&](Index n) {
@@ -225,7 +225,8 @@ TEST_CASE("Free displacements are the integral of Cerruti's point solution", "[s
   }
 }
 
-TEST_CASE("The solved tractions give the displacements asked for and vanish off the contact", "[stick]") {
+TEST_CASE("The solved tractions give the displacements asked for and vanish off the contact",
+          "[stick]") {
   const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
   const Grid2D grid{32, 40, 1e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
@@ -238,7 +239,8 @@ TEST_CASE("The solved tractions give the displacements asked for and vanish off 
   REQUIRE(report.converged);
   CHECK((!contact).select(traction.x.abs() + traction.y.abs(), 0).maxCoeff() == 0);
   const TangentialField u = solver.displacement(contact, traction, contact);
-  const double misfit = contact.select((u.x - wanted.x).square() + (u.y - wanted.y).square(), 0).sum();
+  const double misfit =
+      contact.select((u.x - wanted.x).square() + (u.y - wanted.y).square(), 0).sum();
   CHECK(std::sqrt(misfit / static_cast<double>(contact.count())) < 1.01e-18);
   // A solve that starts from the solution has nothing left to do.
   CHECK(solver.solve(contact, wanted, 1e-9, traction).iterations == 0);
@@ -257,9 +259,8 @@ TEST_CASE("A stick solve that stops early says so, and bad input is named", "[st
                     Catch::StartsWith("contact:"));
   CHECK_THROWS_WITH(stick_stiffness(contact, grid, Material::of_contact_modulus(1e9)),
                     Catch::StartsWith("material:"));
-  CHECK_THROWS_WITH(
-      stick_stiffness(ContactSet::Constant(32, 32, true), grid, material),
-      Catch::Contains("full contact"));
+  CHECK_THROWS_WITH(stick_stiffness(ContactSet::Constant(32, 32, true), grid, material),
+                    Catch::Contains("full contact"));
   const ContactSet none = ContactSet::Constant(32, 32, false);
   CHECK(stick_stiffness(none, grid, material, free_boundary()).xx == 0);
 }

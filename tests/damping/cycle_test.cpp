@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <salebra/damping/cycle.hpp>
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/damping/cycle.hpp>
 
 using namespace salebra;
 
@@ -20,9 +19,9 @@ ContactSet disc(const Grid2D& grid, double radius) {
   ContactSet contact(grid.nx, grid.ny);
   for (Index ix = 0; ix < grid.nx; ++ix)
     for (Index iy = 0; iy < grid.ny; ++iy)
-      contact(ix, iy) = std::hypot((static_cast<double>(ix) - 0.31) * grid.dx() - grid.lx / 2,
-                                   (static_cast<double>(iy) - 0.17) * grid.dy() - grid.ly / 2) <
-                        radius;
+      contact(ix, iy) =
+          std::hypot((static_cast<double>(ix) - 0.31) * grid.dx() - grid.lx / 2,
+                     (static_cast<double>(iy) - 0.17) * grid.dy() - grid.ly / 2) < radius;
   return contact;
 }
 
@@ -69,7 +68,8 @@ double theorem(const ContactLevels& levels, const Grid2D& grid, const Material& 
     const double here =
         stiffness_along(levels(motion.indentation(t)).contact, grid, material, options);
     if (k > 0)
-      sum += (here - below) * std::pow(motion.tangential(1 - middle) - motion.tangential(middle), 2);
+      sum +=
+          (here - below) * std::pow(motion.tangential(1 - middle) - motion.tangential(middle), 2);
     below = here;
   }
   return sum / 2;
@@ -77,7 +77,8 @@ double theorem(const ContactLevels& levels, const Grid2D& grid, const Material& 
 
 }  // namespace
 
-TEST_CASE("The simulated loss is half the integral of s squared over K_t, for any nested sets", "[cycle]") {
+TEST_CASE("The simulated loss is half the integral of s squared over K_t, for any nested sets",
+          "[cycle]") {
   const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
   const double poisson = GENERATE(0.0, 0.3, 0.5);
   const Grid2D grid{27, 20, 1.3e-3, 1e-3};
@@ -86,8 +87,8 @@ TEST_CASE("The simulated loss is half the integral of s squared over K_t, for an
   CycleOptions options{.steps = 12, .direction = 0.7};
   options.stick = {.tolerance = 1e-9, .boundary = boundary};
   for (const Oscillation& motion :
-       {Oscillation(EqualFrequency{0.5, 1e-6, pi / 2}), Oscillation(EqualFrequency{0.5, 1e-6, pi / 4}),
-        Oscillation(Drag{0.5, 1e-3, 700.0})}) {
+       {Oscillation(EqualFrequency{0.5, 1e-6, pi / 2}),
+        Oscillation(EqualFrequency{0.5, 1e-6, pi / 4}), Oscillation(Drag{0.5, 1e-3, 700.0})}) {
     const Trajectory trajectory = trajectory_of(motion, 0.5);
     const CycleResult cycle = simulate_cycle(levels, grid, material, trajectory, options);
     REQUIRE(cycle.converged);
@@ -109,8 +110,8 @@ TEST_CASE("The cone loses Eqs (12) and (15) at any amplitude", "[cycle]") {
   CycleOptions options{.steps = 32};
   options.stick.boundary = Boundary::free;
   const auto lost = [&](const Oscillation& motion) {
-    const CycleResult cycle = simulate_cycle(cone(grid), grid, material,
-                                             trajectory_of(motion, indentation), options);
+    const CycleResult cycle =
+        simulate_cycle(cone(grid), grid, material, trajectory_of(motion, indentation), options);
     REQUIRE(cycle.converged);
     CHECK(cycle.contact_area_min == Approx(pi * 0.04e-6).epsilon(0.02));
     CHECK(cycle.contact_area_max == Approx(pi * 0.16e-6).epsilon(0.02));
@@ -149,11 +150,9 @@ TEST_CASE("A contact whose cells do not change loses nothing", "[cycle]") {
   CycleOptions options{.steps = 16};
   options.stick.boundary = Boundary::free;
   const double amplitude = 2e-6;
-  const CycleResult cycle =
-      simulate_cycle(cylinder, grid, material,
-                     trajectory_of(EqualFrequency{1e-7, amplitude, 1.0}, 1e-6), options);
-  const double stiffness =
-      stick_stiffness(disc(grid, 0.3e-3), grid, material, options.stick).xx;
+  const CycleResult cycle = simulate_cycle(
+      cylinder, grid, material, trajectory_of(EqualFrequency{1e-7, amplitude, 1.0}, 1e-6), options);
+  const double stiffness = stick_stiffness(disc(grid, 0.3e-3), grid, material, options.stick).xx;
   CHECK(std::abs(cycle.work_per_cycle) < 1e-9 * stiffness * amplitude * amplitude / 2);
   CHECK(cycle.released_energy == 0);
   // Half way through the energy is there: the motion does do work.
@@ -187,7 +186,8 @@ TEST_CASE("Drag leaves the core stressed and the rest of its loop closed", "[cyc
   CHECK(cycle.stored_energy_change == Approx(core * advance * advance / 2).epsilon(1e-7));
 }
 
-TEST_CASE("A cycle that cannot be trusted is not called converged, and bad input is named", "[cycle]") {
+TEST_CASE("A cycle that cannot be trusted is not called converged, and bad input is named",
+          "[cycle]") {
   const Grid2D grid{24, 24, 1e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 1.1}, 0.5);

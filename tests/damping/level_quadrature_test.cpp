@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <salebra/damping/level_quadrature.hpp>
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/law.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/level_quadrature.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/generators/shapes.hpp>
 
@@ -23,7 +22,8 @@ constexpr double radius = 0.3;
 const double law_coefficient = 4.0 / 3 * contact_modulus * std::sqrt(radius);
 
 const Grid2D grid{48, 48, 1e-3, 1e-3};
-constexpr double mean_indentation = 0.3e-6, amplitude = 0.1e-6;  // contact radii from 0.24 to 0.35 mm
+constexpr double mean_indentation = 0.3e-6,
+                 amplitude = 0.1e-6;  // contact radii from 0.24 to 0.35 mm
 
 ContactLevels free_levels(Surface surface) {
   return boundary_element_levels(std::move(surface), contact_modulus,
@@ -45,10 +45,10 @@ TEST_CASE("Levels of a paraboloid give its exact loss at finite amplitude", "[le
   const double poisson = GENERATE(0.0, 0.3, 0.5);
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
   const PowerLaw law(law_coefficient, 1.5, material.modulus_ratio());
-  for (const Oscillation& motion :
-       {Oscillation(EqualFrequency{amplitude, 2e-7, 0.8}), Oscillation(Drag{amplitude, 1e-3, 2e3})}) {
-    const LevelQuadratureResult levels = level_quadrature(paraboloid(), grid, material, motion,
-                                                          mean_indentation, free_boundary());
+  for (const Oscillation& motion : {Oscillation(EqualFrequency{amplitude, 2e-7, 0.8}),
+                                    Oscillation(Drag{amplitude, 1e-3, 2e3})}) {
+    const LevelQuadratureResult levels =
+        level_quadrature(paraboloid(), grid, material, motion, mean_indentation, free_boundary());
     const DampingResult exact = relaxation_damping(law, AtIndentation{mean_indentation}, motion);
     REQUIRE(levels.converged);
     // 23 to 34 cells across the contact: half a per cent measured in case (a), one in case (b), which weighs the edge of the sweep.
@@ -63,7 +63,8 @@ TEST_CASE("Levels of a paraboloid give its exact loss at finite amplitude", "[le
   }
 }
 
-TEST_CASE("Along and across an elongated contact the loss differs as Mindlin's ellipses do", "[levels]") {
+TEST_CASE("Along and across an elongated contact the loss differs as Mindlin's ellipses do",
+          "[levels]") {
   const double poisson = 0.4;
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
   // Hertz: the ellipses of all levels are similar.
@@ -81,7 +82,8 @@ TEST_CASE("Along and across an elongated contact the loss differs as Mindlin's e
         square_y += y * y;
       }
   const double cells = static_cast<double>(widest.count());
-  const double axes = std::sqrt((square_y - mean_y * mean_y / cells) / (square_x - mean_x * mean_x / cells));
+  const double axes =
+      std::sqrt((square_y - mean_y * mean_y / cells) / (square_x - mean_x * mean_x / cells));
   CHECK(axes < 0.4);
   // ∫_0^{2π} (1 − ν cos²φ)/√(a²cos²φ + b²sin²φ) dφ of PHYSICS section 7's kernel, by the trapezoidal rule: periodic, so exact.
   const auto compliance = [&](double a, double b) {
@@ -95,7 +97,8 @@ TEST_CASE("Along and across an elongated contact the loss differs as Mindlin's e
   const auto normal = [&](double a, double b) {
     double sum = 0;
     for (int k = 0; k < 400; ++k)
-      sum += (1 - poisson) / std::hypot(a * std::cos(2 * pi * k / 400), b * std::sin(2 * pi * k / 400));
+      sum += (1 - poisson) /
+             std::hypot(a * std::cos(2 * pi * k / 400), b * std::sin(2 * pi * k / 400));
     return sum;
   };
   const Oscillation motion = EqualFrequency{amplitude, 2e-7, pi / 2};
@@ -121,7 +124,8 @@ TEST_CASE("Levels and steps agree on a contact of several pieces", "[levels]") {
       for (Index iy = 0; iy < cells.ny; ++iy) {
         const double x = 2 * pi * (static_cast<double>(ix) + 0.31) / 36;
         const double y = 2 * pi * (static_cast<double>(iy) + 0.17) / 30;
-        level.contact(ix, iy) = std::sin(x) + std::cos(2 * y) + 0.5 * std::sin(2 * x + y) > 1.5 - indentation;
+        level.contact(ix, iy) =
+            std::sin(x) + std::cos(2 * y) + 0.5 * std::sin(2 * x + y) > 1.5 - indentation;
       }
     return level;
   };
@@ -147,7 +151,8 @@ TEST_CASE("A level that fails makes the quadrature fail, and bad input is named"
       level_quadrature(paraboloid(), grid, material, motion, mean_indentation, options).converged);
   options = free_boundary();
   options.on_progress = [](const ProgressReport& report) { return report.step < 3; };
-  CHECK(level_quadrature(paraboloid(), grid, material, motion, mean_indentation, options).interrupted);
+  CHECK(level_quadrature(paraboloid(), grid, material, motion, mean_indentation, options)
+            .interrupted);
   options.levels = 3;
   CHECK_THROWS_WITH(
       level_quadrature(paraboloid(), grid, material, motion, mean_indentation, options),
@@ -157,7 +162,8 @@ TEST_CASE("A level that fails makes the quadrature fail, and bad input is named"
                     Catch::StartsWith("normal_amplitude: 0"));
 }
 
-TEST_CASE("Both routes meet on the paper's shapes, and the exact law on the paraboloid", "[levels]") {
+TEST_CASE("Both routes meet on the paper's shapes, and the exact law on the paraboloid",
+          "[levels]") {
   const Grid2D cells{48, 48, 1.0, 1.0};
   const PlanePoint off_grid{0.31 / 48, 0.17 / 48};
   struct Shape {
@@ -190,7 +196,8 @@ TEST_CASE("Both routes meet on the paper's shapes, and the exact law on the para
     if (surface.origin.find("paraboloid") != std::string::npos) {
       const PowerLaw law(4.0 / 3 * 2, 1.5, material.modulus_ratio());
       CHECK(by_steps.work_per_cycle ==
-            Approx(relaxation_damping(law, AtIndentation{depth}, motion).work_per_cycle).epsilon(0.01));
+            Approx(relaxation_damping(law, AtIndentation{depth}, motion).work_per_cycle)
+                .epsilon(0.01));
     }
   }
 }
@@ -216,8 +223,8 @@ TEST_CASE("On rough surfaces levels and steps agree within a per cent", "[levels
         level_quadrature(levels, cells, material, motion, mean.indentation);
     CycleOptions steps;
     steps.steps = 32;
-    const CycleResult by_steps = simulate_cycle(
-        levels, cells, material, trajectory_of(motion, mean.indentation), steps);
+    const CycleResult by_steps =
+        simulate_cycle(levels, cells, material, trajectory_of(motion, mean.indentation), steps);
     REQUIRE(by_levels.converged);
     REQUIRE(by_steps.converged);
     // Measured at 128² and 256² over loads: 0.02 to 0.8 %, of which 0.16 % are the 32 steps'.

@@ -35,8 +35,9 @@ struct StickOptions {
 /// How a linear solve on a contact set ended. Unless converged, what it computed must not be used as the answer.
 struct StickReport {
   int iterations = 0;
-  int fft_count = 0;    ///< forward-and-backward pairs of scalar fields
-  double residual = 0;  ///< rms of the displacement error over the contact set, in units of the scale
+  int fft_count = 0;  ///< forward-and-backward pairs of scalar fields
+  double residual =
+      0;  ///< rms of the displacement error over the contact set, in units of the scale
   bool converged = false;
   bool interrupted = false;  ///< the progress callback said stop
 };

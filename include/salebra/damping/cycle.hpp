@@ -33,8 +33,9 @@ struct Trajectory {
 Trajectory trajectory_of(const Oscillation& motion, double mean_indentation);
 
 struct CycleOptions {
-  int steps = 64;        ///< changes of the contact in a period, >= 4
-  int max_periods = 4;   ///< at most, until a period repeats the last one; 1 suffices from the least indentation
+  int steps = 64;  ///< changes of the contact in a period, >= 4
+  int max_periods =
+      4;  ///< at most, until a period repeats the last one; 1 suffices from the least indentation
   double direction = 0;  ///< of the tangential motion against x, rad
   /// Of each solve, on the scale of the tangential motion; work and released energy agree to about its size.
   StickOptions stick = {.tolerance = 1e-8};
@@ -44,29 +45,32 @@ struct CycleOptions {
 /// The state between two moves.
 struct CycleSample {
   double t = 0;
-  double indentation = 0;          ///< δ, m
-  double tangential = 0;           ///< x since the start, m
-  double tangential_force = 0;     ///< F_x, N
-  double normal_force = 0;         ///< F, N
-  double work = 0;                 ///< ∫F_x dx since the start of the period, J
-  double released_energy = 0;      ///< since the start of the period, J
-  double contact_area = 0;         ///< m²
+  double indentation = 0;       ///< δ, m
+  double tangential = 0;        ///< x since the start, m
+  double tangential_force = 0;  ///< F_x, N
+  double normal_force = 0;      ///< F, N
+  double work = 0;              ///< ∫F_x dx since the start of the period, J
+  double released_energy = 0;   ///< since the start of the period, J
+  double contact_area = 0;      ///< m²
 };
 
 /// A simulated period of a stuck contact.
 struct CycleResult {
-  double work_per_cycle = 0;         ///< ∮F_x dx less the change of the stored energy, J
-  double released_energy = 0;        ///< ½∫τ·[u] over the cells that leave the contact, as they leave it; an independent sum, J
-  double stored_energy_change = 0;   ///< of ½∫τ·u over the period, J; not 0 where the contact advances
+  double work_per_cycle = 0;  ///< ∮F_x dx less the change of the stored energy, J
+  double released_energy =
+      0;  ///< ½∫τ·[u] over the cells that leave the contact, as they leave it; an independent sum, J
+  double stored_energy_change =
+      0;  ///< of ½∫τ·u over the period, J; not 0 where the contact advances
   double contact_area_min = 0;       ///< m²
   double contact_area_max = 0;       ///< m²
   ContactSet smallest, largest;      ///< cells that are in contact at least, at most
   std::vector<CycleSample> samples;  ///< after each step of the last period
   int periods = 0;
-  long iterations = 0;               ///< of all stick solves
-  long fft_count = 0;                ///< pairs of scalar fields
-  bool steady = false;               ///< the period repeats
-  bool converged = false;            ///< every contact and every stick solve did; otherwise do not use the numbers
+  long iterations = 0;  ///< of all stick solves
+  long fft_count = 0;   ///< pairs of scalar fields
+  bool steady = false;  ///< the period repeats
+  bool converged =
+      false;  ///< every contact and every stick solve did; otherwise do not use the numbers
   bool interrupted = false;
 };
 

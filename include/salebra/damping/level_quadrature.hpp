@@ -18,9 +18,10 @@ struct LevelQuadratureResult {
   /// W with K_t = ρ(δ)(G*/E*)F'(δ): F and K of the levels give F', ρ = K_t/((G*/E*)K) of each level the tangential part; J.
   /// Both stiffnesses of a level see the same cells, so that the resolution of the contact's edge drops out of ρ.
   double work_per_cycle = 0;
-  double error_estimate = 0;        ///< of work_per_cycle, J: scatter of ρ, and F' against K of the levels as they are
-  double work_by_levels = 0;        ///< W by the by-parts form from the K_t of the levels as they are, J
-  double work_by_force = 0;         ///< W with K_t = (G*/E*)F', normal contacts alone, J
+  double error_estimate =
+      0;  ///< of work_per_cycle, J: scatter of ρ, and F' against K of the levels as they are
+  double work_by_levels = 0;  ///< W by the by-parts form from the K_t of the levels as they are, J
+  double work_by_force = 0;   ///< W with K_t = (G*/E*)F', normal contacts alone, J
   double small_amplitude_work = 0;  ///< Eq. (12) or (15) with F'' of the same fit, J
   double force = 0;                 ///< F at the mean indentation, N
   double curvature = 0;             ///< F'' there, N/m²
@@ -28,7 +29,7 @@ struct LevelQuadratureResult {
   ForceCurve curve;                 ///< the levels; K_t is that along the motion
   long iterations = 0;              ///< of all linear solves on contact sets
   long fft_count = 0;
-  bool converged = false;           ///< every level did; otherwise do not use the numbers
+  bool converged = false;  ///< every level did; otherwise do not use the numbers
   bool interrupted = false;
 };
 
