@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -47,7 +48,11 @@ double size_along(const std::filesystem::path& file, const char* field,
 namespace detail {
 
 void refuse(const std::filesystem::path& file, const std::string& what) {
-  throw InvalidInput(file.string() + ": " + what);
+  // What is quoted from a damaged file must neither break the line nor command the terminal.
+  std::string line = what;
+  std::ranges::replace_if(
+      line, [](char symbol) { return (symbol >= '\0' && symbol < ' ') || symbol == '\x7f'; }, '?');
+  throw InvalidInput(file.string() + ": " + line);
 }
 
 bool is_hdf5(const std::filesystem::path& file) {

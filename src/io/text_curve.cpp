@@ -83,11 +83,14 @@ void read_comment(const std::filesystem::path& file, std::string_view line, Forc
   if (colon == std::string_view::npos) return;
   const std::string_view key = trimmed(line.substr(0, colon)),
                          value = trimmed(line.substr(colon + 1));
-  const std::string field = file.string() + ": " + std::string(key);
-  if (key == "model") curve.model = value;
-  if (key == "nominal_area")
-    curve.nominal_area = parse_quantity(value, Dimension::length_squared, field);
-  if (key == "rms_height") curve.rms_height = parse_quantity(value, Dimension::length, field);
+  try {
+    if (key == "model") curve.model = value;
+    if (key == "nominal_area")
+      curve.nominal_area = parse_quantity(value, Dimension::length_squared, key);
+    if (key == "rms_height") curve.rms_height = parse_quantity(value, Dimension::length, key);
+  } catch (const InvalidInput& error) {
+    refuse(file, error.what());
+  }
 }
 
 void complete_and_sort(const std::filesystem::path& file, ForceCurve& curve) {

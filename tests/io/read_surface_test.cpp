@@ -131,6 +131,7 @@ TEST_CASE("Text that can be read in two ways, or not at all, is refused with its
   CHECK_THAT(message("height conversion factor (-> m)=0\n1 2 3\n"), Contains("conversion factor"));
   CHECK_THAT(message(std::string("1\0 2\0", 6)), Contains("NUL"));
   CHECK_THAT(message("\xff\xfe" + header), Contains("UTF-16"));
+  CHECK_THAT(message(header + "# Value units: \x1b[2J\tm\n1 2 3\n"), Contains("'?[2J?m'"));
   CHECK_THAT(message(""), Contains("empty"));
   CHECK_THAT(message("# Width: 3 um\n# Height: 2 um\n"), Contains("no numbers"));
 }
