@@ -1,4 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
+#include <cstdlib>
+
 #include "program.hpp"
 
-int main(int argc, char** argv) { return salebra::cli::run_program(argc, argv); }
+namespace {
+
+// By default OpenMP's threads spin while they wait for each other, which makes a run on a shared machine several times slower and
+// gains nothing on a quiet one. The choice is read from the environment when the OpenMP library is loaded, before main, so the
+// program starts itself once more with it. Where that fails it goes on as it is: only slower.
+void wait_without_spinning(char** argv) {
+  if (std::getenv("OMP_WAIT_POLICY")) return;
+  setenv("OMP_WAIT_POLICY", "passive", 1);
+  execv("/proc/self/exe", argv);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  wait_without_spinning(argv);
+  return salebra::cli::run_program(argc, argv);
+}

@@ -24,7 +24,7 @@ struct ExponentialFit {
   double decay_length_over_rms_height = ForceSample::unknown;
 };
 
-/// Fits the samples whose pressure lies in [pressure_min, pressure_max]; without a window, those with
+/// Fits the samples whose pressure lies in [pressure_min, pressure_max], limits included to 1e-9; without a window, those with
 /// ū between 1 and 2.5 h_rms, where the law is at its best, or all samples if h_rms is unknown. Samples that did not converge, have
 /// no mean gap or no pressure > 0 are left out. window.points of the argument is not used; that of the result counts the samples.
 /// Where the 95 % interval of the slope reaches zero, decay_length_high is infinite.
