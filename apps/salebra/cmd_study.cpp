@@ -190,10 +190,10 @@ StudyConfiguration configuration_of(const StudyArguments& arguments) {
     configuration.relative_pressures = true;
   }
   if (arguments.surface.given()) {
-    configuration = with_surface(
-        std::move(configuration),
-        {arguments.surface.file, arguments.surface.size_x, arguments.surface.size_y,
-         arguments.surface.detrend_method(), arguments.surface.height_unit});
+    configuration =
+        with_surface(std::move(configuration),
+                     {arguments.surface.file, arguments.surface.size_x, arguments.surface.size_y,
+                      arguments.surface.detrend_method(), arguments.surface.height_unit});
   }
   if (!from_file || arguments.material.given())
     configuration.material = arguments.material.material_with_tangential_modulus();
@@ -239,8 +239,9 @@ void add_study_command(Program& program) {
        "salebra study --surface scan.txt --contact-modulus 115GPa --poisson 0.3 "
        "--normal-amplitude 1nm --drag-velocity 1mm/s --frequency 20kHz"},
       [arguments](Session& session) { run(*arguments, session); });
-  command.add_option("CONFIG", arguments->configuration,
-                     "study file (TOML); options take the place of what it says")
+  command
+      .add_option("CONFIG", arguments->configuration,
+                  "study file (TOML); options take the place of what it says")
       ->type_name("FILE");
   arguments->surface.add_to(command, false, "--surface");
   arguments->material.add_to(command);

@@ -36,19 +36,24 @@ int main(int argc, char** argv) {
   const Index n = std::atol(argv[2]);
   Surface surface{{n, n, 1.0, 1.0}, Field(n, n), true, argv[1]};
   const auto bytes = static_cast<std::streamsize>(sizeof(double)) * n * n;
-  std::ifstream(argv[1], std::ios::binary).read(reinterpret_cast<char*>(surface.heights.data()), bytes);
+  std::ifstream(argv[1], std::ios::binary)
+      .read(reinterpret_cast<char*>(surface.heights.data()), bytes);
   parallel::set_threads(std::atoi(argv[5]));
 
   const long before = peak_kilobytes();
   const double cpu = cpu_seconds();
   const auto start = std::chrono::steady_clock::now();
-  const auto state = press_to_pressure(surface, 1.0, std::atof(argv[3]), {.tolerance = std::atof(argv[4])});
-  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto state =
+      press_to_pressure(surface, 1.0, std::atof(argv[3]), {.tolerance = std::atof(argv[4])});
+  const double wall =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::printf(
-      "{\"wall\": %.6f, \"cpu\": %.6f, \"bytes\": %ld, \"pairs\": %d, \"iterations\": %d, \"e_c\": %.3e, "
+      "{\"wall\": %.6f, \"cpu\": %.6f, \"bytes\": %ld, \"pairs\": %d, \"iterations\": %d, \"e_c\": "
+      "%.3e, "
       "\"converged\": %s}\n",
-      wall, cpu_seconds() - cpu, (peak_kilobytes() - before) * 1024, state.fft_count, state.iterations,
-      state.residual, state.converged ? "true" : "false");
-  std::ofstream(argv[6], std::ios::binary).write(reinterpret_cast<const char*>(state.pressure.data()), bytes);
+      wall, cpu_seconds() - cpu, (peak_kilobytes() - before) * 1024, state.fft_count,
+      state.iterations, state.residual, state.converged ? "true" : "false");
+  std::ofstream(argv[6], std::ios::binary)
+      .write(reinterpret_cast<const char*>(state.pressure.data()), bytes);
   return state.converged ? 0 : 1;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <salebra/base/error.hpp>
-
 #include <cmath>
+#include <salebra/base/error.hpp>
 
 namespace salebra {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fftw.hpp"
-
 #include <salebra/base/fft.hpp>
+
+#include "fftw.hpp"
 
 namespace salebra {
 
@@ -62,8 +62,9 @@ void RealFft2D<Real>::forward(const Real* field, std::complex<Real>* modes) {
 
 template <class Real>
 void RealFft2D<Real>::backward(std::complex<Real>* modes, Real* field) {
-  detail::Fftw<Real>::execute_c2r(
-      plans_->backward.get(), reinterpret_cast<typename detail::Fftw<Real>::Complex*>(modes), field);
+  detail::Fftw<Real>::execute_c2r(plans_->backward.get(),
+                                  reinterpret_cast<typename detail::Fftw<Real>::Complex*>(modes),
+                                  field);
 }
 
 template class RealFft2D<float>;

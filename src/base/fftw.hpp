@@ -69,7 +69,8 @@ struct DestroyPlan {
 };
 
 template <class Real>
-using FftwPlan = std::unique_ptr<std::remove_pointer_t<typename Fftw<Real>::Plan>, DestroyPlan<Real>>;
+using FftwPlan =
+    std::unique_ptr<std::remove_pointer_t<typename Fftw<Real>::Plan>, DestroyPlan<Real>>;
 
 // Runs `make` under the planner's lock.
 template <class Real, class Make>

@@ -18,7 +18,9 @@ constexpr Index largest_slab_count = 64;
 // Fewer points than this are done before a second thread is awake.
 constexpr Index least_parallel_work = 20000;
 
-Index slab_begin(Index rows, Index slab) { return rows * slab / std::min(rows, largest_slab_count); }
+Index slab_begin(Index rows, Index slab) {
+  return rows * slab / std::min(rows, largest_slab_count);
+}
 
 int chosen_threads = 0;
 

@@ -14,8 +14,9 @@ TEST_CASE("The program tells its version", "[program]") {
 
 TEST_CASE("Help of every command ends with two examples of that command", "[program]") {
   const ProgramTest test;
-  const auto command = GENERATE(as<std::string>(), "generate", "info", "convert", "contact",
-                                "sweep", "gw", "fit", "damping", "mdr", "damper", "study", "verify");
+  const auto command =
+      GENERATE(as<std::string>(), "generate", "info", "convert", "contact", "sweep", "gw", "fit",
+               "damping", "mdr", "damper", "study", "verify");
   CHECK_THAT(test.run("--help").out, Contains("  " + command));
   const auto help = test.run(command + " --help");
   CHECK(help.status == 0);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <salebra/base/convolution.hpp>
-
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <salebra/base/convolution.hpp>
 #include <salebra/base/parallel.hpp>
 
 using namespace salebra;
@@ -15,7 +14,8 @@ struct Case {
 
 // Kernels with an exactly known transform: sums of a few cosines or sines.
 double even_symbol(Index i, Index j, Index px, Index py) {
-  return 3 + std::cos(2 * M_PI * double(i) / double(px)) * std::cos(4 * M_PI * double(j) / double(py));
+  return 3 +
+         std::cos(2 * M_PI * double(i) / double(px)) * std::cos(4 * M_PI * double(j) / double(py));
 }
 double odd_symbol(Index i, Index j, Index px, Index py) {
   return -std::sin(2 * M_PI * double(i) / double(px)) * std::sin(2 * M_PI * double(j) / double(py));
@@ -42,12 +42,17 @@ double by_hand_odd(const Field& field, const Case& shape, Index a, Index b) {
 
 }  // namespace
 
-TEST_CASE("A convolution equals the sum over the kernel's points, circular and zero-padded", "[convolution]") {
-  const Case shape = GENERATE(Case{16, 64, 16, 64}, Case{7, 45, 7, 45}, Case{1, 5, 1, 5}, Case{33, 20, 66, 40},
-                              Case{5, 6, 12, 15});
+TEST_CASE("A convolution equals the sum over the kernel's points, circular and zero-padded",
+          "[convolution]") {
+  const Case shape = GENERATE(Case{16, 64, 16, 64}, Case{7, 45, 7, 45}, Case{1, 5, 1, 5},
+                              Case{33, 20, 66, 40}, Case{5, 6, 12, 15});
   const Field field = Field::Random(shape.nx, shape.ny), second = Field::Random(shape.nx, shape.ny);
-  const auto even = [&](Index i, Index j) { return even_symbol(i, j, shape.period_x, shape.period_y); };
-  const auto odd = [&](Index i, Index j) { return odd_symbol(i, j, shape.period_x, shape.period_y); };
+  const auto even = [&](Index i, Index j) {
+    return even_symbol(i, j, shape.period_x, shape.period_y);
+  };
+  const auto odd = [&](Index i, Index j) {
+    return odd_symbol(i, j, shape.period_x, shape.period_y);
+  };
   const Convolution2D<double>::Shape periods{shape.nx, shape.ny, shape.period_x, shape.period_y};
   Convolution2D<double> scalar(periods);
   scalar.set_symbol(0, 0, even);
@@ -63,12 +68,14 @@ TEST_CASE("A convolution equals the sum over the kernel's points, circular and z
     for (Index b = 0; b < shape.ny; ++b) {
       // Rounding of two transforms of numbers of order 1.
       CHECK(result(a, b) == Approx(by_hand_even(field, shape, a, b)).margin(1e-13));
-      CHECK(x(a, b) == Approx(by_hand_even(field, shape, a, b) + by_hand_odd(second, shape, a, b)).margin(1e-13));
+      CHECK(x(a, b) == Approx(by_hand_even(field, shape, a, b) + by_hand_odd(second, shape, a, b))
+                           .margin(1e-13));
       CHECK(y(a, b) == Approx(by_hand_odd(field, shape, a, b)).margin(1e-13));
     }
 }
 
-TEST_CASE("A convolution has the same bits for one thread and for two, and may work in place", "[convolution]") {
+TEST_CASE("A convolution has the same bits for one thread and for two, and may work in place",
+          "[convolution]") {
   const Index n = 96;
   const Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> field =
       Field::Random(n, n).cast<float>();

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <salebra/base/parallel.hpp>
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
 #include <vector>
 
 using namespace salebra;
 
-TEST_CASE("Slabs cover every row once, and sums have the same bits for every thread count", "[parallel]") {
+TEST_CASE("Slabs cover every row once, and sums have the same bits for every thread count",
+          "[parallel]") {
   const Index rows = GENERATE(1, 3, 64, 65, 1000);
   std::vector<int> visits(std::size_t(rows), 0);
   double first_sum = 0;
@@ -30,5 +30,6 @@ TEST_CASE("Slabs cover every row once, and sums have the same bits for every thr
 }
 
 TEST_CASE("An exception in a slab reaches the caller", "[parallel]") {
-  CHECK_THROWS_AS(parallel::for_slabs(10, [](Index, Index) { throw InvalidInput("x"); }), InvalidInput);
+  CHECK_THROWS_AS(parallel::for_slabs(10, [](Index, Index) { throw InvalidInput("x"); }),
+                  InvalidInput);
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <salebra/contact/material.hpp>
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/material.hpp>
 
 using namespace salebra;
 
@@ -31,7 +30,8 @@ TEST_CASE("The three ways to name one elastic body agree", "[material]") {
   }
 }
 
-TEST_CASE("A missing tangential modulus is an error where it is needed, never a default", "[material]") {
+TEST_CASE("A missing tangential modulus is an error where it is needed, never a default",
+          "[material]") {
   const Material normal_only = Material::of_contact_modulus(1e9);
   CHECK_THROWS_WITH(normal_only.modulus_ratio(), Catch::Contains("tangential_modulus"));
   CHECK_THROWS_AS(Material::of_bodies({1e9, 0.6}), InvalidInput);

@@ -24,11 +24,13 @@ TEST_CASE("A sweep is the curve of its single contacts, whatever the number of l
   REQUIRE(curve.samples.size() == 4);
   for (std::size_t k = 0; k < 4; ++k) {
     const ForceSample& sample = curve.samples[k];
-    const auto state = press_to_pressure(surface, material.contact_modulus, pressures[k], options.contact);
+    const auto state =
+        press_to_pressure(surface, material.contact_modulus, pressures[k], options.contact);
     CHECK(sample.converged);
     CHECK(sample.mean_gap == state.mean_gap);
     CHECK(sample.force == Approx(pressures[k] * 1e-6).epsilon(1e-12));
-    CHECK(sample.normal_stiffness == normal_stiffness(state, surface.grid, material.contact_modulus, options.contact));
+    CHECK(sample.normal_stiffness ==
+          normal_stiffness(state, surface.grid, material.contact_modulus, options.contact));
     CHECK(sample.tangential_stiffness ==
           Approx(material.modulus_ratio() * sample.normal_stiffness));
     if (k > 0) CHECK(sample.mean_gap < curve.samples[k - 1].mean_gap);

@@ -22,7 +22,7 @@ struct Grid2D {
   double dx() const { return lx / static_cast<double>(nx); }
   double dy() const { return ly / static_cast<double>(ny); }
   Index points() const { return nx * ny; }
-  double area() const { return lx * ly; }            ///< m²
+  double area() const { return lx * ly; }           ///< m²
   double cell_area() const { return dx() * dy(); }  ///< m²
   bool operator==(const Grid2D&) const = default;
 

@@ -26,11 +26,14 @@ Index slab_of(Index rows, Index begin);
 
 /// The values of body(begin, end) over the slabs, in slab order, for reductions of several quantities at once.
 template <class Value, class Body>
-std::vector<Value> map_slabs(Index rows, const Body& body, Index work = std::numeric_limits<Index>::max()) {
+std::vector<Value> map_slabs(Index rows, const Body& body,
+                             Index work = std::numeric_limits<Index>::max()) {
   std::vector<Value> values(static_cast<std::size_t>(slab_count(rows)));
   for_slabs(
       rows,
-      [&](Index begin, Index end) { values[static_cast<std::size_t>(slab_of(rows, begin))] = body(begin, end); },
+      [&](Index begin, Index end) {
+        values[static_cast<std::size_t>(slab_of(rows, begin))] = body(begin, end);
+      },
       work);
   return values;
 }

@@ -14,9 +14,9 @@ struct AsperityDamping {
   double intermittent_work = 0;  ///< of it, by summits that lose contact during the cycle, J
   /// Eq. (12) or (15) with F'' of all summits at the mean separation, J.
   double small_amplitude_work = 0;
-  int contacts_most = 0;   ///< summits in contact where the body is closest …
-  int contacts_least = 0;  ///< … and farthest
-  double power = 0;        ///< P, W; NaN where ω is not known
+  int contacts_most = 0;        ///< summits in contact where the body is closest …
+  int contacts_least = 0;       ///< … and farthest
+  double power = 0;             ///< P, W; NaN where ω is not known
   double damping_constant = 0;  ///< γ, N s/m; NaN where ω or the velocity is not known
 };
 
