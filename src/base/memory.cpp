@@ -6,6 +6,7 @@
 #include <string>
 #if defined(__linux__)
 #include <sys/mman.h>
+#include <sys/sysinfo.h>
 #endif
 
 namespace salebra {
@@ -31,6 +32,12 @@ std::size_t available_memory() {
     if (name == "MemAvailable:") return kibibytes * 1024;
     meminfo.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
   }
+#if defined(__linux__)
+  // Without /proc, as in a bare chroot, the memory that the machine has in all is still a limit.
+  struct sysinfo machine {};
+  if (sysinfo(&machine) == 0)
+    return static_cast<std::size_t>(machine.totalram) * static_cast<std::size_t>(machine.mem_unit);
+#endif
   return 0;
 }
 

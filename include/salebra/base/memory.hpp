@@ -10,7 +10,8 @@ namespace salebra {
 /// take longer than its Fourier transform.
 Field uninitialised_field(Index nx, Index ny);
 
-/// Bytes that new data can take without swapping, as the system estimates it; 0 where it does not say.
+/// Bytes that new data can take without swapping, as the system estimates it; all that the machine has where /proc is not
+/// mounted, and 0 where the system does not say.
 std::size_t available_memory();
 
 }  // namespace salebra
