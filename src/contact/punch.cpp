@@ -76,6 +76,8 @@ double ActiveSetCg<Real>::punch_load(const double* p, double bound) {
     const double gain = descent * descent / tw;
     gained += gain;
     small_gains = gain < relative_gain * gained ? small_gains + 1 : 0;
+    if (iteration + 1 == most_iterations && small_gains < gains_in_a_row)
+      return std::numeric_limits<double>::quiet_NaN();
   }
   exact_compliance().apply(q.data(), g.data());
   return sum_rows([&](Index begin, Index end) {

@@ -26,6 +26,7 @@ ForceSample sample_of(const NormalContactState& state, const Surface& surface,
   if (options.stiffness && state.converged) {
     sample.normal_stiffness =
         normal_stiffness(state, surface.grid, material.contact_modulus, options.contact);
+    sample.converged = !std::isnan(sample.normal_stiffness);
     if (options.stick) {
       StickOptions stick;
       stick.boundary = options.contact.boundary;
