@@ -50,6 +50,10 @@ CLI::App& Program::add_command(const std::string& name, const std::string& what,
   command->add_flag("--json", common->json, "print exactly one JSON object, in SI units")
       ->group(group);
   command->add_option("-o,--output", common->output, "file to write")->group(group);
+  if (!picture.empty())
+    command->add_option("--plot", common->plot, "picture to draw, .png or .svg: " + picture)
+        ->type_name("FILE")
+        ->group(group);
   command->add_flag("--force", common->force, "replace an existing output file")->group(group);
   command->add_option("--threads", common->threads, "threads to use; 0 means all")
       ->group(group)

@@ -23,8 +23,10 @@ class Program {
       : app_(app), command_line_(std::move(command_line)) {}
 
   /// examples: two command lines with what they do, shown at the end of --help.
+  /// picture: what Session::plot() is given, for the help of --plot; a command without pictures has no such option.
   CLI::App& add_command(const std::string& name, const std::string& what,
-                        const std::array<std::string, 2>& examples, Action action);
+                        const std::array<std::string, 2>& examples, Action action,
+                        const std::string& picture = "");
 
  private:
   CLI::App& app_;

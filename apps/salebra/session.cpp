@@ -40,12 +40,17 @@ Session::Session(CommonOptions options, std::string command_line)
       bar_(options_.progress == "always" ||
            (options_.progress == "auto" && !options_.quiet && isatty(STDERR_FILENO) != 0)) {
   if (has_output()) require_output(output(), write_options());
+  if (has_plot()) require_plot(options_.plot, write_options());
 }
 
 Provenance Session::provenance() const {
   Provenance provenance;
   provenance.command_line = command_line_;
   return provenance;
+}
+
+void Session::plot(const Figure& figure) {
+  if (has_plot()) write_plot(options_.plot, figure, write_options());
 }
 
 Progress Session::progress() {

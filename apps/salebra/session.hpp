@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/io/output.hpp>
+#include <salebra/io/plot.hpp>
 #include <salebra/io/provenance.hpp>
 #include <string>
 #include <string_view>
@@ -21,6 +22,7 @@ struct CommonOptions {
   bool force = false;
   bool quiet = false;
   std::string output;  ///< empty: none
+  std::string plot;    ///< picture to draw; empty: none
   int threads = 0;     ///< 0: all
   std::string progress = "auto";
 };
@@ -34,6 +36,9 @@ class Session {
   bool has_output() const { return !options_.output.empty(); }
   std::filesystem::path output() const { return options_.output; }
   bool quiet() const { return options_.quiet; }
+  bool has_plot() const { return !options_.plot.empty(); }
+  /// Draws what --plot asked for; nothing where it was not given.
+  void plot(const Figure& figure);
   /// For the library's writers.
   WriteOptions write_options() const { return {.overwrite = options_.force}; }
   Provenance provenance() const;

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "display_axis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <salebra/base/error.hpp>
+#include <string_view>
+
+namespace salebra::detail {
+namespace {
+
+// Units before which an SI prefix reads well and means what it says (not m², not kg).
+constexpr std::array<std::string_view, 14> scalable = {
+    "m", "N", "Pa", "J", "W", "s", "Hz", "N/m", "N/m²", "N s/m", "rad/s", "m/s", "J/m", "N/m^2"};
+
+std::pair<std::string_view, double> prefix_for(double largest) {
+  constexpr std::array<std::string_view, 9> prefixes = {"f", "p", "n", "µ", "m", "", "k", "M", "G"};
+  // A value just below a power of 1000 must not fall a prefix lower by rounding.
+  const double thousands = std::floor(std::log10(largest * (1 + 1e-9)) / 3);
+  const int power = static_cast<int>(std::clamp(thousands, -5.0, 3.0));
+  return {prefixes[static_cast<std::size_t>(power + 5)], std::pow(10.0, -3 * power)};
+}
+
+std::string number(double value) { return fmt::format("{:g}", value); }
+
+// Decades carry labels, and where there are few of them 2 and 5 do too; what lies between has small tics.
+std::string logarithmic_tics(double low, double high) {
+  const bool few = high - low < 1.7;
+  const int stride = std::max(1, static_cast<int>(std::ceil((high - low) / 9)));
+  std::string tics;
+  for (int decade = static_cast<int>(std::floor(low)); decade <= std::ceil(high); ++decade) {
+    for (int digit = 1; digit <= 9; ++digit) {
+      const double at = decade + std::log10(digit);
+      if (at < low - 1e-9 || at > high + 1e-9) continue;
+      const bool labelled = digit == 1 ? decade % stride == 0 : few && (digit == 2 || digit == 5);
+      if (!labelled && digit > 1 && stride > 1) continue;
+      const double value = digit * std::pow(10.0, decade);
+      const std::string text = !labelled ? ""
+                               : digit == 1 && (decade < -3 || decade > 4)
+                                   ? fmt::format("10^{{{}}}", decade)
+                                   : number(value);
+      tics +=
+          fmt::format("{}'{}' {:.9g}{}", tics.empty() ? "(" : ",", text, at, labelled ? "" : " 1");
+    }
+  }
+  return tics.empty() ? tics : tics + ")";
+}
+
+}  // namespace
+
+double DisplayAxis::display(double value) const {
+  const double shown = value * factor;
+  if (!std::isfinite(shown) || (logarithmic && !(shown > 0)))
+    return std::numeric_limits<double>::quiet_NaN();
+  return logarithmic ? std::log10(shown) : shown;
+}
+
+DisplayAxis display_axis(const PlotAxis& axis, const std::vector<std::span<const double>>& data) {
+  double least = std::numeric_limits<double>::infinity(), most = -least, largest = 0;
+  bool any = false;
+  const auto see = [&](double value) {
+    if (!std::isfinite(value)) return;
+    any = true;
+    if (axis.logarithmic && !(value > 0)) return;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  };
+  for (const auto& column : data)
+    for (const double value : column) see(value);
+  if (axis.low) least = *axis.low;
+  if (axis.high) most = *axis.high;
+  const std::string field = "axis '" + axis.label + "'";
+  require(any, field, "no value", "is finite; there is nothing to draw");
+  require(least <= most && (!axis.logarithmic || least > 0), field,
+          number(least) + " to " + number(most), "is no range for this axis");
+  largest = std::max(std::abs(least), std::abs(most));
+
+  DisplayAxis out;
+  out.logarithmic = axis.logarithmic;
+  std::string unit = axis.unit;
+  if (largest > 0 && std::ranges::find(scalable, axis.unit) != scalable.end()) {
+    const auto [prefix, factor] = prefix_for(largest);
+    unit = std::string(prefix) + unit;
+    out.factor = factor;
+  }
+  out.label = unit.empty() ? axis.label : axis.label + " (" + unit + ")";
+  if (axis.low) out.low = out.display(*axis.low);
+  if (axis.high) out.high = out.display(*axis.high);
+  if (axis.logarithmic) {
+    const double from = out.display(least), to = out.display(most);
+    const double room = to > from ? 0.03 * (to - from) : 0.5;
+    if (!out.low) out.low = from - room;
+    if (!out.high) out.high = to + room;
+    out.tics = logarithmic_tics(*out.low, *out.high);
+  }
+  return out;
+}
+
+}  // namespace salebra::detail

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gnuplot_script.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <salebra/base/error.hpp>
+#include <span>
+
+#include "display_axis.hpp"
+#include "plot_raster.hpp"
+
+namespace salebra::detail {
+namespace {
+
+// Okabe and Ito's colours, which stay apart for colour-blind readers.
+constexpr std::array colors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                               "#E69F00", "#56B4E9", "#000000", "#808080"};
+constexpr int cycle = 7;  // grey only where asked for
+constexpr std::array markers = {7, 5, 9, 13, 11, 15, 3, 1};
+constexpr int panel_width = 520, panel_height = 390, title_height = 26;
+
+std::string literal(std::string_view text) {
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'') out += '\'';
+    out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return out + "'";
+}
+
+const char* palette_stops(PlotPalette palette) {
+  switch (palette) {
+    case PlotPalette::diverging:
+      return "0 '#053061',1 '#2166ac',2 '#4393c3',3 '#92c5de',4 '#d1e5f0',5 '#f7f7f7',"
+             "6 '#fddbc7',7 '#f4a582',8 '#d6604d',9 '#b2182b',10 '#67001f'";
+    case PlotPalette::grey:
+      return "0 '#ffffff',1 '#000000'";
+    case PlotPalette::sequential:
+      break;
+  }
+  return "0 '#440154',1 '#472d7b',2 '#3b528b',3 '#2c728e',4 '#21918c',5 '#28ae80',"
+         "6 '#5ec962',7 '#addc30',8 '#fde725'";
+}
+
+const char* legend_place(PlotLegend legend) {
+  switch (legend) {
+    case PlotLegend::top_left:
+      return "top left Left reverse";
+    case PlotLegend::bottom_right:
+      return "bottom right";
+    case PlotLegend::bottom_left:
+      return "bottom left Left reverse";
+    case PlotLegend::right_of_panel:
+      return "outside right top Left reverse";
+    case PlotLegend::top_right:
+      break;
+  }
+  return "top right";
+}
+
+void check(const PlotCurve& curve) {
+  const std::string field =
+      "curve " + (curve.name.empty() ? std::string("without name") : curve.name);
+  require(curve.x.size() == curve.y.size(), field,
+          fmt::format("{} and {} values", curve.x.size(), curve.y.size()),
+          "along x and y; give as many of each");
+  const bool band = !curve.low.empty() || !curve.high.empty();
+  require(!band || (curve.low.size() == curve.x.size() && curve.high.size() == curve.x.size()),
+          field, fmt::format("{} and {} values", curve.low.size(), curve.high.size()),
+          "of the band; give one for each x");
+  require(curve.color >= -1 && curve.color < static_cast<int>(colors.size()), field, curve.color,
+          "is not a colour; use -1 to 7");
+}
+
+class PanelScript {
+ public:
+  PanelScript(const PlotPanel& panel, int number, std::string& out)
+      : panel_(panel), number_(number), out_(out) {
+    for (const PlotCurve& curve : panel.curves) check(curve);
+    if (panel.image) check_raster(*panel.image);
+    std::vector<std::span<const double>> x, y;
+    for (const PlotCurve& curve : panel.curves) {
+      x.emplace_back(curve.x);
+      for (const auto* column : {&curve.y, &curve.low, &curve.high}) y.emplace_back(*column);
+    }
+    if (panel.image) {
+      x.emplace_back(panel.image->x);
+      y.emplace_back(panel.image->y);
+    }
+    x_ = display_axis(panel.x, x);
+    y_ = display_axis(panel.y, y);
+  }
+
+  void write() {
+    write_frame();
+    if (panel_.image) write_image();
+    write_curves();
+    fmt::format_to(std::back_inserter(out_), "plot {}\n", fmt::join(plots_, ", \\\n     "));
+  }
+
+ private:
+  template <class... Arguments>
+  void line(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Arguments>(arguments)...);
+    out_ += '\n';
+  }
+
+  void write_frame() {
+    line("reset");
+    line("set encoding utf8");
+    line("set border lw 0.8\nset tics in scale 0.7,0.35\nset mxtics\nset mytics");
+    line("set title {} offset 0,-0.4", literal(panel_.title));
+    line("set key {} samplen 2.4 spacing 1.15 width 0.5", legend_place(panel_.legend));
+    if (panel_.image) line("set key opaque box lw 0.5");
+    if (std::ranges::all_of(panel_.curves, &std::string::empty, &PlotCurve::name))
+      line("unset key");
+    if (panel_.equal_scales) line("set size ratio -1");
+    write_axis("x", x_);
+    write_axis("y", y_);
+    for (const PlotLine& mark : panel_.lines) {
+      const double at = mark.vertical ? x_.display(mark.at) : y_.display(mark.at);
+      if (mark.vertical) {
+        line(
+            "set arrow from first {0:.9g},graph 0 to first {0:.9g},graph 1 nohead dt 3 lw 1 lc "
+            "'#404040' front",
+            at);
+        if (!mark.name.empty())
+          line(
+              "set label {} at first {:.9g},graph 0.03 rotate by 90 offset 0.8,0 tc '#404040' "
+              "front",
+              literal(mark.name), at);
+      } else {
+        line(
+            "set arrow from graph 0,first {0:.9g} to graph 1,first {0:.9g} nohead dt 3 lw 1 lc "
+            "'#404040' front",
+            at);
+        if (!mark.name.empty())
+          line("set label {} at graph 0.98,first {:.9g} right offset 0,0.5 tc '#404040' front",
+               literal(mark.name), at);
+      }
+    }
+  }
+
+  void write_axis(const char* name, const DisplayAxis& axis) {
+    line("set {}label {}", name, literal(axis.label));
+    const bool tight = name[0] == 'x' || panel_.image;
+    const auto bound = [](const std::optional<double>& value) {
+      return value ? fmt::format("{:.9g}", *value) : std::string("*");
+    };
+    line("set {}range [{}:{}]", name, bound(axis.low), bound(axis.high));
+    const bool has_points = std::ranges::any_of(panel_.curves, [](const PlotCurve& curve) {
+      return curve.style == PlotStyle::points || curve.style == PlotStyle::line_and_points;
+    });
+    if (tight && (!has_points || panel_.image)) line("set autoscale {}fix", name);
+    if (!axis.tics.empty()) line("set {}tics {}", name, axis.tics);
+  }
+
+  void write_image() {
+    const PlotImage& image = *panel_.image;
+    const Raster raster = rasterise(image, x_, y_);
+    const DisplayAxis& scale = raster.scale;
+    line("$image{} << EOD", number_);
+    for (Index j = 0; j < raster.values.cols(); ++j) {
+      for (Index i = 0; i < raster.values.rows(); ++i)
+        fmt::format_to(std::back_inserter(out_), "{:.5g} ", raster.values(i, j));
+      out_ += '\n';
+    }
+    line("EOD");
+    line("set palette defined ({})", palette_stops(image.palette));
+    line("set cbrange [{:.9g}:{:.9g}]", *scale.low, *scale.high);
+    line("set cblabel {}", literal(scale.label));
+    if (!scale.tics.empty()) line("set cbtics {}", scale.tics);
+    if (!image.color_bar) line("unset colorbox");
+    const std::string columns = fmt::format("({:.12g}+{:.12g}*$1):({:.12g}+{:.12g}*$2):3",
+                                            raster.x0, raster.dx, raster.y0, raster.dy);
+    for (const auto& [axis, first, step, count] :
+         {std::tuple{'x', raster.x0, raster.dx, raster.values.rows()},
+          std::tuple{'y', raster.y0, raster.dy, raster.values.cols()}}) {
+      const DisplayAxis& display = axis == 'x' ? x_ : y_;
+      const auto& given = axis == 'x' ? panel_.x : panel_.y;
+      line("set {}range [{:.9g}:{:.9g}]", axis, given.low ? *display.low : first - 0.5 * step,
+           given.high ? *display.high : first + (static_cast<double>(count) - 0.5) * step);
+    }
+    plots_.push_back(fmt::format("$image{} matrix using {} with image notitle", number_, columns));
+
+    const auto [least, most] = finite_range(raster.values);
+    for (std::size_t k = 0; k < image.contours.size(); ++k) {
+      const double level = scale.display(image.contours[k]);
+      if (!(level > least && level < most)) continue;
+      const std::string block = fmt::format("$contour{}_{}", number_, k);
+      line("set contour base\nunset surface\nset cntrparam levels discrete {:.9g}", level);
+      line("set table {}\nsplot $image{} matrix using {} with lines notitle\nunset table", block,
+           number_, columns);
+      line("unset contour\nset surface\nstats {} using 1 nooutput\nmiddle = int(STATS_records/2)",
+           block);
+      plots_.push_back(fmt::format("{} using 1:2 with lines lw 1.2 lc '#202020' notitle", block));
+      labels_.push_back(
+          fmt::format("{} using ($0==middle_{}_{}?$1:NaN):2:({}) with labels boxed notitle", block,
+                      number_, k, literal(fmt::format("{:g}", image.contours[k]))));
+      line("middle_{}_{} = middle", number_, k);
+    }
+    if (!labels_.empty()) line("set style textbox opaque noborder margins 0.6,0.6");
+  }
+
+  void write_curves() {
+    int next = 0;
+    std::vector<std::string> bands, drawn;
+    for (std::size_t k = 0; k < panel_.curves.size(); ++k) {
+      const PlotCurve& curve = panel_.curves[k];
+      const int which = curve.color >= 0 ? curve.color : next++ % cycle;
+      const char* color = colors[static_cast<std::size_t>(which)];
+      const bool band = !curve.low.empty();
+      line("$curve{}_{} << EOD", number_, k);
+      for (std::size_t i = 0; i < curve.x.size(); ++i) {
+        fmt::format_to(std::back_inserter(out_), "{:.9g} {:.9g}", x_.display(curve.x[i]),
+                       y_.display(curve.y[i]));
+        if (band)
+          fmt::format_to(std::back_inserter(out_), " {:.9g} {:.9g}", y_.display(curve.low[i]),
+                         y_.display(curve.high[i]));
+        out_ += '\n';
+      }
+      line("EOD");
+      if (band)
+        bands.push_back(
+            fmt::format("$curve{}_{} using 1:3:4 with filledcurves lc '{}' fs transparent solid "
+                        "0.2 noborder notitle",
+                        number_, k, color));
+      drawn.push_back(fmt::format("$curve{}_{} using 1:2 with {} lc '{}' {}", number_, k,
+                                  style_of(curve.style, which), color,
+                                  curve.name.empty() ? "notitle" : "title " + literal(curve.name)));
+    }
+    for (const auto* group : {&bands, &drawn, &labels_})
+      plots_.insert(plots_.end(), group->begin(), group->end());
+    require(!plots_.empty(), "panel", "'" + panel_.title + "'",
+            "shows nothing; give a curve or an image");
+  }
+
+  static std::string style_of(PlotStyle style, int which) {
+    const int marker = markers[static_cast<std::size_t>(which)];
+    switch (style) {
+      case PlotStyle::dashed:
+        return "lines lw 1.8 dt (10,5)";
+      case PlotStyle::dotted:
+        return "lines lw 1.8 dt (2,4)";
+      case PlotStyle::points:
+        return fmt::format("points pt {} ps 0.6", marker);
+      case PlotStyle::line_and_points:
+        return fmt::format("linespoints lw 1.4 pt {} ps 0.6", marker);
+      case PlotStyle::line:
+        break;
+    }
+    return "lines lw 1.8";
+  }
+
+  const PlotPanel& panel_;
+  int number_;
+  std::string& out_;
+  DisplayAxis x_, y_;
+  std::vector<std::string> plots_, labels_;
+};
+
+}  // namespace
+
+std::string gnuplot_script(const Figure& figure, PictureFormat format, const std::string& output) {
+  require(!figure.panels.empty(), "figure", figure.panels.size(), "panels; give at least one");
+  const int panels = static_cast<int>(figure.panels.size());
+  const int columns =
+      std::min(panels, figure.columns > 0
+                           ? figure.columns
+                           : static_cast<int>(std::ceil(std::sqrt(static_cast<double>(panels)))));
+  const int rows = (panels + columns - 1) / columns;
+  const int width = columns * panel_width;
+  const int height = rows * panel_height + (figure.title.empty() ? 0 : title_height);
+  std::string out;
+  if (format == PictureFormat::png) {
+    out += fmt::format(
+        "set terminal pngcairo enhanced size {},{} font 'Sans,10' fontscale 2 linewidth 2 "
+        "pointscale 2 "
+        "dashlength 1.6 background '#ffffff'\n",
+        2 * width, 2 * height);
+  } else {
+    out += fmt::format(
+        "set terminal svg enhanced size {},{} dynamic standalone font 'sans-serif,12' linewidth 1 "
+        "dashlength 0.8 background '#ffffff'\n",
+        width, height);
+  }
+  out += "set encoding utf8\nset output " + literal(output) + "\n";
+  out += fmt::format("set multiplot layout {},{}", rows, columns);
+  if (!figure.title.empty()) out += " title " + literal(figure.title);
+  out += '\n';
+  int number = 0;
+  for (const PlotPanel& panel : figure.panels) PanelScript(panel, ++number, out).write();
+  out += "unset multiplot\nunset output\n";
+  return out;
+}
+
+}  // namespace salebra::detail

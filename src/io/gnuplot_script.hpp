@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/io/plot.hpp>
+#include <string>
+
+namespace salebra::detail {
+
+enum class PictureFormat { png, svg };
+
+/// The gnuplot program that draws the figure to `output`. Throws InvalidInput for a figure that cannot be drawn.
+std::string gnuplot_script(const Figure& figure, PictureFormat format, const std::string& output);
+
+}  // namespace salebra::detail

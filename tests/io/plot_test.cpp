@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <salebra/base/error.hpp>
+#include <salebra/io/plot.hpp>
+#include <sstream>
+
+#include "scratch.hpp"
+
+using namespace salebra;
+using Catch::Contains;
+
+namespace {
+
+std::string content(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+std::size_t files_in(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+Figure force_figure() {
+  Figure figure;
+  PlotPanel& panel = figure.panels.emplace_back();
+  panel.title = "Hertz";
+  panel.x = {.label = "indentation", .unit = "m"};
+  panel.y = {.label = "force", .unit = "N"};
+  panel.curves.push_back({.name = "theory",
+                          .x = {1e-9, 2e-9, 300e-9},
+                          .y = {1e3, 2e3, 9e3},
+                          .low = {0.5e3, 1e3, 8e3},
+                          .high = {2e3, 3e3, 10e3}});
+  return figure;
+}
+
+/// Another folder of programs for the length of a test.
+class SearchPath {
+ public:
+  explicit SearchPath(const std::string& path) : before_(std::getenv("PATH")) {
+    setenv("PATH", path.c_str(), 1);
+  }
+  SearchPath(const SearchPath&) = delete;
+  SearchPath& operator=(const SearchPath&) = delete;
+  ~SearchPath() { setenv("PATH", before_.c_str(), 1); }
+
+ private:
+  std::string before_;
+};
+
+void make_program(const std::filesystem::path& file, const std::string& script) {
+  std::ofstream(file) << "#!/bin/sh\n" << script;
+  std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+}
+
+}  // namespace
+
+TEST_CASE("An SVG shows titles, names and axes whose SI prefix suits the values", "[plot]") {
+  const Scratch scratch;
+  Figure figure = force_figure();
+  figure.title = "one figure";
+  write_plot(scratch / "a.svg", figure);
+  const std::string text = content(scratch / "a.svg");
+  for (const std::string part :
+       {"indentation (nm)", "force (kN)", "theory", "Hertz", "one figure", "300"})
+    CHECK_THAT(text, Contains(">" + part) || Contains(part));
+  CHECK(files_in(scratch.folder()) == 1);
+}
+
+TEST_CASE("A PNG has the size of its panels, and maps on logarithmic axes can be drawn", "[plot]") {
+  const Scratch scratch;
+  Figure figure = force_figure();
+  PlotPanel& map = figure.panels.emplace_back();
+  map.x = {.label = "frequency", .unit = "Hz", .logarithmic = true};
+  map.y = {.label = "amplitude", .unit = "m"};
+  PlotImage image;
+  image.x = {1e3, 1e4, 1e5, 2e5};
+  image.y = {1e-9, 2e-9, 3e-9};
+  image.values = Field(4, 3);
+  for (Index i = 0; i < 4; ++i)
+    for (Index j = 0; j < 3; ++j)
+      image.values(i, j) = i == 0 && j == 0 ? std::nan("") : std::pow(10.0, i - j);
+  image.scale = {.label = "damping", .unit = "N s/m", .logarithmic = true};
+  image.contours = {1, 1e9};
+  map.image = image;
+  write_plot(scratch / "b.png", figure);
+  const std::string png = content(scratch / "b.png");
+  REQUIRE(png.size() > 10000);
+  CHECK(png.substr(1, 3) == "PNG");
+  const auto size_at = [&](std::size_t at) {
+    return (static_cast<unsigned char>(png[at + 2]) << 8) + static_cast<unsigned char>(png[at + 3]);
+  };
+  // Two panels beside each other at twice 520 × 390.
+  CHECK(size_at(16) == 2 * 2 * 520);
+  CHECK(size_at(20) == 2 * 390);
+}
+
+TEST_CASE("A field without contrast, a single point and an infinite value can be drawn", "[plot]") {
+  const Scratch scratch;
+  Figure figure;
+  PlotPanel& map = figure.panels.emplace_back();
+  map.image = PlotImage{.x = {0, 1}, .y = {0, 1}, .values = Field::Zero(2, 2), .contours = {0}};
+  map.image->palette = GENERATE(PlotPalette::sequential, PlotPalette::diverging, PlotPalette::grey);
+  PlotPanel& point = figure.panels.emplace_back();
+  point.curves.push_back({.x = {1}, .y = {0}, .style = PlotStyle::points});
+  PlotPanel& pole = figure.panels.emplace_back();
+  pole.y.logarithmic = true;
+  pole.curves.push_back({.x = {0, 1, 2, 3}, .y = {1, INFINITY, 0, 2}});
+  CHECK_NOTHROW(write_plot(scratch / "a.svg", figure));
+}
+
+TEST_CASE("Names are shown as they are and never run", "[plot]") {
+  const Scratch scratch;
+  Figure figure = force_figure();
+  const std::string nasty =
+      "my_file^2 {a} `touch " + (scratch / "ran").string() + "` it's \\ \"x\"";
+  figure.panels[0].curves[0].name = plot_text(nasty);
+  figure.panels[0].title = plot_text("a_b");
+  write_plot(scratch / "a.svg", figure);
+  CHECK_FALSE(std::filesystem::exists(scratch / "ran"));
+  const std::string text = content(scratch / "a.svg");
+  CHECK_THAT(text, Contains("a_b"));
+  CHECK_THAT(text, Contains("my_file^2 {a}"));
+}
+
+TEST_CASE("A figure that cannot be drawn is refused by name", "[plot]") {
+  const Scratch scratch;
+  Figure figure = force_figure();
+  CHECK_THROWS_WITH(write_plot(scratch / "a.pdf", figure), Contains(".png or .svg"));
+  CHECK_THROWS_AS(write_plot(scratch / "a.pdf", figure), InvalidInput);
+  CHECK_THROWS_WITH(write_plot(scratch / "no" / "a.png", figure), Contains("does not exist"));
+  const auto taken = scratch.file("taken.png", "precious");
+  CHECK_THROWS_WITH(write_plot(taken, figure), Contains("exists"));
+  CHECK(content(taken) == "precious");
+  write_plot(taken, figure, {.overwrite = true});
+  CHECK(content(taken).size() > 8);
+
+  CHECK_THROWS_WITH(write_plot(scratch / "a.png", Figure{}), Contains("panels"));
+  figure.panels[0].curves[0].y.pop_back();
+  CHECK_THROWS_WITH(write_plot(scratch / "a.png", figure),
+                    Contains("theory") && Contains("3 and 2"));
+  figure.panels[0].curves[0].y = {-1, 0, -2};
+  figure.panels[0].curves[0].low = figure.panels[0].curves[0].high = {};
+  figure.panels[0].y.logarithmic = true;
+  CHECK_THROWS_WITH(write_plot(scratch / "a.png", figure), Contains("force"));
+  figure.panels[0].curves.clear();
+  CHECK_THROWS_AS(write_plot(scratch / "a.png", figure), InvalidInput);
+  figure = force_figure();
+  figure.panels[0].image = PlotImage{.x = {0, 2, 1}, .y = {0, 1}, .values = Field::Zero(3, 2)};
+  CHECK_THROWS_WITH(write_plot(scratch / "a.png", figure), Contains("increase"));
+  CHECK(files_in(scratch.folder()) == 1);
+}
+
+TEST_CASE(
+    "Where gnuplot is missing, fails or stops half-way, the reason is told and no file is left",
+    "[plot]") {
+  const Scratch scratch;
+  std::filesystem::create_directory(scratch / "bin");
+  const SearchPath path((scratch / "bin").string());
+  const auto picture = scratch / "a.png";
+  CHECK_THROWS_WITH(require_plot(picture), Contains("gnuplot-nox"));
+  CHECK_THROWS_AS(write_plot(picture, force_figure()), IoError);
+  make_program(scratch / "bin" / "gnuplot", "echo 'line 3: unknown terminal' >&2; exit 1\n");
+  CHECK_NOTHROW(require_plot(picture));
+  CHECK_THROWS_WITH(write_plot(picture, force_figure()), Contains("unknown terminal"));
+  make_program(scratch / "bin" / "gnuplot", "kill -9 $$\n");
+  CHECK_THROWS_WITH(write_plot(picture, force_figure()), Contains("signal 9"));
+  make_program(scratch / "bin" / "gnuplot", "exit 0\n");
+  CHECK_THROWS_WITH(write_plot(picture, force_figure()), Contains("incomplete"));
+  CHECK(files_in(scratch.folder()) == 1);
+}
