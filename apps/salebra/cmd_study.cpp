@@ -22,6 +22,7 @@ struct StudyArguments {
   MaterialOptions material;
   MotionOptions motion;
   std::vector<double> pressures;
+  bool no_stick = false;
 };
 
 std::string title_of(std::string_view model) {
@@ -207,6 +208,7 @@ StudyConfiguration configuration_of(const StudyArguments& arguments) {
     configuration.pressures = arguments.pressures;
     configuration.relative_pressures = false;
   }
+  if (arguments.no_stick) configuration.stick = false;
   return configuration;
 }
 
@@ -248,6 +250,9 @@ void add_study_command(Program& program) {
   arguments->motion.add_to(command);
   add_values(command, "--pressures", arguments->pressures, Dimension::pressure,
              "loads of the boundary elements, such as 1MPa:1GPa:16");
+  command.add_flag(
+      "--no-stick", arguments->no_stick,
+      "K_t = (G*/E*)K in place of a stick solve on each contact: faster, exact at nu = 0");
 }
 
 }  // namespace salebra::cli

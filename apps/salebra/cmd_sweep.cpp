@@ -18,14 +18,17 @@ struct SweepArguments {
   SurfaceOptions surface;
   MaterialOptions material;
   std::vector<double> pressures;
-  bool stiffness = false;
+  bool stiffness = false, stick = false;
   std::string boundary = "periodic";
   std::optional<double> tolerance;
 };
 
 void run(const SweepArguments& arguments, Session& session) {
   SweepOptions options;
+  require(arguments.stiffness || !arguments.stick, "--stick", "given",
+          "without --stiffness; give both");
   options.stiffness = arguments.stiffness;
+  options.stick = arguments.stick;
   options.contact.boundary = arguments.boundary == "free" ? Boundary::free : Boundary::periodic;
   if (arguments.tolerance) options.contact.tolerance = *arguments.tolerance;
   options.contact.on_progress = session.progress();
@@ -59,8 +62,11 @@ void add_sweep_command(Program& program) {
   arguments->surface.add_to(command);
   add_values(command, "--pressures", arguments->pressures, Dimension::pressure, "nominal pressures")
       ->required();
-  command.add_flag("--stiffness", arguments->stiffness,
-                   "also K by a linear solve on each contact, and K_t where G* is known");
+  command.add_flag(
+      "--stiffness", arguments->stiffness,
+      "also K by a linear solve on each contact, and K_t = (G*/E*)K where G* is known");
+  command.add_flag("--stick", arguments->stick,
+                   "with --stiffness: K_t by a stick solve on each contact");
   arguments->material.add_to(command);
   add_choice(command, "--boundary", arguments->boundary, {"periodic", "free"}, "default periodic");
   add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,

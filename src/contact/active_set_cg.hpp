@@ -30,7 +30,8 @@ class ActiveSetCg {
                          double* g);
 
   // Σq with Gq = 1 on the cells where 0 < p < bound and q = 0 elsewhere: the load that a unit of rigid approach adds.
-  double punch_load(const double* p, double bound);
+  // `pressure`, where given, receives q.
+  double punch_load(const double* p, double bound, Field* pressure = nullptr);
 
  private:
   // The state of one call of solve().

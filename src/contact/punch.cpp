@@ -22,7 +22,7 @@ constexpr int most_iterations = 2000;
 // CG as in solve(), on a set of cells that does not change: minimises ½q·Gq − Σq. The load is then taken from
 // 2Σq − q·Gq in double precision, whose error is quadratic in that of q.
 template <class Real>
-double ActiveSetCg<Real>::punch_load(const double* p, double bound) {
+double ActiveSetCg<Real>::punch_load(const double* p, double bound, Field* pressure) {
   reset();
   const auto in_set = [bound](double x) { return x > 0 && x < bound; };
   const std::size_t size = static_cast<std::size_t>(points());
@@ -79,6 +79,7 @@ double ActiveSetCg<Real>::punch_load(const double* p, double bound) {
     if (iteration + 1 == most_iterations && small_gains < gains_in_a_row)
       return std::numeric_limits<double>::quiet_NaN();
   }
+  if (pressure) *pressure = Eigen::Map<const Field>(q.data(), grid_.nx, grid_.ny);
   exact_compliance().apply(q.data(), g.data());
   return sum_rows([&](Index begin, Index end) {
     double part = 0;
@@ -89,13 +90,13 @@ double ActiveSetCg<Real>::punch_load(const double* p, double bound) {
   });
 }
 
-template double ActiveSetCg<float>::punch_load(const double*, double);
-template double ActiveSetCg<double>::punch_load(const double*, double);
+template double ActiveSetCg<float>::punch_load(const double*, double, Field*);
+template double ActiveSetCg<double>::punch_load(const double*, double, Field*);
 
 }  // namespace detail
 
 double normal_stiffness(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
-                        const NormalContactOptions& options) {
+                        const NormalContactOptions& options, Field* punch_pressure) {
   grid.validate();
   require_positive(contact_modulus, "contact_modulus");
   require(state.pressure.rows() == grid.nx && state.pressure.cols() == grid.ny, "pressure",
@@ -109,10 +110,13 @@ double normal_stiffness(const NormalContactState& state, const Grid2D& grid, dou
   const Grid2D scaled{grid.nx, grid.ny, grid.lx / cell, grid.ly / cell};
   const auto load = [&]<class Real>(Real) {
     return detail::ActiveSetCg<Real>(scaled, 1, options.boundary, {}, 0)
-        .punch_load(state.pressure.data(), options.hardness);
+        .punch_load(state.pressure.data(), options.hardness, punch_pressure);
   };
   // With lengths in cells and E* = 1, Σq counts forces in E*·(cell size)² for an approach of one cell size.
-  return (options.precision == Precision::mixed ? load(0.0f) : load(0.0)) * contact_modulus * cell;
+  const double stiffness =
+      (options.precision == Precision::mixed ? load(0.0f) : load(0.0)) * contact_modulus * cell;
+  if (punch_pressure) *punch_pressure *= contact_modulus / cell;
+  return stiffness;
 }
 
 }  // namespace salebra

@@ -58,14 +58,18 @@ double correction(const UnitMotion& i, const UnitMotion& j) {
 }
 
 // Component `moving` of the displacement is 1 on the contact set, the other 0.
+// guess: tractions of that component on the grid to start from; empty: none.
 UnitMotion move_by_one(detail::ContactSystem& system, const detail::PointList& points, int moving,
-                       const StickOptions& options) {
+                       const StickOptions& options, const Field& guess = {}) {
   const int components = system.response().components();
   const std::size_t count = points.cell.size();
   std::vector<double> displacements(count * static_cast<std::size_t>(components), 0.0);
   std::fill_n(displacements.begin() + static_cast<std::ptrdiff_t>(count) * moving, count, 1.0);
   UnitMotion motion;
   motion.tractions.assign(displacements.size(), 0.0);
+  if (guess.size() > 0)
+    for (std::size_t k = 0; k < count; ++k)
+      motion.tractions[count * static_cast<std::size_t>(moving) + k] = guess.data()[points.cell[k]];
   // The residual is a mean over the components; the tolerance is one over the contact set.
   motion.report =
       system.solve(points, displacements, options.tolerance / std::sqrt(components),
@@ -170,7 +174,7 @@ void StickSolver::reserve(const ContactSet& largest) {
 
 StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options,
-                               bool along_x_only) {
+                               bool along_x_only, const Field& guess_x) {
   grid.validate();
   validate(options);
   require_tangential(material);
@@ -183,7 +187,9 @@ StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
       system_of(options.hold_lateral ? detail::Traction::tangential : detail::Traction::along_x);
   const detail::PointList points = system.points(contact);
   const Index count = points.size();
-  const UnitMotion along_x = move_by_one(system, points, 0, options);
+  require(guess_x.size() == 0 || (guess_x.rows() == grid.nx && guess_x.cols() == grid.ny),
+          "guess_x", guess_x.size(), "values do not match the grid; give nx × ny values");
+  const UnitMotion along_x = move_by_one(system, points, 0, options, guess_x);
   StickStiffness stiffness;
   const auto add = [&](const StickReport& report) {
     stiffness.iterations += report.iterations;

@@ -14,6 +14,9 @@
 namespace salebra {
 namespace {
 
+// K_t is a maximum over the tractions: its error is about the square of this.
+constexpr double stick_tolerance = 1e-3;
+
 ForceSample sample_of(const NormalContactState& state, const Surface& surface,
                       const Material& material, const SweepOptions& options) {
   ForceSample sample;
@@ -24,15 +27,19 @@ ForceSample sample_of(const NormalContactState& state, const Surface& surface,
   sample.contact_area_fraction = state.contact_area_fraction;
   sample.converged = state.converged;
   if (options.stiffness && state.converged) {
+    Field punch_pressure;
     sample.normal_stiffness =
-        normal_stiffness(state, surface.grid, material.contact_modulus, options.contact);
+        normal_stiffness(state, surface.grid, material.contact_modulus, options.contact,
+                         options.stick ? &punch_pressure : nullptr);
     sample.converged = !std::isnan(sample.normal_stiffness);
-    if (options.stick) {
+    if (options.stick && std::isfinite(sample.normal_stiffness)) {
       StickOptions stick;
+      stick.tolerance = stick_tolerance;
       stick.boundary = options.contact.boundary;
       stick.on_progress = options.contact.on_progress;
       const StickStiffness stiffness =
-          stick_stiffness(contact_set(state), surface.grid, material, stick, true);
+          stick_stiffness(contact_set(state), surface.grid, material, stick, true,
+                          punch_pressure * material.modulus_ratio());
       sample.tangential_stiffness = stiffness.xx;
       sample.converged = sample.converged && stiffness.converged;
     } else if (std::isfinite(material.tangential_modulus)) {

@@ -149,6 +149,8 @@ void read_contact(TomlTable table, StudyConfiguration& configuration) {
                 fmt::format("{} must be from 1e-14 to 0.1", *tolerance));
     configuration.tolerance = *tolerance;
   }
+  if (const auto stick = table.choice("tangential_stiffness", {"stick", "proportional"}))
+    configuration.stick = *stick == 0;
   table.require_no_other_keys();
 }
 

@@ -44,6 +44,10 @@ double seam_step(const Surface& surface) {
   return std::sqrt((along_x + along_y) / 2);
 }
 
+bool stick_solves(const StudyConfiguration& configuration) {
+  return configuration.stick && std::isfinite(configuration.material.cerruti_isotropic);
+}
+
 ModelResult fitted(ForceCurve curve, const StudyConfiguration& configuration) {
   ModelResult result;
   result.fit = fit_exponential(curve, configuration.window);
@@ -110,6 +114,7 @@ Realisation analyse(const Surface& surface, const StudyConfiguration& configurat
   SweepOptions sweep;
   sweep.contact.tolerance = configuration.tolerance;
   sweep.contact.on_progress = progress;
+  sweep.stick = stick_solves(configuration);
   ForceCurve curve = sweep_pressures(surface, material, pressures, sweep);
   const auto converged = std::ranges::count_if(curve.samples, &ForceSample::converged);
   if (converged < 4) {
@@ -185,6 +190,11 @@ StudyResult run_study(const StudyConfiguration& configuration, const Progress& p
   require(!seeds.empty(), "seeds", 0, "is too few; give at least one");
   configuration.material.modulus_ratio();
 
+  if (configuration.stick && !stick_solves(configuration)) {
+    result.warnings.push_back(
+        "G*/E* is not that of any elastic body: K_t = (G*/E*)K instead of stick solves; give "
+        "Poisson's ratio, or --no-stick to say that it is meant");
+  }
   const double share = 1.0 / double(seeds.size());
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     const auto report = [&](double fraction) {

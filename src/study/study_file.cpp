@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <salebra/base/quantity.hpp>
 #include <salebra/io/result_file.hpp>
@@ -222,6 +223,9 @@ void write_damping(ResultGroup group, const StudyResult& result) {
       "law",
       "Eq. (16) (drag) or Eq. (12) with F'' = F/l^2, l fitted to the boundary-element curve");
   group.attribute("curve", "W = 1/2 oint s^2 dK_t on the boundary-element curve itself");
+  const bool stick =
+      result.configuration.stick && std::isfinite(result.configuration.material.cerruti_isotropic);
+  group.attribute("tangential_stiffness", stick ? "stick solves on the contacts" : "(G*/E*)K");
   write_motion(group, result);
 }
 

@@ -133,3 +133,38 @@ TEST_CASE("A study without a surface is refused", "[study]") {
   configuration.surfaces = MeasuredSurface{};
   CHECK_THROWS_AS(run_study(configuration), InvalidInput);
 }
+
+TEST_CASE("Damping of a study rests on K_t of stick solves, which at nu = 0 is (G*/E*)K",
+          "[study]") {
+  StudyConfiguration configuration = small_study();
+  std::get<GeneratedSurfaces>(configuration.surfaces).seeds = {1};
+  const double poisson = GENERATE(0.0, 0.3);
+  configuration.material = Material::of_contact_modulus(10e9, poisson);
+  const StudyResult stick = run_study(configuration);
+  configuration.stick = false;
+  const StudyResult proportional = run_study(configuration);
+  double largest = 0;
+  for (std::size_t i = 0; i < stick.pressures.size(); ++i) {
+    const double a = stick.realisations[0].damping[i].curve_work,
+                 b = proportional.realisations[0].damping[i].curve_work;
+    REQUIRE(std::isnan(a) == std::isnan(b));
+    if (!std::isnan(a)) largest = std::max(largest, std::abs(a / b - 1));
+  }
+  // The kernels coincide at ν = 0, and both solves stop within 1e-5 of K; otherwise the patches are not round.
+  if (poisson == 0)
+    CHECK(largest < 3e-3);
+  else
+    CHECK(largest > 3e-3);
+}
+
+TEST_CASE("Moduli that no elastic body has leave a study with (G*/E*)K, and it says so",
+          "[study]") {
+  StudyConfiguration configuration = small_study();
+  std::get<GeneratedSurfaces>(configuration.surfaces).seeds = {1};
+  configuration.material = Material::of_moduli(10e9, 2e9);
+  const StudyResult result = run_study(configuration);
+  REQUIRE(result.warnings.size() == 1);
+  CHECK_THAT(result.warnings[0], Catch::Contains("no-stick"));
+  const ForceSample& sample = result.realisations[0].bem.curve.samples[5];
+  CHECK(sample.tangential_stiffness == Approx(0.2 * sample.normal_stiffness));
+}

@@ -90,9 +90,10 @@ struct StickStiffness {
 
 /// K_t of a contact set by two stick solves. With hold_lateral off each is a motion with no force across it, and xy = 0.
 /// The stiffness of one direction alone (yy = xy = NaN) costs half: `along_x_only`.
+/// guess_x: tractions τ_x of a unit motion along x to start from, such as (G*/E*) times the pressure of a punch; empty: none.
 StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options = {},
-                               bool along_x_only = false);
+                               bool along_x_only = false, const Field& guess_x = {});
 
 /// Normal stiffness K = dF/dδ of a contact set by the same solve with the normal kernel: a flat punch of that shape.
 struct PunchStiffness {

@@ -43,6 +43,9 @@ struct StudyConfiguration {
       pressures;  ///< of the BEM sweep, increasing: Pa, or in units of E*h'_rms if relative
   bool relative_pressures = false;
   double tolerance = 1e-8;  ///< e_c of each contact
+  /// K_t of the boundary-element curve by a stick solve on each contact; false: (G*/E*)K. Moduli that no elastic body has leave
+  /// only the latter.
+  bool stick = true;
   std::optional<PressureWindow>
       window;  ///< of the exponential fit; empty: 1 … 2.5 h_rms in mean gap
   Oscillation motion;
