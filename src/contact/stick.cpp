@@ -2,44 +2,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/stick.hpp>
 
 #include "surface_response.hpp"
+#include "tangential_workspace.hpp"
 
 namespace salebra {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-void validate(const StickOptions& options) {
-  require(options.tolerance >= 1e-14 && options.tolerance <= 0.1, "tolerance", options.tolerance,
-          "must lie in 1e-14 … 0.1");
-  require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "must be >= 1");
-}
-
-void require_tangential(const Material& material) {
-  require(
-      std::isfinite(material.cerruti_isotropic) && std::isfinite(material.cerruti_directed) &&
-          material.cerruti_isotropic > 0,
-      "material", material.cerruti_isotropic,
-      "as Cerruti's constant cannot be used for a stick solve; give Young's moduli and Poisson's "
-      "ratios, or a contact modulus with Poisson's ratio");
-}
-
-void require_shape(const ContactSet& contact, const Grid2D& grid, Boundary boundary) {
-  require(contact.rows() == grid.nx && contact.cols() == grid.ny, "contact", contact.size(),
-          "cells do not match the grid; give one value for each of nx × ny cells");
-  require(boundary == Boundary::free || !contact.all(), "contact", contact.size(),
-          "cells are all in contact; a periodic surface in full contact has no finite stiffness");
-}
-
-detail::CellWindow window_for(const ContactSet& contact, const Grid2D& grid, Boundary boundary) {
-  if (boundary == Boundary::periodic) return {0, 0, grid.nx, grid.ny};
-  const detail::CellWindow window = detail::bounding_window(contact);
-  return window.nx > 0 ? window : detail::CellWindow{0, 0, 1, 1};
-}
 
 struct UnitMotion {
   std::vector<double> tractions, misfit;
@@ -83,48 +55,11 @@ UnitMotion move_by_one(detail::ContactSystem& system, const detail::PointList& p
 ContactSet contact_set(const NormalContactState& state) { return state.pressure > 0; }
 
 struct StickSolver::Parts {
-  Grid2D grid;
-  Material material;
-  StickOptions options;
-  std::optional<detail::ContactSystem> system;
-
-  detail::ContactSystem& system_for(const ContactSet& contact) {
-    const detail::CellWindow window = window_for(contact, grid, options.boundary);
-    if (!system || !system->window().contains(window))
-      system.emplace(
-          grid, material, options.boundary,
-          options.hold_lateral ? detail::Traction::tangential : detail::Traction::along_x, window);
-    return *system;
-  }
-  std::vector<double> gather(const TangentialField& field, const detail::PointList& points) const {
-    std::vector<double> values;
-    values.reserve(points.cell.size() * 2);
-    for (const Index cell : points.cell) values.push_back(field.x.data()[cell]);
-    if (options.hold_lateral)
-      for (const Index cell : points.cell) values.push_back(field.y.data()[cell]);
-    return values;
-  }
-  void scatter(const std::vector<double>& values, const detail::PointList& points,
-               TangentialField& field) const {
-    field.x = Field::Zero(grid.nx, grid.ny);
-    field.y = Field::Zero(grid.nx, grid.ny);
-    const std::size_t count = points.cell.size();
-    for (std::size_t k = 0; k < count; ++k) field.x.data()[points.cell[k]] = values[k];
-    if (options.hold_lateral)
-      for (std::size_t k = 0; k < count; ++k) field.y.data()[points.cell[k]] = values[count + k];
-  }
-  void require_field(const TangentialField& field, const char* name) const {
-    for (const Field* component : {&field.x, &field.y})
-      require(component->rows() == grid.nx && component->cols() == grid.ny, name, component->size(),
-              "values do not match the grid; give both components with nx × ny values");
-  }
+  detail::TangentialWorkspace workspace;
 };
 
 StickSolver::StickSolver(const Grid2D& grid, const Material& material, const StickOptions& options)
-    : parts_(std::make_unique<Parts>(Parts{grid, material, options, {}})) {
-  grid.validate();
-  validate(options);
-  require_tangential(material);
+    : parts_(std::make_unique<Parts>(Parts{detail::TangentialWorkspace(grid, material, options)})) {
 }
 StickSolver::StickSolver(StickSolver&&) noexcept = default;
 StickSolver& StickSolver::operator=(StickSolver&&) noexcept = default;
@@ -132,54 +67,45 @@ StickSolver::~StickSolver() = default;
 
 StickReport StickSolver::solve(const ContactSet& contact, const TangentialField& displacement,
                                double scale, TangentialField& traction) {
-  require_shape(contact, parts_->grid, parts_->options.boundary);
-  parts_->require_field(displacement, "displacement");
+  detail::TangentialWorkspace& workspace = parts_->workspace;
+  const StickOptions& options = workspace.options();
+  detail::require_contact(contact, workspace.grid(), options.boundary);
+  workspace.require_field(displacement, "displacement");
   require_positive(scale, "scale");
-  detail::ContactSystem& system = parts_->system_for(contact);
+  detail::ContactSystem& system = workspace.system_for(contact);
   const detail::PointList points = system.points(contact);
-  const std::vector<double> displacements = parts_->gather(displacement, points);
+  const std::vector<double> displacements = workspace.gather(displacement, points);
   std::vector<double> tractions(displacements.size(), 0.0), misfit;
   if (traction.x.size() > 0) {
-    parts_->require_field(traction, "traction");
-    tractions = parts_->gather(traction, points);
+    workspace.require_field(traction, "traction");
+    tractions = workspace.gather(traction, points);
   }
-  const StickOptions& options = parts_->options;
   const double per_point = std::sqrt(static_cast<double>(system.response().components()));
   StickReport report = system.solve(points, displacements, options.tolerance * scale / per_point,
                                     options.max_iterations, options.on_progress, tractions, misfit);
   report.residual *= per_point / scale;
-  parts_->scatter(tractions, points, traction);
+  workspace.scatter(tractions, points, traction);
   return report;
 }
 
 TangentialField StickSolver::displacement(const ContactSet& loaded, const TangentialField& traction,
                                           const ContactSet& where) {
-  require_shape(loaded, parts_->grid, Boundary::free);
-  require_shape(where, parts_->grid, Boundary::free);
-  parts_->require_field(traction, "traction");
-  detail::ContactSystem& system = parts_->system_for(loaded || where);
-  const detail::PointList sources = system.points(loaded), readings = system.points(where);
-  const std::vector<double> tractions = parts_->gather(traction, sources);
-  std::vector<double> values(readings.cell.size() * (parts_->options.hold_lateral ? 2 : 1));
-  system.response().apply(sources, tractions.data(), readings, values.data());
-  TangentialField result;
-  parts_->scatter(values, readings, result);
-  return result;
+  return parts_->workspace.displacement(loaded, traction, where);
 }
 
 void StickSolver::reserve(const ContactSet& largest) {
-  require_shape(largest, parts_->grid, Boundary::free);
-  parts_->system_for(largest);
+  detail::require_contact(largest, parts_->workspace.grid(), Boundary::free);
+  parts_->workspace.system_for(largest);
 }
 
 StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options,
                                bool along_x_only, const Field& guess_x) {
   grid.validate();
-  validate(options);
-  require_tangential(material);
-  require_shape(contact, grid, options.boundary);
-  const detail::CellWindow window = window_for(contact, grid, options.boundary);
+  detail::require_valid(options);
+  detail::require_tangential(material);
+  detail::require_contact(contact, grid, options.boundary);
+  const detail::CellWindow window = detail::loading_window(contact, grid, options.boundary);
   const auto system_of = [&](detail::Traction traction) {
     return detail::ContactSystem(grid, material, options.boundary, traction, window);
   };
@@ -225,11 +151,11 @@ StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
 PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
                                double contact_modulus, const StickOptions& options) {
   grid.validate();
-  validate(options);
-  require_shape(contact, grid, options.boundary);
+  detail::require_valid(options);
+  detail::require_contact(contact, grid, options.boundary);
   detail::ContactSystem system(grid, Material::of_contact_modulus(contact_modulus),
                                options.boundary, detail::Traction::normal,
-                               window_for(contact, grid, options.boundary));
+                               detail::loading_window(contact, grid, options.boundary));
   const detail::PointList points = system.points(contact);
   const UnitMotion press = move_by_one(system, points, 0, options);
   return {

@@ -34,16 +34,6 @@ void for_points(Index count, const Body& body) {
     parallel::for_slabs(count, body);
 }
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto part = [&](Index begin, Index end) {
-    double sum = 0;
-    for (std::size_t i = size_of(begin); i < size_of(end); ++i) sum += a[i] * b[i];
-    return sum;
-  };
-  const Index count = static_cast<Index>(a.size());
-  return count < worth_threads ? part(0, count) : parallel::sum_slabs(count, part);
-}
-
 }  // namespace
 
 bool CellWindow::contains(const CellWindow& other) const {
@@ -62,6 +52,22 @@ CellWindow bounding_window(const ContactSet& cells) {
         y1 = std::max(y1, iy);
       }
   return x1 < 0 ? CellWindow{} : CellWindow{x0, y0, x1 - x0 + 1, y1 - y0 + 1};
+}
+
+CellWindow loading_window(const ContactSet& contact, const Grid2D& grid, Boundary boundary) {
+  if (boundary == Boundary::periodic) return {0, 0, grid.nx, grid.ny};
+  const CellWindow window = bounding_window(contact);
+  return window.nx > 0 ? window : CellWindow{0, 0, 1, 1};
+}
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto part = [&](Index begin, Index end) {
+    double sum = 0;
+    for (std::size_t i = size_of(begin); i < size_of(end); ++i) sum += a[i] * b[i];
+    return sum;
+  };
+  const Index count = static_cast<Index>(a.size());
+  return count < worth_threads ? part(0, count) : parallel::sum_slabs(count, part);
 }
 
 SurfaceResponse::SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,

@@ -22,6 +22,12 @@ struct CellWindow {
 /// The smallest window that holds every cell of the set; empty for an empty set.
 CellWindow bounding_window(const ContactSet& cells);
 
+/// The window on which a set is solved: the whole grid where periodic; at least one cell.
+CellWindow loading_window(const ContactSet& contact, const Grid2D& grid, Boundary boundary);
+
+/// Σ a_i b_i, with the same bits for every thread count.
+double dot(const std::vector<double>& a, const std::vector<double>& b);
+
 /// Cells of a set in row order, as positions in the window and in the preconditioner's framed window.
 struct PointList {
   std::vector<Index> cell;      ///< ix·ny + iy in the grid
@@ -68,6 +74,7 @@ class StencilPreconditioner {
   Index framed_index(Index ix, Index iy) const {
     return (ix - window_.x0 + reach) * row_length() + iy - window_.y0 + reach;
   }
+  double diagonal() const { return weights_[reach * width + reach]; }  ///< 1/m, of E* = 1
   /// One component; out may not be in.
   void apply(const PointList& points, const double* in, double* out);
 
@@ -91,6 +98,7 @@ class ContactSystem {
 
   const CellWindow& window() const { return window_; }
   SurfaceResponse& response() { return response_; }
+  StencilPreconditioner& preconditioner() { return preconditioner_; }
   PointList points(const ContactSet& cells) const;
 
   /// Preconditioned conjugate gradients from the guess in `tractions`; stops at rms(u − Kτ) < tolerance, in m.
