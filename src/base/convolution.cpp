@@ -1,26 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <salebra/base/convolution.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
-#include <vector>
 
 #include "fftw.hpp"
 
 namespace salebra {
 namespace {
 
-// Rows that are turned into columns together: 16 complex numbers of a column are one or more whole cache lines.
-constexpr Index rows_at_once = 16;
+// Pairs of rows that are turned into columns together: eight complex numbers of a column are one or two whole cache lines.
+constexpr Index pairs_at_once = 8;
 
-// Added to the length of a column, so that equal rows of all columns do not fall into one set of the cache.
-constexpr Index gap_between_columns = 8;
+// Columns are so far apart that the processor does not guess the next one: it is asked for this many columns earlier.
+constexpr Index ahead = 32;
+
+// Added to the lengths of columns and rows, so that equal places of all of them do not fall into one set of the cache.
+constexpr Index gap = 8;
 
 std::size_t count(Index number) { return static_cast<std::size_t>(number); }
+Index padded(Index length) { return (length + gap - 1) / gap * gap + gap; }
 
 }  // namespace
 
-// The spectrum is kept column by column. A transform of contiguous numbers is about three times faster than one of strided
-// numbers, and a column with its symbol stays in the first-level cache from the forward transform to the backward one.
+// Rows i and i + half are transformed as the real and the imaginary part of one complex row z, because FFTW's complex transform
+// takes no longer than its real one. The spectrum is kept column by column: a transform of contiguous numbers is about three times
+// faster than one of strided numbers, and a column with its symbol stays in the cache from the forward transform to the
+// backward one. There, columns k and −k of z give column k of the field,
+//     x_i = (z_i(k) + z_i(−k)*)/2,   x_{i+half} = (z_i(k) − z_i(−k)*)/2i,
+// which is all that is needed, since that of −k is its conjugate.
 template <class Real>
 struct Convolution2D<Real>::Passes {
   using Api = detail::Fftw<Real>;
@@ -28,11 +36,12 @@ struct Convolution2D<Real>::Passes {
 
   Shape shape;
   int components;
-  Index modes;                                // in y: the number of columns
-  Index column_stride;                        // from one column to the next
-  detail::FftwArray<Real, Complex> spectrum;  // [component][column][row]
+  Index half;                    // pairs of rows
+  Index modes;                   // columns of the field's half-spectrum
+  Index column_stride;           // from one column of z to the next
+  LargeArray<Complex> spectrum;  // [component][column of z][pair]
   struct Table {
-    detail::FftwArray<Real> values;  // [column][i = 0 … period_x/2], with 1/points of the transform
+    LargeArray<Real> values;  // [column][i = 0 … period_x/2], over 2·points of the transform
     Parity parity = Parity::even;
   };
   std::array<Table, 3> tables;  // K_00, K_01 = K_10, K_11
@@ -45,49 +54,44 @@ struct Convolution2D<Real>::Passes {
     require(shape.period_y >= shape.ny && shape.period_y < 1 << 24, "period_y", shape.period_y,
             "must be >= ny and below 2^24");
     require(components == 1 || components == 2, "components", components, "must be 1 or 2");
+    half = (shape.nx + 1) / 2;
     modes = shape.period_y / 2 + 1;
-    column_stride =
-        (shape.period_x + gap_between_columns - 1) / gap_between_columns * gap_between_columns +
-        gap_between_columns;
-    spectrum = detail::fftw_array<Real, Complex>(count(components * modes * column_stride));
+    column_stride = padded(half);
+    spectrum = large_array<Complex>(count(components * shape.period_y * column_stride));
     make_plans();
   }
 
-  // Room for one row, real or complex, so that the next begins on a new cache line.
-  Index row_stride() const { return (modes + 15) / 16 * 16; }
   Index points() const { return shape.period_x * shape.period_y; }
   Index table_rows() const { return shape.period_x / 2 + 1; }
+  Index groups() const { return (half + pairs_at_once - 1) / pairs_at_once; }
   Complex* column(int component, Index index) {
-    return spectrum.get() + (component * modes + index) * column_stride;
+    return spectrum.get() + (component * shape.period_y + index) * column_stride;
   }
   static typename Api::Complex* raw(Complex* numbers) {
     return reinterpret_cast<typename Api::Complex*>(numbers);
   }
 
   void make_plans() {
-    const auto row = detail::fftw_array<Real>(count(2 * row_stride()));
-    const auto row_modes = detail::fftw_array<Real, Complex>(count(row_stride()));
-    const auto scratch = detail::fftw_array<Real, Complex>(count(column_stride));
-    const int ny = static_cast<int>(shape.period_y), nx = static_cast<int>(shape.period_x);
-    // FFTW_ESTIMATE chooses the same plan, hence the same bits, in every run.
-    row_forward = detail::plan<Real>(
-        [&] { return Api::plan_r2c_1d(ny, row.get(), raw(row_modes.get()), FFTW_ESTIMATE); });
-    row_backward = detail::plan<Real>(
-        [&] { return Api::plan_c2r_1d(ny, raw(row_modes.get()), row.get(), FFTW_ESTIMATE); });
-    column_forward = detail::plan<Real>([&] {
-      return Api::plan_1d(nx, raw(spectrum.get()), raw(scratch.get()), FFTW_FORWARD, FFTW_ESTIMATE);
-    });
-    column_backward = detail::plan<Real>([&] {
-      return Api::plan_1d(nx, raw(scratch.get()), raw(spectrum.get()), FFTW_BACKWARD,
-                          FFTW_ESTIMATE);
-    });
+    // FFTW_ESTIMATE chooses the same plan, hence the same bits, in every run; arrays of another alignment than these are never used.
+    const auto make = [](Index length, int sign) {
+      const auto from = large_array<Complex>(count(length)),
+                 to = large_array<Complex>(count(length));
+      return detail::plan<Real>([&] {
+        return Api::plan_1d(static_cast<int>(length), raw(from.get()), raw(to.get()), sign,
+                            FFTW_ESTIMATE);
+      });
+    };
+    row_forward = make(shape.period_y, FFTW_FORWARD);
+    row_backward = make(shape.period_y, FFTW_BACKWARD);
+    column_forward = make(shape.period_x, FFTW_FORWARD);
+    column_backward = make(shape.period_x, FFTW_BACKWARD);
   }
 
   void set_symbol(int a, int b, const Symbol& symbol, Parity parity) {
     Table& table = tables[static_cast<std::size_t>(a + b)];
     table.parity = parity;
-    table.values = detail::fftw_array<Real>(count(modes * table_rows()));
-    const double in_all = static_cast<double>(points());
+    table.values = large_array<Real>(count(modes * table_rows()));
+    const double in_all = 2 * static_cast<double>(points());
     parallel::for_slabs(
         modes,
         [&](Index begin, Index end) {
@@ -98,64 +102,164 @@ struct Convolution2D<Real>::Passes {
         points());
   }
 
-  // Rows of the fields, zero-padded to the period, into the columns.
-  void rows_forward(const Real* const* fields) {
+  // body(first, pairs, row, rows): a group of pairs of rows, room for one row, and for as many rows with row_stride between them.
+  template <class Body>
+  void for_groups(const Body& body) {
+    const Index row_stride = padded(shape.period_y);
     parallel::for_slabs(
-        shape.nx,
+        groups(),
         [&](Index begin, Index end) {
-          const auto row = detail::fftw_array<Real>(count(2 * row_stride()));
-          const auto row_modes =
-              detail::fftw_array<Real, Complex>(count(rows_at_once * row_stride()));
-          for (int component = 0; component < components; ++component)
-            for (Index first = begin; first < end; first += rows_at_once) {
-              const Index rows = std::min(rows_at_once, end - first);
-              for (Index i = 0; i < rows; ++i) {
-                const Real* field = fields[component] + (first + i) * shape.ny;
-                std::fill(std::copy(field, field + shape.ny, row.get()), row.get() + shape.period_y,
-                          Real(0));
-                Api::execute_r2c(row_forward.get(), row.get(),
-                                 raw(row_modes.get() + i * row_stride()));
-              }
-              for (Index j = 0; j < modes; ++j) {
-                Complex* to = column(component, j) + first;
-                for (Index i = 0; i < rows; ++i) to[i] = row_modes[count(i * row_stride() + j)];
-              }
-            }
+          const auto row = large_array<Complex>(count(row_stride));
+          const auto rows = large_array<Complex>(count(pairs_at_once * row_stride));
+          for (Index first = begin * pairs_at_once; first < std::min(end * pairs_at_once, half);
+               first += pairs_at_once)
+            body(first, std::min(pairs_at_once, half - first), row.get(), rows.get(), row_stride);
         },
         points());
+  }
+
+  void rows_forward(const Real* const* fields) {
+    for_groups([&](Index first, Index pairs, Complex* row, Complex* rows, Index row_stride) {
+      for (int component = 0; component < components; ++component) {
+        for (Index i = 0; i < pairs; ++i) {
+          const Real* field = fields[component] + (first + i) * shape.ny;
+          const Real* partner = first + i + half < shape.nx ? field + half * shape.ny : nullptr;
+          interleave(field, partner, row);
+          Api::execute(row_forward.get(), raw(row), raw(rows + i * row_stride));
+        }
+        for (Index k = 0; k < shape.period_y; ++k) {
+          Complex* to = column(component, k) + first;
+          __builtin_prefetch(column(component, std::min(k + ahead, shape.period_y - 1)) + first, 1);
+          copy_pairs(pairs, rows + k, row_stride, to, 1);
+        }
+      }
+    });
+  }
+
+  void rows_backward(Real* const* results) {
+    for_groups([&](Index first, Index pairs, Complex* row, Complex* rows, Index row_stride) {
+      for (int component = 0; component < components; ++component) {
+        for (Index k = 0; k < shape.period_y; ++k) {
+          const Complex* from = column(component, k) + first;
+          __builtin_prefetch(column(component, std::min(k + ahead, shape.period_y - 1)) + first);
+          copy_pairs(pairs, from, 1, rows + k, row_stride);
+        }
+        for (Index i = 0; i < pairs; ++i) {
+          Api::execute(row_backward.get(), raw(rows + i * row_stride), raw(row));
+          Real* result = results[component] + (first + i) * shape.ny;
+          for (Index j = 0; j < shape.ny; ++j) result[j] = row[j].real();
+          if (first + i + half < shape.nx)
+            for (Index j = 0; j < shape.ny; ++j) result[half * shape.ny + j] = row[j].imag();
+        }
+      }
+    });
+  }
+
+  static void copy_pairs(Index pairs, const Complex* from, Index from_stride, Complex* to,
+                         Index to_stride) {
+    if (pairs == pairs_at_once) {
+      for (Index i = 0; i < pairs_at_once; ++i) to[i * to_stride] = from[i * from_stride];
+    } else {
+      for (Index i = 0; i < pairs; ++i) to[i * to_stride] = from[i * from_stride];
+    }
+  }
+
+  // A pair of rows, zero-padded to the period.
+  void interleave(const Real* field, const Real* partner, Complex* row) const {
+    if (partner) {
+      for (Index j = 0; j < shape.ny; ++j) row[j] = {field[j], partner[j]};
+    } else {
+      for (Index j = 0; j < shape.ny; ++j) row[j] = {field[j], Real(0)};
+    }
+    std::fill(row + shape.ny, row + shape.period_y, Complex{});
   }
 
   void columns() {
     parallel::for_slabs(
         modes,
         [&](Index begin, Index end) {
-          const auto scratch = detail::fftw_array<Real, Complex>(count(components * column_stride));
-          for (Index j = begin; j < end; ++j) {
+          const Index stride = padded(shape.period_x);
+          const auto numbers = large_array<Complex>(count(stride));
+          const auto scratch = large_array<Complex>(count(components * stride));
+          for (Index k = begin; k < end; ++k) {
+            const Index mirrored = k == 0 ? 0 : shape.period_y - k;
             for (int component = 0; component < components; ++component) {
-              Complex* numbers = column(component, j);
-              std::fill(numbers + shape.nx, numbers + shape.period_x, Complex{});
-              Api::execute(column_forward.get(), raw(numbers),
-                           raw(scratch.get() + component * column_stride));
+              separate(column(component, k), column(component, mirrored), numbers.get());
+              Api::execute(column_forward.get(), raw(numbers.get()),
+                           raw(scratch.get() + component * stride));
             }
             if (components == 1) {
-              multiply(j, scratch.get());
+              multiply(k, scratch.get());
             } else {
-              multiply_pair(j, scratch.get(), scratch.get() + column_stride);
+              multiply_pair(k, scratch.get(), scratch.get() + stride);
             }
-            for (int component = 0; component < components; ++component)
-              Api::execute(column_backward.get(), raw(scratch.get() + component * column_stride),
-                           raw(column(component, j)));
+            for (int component = 0; component < components; ++component) {
+              Api::execute(column_backward.get(), raw(scratch.get() + component * stride),
+                           raw(numbers.get()));
+              join(numbers.get(), column(component, k), column(component, mirrored));
+            }
           }
         },
         points());
   }
 
+  // 2·x from z(k) and z(−k), zero-padded to the period.
+  void separate(const Complex* z, const Complex* mirrored, Complex* x) const {
+    const Real* a = reinterpret_cast<const Real*>(z);
+    const Real* b = reinterpret_cast<const Real*>(mirrored);
+    Real* near = reinterpret_cast<Real*>(x);
+    Real* far = reinterpret_cast<Real*>(x + half);
+    for (Index i = 0; i < 2 * half; i += 2) {
+      near[i] = a[i] + b[i];
+      near[i + 1] = a[i + 1] - b[i + 1];
+    }
+    for (Index i = 0; i < 2 * (shape.nx - half); i += 2) {
+      far[i] = a[i + 1] + b[i + 1];
+      far[i + 1] = b[i] - a[i];
+    }
+    std::fill(x + shape.nx, x + shape.period_x, Complex{});
+  }
+
+  // z(k) and z(−k) from x.
+  void join(const Complex* x, Complex* z, Complex* mirrored) const {
+    const Index paired = shape.nx - half;
+    const Real* near = reinterpret_cast<const Real*>(x);
+    const Real* far = reinterpret_cast<const Real*>(x + half);
+    Real* a = reinterpret_cast<Real*>(z);
+    Real* b = reinterpret_cast<Real*>(mirrored);
+    if (z == mirrored) {
+      // The spectrum of a real row is real here.
+      for (Index i = 0; i < half; ++i) z[i] = {x[i].real(), i < paired ? x[half + i].real() : 0};
+      return;
+    }
+    for (Index i = 0; i < 2 * paired; i += 2) {
+      a[i] = near[i] - far[i + 1];
+      a[i + 1] = near[i + 1] + far[i];
+      b[i] = near[i] + far[i + 1];
+      b[i + 1] = far[i] - near[i + 1];
+    }
+    if (paired < half) {
+      z[paired] = x[paired];
+      mirrored[paired] = std::conj(x[paired]);
+    }
+  }
+
   void multiply(Index j, Complex* numbers) const {
     const Real* symbol = tables[0].values.get() + j * table_rows();
     const Real sign = tables[0].parity == Parity::odd ? Real(-1) : Real(1);
-    for (Index i = 0; i < table_rows(); ++i) numbers[i] *= symbol[i];
-    for (Index i = 1; i < shape.period_x - shape.period_x / 2; ++i)
-      numbers[shape.period_x - i] *= sign * symbol[i];
+    // Written in real numbers, so that it vectorises.
+    Real* value = reinterpret_cast<Real*>(numbers);
+    for (Index i = 0; i < table_rows(); ++i) {
+      value[2 * i] *= symbol[i];
+      value[2 * i + 1] *= symbol[i];
+    }
+    const Index negative = shape.period_x - table_rows();
+    value += 2 * table_rows();
+    for (Index i = 0; i < negative; ++i) {
+      const Real factor = sign * symbol[negative - i];
+      value[2 * i] *= factor;
+      value[2 * i + 1] *= factor;
+    }
   }
 
   void multiply_pair(Index j, Complex* first, Complex* second) const {
@@ -173,31 +277,6 @@ struct Convolution2D<Real>::Passes {
     for (Index i = 0; i < table_rows(); ++i) at(i, i, 1, 1, 1);
     for (Index i = 1; i < shape.period_x - shape.period_x / 2; ++i)
       at(shape.period_x - i, i, sign[0], sign[1], sign[2]);
-  }
-
-  void rows_backward(Real* const* results) {
-    parallel::for_slabs(
-        shape.nx,
-        [&](Index begin, Index end) {
-          const auto row = detail::fftw_array<Real>(count(2 * row_stride()));
-          const auto row_modes =
-              detail::fftw_array<Real, Complex>(count(rows_at_once * row_stride()));
-          for (int component = 0; component < components; ++component)
-            for (Index first = begin; first < end; first += rows_at_once) {
-              const Index rows = std::min(rows_at_once, end - first);
-              for (Index j = 0; j < modes; ++j) {
-                const Complex* from = column(component, j) + first;
-                for (Index i = 0; i < rows; ++i) row_modes[count(i * row_stride() + j)] = from[i];
-              }
-              for (Index i = 0; i < rows; ++i) {
-                Api::execute_c2r(row_backward.get(), raw(row_modes.get() + i * row_stride()),
-                                 row.get());
-                std::copy(row.get(), row.get() + shape.ny,
-                          results[component] + (first + i) * shape.ny);
-              }
-            }
-        },
-        points());
   }
 
   void apply(const Real* const* fields, Real* const* results) {

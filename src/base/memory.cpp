@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <salebra/base/memory.hpp>
 #include <string>
 #if defined(__linux__)
@@ -11,16 +12,34 @@
 
 namespace salebra {
 
-Field uninitialised_field(Index nx, Index ny) {
-  Field field(nx, ny);
+namespace {
+
+constexpr std::size_t large_page = std::size_t(2) << 20;
+
+void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
   // Advice only: what the system makes of it changes no result, hence the status is of no use.
   constexpr std::uintptr_t page = 4096;
-  const auto begin = (reinterpret_cast<std::uintptr_t>(field.data()) + page - 1) / page * page;
-  const auto end = reinterpret_cast<std::uintptr_t>(field.data() + field.size()) / page * page;
-  constexpr std::uintptr_t large_page = 2u << 20;
+  const auto address = reinterpret_cast<std::uintptr_t>(memory);
+  const auto begin = (address + page - 1) / page * page, end = (address + bytes) / page * page;
   if (end > begin + large_page) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 #endif
+}
+
+}  // namespace
+
+void* allocate_large(std::size_t bytes) {
+  constexpr std::size_t cache_line = 64;
+  const std::size_t alignment = bytes >= 2 * large_page ? large_page : cache_line;
+  void* memory = std::aligned_alloc(alignment, (bytes + cache_line - 1) / cache_line * cache_line);
+  if (!memory) throw std::bad_alloc();
+  advise_large_pages(memory, bytes);
+  return memory;
+}
+
+Field uninitialised_field(Index nx, Index ny) {
+  Field field(nx, ny);
+  advise_large_pages(field.data(), static_cast<std::size_t>(field.size()) * sizeof(double));
   return field;
 }
 
