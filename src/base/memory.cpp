@@ -22,7 +22,8 @@ void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
   constexpr std::uintptr_t page = 4096;
   const auto address = reinterpret_cast<std::uintptr_t>(memory);
   const auto begin = (address + page - 1) / page * page, end = (address + bytes) / page * page;
-  if (end > begin + large_page) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  if (end >= begin + large_page)
+    madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 #endif
 }
 
@@ -31,9 +32,10 @@ void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 void* allocate_large(std::size_t bytes) {
   constexpr std::size_t cache_line = 64;
   const std::size_t alignment = bytes >= 2 * large_page ? large_page : cache_line;
-  void* memory = std::aligned_alloc(alignment, (bytes + cache_line - 1) / cache_line * cache_line);
+  const std::size_t whole = (bytes + cache_line - 1) / cache_line * cache_line;
+  void* memory = std::aligned_alloc(alignment, whole);
   if (!memory) throw std::bad_alloc();
-  advise_large_pages(memory, bytes);
+  advise_large_pages(memory, whole);
   return memory;
 }
 

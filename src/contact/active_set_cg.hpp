@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <salebra/base/convolution.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/half_space.hpp>
 #include <vector>
@@ -115,9 +115,9 @@ class ActiveSetCg {
   std::vector<Tile> tiles_;
   std::vector<unsigned char> in_use_;  // (nx, tiles_per_row)
   // Not initialised before reset(), which lets the thread that will use a page touch it first.
-  std::unique_ptr<Real[]> t_, w_;  // dense
-  std::unique_ptr<Real[]> r_;      // framed
-  std::unique_ptr<Real[]> z_, m_;  // tile after tile
+  LargeArray<Real> t_, w_;  // dense
+  LargeArray<Real> r_;      // framed
+  LargeArray<Real> z_, m_;  // tile after tile
 };
 
 }  // namespace salebra::detail

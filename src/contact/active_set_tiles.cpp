@@ -18,10 +18,10 @@ void ActiveSetCg<Real>::reset() {
   in_use_.assign(static_cast<std::size_t>(grid_.nx * tiles_per_row_), 0);
   const Index framed_rows = grid_.nx + 2 * frame;
   if (!t_) {
-    t_.reset(new Real[static_cast<std::size_t>(points())]);
-    w_.reset(new Real[static_cast<std::size_t>(points())]);
+    t_ = large_array<Real>(static_cast<std::size_t>(points()));
+    w_ = large_array<Real>(static_cast<std::size_t>(points()));
     // A tile's vectors may end beyond the frame of the last row.
-    r_.reset(new Real[static_cast<std::size_t>(framed_rows * framed_stride_ + tile_width)]);
+    r_ = large_array<Real>(static_cast<std::size_t>(framed_rows * framed_stride_ + tile_width));
   }
   for_rows([&](Index begin, Index end) {
     std::fill(t_.get() + begin * grid_.ny, t_.get() + end * grid_.ny, Real(0));
@@ -41,8 +41,8 @@ void ActiveSetCg<Real>::list_tiles() {
       if (in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)])
         tiles_.push_back(
             {static_cast<std::int32_t>(row), static_cast<std::int32_t>(k * tile_width)});
-  z_.reset(new Real[static_cast<std::size_t>(tile_points())]);
-  m_.reset(new Real[static_cast<std::size_t>(tile_points())]);
+  z_ = large_array<Real>(static_cast<std::size_t>(tile_points()));
+  m_ = large_array<Real>(static_cast<std::size_t>(tile_points()));
 }
 
 // The tiles of all cells that carry pressure or are closer to the plane than margin·h_rms, and the free cells in them.

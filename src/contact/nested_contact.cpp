@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 
 namespace salebra::detail {
@@ -52,7 +53,7 @@ std::vector<Weights> interpolation(Index coarse, Index fine, Boundary boundary) 
 }
 
 Field sampled(const Grid2D& fine, const Heights& heights, Index nx, Index ny, Boundary boundary) {
-  Field coarse(nx, ny);
+  Field coarse = uninitialised_field(nx, ny);
   const auto at = [&](Index i, Index j) {
     return heights[into(i, fine.nx, boundary) * fine.ny + into(j, fine.ny, boundary)];
   };
