@@ -2,12 +2,16 @@
 """Compare salebra's normal contact with its peers on the same surfaces at the same reached accuracy.
 
 Accuracy is e_c = sum p (g - g_min) / (sum p * h_rms), evaluated here in double precision from the tractions that each solver
-returns, whatever the solver says of itself. Each peer is run at a tolerance, in its own measure, that reaches at least the target
-e_c (found by tightening until it does); salebra is then run at the e_c which that peer reached. Every solver is a process of its
-own, pinned to the same cores, and its time includes set-up but not import and file access.
+returns, whatever the solver says of itself. Each peer runs at the loosest of its own tolerances that reaches the target e_c;
+salebra then runs at the e_c which that peer reached. Every solve is a process of its own, pinned to the same cores; its wall and
+CPU time include set-up but not import and file access. Memory is the growth of the process's peak after the heights are read.
+
+Each row is appended to the results file as it comes, and a row that the file holds is not run again: a long table is built up in
+pieces, by calling the same command until it has nothing left to do.
 """
 
 import argparse
+import datetime
 import json
 import os
 import platform
@@ -15,6 +19,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 import numpy as np
@@ -22,13 +27,11 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 MODULUS_TIMES_SLOPE = 0.1  # E* h' with E* = 1 and rms slope 0.1: f is the pressure over it
 
-# Tolerances to try, loosest first; the first that reaches the target e_c is used.
-PEERS = {
-    "tamaas": [1e-8, 1e-9, 1e-10],
-    "contact_mechanics": [1e-9, 1e-10, 1e-11, 1e-12],
-    "contact_mechanics_dual": [1e-11, 1e-12, 1e-13, 1e-14],
-    "slippy": [1e-8, 1e-9, 1e-10],
-}
+PEERS = ["tamaas", "contact_mechanics", "contact_mechanics_dual", "slippy", "polonsky_keer"]
+# In the measures of peers.py all of them reach about the e_c that they are asked for; the first that is enough counts.
+TOLERANCES = [1e-8, 3e-9, 1e-9, 3e-10, 1e-10, 1e-11]
+# A solve below this many seconds is repeated, and its median counts.
+WORTH_REPEATING = 20
 
 
 def rough_surface(n, cutoff_cells, seed=1, hurst=0.8, rolloff=8):
@@ -46,141 +49,309 @@ def rough_surface(n, cutoff_cells, seed=1, hurst=0.8, rolloff=8):
     return np.fft.irfft2(modes, (n, n)) * (0.1 / np.sqrt(square))
 
 
-def reached_accuracy(heights, traction):
+def reached_accuracy(heights, traction, pressure):
+    """e_c; infinite for tractions that do not carry the load."""
     n = heights.shape[0]
+    traction = np.maximum(traction, 0)
+    if not abs(traction.mean() / pressure - 1) < 1e-6:
+        return np.inf
     q = np.hypot(2 * np.pi * np.fft.fftfreq(n, 1 / n)[:, None],
                  2 * np.pi * np.fft.rfftfreq(n, 1 / n)[None, :])
     q[0, 0] = np.inf
-    traction = np.maximum(traction, 0)
     gap = np.fft.irfft2(2 / q * np.fft.rfft2(traction), (n, n)) - heights
     return float(np.sum(traction * (gap - gap.min())) / (traction.sum() * heights.std()))
+
+
+class OutOfTime(Exception):
+    pass
+
+
+class Results:
+    """Rows of a file of JSON lines; the last row of a case counts."""
+
+    def __init__(self, file):
+        self.file = file
+        self.rows = {}
+        if file.exists():
+            for line in file.read_text().splitlines():
+                row = json.loads(line)
+                if "peer" in row:
+                    self.rows[self.key(row)] = row
+
+    @staticmethod
+    def key(row):
+        return row["n"], row["cutoff"], row["load"], row["cores"], row["peer"]
+
+    def add(self, row):
+        if "peer" in row:
+            self.rows[self.key(row)] = row
+        with self.file.open("a") as out:
+            out.write(json.dumps(row) + "\n")
+
+    def out_of_time_below(self, n, cutoff, load, peer):
+        """A solver that is out of time at one size will be at the next one too."""
+        return any(row.get("over_limit") for (m, *case, _, name), row in self.rows.items()
+                   if m < n and case == [cutoff, load] and name == peer)
+
+    def tolerance(self, cutoff, load, peer):
+        """That was needed on the largest grid so far, where there is one."""
+        known = [(row["n"], row["tolerance"]) for row in self.rows.values()
+                 if (row["cutoff"], row["load"], row["peer"]) == (cutoff, load, peer) and "tolerance" in row]
+        return max(known)[1] if known else TOLERANCES[0]
 
 
 class Runner:
     def __init__(self, arguments, folder):
         self.arguments = arguments
         self.folder = Path(folder)
+        self.on_disk = None
 
     def process(self, command, cores):
         environment = dict(os.environ, OMP_NUM_THREADS=str(cores), OPENBLAS_NUM_THREADS=str(cores),
-                           MKL_NUM_THREADS=str(cores), NUMBA_NUM_THREADS=str(cores))
-        pinned = ["taskset", "-c", ",".join(map(str, range(cores)))] + list(map(str, command))
-        done = subprocess.run(pinned, env=environment, capture_output=True, text=True,
-                              timeout=self.arguments.timeout)
+                           MKL_NUM_THREADS=str(cores), NUMBA_NUM_THREADS=str(cores),
+                           EARLIER_NUMPI=str(self.arguments.earlier_numpi))
+        pinned = ["taskset", "-c", ",".join(map(str, self.arguments.cpus[:cores])), *map(str, command)]
+        try:
+            done = subprocess.run(pinned, env=environment, capture_output=True, text=True,
+                                  timeout=self.arguments.limit)
+        except subprocess.TimeoutExpired:
+            raise OutOfTime from None
         if done.returncode:
-            raise RuntimeError(done.stderr.strip().splitlines()[-1] if done.stderr else "failed")
+            raise RuntimeError(done.stderr.strip().splitlines()[-1] if done.stderr.strip()
+                               else f"exit status {done.returncode}")
         return json.loads(done.stdout.strip().splitlines()[-1])
 
-    def peer(self, name, pressure, tolerance, cores):
-        python = self.arguments.slippy_python if name == "slippy" else self.arguments.python
-        out = self.folder / "peer.npy"
-        cost = self.process([python, HERE / "peers.py", name, self.folder / "heights.npy", pressure,
-                             tolerance, out], cores)
-        return cost, np.load(out)
+    def median(self, command, cores):
+        """Costs of a solve: of several runs where one is short."""
+        runs = [self.process(command, cores)]
+        while len(runs) < self.arguments.repeats and runs[0]["wall"] < WORTH_REPEATING:
+            runs.append(self.process(command, cores))
+        cost = dict(runs[0], runs=len(runs))
+        for figure in ("wall", "cpu", "setup", "bytes"):
+            if figure in cost:
+                cost[figure] = statistics.median(run[figure] for run in runs)
+        return cost
+
+    def prepare(self, n, cutoff):
+        if self.on_disk != (n, cutoff):
+            self.heights = rough_surface(n, cutoff)
+            np.save(self.folder / "heights.npy", self.heights)
+            self.heights.tofile(self.folder / "heights.raw")
+            self.on_disk = n, cutoff
+
+    def compiled(self, program, n, pressure, tolerance, cores):
+        return [program, self.folder / "heights.raw", n, pressure, tolerance, cores, self.folder / "out.raw"]
+
+    def peer(self, name, n, pressure, tolerance, cores):
+        if name == "polonsky_keer":
+            command = self.compiled(self.arguments.reference, n, pressure, tolerance, cores)
+            traction = lambda: np.fromfile(self.folder / "out.raw").reshape(n, n)
+        else:
+            python = self.arguments.slippy_python if name == "slippy" else self.arguments.python
+            out = self.folder / "out.npy"
+            command = [python, HERE / "peers.py", name, self.folder / "heights.npy", pressure, tolerance, out]
+            traction = lambda: np.load(out)
+        cost = self.median(command, cores)
+        return cost, reached_accuracy(self.heights, traction(), pressure)
 
     def salebra(self, n, pressure, tolerance, cores):
-        out = self.folder / "salebra.raw"
-        runs = [self.process([self.arguments.salebra, self.folder / "heights.raw", n, pressure,
-                              tolerance, cores, out], cores)
-                for _ in range(self.arguments.repeats)]
-        cost = dict(runs[0])
-        for figure in ("wall", "cpu", "bytes"):
-            cost[figure] = statistics.median(run[figure] for run in runs)
-        return cost, np.fromfile(out).reshape(n, n)
+        cost = self.median(self.compiled(self.arguments.salebra, n, pressure, tolerance, cores), cores)
+        own = np.fromfile(self.folder / "out.raw").reshape(n, n)
+        return cost, reached_accuracy(self.heights, own, pressure)
 
-    def case(self, n, cutoff, load, cores, skipped):
-        heights = rough_surface(n, cutoff)
-        np.save(self.folder / "heights.npy", heights)
-        heights.tofile(self.folder / "heights.raw")
+    def case(self, results, n, cutoff, load, cores, name):
+        self.prepare(n, cutoff)
         pressure = load * MODULUS_TIMES_SLOPE
-        rows = []
-        for name, tolerances in PEERS.items():
-            if name not in self.arguments.peers or (name, load) in skipped:
-                continue
-            row = {"n": n, "cutoff": cutoff, "load": load, "cores": cores, "peer": name}
+        row = {"n": n, "cutoff": cutoff, "load": load, "cores": cores, "peer": name, "load_average": os.getloadavg()[0]}
+        accuracy = self.arguments.target  # of salebra's run beside a peer that gives no answer
+        started = time.monotonic()
+        if results.out_of_time_below(n, cutoff, load, name):
+            row["over_limit"] = self.arguments.limit
+            row["note"] = "over the limit on a smaller grid, not tried"
+        else:
             try:
-                for tolerance in tolerances:
-                    cost, traction = self.peer(name, pressure, tolerance, cores)
-                    accuracy = reached_accuracy(heights, traction)
-                    if accuracy <= self.arguments.target:
+                for tolerance in [t for t in TOLERANCES if t <= results.tolerance(cutoff, load, name)]:
+                    cost, reached = self.peer(name, n, pressure, tolerance, cores)
+                    row.update(peer_cost=cost, peer_e_c=reached, tolerance=tolerance)
+                    if reached <= self.arguments.target:
                         break
-            except (RuntimeError, subprocess.TimeoutExpired) as failure:
-                # A solver that is out of time at this size will be at the next one too.
-                skipped.add((name, load))
-                row["failure"] = type(failure).__name__ + ": " + str(failure)[-120:]
-                rows.append(row)
-                self.show(row)
-                continue
-            own, own_traction = self.salebra(n, pressure, max(accuracy, 1e-13), cores)
-            row.update(peer_cost=cost, peer_e_c=accuracy, salebra_cost=own,
-                       salebra_e_c=reached_accuracy(heights, own_traction),
-                       cpu_ratio=cost["cpu"] / own["cpu"], wall_ratio=cost["wall"] / own["wall"],
-                       bytes_per_cell=own["bytes"] / n**2, peer_bytes_per_cell=cost["bytes"] / n**2)
-            rows.append(row)
-            self.show(row)
-        return rows
+                    if time.monotonic() - started > self.arguments.limit:
+                        raise OutOfTime
+                if np.isfinite(row["peer_e_c"]):
+                    accuracy = row["peer_e_c"]
+                else:
+                    del row["tolerance"]
+                    row["failure"] = "its answer does not carry the load"
+            except OutOfTime:
+                # The best that it reached in time stays in the row.
+                row["over_limit"] = self.arguments.limit
+            except RuntimeError as failure:
+                row["failure"] = str(failure)[-200:]
+        row["salebra_cost"], row["salebra_e_c"] = self.salebra(n, pressure, min(max(accuracy, 1e-13), 1e-2), cores)
+        return row
 
-    def show(self, row):
-        head = f"{row['n']:5d} {row['cutoff']:3d} {row['load']:6g} {row['cores']:2d}  {row['peer']:23s}"
-        if "failure" in row:
-            print(head, row["failure"], flush=True)
-            return
-        peer, own = row["peer_cost"], row["salebra_cost"]
-        print(head, f"{row['peer_e_c']:9.1e} {peer['cpu']:9.2f} {peer['wall']:9.2f} |"
-              f"{row['salebra_e_c']:9.1e} {own['cpu']:8.3f} {own['wall']:8.3f} {own['pairs']:4d} |"
-              f"{row['cpu_ratio']:7.1f} {row['wall_ratio']:7.1f} |"
-              f"{row['peer_bytes_per_cell']:6.0f} {row['bytes_per_cell']:6.0f}", flush=True)
+
+def seconds(value):
+    return f"{value:.3g}" if value < 100 else f"{value:.0f}"
+
+
+HEAD = ("    N cut     f th  peer                    e_c     set-up    wall     cpu pairs B/cell |"
+        "  salebra e_c  set-up    wall     cpu pairs B/cell |  wall x   cpu x")
+
+
+def text_of(row):
+    own = row["salebra_cost"]
+    peer = row.get("peer_cost")
+    head = f"{row['n']:5d} {row['cutoff']:3d} {row['load']:5g} {row['cores']:2d}  {row['peer']:22s}"
+
+    def figures(cost, e_c):
+        pairs, setup = cost.get("pairs"), cost.get("setup")
+        return (f"{e_c:8.1e} {'–' if setup is None else seconds(setup):>8s} {seconds(cost['wall']):>7s}"
+                f" {seconds(cost['cpu']):>7s} {'–' if pairs is None else pairs:>5} {cost['bytes'] / row['n']**2:6.0f}")
+
+    if "over_limit" in row:
+        left = f"> {row['over_limit']:g} s"
+        if "note" in row:
+            left += f" ({row['note']})"
+        ratio = f"> {row['over_limit'] / own['wall']:.0f}"
+        ratios = f"{ratio:>8s}"
+    elif "failure" in row:
+        left, ratios = row["failure"], ""
+    else:
+        left = figures(peer, row["peer_e_c"])
+        ratios = f"{peer['wall'] / own['wall']:8.1f}{peer['cpu'] / own['cpu']:8.1f}"
+    return f"{head}{left:47s} |    {figures(own, row['salebra_e_c'])} |{ratios}"
+
+
+def summary(rows):
+    """Against the best peer of each case; how two cores compare with one."""
+    cases = {}
+    for row in rows:
+        cases.setdefault((row["cutoff"], row["cores"], row["n"], row["load"]), []).append(row)
+    lines = ["", "Against the fastest peer of each case, set-up included, each at the e_c which that peer reached:",
+             "cut-off cores     N     f    wall x   cpu x  fastest peer (its wall s)   salebra wall s"]
+    for (cutoff, cores, n, load), group in sorted(cases.items()):
+        done = [row for row in group if "peer_cost" in row and "over_limit" not in row and "failure" not in row]
+        if not done:
+            lines.append(f"{cutoff:7d} {cores:5d} {n:5d} {load:5g}    no peer came to an end in its time")
+            continue
+        best = min(done, key=lambda row: row["peer_cost"]["wall"])
+        own = best["salebra_cost"]
+        # Peers that were not run, or are still to come, cannot be ranked.
+        missing = len(PEERS) - len(group)
+        lines.append(f"{cutoff:7d} {cores:5d} {n:5d} {load:5g}  {best['peer_cost']['wall'] / own['wall']:8.1f}"
+                     f"{best['peer_cost']['cpu'] / own['cpu']:8.1f}  {best['peer']} ({seconds(best['peer_cost']['wall'])})"
+                     f"   {seconds(own['wall'])}" + (f"   [{missing} peer(s) not run]" if missing else ""))
+    pairs = []
+    for (cutoff, cores, n, load), group in sorted(cases.items()):
+        other = cases.get((cutoff, 1, n, load))
+        if cores > 1 and other:
+            ratio = {row["peer"]: row["salebra_cost"]["wall"] for row in other}
+            speedups = [ratio[row["peer"]] / row["salebra_cost"]["wall"] for row in group if row["peer"] in ratio]
+            if speedups:
+                pairs.append(f"{cutoff:7d} {cores:5d} {n:5d} {load:5g}  {statistics.median(speedups):8.2f}")
+    if pairs:
+        lines += ["", "salebra's wall time on one core over that on several:", "cut-off cores     N     f   speed-up", *pairs]
+    return "\n".join(lines)
+
+
+def command_output(*command):
+    try:
+        return subprocess.run(command, capture_output=True, text=True, cwd=HERE, check=True).stdout.strip()
+    except (OSError, subprocess.CalledProcessError):
+        return "unknown"
+
+
+def machine(arguments):
+    facts = {"date": datetime.datetime.now().astimezone().isoformat(timespec="seconds"),
+             "system": platform.platform(), "cores": os.cpu_count(), "load_average": os.getloadavg(),
+             "pinned_to": arguments.cpus}
+    cpu = Path("/proc/cpuinfo")
+    if cpu.exists():
+        lines = [line.split(":", 1) for line in cpu.read_text().splitlines() if ":" in line]
+        known = {name.strip(): value.strip() for name, value in lines}
+        facts["processor"] = known.get("model name", platform.machine())
+        facts["vectors"] = [flag for flag in ("avx2", "avx512f") if flag in known.get("flags", "").split()]
+    for index in sorted(Path("/sys/devices/system/cpu/cpu0/cache").glob("index*")):
+        kind = (index / "type").read_text().strip()
+        facts.setdefault("caches", []).append(
+            f"L{(index / 'level').read_text().strip()} {kind} {(index / 'size').read_text().strip()}")
+    memory = Path("/proc/meminfo")
+    if memory.exists():
+        facts["memory"] = memory.read_text().splitlines()[0].split(":")[1].strip()
+    facts["salebra"] = command_output("git", "describe", "--always", "--dirty")
+    packages = []
+    for python in {arguments.python, arguments.slippy_python}:
+        packages += command_output(python, "-m", "pip", "list", "--format=freeze").splitlines()
+    wanted = ("tamaas", "contactmechanics", "surfacetopography", "numpi", "mugrid", "mufft", "slippy", "numpy", "pyfftw")
+    facts["packages"] = sorted({line for line in packages if line.lower().startswith(wanted)})
+    return facts
 
 
 def numbers(kind):
     return lambda text: [kind(part) for part in text.split(",")]
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--salebra", required=True, help="the program contact_solve")
+    parser.add_argument("--reference", required=True, help="the program contact_reference")
     parser.add_argument("--python", default=sys.executable, help="Python with Tamaas and ContactMechanics")
     parser.add_argument("--slippy-python", default=sys.executable, help="Python with slippy")
-    parser.add_argument("--peers", type=lambda text: text.split(","), default=list(PEERS))
+    parser.add_argument("--earlier-numpi", help="folder with NuMPI 0.7.3, which the dual solver of peers.py needs")
+    parser.add_argument("--peers", type=lambda text: text.split(","), default=PEERS)
     parser.add_argument("--sizes", type=numbers(int), default=[512, 1024, 2048, 4096])
     parser.add_argument("--cutoffs", type=numbers(int), default=[8, 2], help="cells")
     parser.add_argument("--loads", type=numbers(float), default=[0.005, 0.02, 0.1], help="p/(E* h')")
-    parser.add_argument("--cores", type=numbers(int), default=[1, 2])
+    parser.add_argument("--cores", type=numbers(int), default=[1, 2], help="numbers of cores to run on")
+    parser.add_argument("--cpus", type=numbers(int), default=list(range(os.cpu_count() or 1)), help="which cores, in order")
     parser.add_argument("--target", type=float, default=1e-8, help="e_c that each peer has to reach")
-    parser.add_argument("--repeats", type=int, default=3, help="runs of salebra; the median counts")
-    parser.add_argument("--timeout", type=float, default=1800, help="seconds for one solve of a peer")
-    parser.add_argument("--results", type=Path, default=Path("contact-bench.json"))
+    parser.add_argument("--repeats", type=int, default=3,
+                        help=f"runs of a solve of less than {WORTH_REPEATING} s; the median counts")
+    parser.add_argument("--limit", type=float, default=900, help="seconds of wall time for one solve of a peer")
+    parser.add_argument("--budget", type=float, default=float("inf"), help="begin no further case after so many seconds")
+    parser.add_argument("--results", type=Path, default=Path("contact-bench.jsonl"), help="appended to, and read to go on")
+    parser.add_argument("--quick", action="store_true", help="512 only, cut-off 8, one core, one run each: about two minutes")
+    parser.add_argument("--report", action="store_true", help="print the tables of the results file and run nothing")
     arguments = parser.parse_args()
+    if arguments.quick:
+        arguments.sizes, arguments.cutoffs, arguments.cores = [512], [8], [1]
+        arguments.repeats, arguments.limit = 1, min(arguments.limit, 60)
+    unknown = set(arguments.peers) - set(PEERS)
+    if unknown:
+        parser.error(f"--peers: {', '.join(sorted(unknown))} unknown; choose among {', '.join(PEERS)}")
+    if max(arguments.cores) > len(arguments.cpus):
+        parser.error(f"--cores: {max(arguments.cores)} exceeds the {len(arguments.cpus)} of --cpus")
+    return arguments
 
-    machine = {"processor": platform.processor() or platform.machine(), "cores": os.cpu_count(),
-               "system": platform.platform()}
-    for line in Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            machine["processor"] = line.split(":")[1].strip()
-            break
-    print(json.dumps(machine))
-    print("    n cut   load th  peer                     e_c(peer)     cpu/s    wall/s |"
-          "  e_c(own)    cpu/s   wall/s pairs |  cpu x  wall x | B/cell: peer, salebra")
-    rows = []
-    with tempfile.TemporaryDirectory() as folder:
-        runner = Runner(arguments, folder)
-        for cores in arguments.cores:
-            for cutoff in arguments.cutoffs:
-                skipped = set()
-                for n in arguments.sizes:
-                    for load in arguments.loads:
-                        rows += runner.case(n, cutoff, load, cores, skipped)
-                        arguments.results.write_text(
-                            json.dumps({"machine": machine, "rows": rows}, indent=1))
-    best = {}
-    for row in rows:
-        if "failure" not in row:
-            key = (row["cores"], row["cutoff"], row["n"], row["load"])
-            best[key] = min(best.get(key, (np.inf, "")), (row["wall_ratio"], row["peer"]))
-    print("\nAgainst the best peer of each case, wall time, set-up included:")
-    for (cores, cutoff, n, load), (ratio, peer) in sorted(best.items()):
-        print(f"{n:5d} cut-off {cutoff} f {load:g}, {cores} core(s): {ratio:6.1f} x  ({peer})")
-    print("results:", arguments.results)
+
+def main():
+    arguments = parse()
+    results = Results(arguments.results)
+    if arguments.report:
+        print(HEAD)
+        for key in sorted(results.rows):
+            print(text_of(results.rows[key]))
+    else:
+        facts = machine(arguments)
+        print(json.dumps(facts))
+        print(HEAD, flush=True)
+        results.add({"machine": facts})
+        started = time.monotonic()
+        # Small grids first, so that a table which is cut short is complete up to some size.
+        cases = [(n, cutoff, load, cores, peer) for n in arguments.sizes for cutoff in arguments.cutoffs
+                 for cores in arguments.cores for load in arguments.loads for peer in arguments.peers]
+        with tempfile.TemporaryDirectory() as folder:
+            runner = Runner(arguments, folder)
+            for case in cases:
+                if case not in results.rows:
+                    if time.monotonic() - started > arguments.budget:
+                        print("The budget is used up: call again to go on.")
+                        break
+                    results.add(runner.case(results, *case))
+                print(text_of(results.rows[case]), flush=True)
+    print(summary(results.rows.values()))
+    print("\nresults:", arguments.results)
 
 
 if __name__ == "__main__":

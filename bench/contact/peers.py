@@ -5,72 +5,119 @@ usage: peers.py SOLVER HEIGHTS.npy PRESSURE TOLERANCE PRESSURE_OUT.npy
 
 HEIGHTS.npy   float64 (n, n), one period of side 1; E* = 1; a hill is positive
 PRESSURE      nominal pressure over E*
-TOLERANCE     in the solver's own measure, which compare.py calibrates
-Time is taken around set-up and solution together, without import and file access; memory is the growth of the process's peak.
+TOLERANCE     in the solver's own measure, lengths over the rms height, forces over the load; compare.py finds the one that counts
+Set-up and solution are timed apart, both without import and file access; memory is the growth of the process's peak.
 """
 
+import importlib.util
 import json
-import resource
+import os
+import re
 import sys
+import tempfile
 import time
+from contextlib import contextmanager
+from pathlib import Path
 
 import numpy as np
+
+
+@contextmanager
+def errors_to(file):
+    """Libraries that log from C++ write to the descriptor, not to sys.stderr."""
+    saved = os.dup(2)
+    os.dup2(file.fileno(), 2)
+    try:
+        yield
+    finally:
+        os.dup2(saved, 2)
+        os.close(saved)
 
 
 def tamaas(heights, pressure, tolerance):
     import tamaas as tm
 
-    tm.set_log_level(tm.LogLevel.error)
-
-    def run():
-        n = heights.shape[0]
-        model = tm.Model(tm.model_type.basic_2d, [1.0, 1.0], [n, n])
-        model.E, model.nu = 1.0, 0.0
-        solver = tm.PolonskyKeerRey(model, heights, tolerance)
-        solver.max_iter = 100_000
-        solver.solve(pressure)
-        return np.array(model.traction)
-
-    return run
+    yield
+    tm.set_log_level(tm.LogLevel.info)  # its only word on iterations is the last line of the log
+    n = heights.shape[0]
+    model = tm.Model(tm.model_type.basic_2d, [1.0, 1.0], [n, n])
+    model.E, model.nu = 1.0, 0.0
+    solver = tm.PolonskyKeerRey(model, heights, tolerance)
+    solver.max_iter = 100_000
+    solver.dump_freq = 1_000_000
+    yield
+    with tempfile.TemporaryFile("w+") as log:
+        with errors_to(log):
+            solver.solve(pressure)
+        log.seek(0)
+        iterations = re.findall(r"^\s+(\d+)\s+[-+.\de]+\s+[-+.\de]+\s*$", log.read(), re.MULTILINE)
+    yield np.array(model.traction), 2 * int(iterations[-1]) if iterations else None
 
 
 def contact_mechanics_system(heights):
+    """System and the number of transforms it has made."""
     from ContactMechanics import PeriodicFFTElasticHalfSpace
     from ContactMechanics.Factory import make_system
     from SurfaceTopography import Topography
 
     substrate = PeriodicFFTElasticHalfSpace(heights.shape, 1.0, (1.0, 1.0))
-    return make_system(substrate=substrate, surface=Topography(heights, (1.0, 1.0), periodic=True))
+    pairs = [0]
+
+    def counted(method):
+        def call(*arguments, **options):
+            pairs[0] += 1
+            return method(*arguments, **options)
+        return call
+
+    substrate.evaluate_disp = counted(substrate.evaluate_disp)
+    system = make_system(substrate=substrate, surface=Topography(heights, (1.0, 1.0), periodic=True))
+    return system, pairs
 
 
 def contact_mechanics(heights, pressure, tolerance):
     """ContactMechanics as it comes: Polonsky-Keer with restarts."""
     import ContactMechanics  # noqa: F401  (imported before the clock starts)
 
-    def run():
-        system = contact_mechanics_system(heights)
-        result = system.minimize_proxy(external_force=pressure, pentol=tolerance, thermotol=tolerance,
-                                       forcetol=tolerance, maxiter=100_000)
-        return np.asarray(result.jac).reshape(heights.shape) * heights.size
+    yield
+    system, pairs = contact_mechanics_system(heights)
+    yield
+    result = system.minimize_proxy(external_force=pressure, pentol=tolerance * heights.std(),
+                                   forcetol=tolerance * pressure / heights.size,
+                                   thermotol=tolerance, maxiter=100_000)
+    if not result.success:
+        raise RuntimeError("not converged: " + str(result.message))
+    yield np.asarray(result.jac).reshape(heights.shape) * heights.size, pairs[0]
 
-    return run
+
+def earlier_numpi():
+    """The release of NuMPI in the folder EARLIER_NUMPI, under another name.
+
+    Later ones (0.12 to 0.18.1 were looked at) meet the mean pressure by a bisection of 60 passes in each iteration, which takes most
+    of the time, and in a bracket of absolute size, so that high loads stall at e_c = 1e-7. 0.7.3 scales once.
+    """
+    spec = importlib.util.spec_from_file_location(
+        "NuMPI_earlier", Path(os.environ["EARLIER_NUMPI"]) / "NuMPI" / "__init__.py")
+    sys.modules[spec.name] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(sys.modules[spec.name])
+    return importlib.import_module("NuMPI_earlier.Optimization.CCGWithoutRestart")
 
 
 def contact_mechanics_dual(heights, pressure, tolerance):
     """Bugnicourt's dual conjugate gradients without restart, at given mean pressure."""
     import ContactMechanics  # noqa: F401
-    from NuMPI.Optimization.CCGWithoutRestart import constrained_conjugate_gradients
 
-    def run():
-        system = contact_mechanics_system(heights)
-        start = np.full(heights.shape, pressure / heights.size)
-        system.init_force = start
-        result = constrained_conjugate_gradients(
-            system.dual_objective(0.0, gradient=True), system.dual_hessian_product, x0=start,
-            mean_val=pressure / heights.size, gtol=tolerance, maxiter=100_000)
-        return np.asarray(result.x).reshape(heights.shape) * heights.size
-
-    return run
+    solver = earlier_numpi().constrained_conjugate_gradients
+    yield
+    system, pairs = contact_mechanics_system(heights)
+    start = np.full(heights.shape, pressure / heights.size)
+    system.init_force = start
+    yield
+    result = solver(
+        system.dual_objective(0.0, gradient=True), system.dual_hessian_product, x0=start,
+        mean_val=pressure / heights.size, gtol=tolerance * heights.std(), maxiter=20_000)
+    if not result.success:
+        raise RuntimeError("not converged: " + str(result.message))
+    yield np.asarray(result.x).reshape(heights.shape) * heights.size, pairs[0]
 
 
 def slippy(heights, pressure, tolerance):
@@ -79,22 +126,34 @@ def slippy(heights, pressure, tolerance):
     package.CUDA = False
     from slippy.core.influence_matrix_utils import plan_convolve, polonsky_and_keer
 
-    def run():
-        n = heights.shape[0]
-        wave = 2 * np.pi * np.fft.fftfreq(n, 1 / n)
-        with np.errstate(divide="ignore"):
-            symbol = 2 / np.hypot(wave[:, None], wave[None, :])
-        symbol[0, 0] = 0
-        start = np.ones(heights.shape)
-        convolve = plan_convolve(start, symbol, circular=True, fft_im=True)
-        failed, traction, _ = polonsky_and_keer(
-            convolve, start, heights.max() - heights, pressure, 1 / n, eps_0=tolerance,
-            max_it=100_000)
-        if failed:
-            raise RuntimeError("slippy did not converge")
-        return traction
+    yield
+    n = heights.shape[0]
+    wave = 2 * np.pi * np.fft.fftfreq(n, 1 / n)
+    with np.errstate(divide="ignore"):
+        symbol = 2 / np.hypot(wave[:, None], wave[None, :])
+    symbol[0, 0] = 0
+    start = np.ones(heights.shape)
+    convolve = plan_convolve(start, symbol, circular=True, fft_im=True)
+    pairs = [0]
 
-    return run
+    def counted(loads):
+        pairs[0] += 1
+        return convolve(loads)
+
+    yield
+    failed, traction, _ = polonsky_and_keer(counted, start, heights.max() - heights, pressure, 1 / n,
+                                            eps_0=tolerance, max_it=100_000)
+    if failed:
+        raise RuntimeError("slippy did not converge")
+    yield traction, pairs[0]
+
+
+def peak_bytes():
+    """Largest resident memory. Not getrusage's: that one begins with the size of the process which started this one."""
+    for line in Path("/proc/self/status").read_text().splitlines():
+        if line.startswith("VmHWM:"):
+            return 1024 * int(line.split()[1])
+    return 0
 
 
 SOLVERS = {solver.__name__: solver
@@ -104,14 +163,18 @@ SOLVERS = {solver.__name__: solver
 def main():
     name, heights_file, pressure, tolerance, out = sys.argv[1:]
     heights = np.ascontiguousarray(np.load(heights_file))
-    run = SOLVERS[name](heights, float(pressure), float(tolerance))
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    stages = SOLVERS[name](heights, float(pressure), float(tolerance))
+    next(stages)  # imports
+    before = peak_bytes()
     wall, cpu = time.perf_counter(), time.process_time()
-    traction = run()
+    next(stages)
+    setup = time.perf_counter() - wall
+    traction, pairs = next(stages)
     wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    peak = peak_bytes()
     np.save(out, traction)
-    print(json.dumps({"wall": wall, "cpu": cpu, "bytes": (peak - before) * 1024}))
+    print(json.dumps({"wall": wall, "setup": setup, "cpu": cpu, "bytes": peak - before,
+                      "pairs": pairs}))
 
 
 if __name__ == "__main__":

@@ -4,31 +4,14 @@
 // usage: contact_solve HEIGHTS.raw N PRESSURE TOLERANCE THREADS PRESSURE_OUT.raw
 // HEIGHTS.raw: N x N float64 without a header, one period of side 1, E* = 1. Prints one JSON object.
 
-#include <sys/resource.h>
-
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal.hpp>
 
-namespace {
-
-long peak_kilobytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss;
-}
-
-double cpu_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-}  // namespace
+#include "process_cost.hpp"
 
 int main(int argc, char** argv) {
   using namespace salebra;
@@ -40,8 +23,8 @@ int main(int argc, char** argv) {
       .read(reinterpret_cast<char*>(surface.heights.data()), bytes);
   parallel::set_threads(std::atoi(argv[5]));
 
-  const long before = peak_kilobytes();
-  const double cpu = cpu_seconds();
+  const long before = bench::peak_bytes();
+  const double cpu = bench::cpu_seconds();
   const auto start = std::chrono::steady_clock::now();
   const auto state =
       press_to_pressure(surface, 1.0, std::atof(argv[3]), {.tolerance = std::atof(argv[4])});
@@ -51,7 +34,7 @@ int main(int argc, char** argv) {
       "{\"wall\": %.6f, \"cpu\": %.6f, \"bytes\": %ld, \"pairs\": %d, \"iterations\": %d, \"e_c\": "
       "%.3e, "
       "\"converged\": %s}\n",
-      wall, cpu_seconds() - cpu, (peak_kilobytes() - before) * 1024, state.fft_count,
+      wall, bench::cpu_seconds() - cpu, bench::peak_bytes() - before, state.fft_count,
       state.iterations, state.residual, state.converged ? "true" : "false");
   std::ofstream(argv[6], std::ios::binary)
       .write(reinterpret_cast<const char*>(state.pressure.data()), bytes);
