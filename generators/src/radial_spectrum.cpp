@@ -57,8 +57,8 @@ double integrate(const Function& f, double lowest, double highest) {
 
 }  // namespace
 
-RadialSpectrum::RadialSpectrum(std::function<double(double)> density, double lowest, double highest,
-                               std::string name)
+FunctionSpectrum::FunctionSpectrum(std::function<double(double)> density, double lowest,
+                                   double highest, std::string name)
     : density_(std::move(density)), lowest_(lowest), highest_(highest), name_(std::move(name)) {
   require_positive(highest, "highest");
   require(lowest >= 0 && lowest < highest, "lowest", lowest, "must be >= 0 and below highest");
@@ -73,7 +73,7 @@ RadialSpectrum::RadialSpectrum(std::function<double(double)> density, double low
   });
 }
 
-double RadialSpectrum::radial_density(double q) const {
+double FunctionSpectrum::radial_density(double q) const {
   if (q < lowest_ * (1 - limit_tolerance) || q > highest_ * (1 + limit_tolerance)) return 0;
   return density_(q);
 }
@@ -125,7 +125,7 @@ std::string TabulatedSpectrum::description() const {
   return text.str();
 }
 
-RadialSpectrum gaussian_correlation_spectrum(double rms_height, double correlation_length) {
+FunctionSpectrum gaussian_correlation_spectrum(double rms_height, double correlation_length) {
   require_positive(rms_height, "rms_height");
   require_positive(correlation_length, "correlation_length");
   const double square = correlation_length * correlation_length;
@@ -138,8 +138,8 @@ RadialSpectrum gaussian_correlation_spectrum(double rms_height, double correlati
           12 / correlation_length, name.str()};
 }
 
-RadialSpectrum exponential_correlation_spectrum(double rms_height, double correlation_length,
-                                                double short_cutoff) {
+FunctionSpectrum exponential_correlation_spectrum(double rms_height, double correlation_length,
+                                                  double short_cutoff) {
   require_positive(rms_height, "rms_height");
   require_positive(correlation_length, "correlation_length");
   require_positive(short_cutoff, "short_cutoff");

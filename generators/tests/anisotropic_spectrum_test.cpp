@@ -14,7 +14,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 std::shared_ptr<const IsotropicSpectrum> gaussian(double rms, double length) {
-  return std::make_shared<RadialSpectrum>(gaussian_correlation_spectrum(rms, length));
+  return std::make_shared<FunctionSpectrum>(gaussian_correlation_spectrum(rms, length));
 }
 
 // ⟨h(x, y) h(x + a dx, y + b dy)⟩ of a periodic field.

@@ -20,8 +20,8 @@ TEST_CASE("A self-affine spectrum given as a function makes the same surface",
           "[generators][radial]") {
   const SelfAffineSpectrum reference(
       {.hurst = 0.6, .long_cutoff = 1.0, .rolloff = 0.3, .short_cutoff = 0.05, .rms_height = 1.0});
-  const RadialSpectrum spectrum([&](double q) { return reference.radial_density(q); }, 2 * pi,
-                                2 * pi / 0.05, "test");
+  const FunctionSpectrum spectrum([&](double q) { return reference.radial_density(q); }, 2 * pi,
+                                  2 * pi / 0.05, "test");
   // The kink at the roll-off lies inside a panel; halving it 30 times leaves no more than the tolerance.
   CHECK(spectrum.moments().moment0 == Approx(reference.moments().moment0).epsilon(1e-9));
   CHECK(spectrum.moments().moment4_x == Approx(reference.moments().moment4_x).epsilon(1e-9));
@@ -50,7 +50,7 @@ TEST_CASE("A table of a power law is the power law", "[generators][radial]") {
 
 TEST_CASE("Gaussian correlation has its moments and its correlation", "[generators][radial]") {
   const double length = 0.02, rms = 1e-6;
-  const RadialSpectrum spectrum = gaussian_correlation_spectrum(rms, length);
+  const FunctionSpectrum spectrum = gaussian_correlation_spectrum(rms, length);
   const SpectralMoments moments = spectrum.moments();
   CHECK(moments.rms_height() == Approx(rms).epsilon(1e-10));
   // m2 = −R''(0) = 2 h²/ℓ², m4 = R''''(0) = 12 h²/ℓ⁴.
@@ -73,7 +73,7 @@ TEST_CASE("Gaussian correlation has its moments and its correlation", "[generato
 TEST_CASE("Exponential correlation keeps its rms height for every cut-off",
           "[generators][radial]") {
   const double short_cutoff = GENERATE(1e-2, 1e-4);
-  const RadialSpectrum spectrum = exponential_correlation_spectrum(1e-6, 0.02, short_cutoff);
+  const FunctionSpectrum spectrum = exponential_correlation_spectrum(1e-6, 0.02, short_cutoff);
   CHECK(spectrum.moments().rms_height() == Approx(1e-6).epsilon(1e-9));
   // Far above the roll-off it falls like q⁻³, the self-affine law of H = 1/2.
   CHECK(spectrum.radial_density(500) / spectrum.radial_density(250) ==
@@ -82,9 +82,9 @@ TEST_CASE("Exponential correlation keeps its rms height for every cut-off",
 
 TEST_CASE("Spectra that are none are refused", "[generators][radial]") {
   const auto one = [](double) { return 1.0; };
-  CHECK_THROWS_AS(RadialSpectrum(one, 2, 1, "test"), InvalidInput);
-  CHECK_THROWS_AS(RadialSpectrum(one, -1, 1, "test"), InvalidInput);
-  CHECK_THROWS_WITH(RadialSpectrum([](double q) { return 1 - q; }, 0, 2, "test"),
+  CHECK_THROWS_AS(FunctionSpectrum(one, 2, 1, "test"), InvalidInput);
+  CHECK_THROWS_AS(FunctionSpectrum(one, -1, 1, "test"), InvalidInput);
+  CHECK_THROWS_WITH(FunctionSpectrum([](double q) { return 1 - q; }, 0, 2, "test"),
                     Contains("density: -"));
   CHECK_THROWS_AS(TabulatedSpectrum({1}, {1}), InvalidInput);
   CHECK_THROWS_WITH(TabulatedSpectrum({1, 2, 2}, {1, 1, 1}), Contains("wavenumbers[2]: 2 must"));

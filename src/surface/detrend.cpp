@@ -13,25 +13,35 @@ double centred(Index i, Index n) {
   return n > 1 ? 2.0 * static_cast<double>(i) / static_cast<double>(n - 1) - 1.0 : 0.0;
 }
 
-void subtract_plane(Surface& surface) {
+/// The terms of a trend at a point: 1, x, y, and of a quadratic one x², xy, y².
+template <int Terms>
+Eigen::Vector<double, Terms> terms_at(double x, double y) {
+  if constexpr (Terms == 3)
+    return {1, x, y};
+  else
+    return {1, x, y, x * x, x * y, y * y};
+}
+
+template <int Terms>
+void subtract_fit(Surface& surface) {
   const auto [nx, ny] = std::pair(surface.grid.nx, surface.grid.ny);
   const double mean = height_statistics(surface).mean;
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, Terms, Terms> normal = Eigen::Matrix<double, Terms, Terms>::Zero();
+  Eigen::Vector<double, Terms> right = Eigen::Vector<double, Terms>::Zero();
   for (Index ix = 0; ix < nx; ++ix) {
     for (Index iy = 0; iy < ny; ++iy) {
       const double height = surface.heights(ix, iy);
       if (std::isnan(height)) continue;
-      const Eigen::Vector3d basis(1, centred(ix, nx), centred(iy, ny));
-      normal += basis * basis.transpose();
-      right += basis * (height - mean);
+      const auto terms = terms_at<Terms>(centred(ix, nx), centred(iy, ny));
+      normal += terms * terms.transpose();
+      right += terms * (height - mean);
     }
   }
-  const Eigen::Vector3d plane = normal.completeOrthogonalDecomposition().solve(right);
+  const Eigen::Vector<double, Terms> trend = normal.completeOrthogonalDecomposition().solve(right);
   for (Index ix = 0; ix < nx; ++ix)
     for (Index iy = 0; iy < ny; ++iy)
       surface.heights(ix, iy) -=
-          mean + plane(0) + plane(1) * centred(ix, nx) + plane(2) * centred(iy, ny);
+          mean + trend.dot(terms_at<Terms>(centred(ix, nx), centred(iy, ny)));
 }
 
 }  // namespace
@@ -48,7 +58,10 @@ Surface detrended(Surface surface, Detrend method) {
       surface.heights -= height_statistics(surface).mean;
       break;
     case Detrend::plane:
-      subtract_plane(surface);
+      subtract_fit<3>(surface);
+      break;
+    case Detrend::quadratic:
+      subtract_fit<6>(surface);
       break;
   }
   return surface;

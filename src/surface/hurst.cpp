@@ -16,8 +16,6 @@ using std::numbers::pi;
 
 constexpr double least_span = 3;            ///< of the fitted range, q_max/q_min
 constexpr double forgiven_deviation = 0.1;  ///< of C from a power law, in the choice of the range
-/// Neighbouring modes under a Hann window are correlated: this many count as one, (35/18)².
-constexpr double correlated_modes = 35.0 * 35.0 / (18.0 * 18.0);
 
 struct Range {
   double low = 0, high = 0;  ///< rad/m
@@ -77,8 +75,8 @@ Range self_affine_range(const PowerSpectrum& spectrum, const RadialSpectrum& rad
   RunningFit fits;
   for (const std::size_t k : bins) {
     const double independent = static_cast<double>(radial.modes[k]) / 2;
-    const double variance = (spectrum.windowed ? correlated_modes : 1) / independent +
-                            forgiven_deviation * forgiven_deviation;
+    const double variance =
+        spectrum.correlated_modes / independent + forgiven_deviation * forgiven_deviation;
     // The mean of n exponential variates has a logarithm that is low by about 1/(2n).
     fits.add(std::log(radial.wavenumber[k]), std::log(radial.density[k]) + 0.5 / independent,
              1 / variance);

@@ -15,20 +15,38 @@ namespace {
 
 using std::numbers::pi;
 
-Eigen::ArrayXd hann(Index points) {
-  const auto place = Eigen::ArrayXd::LinSpaced(points, 0.5, static_cast<double>(points) - 0.5);
-  return 0.5 * (1 - (2 * pi / static_cast<double>(points) * place).cos());
+Window chosen(Window window, const Surface& surface) {
+  if (window != Window::customary) return window;
+  return surface.periodic ? Window::none : Window::hann;
 }
 
-/// Multiplies by the window, normalised to ⟨w²⟩ = 1.
-void fade_out(Field& heights) {
-  const Eigen::ArrayXd along_x = hann(heights.rows()), along_y = hann(heights.cols());
-  const double scale = 1 / std::sqrt(along_x.square().mean() * along_y.square().mean());
-  const Eigen::ArrayXd rows = (heights.rowwise() * along_y.transpose()).rowwise().sum();
-  const double mean = (along_x * rows).sum() / (along_x.sum() * along_y.sum());
-  heights -= mean;
-  heights.colwise() *= scale * along_x;
-  heights.rowwise() *= along_y.transpose();
+/// Weights along one axis, normalised to ⟨w²⟩ = 1.
+Eigen::ArrayXd profile_weights(Window window, Index points) {
+  if (window == Window::none) return Eigen::ArrayXd::Ones(points);
+  const auto place = Eigen::ArrayXd::LinSpaced(points, 0.5, static_cast<double>(points) - 0.5);
+  const Eigen::ArrayXd turn = 2 * pi / static_cast<double>(points) * place;
+  const Eigen::ArrayXd weights = window == Window::blackman
+                                     ? (0.42 - 0.5 * turn.cos() + 0.08 * (2 * turn).cos()).eval()
+                                     : (0.5 * (1 - turn.cos())).eval();
+  return weights / std::sqrt(weights.square().mean());
+}
+
+/// Weights of all points, normalised to ⟨w²⟩ = 1.
+Field surface_weights(Window window, const Grid2D& grid) {
+  if (window != Window::radial_hann)
+    return (profile_weights(window, grid.nx).matrix() *
+            profile_weights(window, grid.ny).matrix().transpose())
+        .array();
+  Field weights(grid.nx, grid.ny);
+  const double radius = std::min(grid.lx, grid.ly) / 2;
+  for (Index ix = 0; ix < grid.nx; ++ix) {
+    const double x = static_cast<double>(ix - grid.nx / 2) * grid.dx();
+    for (Index iy = 0; iy < grid.ny; ++iy) {
+      const double r = std::hypot(x, static_cast<double>(iy - grid.ny / 2) * grid.dy());
+      weights(ix, iy) = r > radius ? 0 : 0.5 * (1 + std::cos(pi * r / radius));
+    }
+  }
+  return weights / std::sqrt(weights.square().mean());
 }
 
 }  // namespace
@@ -42,25 +60,63 @@ double PowerSpectrum::wavenumber_y(Index j) const {
 double PowerSpectrum::multiplicity(Index j) const { return detail::multiplicity(j, grid.ny); }
 double PowerSpectrum::cell() const { return 4 * pi * pi / grid.area(); }
 
-PowerSpectrum power_spectrum(const Surface& surface) {
+double ProfilePsd::step() const { return 2 * pi / length; }
+
+PowerSpectrum power_spectrum(const Surface& surface, Window window) {
   surface.require_complete("a power spectrum");
   const Grid2D& grid = surface.grid;
-  Field heights = surface.heights;
-  if (surface.periodic)
-    heights -= height_statistics(surface).mean;
-  else
-    fade_out(heights);
+  window = chosen(window, surface);
+  PowerSpectrum spectrum{grid, {}, window != Window::none};
+  Field heights = surface.heights - height_statistics(surface).mean;
+  if (spectrum.windowed) {
+    const Field weights = surface_weights(window, grid);
+    heights -= (weights * heights).sum() / weights.sum();
+    heights *= weights;
+    spectrum.correlated_modes = weights.square().square().mean();
+  }
   RealFft2D<double> fft(grid.nx, grid.ny);
   std::vector<std::complex<double>> modes(static_cast<std::size_t>(grid.nx * fft.modes_y()));
   fft.forward(heights.data(), modes.data());
 
-  PowerSpectrum spectrum{grid, Field(grid.nx, fft.modes_y()), !surface.periodic};
+  spectrum.density.resize(grid.nx, fft.modes_y());
   const double points = static_cast<double>(grid.points());
   const double scale = 1 / (points * points * spectrum.cell());
   for (Index k = 0; k < spectrum.density.size(); ++k)
     spectrum.density.data()[k] = scale * std::norm(modes[static_cast<std::size_t>(k)]);
+  // What rounding left of the mean.
   spectrum.density(0, 0) = 0;
   return spectrum;
+}
+
+ProfilePsd profile_psd(const Surface& surface, Axis axis, Window window) {
+  surface.require_complete("a power spectrum");
+  const Grid2D& grid = surface.grid;
+  const bool along_x = axis == Axis::x;
+  const Index n = along_x ? grid.nx : grid.ny;
+  ProfilePsd psd;
+  psd.profiles = along_x ? grid.ny : grid.nx;
+  psd.length = along_x ? grid.lx : grid.ly;
+  const Eigen::ArrayXd weights = profile_weights(chosen(window, surface), n);
+  RealFft2D<double> fft(1, n);
+  std::vector<std::complex<double>> modes(static_cast<std::size_t>(fft.modes_y()));
+  Eigen::ArrayXd power = Eigen::ArrayXd::Zero(fft.modes_y());
+  for (Index line = 0; line < psd.profiles; ++line) {
+    Eigen::ArrayXd heights =
+        along_x ? surface.heights.col(line).eval() : surface.heights.row(line).transpose().eval();
+    heights -= (weights * heights).sum() / weights.sum();
+    heights *= weights;
+    fft.forward(heights.data(), modes.data());
+    for (Index k = 0; k < power.size(); ++k)
+      power(k) += std::norm(modes[static_cast<std::size_t>(k)]);
+  }
+  const double points = static_cast<double>(n);
+  const double scale = 1 / (points * points * psd.step() * static_cast<double>(psd.profiles));
+  for (Index k = 1; k < power.size(); ++k) {
+    psd.wavenumber.push_back(static_cast<double>(k) * psd.step());
+    psd.density.push_back(scale * power(k));
+    psd.modes.push_back(psd.profiles * static_cast<Index>(detail::multiplicity(k, n)));
+  }
+  return psd;
 }
 
 RadialSpectrum radial_spectrum(const PowerSpectrum& spectrum, int bins_per_octave) {

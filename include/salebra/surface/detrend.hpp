@@ -8,8 +8,9 @@ namespace salebra {
 /// What is subtracted from the heights before anything is measured on them.
 enum class Detrend {
   none,
-  mean,   ///< the mean of the defined heights
-  plane,  ///< the least-squares plane a + b·x + c·y through the defined heights
+  mean,       ///< the mean of the defined heights
+  plane,      ///< the least-squares plane a + b·x + c·y through the defined heights
+  quadratic,  ///< the least-squares paraboloid, with x², xy and y²: the bow of a scanner or of a lens
 };
 
 /// The plane for a measured surface, which carries the tilt of its stage; the mean for a periodic
@@ -17,7 +18,7 @@ enum class Detrend {
 Detrend customary_detrend(const Surface& surface);
 
 /// The surface less its trend. Undefined points stay undefined and take no part in the fit; where
-/// they, or a grid of one row, leave the plane undetermined, the smallest tilt that fits is
+/// they, or a grid of one row, leave the trend undetermined, the smallest one that fits is
 /// subtracted. Throws InvalidInput if the heights have not the shape of the grid or no height is
 /// defined. Cost: two passes.
 Surface detrended(Surface surface, Detrend method);

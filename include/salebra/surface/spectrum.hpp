@@ -2,6 +2,7 @@
 #pragma once
 
 #include <salebra/base/grid.hpp>
+#include <salebra/surface/axis.hpp>
 #include <vector>
 
 namespace salebra {
@@ -12,7 +13,9 @@ namespace salebra {
 struct PowerSpectrum {
   Grid2D grid;
   Field density;          ///< C, (nx, ny/2+1), m⁴
-  bool windowed = false;  ///< a Hann window made the heights fade out at the edges
+  bool windowed = false;  ///< a window made the heights fade out at the edges
+  /// How many neighbouring modes count as one in a mean, since the window mixes them: ⟨w⁴⟩/⟨w²⟩²; 1 without a window.
+  double correlated_modes = 1;
 
   double wavenumber_x(Index i) const;  ///< q_x, rad/m; −π/dx < q_x <= π/dx
   double wavenumber_y(Index j) const;  ///< q_y >= 0, rad/m
@@ -20,11 +23,37 @@ struct PowerSpectrum {
   double cell() const;                 ///< d²q of one mode, (2π)²/(lx ly), m⁻²
 };
 
-/// C of a periodic surface is exact on its modes: Σ C d²q = h_rms². A surface that is not periodic is multiplied by a Hann window,
-/// w = ½(1 − cos 2π(i+½)/nx)·½(1 − cos 2π(j+½)/ny), against the leakage from its edges, after its weighted mean has been
-/// subtracted, and C is divided by ⟨w²⟩, so that the expectation of a short-waved C is kept; tilt should be subtracted before.
+/// What the heights are multiplied by before they are transformed, ξ = (i+½)/nx and η = (j+½)/ny from edge to edge. A window takes the
+/// leakage of the steps between opposite edges out of the spectrum.
+enum class Window {
+  customary,  ///< none for a periodic surface, hann for any other
+  none,       ///< 1
+  hann,       ///< v(ξ)·v(η), v(ξ) = ½(1 − cos 2πξ)
+  blackman,  ///< the same with v(ξ) = 0.42 − 0.5 cos 2πξ + 0.08 cos 4πξ: less leakage, less resolution
+  radial_hann,  ///< ½(1 + cos 2πr/min(lx, ly)) in the inscribed circle and 0 outside, r from point (nx/2, ny/2), as SurfaceTopography has it
+};
+
+/// C of a periodic surface is exact on its modes: Σ C d²q = h_rms². Under a window the weighted mean is subtracted, and C is divided
+/// by ⟨w²⟩, so that the expectation of a short-waved C is kept, and Σ C d²q = ⟨w²(h − ⟨wh⟩/⟨w⟩)²⟩/⟨w²⟩; tilt should be subtracted before.
 /// Throws InvalidInput unless the surface is complete. Cost: one FFT.
-PowerSpectrum power_spectrum(const Surface& surface);
+PowerSpectrum power_spectrum(const Surface& surface, Window window = Window::customary);
+
+/// Power spectral density of profiles along one axis, C₁(q) = ∫C dq_y, so that h_rms² = ∫C₁ dq over −∞ < q < ∞: mean of
+/// |dx Σ w h e^{−iqx}|²/(2π l ⟨w²⟩) over all profiles, each less its (weighted) mean.
+struct ProfilePsd {
+  std::vector<double> wavenumber;  ///< 2πk/l, k = 1 … n/2, rad/m
+  std::vector<double> density;     ///< C₁, m³
+  std::vector<Index>
+      modes;  ///< q and −q of all profiles; at the Nyquist wave number of an even n they are one
+  Index profiles = 0;
+  double length = 0;  ///< l, m
+
+  double step()
+      const;  ///< dq = 2π/l, rad/m; ⟨h²⟩ of the profiles less their means = Σ modes·C₁·dq/profiles
+};
+
+/// radial_hann is as hann here. Throws InvalidInput unless the surface is complete. Cost: as power_spectrum.
+ProfilePsd profile_psd(const Surface& surface, Axis axis, Window window = Window::customary);
 
 /// C averaged over rings of wave vectors. Every bin holds at least one mode.
 struct RadialSpectrum {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/base/grid.hpp>
+#include <salebra/surface/axis.hpp>
+#include <vector>
+
+namespace salebra {
+
+/// Means over all pairs of defined points at a distance vector r, up to half the surface along each axis (beyond that a surface that is
+/// not periodic has few pairs, and a periodic one repeats itself):
+///     autocorrelation  A(r) = ⟨(h(x) − ⟨h⟩)(h(x+r) − ⟨h⟩)⟩,  ⟨h⟩ the mean of all defined points
+///     structure        S(r) = ⟨(h(x+r) − h(x))²⟩, also called height-height correlation function
+/// On a periodic complete surface S = 2(A(0) − A(r)). Elsewhere the pairs at r are not all points, and S is the sounder one of the two:
+/// it does not depend on the mean. SurfaceTopography's "autocorrelation" is S/2.
+/// Fields are (2·(nx/2)+1, ny/2+1): row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0; A and S are even in r.
+struct CorrelationMap {
+  Grid2D grid;            ///< of the surface
+  Field autocorrelation;  ///< m²; NaN where there is no pair
+  Field structure;        ///< m²; NaN where there is no pair
+  Field pairs;            ///< number of pairs
+
+  Index origin() const { return grid.nx / 2; }  ///< row of i = 0
+  double lag_x(Index row) const { return static_cast<double>(row - origin()) * grid.dx(); }
+  double lag_y(Index column) const { return static_cast<double>(column) * grid.dy(); }
+};
+
+/// Undefined points take no part. Throws InvalidInput as height_statistics. Cost: six real FFTs of 1.5 times the points along each axis
+/// that is not periodic; two of the grid for a periodic complete surface.
+CorrelationMap correlation_map(const Surface& surface);
+
+/// A and S over distance. Every entry holds at least one pair; the first is r = 0.
+struct Correlation {
+  std::vector<double> distance;         ///< m, increasing
+  std::vector<double> autocorrelation;  ///< m²
+  std::vector<double> structure;        ///< m²
+  std::vector<double> pairs;            ///< number of pairs
+};
+
+/// Along one axis: the mean over all profiles, at multiples of the step.
+Correlation profile_correlation(const CorrelationMap& map, Axis axis);
+
+/// Mean over all directions, in rings whose limits are in the ratio 2^(1/bins_per_octave), weighted with the pairs, up to half the shorter
+/// side; empty rings are left out.
+Correlation radial_correlation(const CorrelationMap& map, int bins_per_octave = 4);
+
+}  // namespace salebra

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/surface/spectrum.hpp>
+#include <string>
+#include <vector>
+
+namespace salebra {
+
+/// How a power spectral density is written down. L a square surface's side, dx its step; the same surface in each:
+enum class PsdConvention {
+  salebra,             ///< C over q in rad/m, m⁴:                     h_rms² = 2π ∫ q C dq
+  surface_topography,  ///< (2π)² C over q in rad/m, m⁴:               h_rms² = (1/2π) ∫ q C dq
+  gwyddion,            ///< 2πq C over q in rad/m, m³, a radial PSDF:  h_rms² = ∫ W dq
+  tamaas,              ///< (2π/L)² C over qL/2π, m², power of a mode: h_rms² = 2π ∫ n P dn
+  rfgen,  ///< (2π/dx)² C over q dx/2π, m², f <= ½ cycles in a sample: h_rms² = 2π ∫ f P df
+};
+
+/// One in any convention, with what it takes to read it.
+struct ConvertedPsd {
+  std::vector<double> wavenumber;
+  std::vector<double> density;
+  std::string wavenumber_unit;  ///< "rad/m", "1"
+  std::string density_unit;     ///< "m^4", "m^3", "m^2"
+  std::string normalisation;    ///< what the mean square height is
+};
+
+/// Throws InvalidInput for Tamaas' integers where lx and ly differ, and for cycles in a sample where dx and dy do.
+ConvertedPsd converted(const RadialSpectrum& spectrum, const Grid2D& grid,
+                       PsdConvention convention);
+
+/// Of profiles: C₁ with h_rms² = ∫C₁ dq over all q in salebra and Gwyddion; 2πC₁ with h_rms² = (1/π)∫C dq over q > 0 in SurfaceTopography.
+/// Throws InvalidInput for the others, which have none.
+ConvertedPsd converted(const ProfilePsd& spectrum, PsdConvention convention);
+
+/// "salebra", "surface-topography", "gwyddion", "tamaas", "rfgen". Throws InvalidInput for another name.
+PsdConvention psd_convention(const std::string& name);
+
+}  // namespace salebra

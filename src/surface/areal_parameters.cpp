@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/surface/areal_parameters.hpp>
+#include <salebra/surface/bearing.hpp>
+#include <salebra/surface/correlation.hpp>
+#include <salebra/surface/moments.hpp>
+#include <salebra/surface/peaks.hpp>
+#include <salebra/surface/spectrum.hpp>
+
+namespace salebra {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double correlation_level = 0.2;  ///< s of Sal and Str, ISO's default
+constexpr double pruning = 0.05;           ///< of Sz, ISO's default
+constexpr int directions = 720;            ///< of half a turn
+
+/// Distance along a direction at which the correlation first falls to the level; infinite where it does not.
+double fall_distance(const CorrelationMap& map, double angle, double level) {
+  const double step = std::min(map.grid.dx(), map.grid.dy()) / 2;
+  const double along_x = std::cos(angle), along_y = std::sin(angle);
+  const auto value = [&](double distance) {
+    const double row = static_cast<double>(map.origin()) + distance * along_x / map.grid.dx();
+    const double column = distance * along_y / map.grid.dy();
+    const auto last_row = static_cast<double>(map.pairs.rows() - 1);
+    const auto last_column = static_cast<double>(map.pairs.cols() - 1);
+    if (row < 0 || row > last_row || column > last_column) return none;
+    const double low_row = std::min(std::floor(row), std::max(last_row - 1, 0.0));
+    const double low_column = std::min(std::floor(column), std::max(last_column - 1, 0.0));
+    const auto i = static_cast<Index>(low_row), j = static_cast<Index>(low_column);
+    const double u = row - low_row, v = column - low_column;
+    const auto at = [&](Index a, Index b) {
+      return map.autocorrelation(std::min(a, map.pairs.rows() - 1),
+                                 std::min(b, map.pairs.cols() - 1));
+    };
+    return (1 - u) * ((1 - v) * at(i, j) + v * at(i, j + 1)) +
+           u * ((1 - v) * at(i + 1, j) + v * at(i + 1, j + 1));
+  };
+  double before = value(0);
+  for (double distance = step;; distance += step) {
+    const double here = value(distance);
+    if (std::isnan(here)) return std::numeric_limits<double>::infinity();
+    if (here <= level) return distance - step * (level - here) / (before - here);
+    before = here;
+  }
+}
+
+void set_correlation_lengths(ArealParameters& result, const Surface& surface) {
+  const CorrelationMap map = correlation_map(surface);
+  const double variance = map.autocorrelation(map.origin(), 0);
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+  for (int k = 0; k < directions; ++k) {
+    const double distance = fall_distance(map, pi * k / directions, correlation_level * variance);
+    shortest = std::min(shortest, distance);
+    longest = std::max(longest, distance);
+  }
+  const bool falls = variance > 0 && std::isfinite(shortest);
+  result.Sal = falls ? shortest : none;
+  result.Str = falls && std::isfinite(longest) ? shortest / longest : none;
+}
+
+/// ∫ r C dr along a ray of the spectrum, up to a common factor; bilinear between modes.
+double ray_power(const PowerSpectrum& spectrum, double angle) {
+  const Grid2D& grid = spectrum.grid;
+  // In units of modes; the same physical direction on any cell.
+  const double scale = std::min(grid.lx, grid.ly);
+  const double along_x = std::cos(angle) * grid.lx / scale;
+  const double along_y = std::sin(angle) * grid.ly / scale;
+  const auto at = [&](Index i, Index j) {
+    if (2 * std::abs(i) > grid.nx || j >= spectrum.density.cols()) return 0.0;
+    return spectrum.density((i + grid.nx) % grid.nx, j);
+  };
+  double sum = 0;
+  for (double r = 0.5;; r += 0.5) {
+    const double x = r * along_x, y = r * along_y;
+    const double low_x = std::floor(x), low_y = std::floor(y);
+    const auto i = static_cast<Index>(low_x), j = static_cast<Index>(low_y);
+    if (2 * std::abs(x) > static_cast<double>(grid.nx) || j >= spectrum.density.cols()) return sum;
+    const double u = x - low_x, v = y - low_y;
+    sum += r * ((1 - u) * ((1 - v) * at(i, j) + v * at(i, j + 1)) +
+                u * ((1 - v) * at(i + 1, j) + v * at(i + 1, j + 1)));
+  }
+}
+
+double strongest_direction(const Surface& surface) {
+  if (surface.undefined_points() > 0) return none;
+  const PowerSpectrum spectrum = power_spectrum(surface);
+  double best = 0, direction = none;
+  for (int k = 0; k < directions; ++k) {
+    const double angle = pi * k / directions;
+    if (const double power = ray_power(spectrum, angle); power > best * (1 + 1e-12)) {
+      best = power;
+      direction = angle;
+    }
+  }
+  return direction;
+}
+
+void set_gradients(ArealParameters& result, const Surface& surface) {
+  const Grid2D& grid = surface.grid;
+  const Field& h = surface.heights;
+  const double per_dx = 1 / grid.dx(), per_dy = 1 / grid.dy();
+  struct Sums {
+    double slope = 0, area = 0;
+    Index triangles = 0;
+  };
+  const Index columns = surface.periodic ? grid.ny : grid.ny - 1;
+  const auto slabs = parallel::map_slabs<Sums>(
+      surface.periodic ? grid.nx : grid.nx - 1, [&](Index begin, Index end) {
+        Sums sums;
+        for (Index ix = begin; ix < end; ++ix) {
+          const Index right = (ix + 1) % grid.nx;
+          for (Index iy = 0; iy < columns; ++iy) {
+            const Index up = (iy + 1) % grid.ny;
+            const std::array along_x{(h(right, iy) - h(ix, iy)) * per_dx,
+                                     (h(right, up) - h(ix, up)) * per_dx};
+            const std::array along_y{(h(ix, up) - h(ix, iy)) * per_dy,
+                                     (h(right, up) - h(right, iy)) * per_dy};
+            if (std::isnan(along_x[0] + along_x[1])) continue;
+            for (const double x : along_x) {
+              for (const double y : along_y) {
+                const double square = x * x + y * y;
+                sums.slope += square;
+                // √(1 + s) − 1 without the loss of digits where s is small.
+                sums.area += square / (std::sqrt(1 + square) + 1);
+                ++sums.triangles;
+              }
+            }
+          }
+        }
+        return sums;
+      });
+  Sums total;
+  for (const Sums& slab : slabs) {
+    total.slope += slab.slope;
+    total.area += slab.area;
+    total.triangles += slab.triangles;
+  }
+  const double triangles = static_cast<double>(total.triangles);
+  result.Sdq = total.triangles > 0 ? std::sqrt(total.slope / triangles) : none;
+  result.Sdr = total.triangles > 0 ? total.area / triangles : none;
+}
+
+}  // namespace
+
+ArealParameters areal_parameters(const Surface& surface) {
+  const HeightStatistics heights = height_statistics(surface);
+  ArealParameters result;
+  result.Sq = heights.rms_height;
+  result.Ssk = heights.skewness;
+  result.Sku = heights.kurtosis;
+  result.Sp = heights.maximum - heights.mean;
+  result.Sv = heights.mean - heights.minimum;
+  result.Sz = heights.maximum - heights.minimum;
+  result.Sa = parallel::sum_slabs(surface.grid.nx,
+                                  [&](Index begin, Index end) {
+                                    double sum = 0;
+                                    for (Index ix = begin; ix < end; ++ix)
+                                      for (Index iy = 0; iy < surface.grid.ny; ++iy)
+                                        if (const double height = surface.heights(ix, iy);
+                                            !std::isnan(height))
+                                          sum += std::abs(height - heights.mean);
+                                    return sum;
+                                  }) /
+              static_cast<double>(heights.defined_points);
+
+  const std::vector<Peak> peaks = significant_peaks(surface, pruning * result.Sz);
+  const double count = static_cast<double>(peaks.size());
+  double curvature = 0;
+  for (const Peak& peak : peaks) curvature += peak.mean_curvature;
+  result.Spd = count / surface.grid.area();
+  result.Spc = peaks.empty() ? none : curvature / count;
+
+  set_correlation_lengths(result, surface);
+  result.Std = strongest_direction(surface);
+  set_gradients(result, surface);
+
+  const CoreParameters core = core_parameters(BearingCurve(surface));
+  result.Sk = core.core_height;
+  result.Spk = core.peak_height;
+  result.Svk = core.valley_depth;
+  result.Smr1 = core.peak_fraction;
+  result.Smr2 = core.core_fraction;
+  return result;
+}
+
+}  // namespace salebra

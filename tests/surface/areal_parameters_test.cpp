@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/generators/anisotropic_spectrum.hpp>
+#include <salebra/generators/radial_spectrum.hpp>
+#include <salebra/generators/random_phase.hpp>
+#include <salebra/surface/areal_parameters.hpp>
+#include <salebra/surface/peaks.hpp>
+
+#include "test_surfaces.hpp"
+
+using namespace salebra;
+using std::numbers::pi;
+
+TEST_CASE("A wedge has the developed area of its flank, 1/cos θ, and its slope", "[areal]") {
+  const double angle = 0.6;
+  // The edge lies on a row of points, so that every triangle lies in a flank.
+  const Surface wedge = sampled({33, 20, 33.0, 40.0}, false, [&](double x, double) {
+    return -std::abs(x - 16) * std::tan(angle);
+  });
+  const ArealParameters wedge_parameters = areal_parameters(wedge);
+  CHECK(wedge_parameters.Sdr == Approx(1 / std::cos(angle) - 1).epsilon(1e-13));
+  CHECK(wedge_parameters.Sdq == Approx(std::tan(angle)).epsilon(1e-13));
+}
+
+TEST_CASE("A sinusoid has the heights of its formula", "[areal]") {
+  const double amplitude = 2e-6;
+  const Surface wave = sampled({240, 60, 1e-3, 1e-3}, true, [&](double x, double) {
+    return 5e-6 + amplitude * std::sin(2 * pi * 4 * x / 1e-3);
+  });
+  const ArealParameters p = areal_parameters(wave);
+  CHECK(p.Sq == Approx(amplitude / std::sqrt(2)).epsilon(1e-10));
+  // Mean of |sin| over 60 points of a wave, (2/60) cot(π/60): 2/π less π²/(3·60²).
+  CHECK(p.Sa == Approx(amplitude * 2 / 60 / std::tan(pi / 60)).epsilon(1e-10));
+  CHECK(p.Ssk == Approx(0).margin(1e-10));
+  CHECK(p.Sku == Approx(1.5).epsilon(1e-10));
+  CHECK(p.Sp == Approx(amplitude).epsilon(1e-10));
+  CHECK(p.Sv == Approx(amplitude).epsilon(1e-10));
+  CHECK(p.Sz == Approx(2 * amplitude).epsilon(1e-10));
+  // cos(qx) = 0.2 along x; bilinear between 60 points of a wave.
+  CHECK(p.Sal == Approx(std::acos(0.2) / (2 * pi * 4 / 1e-3)).epsilon(1e-3));
+  // It never falls along y.
+  CHECK(std::isnan(p.Str));
+  CHECK(p.Std == Approx(0).margin(1e-12));
+}
+
+TEST_CASE("A stretched Gaussian correlation has the lengths, aspect and direction of its ellipse",
+          "[areal]") {
+  const double length = 0.02, angle = 0.5;
+  const auto isotropic =
+      std::make_shared<FunctionSpectrum>(gaussian_correlation_spectrum(1e-6, length));
+  const AnisotropicSpectrum spectrum(isotropic, {.along = 2, .across = 0.8, .angle = angle});
+  const ArealParameters p = areal_parameters(random_phase({512, 512, 2, 2}, spectrum, 3));
+  // exp(−r²/ℓ²) = 0.2. Random phase has the correlation of its spectrum exactly; the steps of 0.25 ℓ/5 bend bilinear values by 1 %.
+  const double fall = length * std::sqrt(std::log(5.0));
+  CHECK(p.Sal == Approx(0.8 * fall).epsilon(0.02));
+  CHECK(p.Str == Approx(0.8 / 2).epsilon(0.02));
+  // Power lies across the lay. Fixed amplitudes: nothing but the lattice of modes moves the greatest value.
+  CHECK(p.Std == Approx(angle + pi / 2).margin(pi / 180));
+}
+
+TEST_CASE("The texture direction of one wave is its own", "[areal]") {
+  const int i = GENERATE(7, -7), j = GENERATE(0, 3);
+  const Surface wave = sampled({64, 64, 1.0, 2.0}, true, [&](double x, double y) {
+    return std::cos(2 * pi * (i * x + j * y / 2) + 0.3);
+  });
+  const double exact = j == 0 ? 0 : std::atan2(j / 2.0, i);
+  // To the quarter of a degree between rays, and the steps of half a mode along them.
+  CHECK(areal_parameters(wave).Std ==
+        Approx(exact < 0 ? exact + pi : exact).margin(1.5 * pi / 180));
+}
+
+TEST_CASE("Hills in a chain of known saddles are pruned in the order of their prominence",
+          "[peaks]") {
+  // Along x: heights of points, a ridge that is the same for all y but for one row that makes each peak a point.
+  const std::vector<double> ridge{0, 5, 3, 4, 1, 9, 8, 8.5, 0, 2, 0};
+  Surface surface = sampled({11, 5, 11, 5}, false, [&](double x, double y) {
+    return ridge[static_cast<std::size_t>(x + 0.5)] - (std::abs(y - 2) > 0.5 ? 20 : 0);
+  });
+  // Prominences: 9 highest of all, 5 over its saddle 1: 4, 2 over 0: 2, 4 over 3: 1, 8.5 over 8: 0.5.
+  CHECK(significant_peaks(surface, 0).size() == 5);
+  CHECK(significant_peaks(surface, 0.5).size() == 5);
+  CHECK(significant_peaks(surface, 0.6).size() == 4);
+  CHECK(significant_peaks(surface, 1.5).size() == 3);
+  CHECK(significant_peaks(surface, 3).size() == 2);
+  const auto last = significant_peaks(surface, 5);
+  REQUIRE(last.size() == 1);
+  CHECK(last.front().ix == 5);
+  // −½ (−8 − 1 + −40)/1.
+  CHECK(last.front().mean_curvature == Approx(0.5 * (8 + 1 + 40)));
+  // Two peaks beside an undefined point are not listed; the 5 still ends at its saddle with one of them.
+  surface.heights(6, 2) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(significant_peaks(surface, 0.6).size() == 3);
+  CHECK(significant_peaks(surface, 5).empty());
+}
+
+TEST_CASE("An egg box has one peak to a hill, with the curvature of a cosine", "[areal]") {
+  const double amplitude = 1e-6, l = 1e-3;
+  const Surface box = sampled({120, 120, l, l}, true, [&](double x, double y) {
+    return amplitude * std::cos(2 * pi * 3 * x / l) * std::cos(2 * pi * 5 * y / l);
+  });
+  const ArealParameters p = areal_parameters(box);
+  CHECK(p.Spd == Approx(2 * 3 * 5 / (l * l)));
+  // Second differences of a cosine: 2(1 − cos qΔ)/Δ².
+  const double step = l / 120;
+  const auto second = [&](int waves) {
+    return 2 * (1 - std::cos(2 * pi * waves * step / l)) / (step * step);
+  };
+  CHECK(p.Spc == Approx(amplitude * (second(3) + second(5)) / 2).epsilon(1e-9));
+}
+
+TEST_CASE("Undefined points and flat surfaces have the parameters that exist", "[areal]") {
+  Surface surface = white({20, 20, 1, 1}, false);
+  surface.heights(10, 10) = std::numeric_limits<double>::quiet_NaN();
+  const ArealParameters p = areal_parameters(surface);
+  CHECK(std::isnan(p.Std));
+  CHECK(p.Sdr > 0);
+  CHECK(p.Sq > 0);
+  surface.heights.setConstant(2);
+  const ArealParameters flat = areal_parameters(surface);
+  CHECK(flat.Sq == 0);
+  CHECK(flat.Sk == 0);
+  CHECK(std::isnan(flat.Sal));
+  CHECK(std::isnan(flat.Ssk));
+}
