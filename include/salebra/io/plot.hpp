@@ -33,8 +33,8 @@ struct PlotAxis {
 enum class PlotStyle { line, dashed, dotted, points, line_and_points };
 
 struct PlotCurve {
-  std::string name = {};     ///< in the legend; empty: not there
-  std::vector<double> x, y;  ///< NaN interrupts the line
+  std::string name = {};               ///< in the legend; empty: not there
+  std::vector<double> x = {}, y = {};  ///< NaN interrupts the line
   std::vector<double> low = {},
                       high = {};  ///< a band around it, such as a confidence interval; both or none
   PlotStyle style = PlotStyle::line;
@@ -47,9 +47,9 @@ struct PlotCurve {
 enum class PlotPalette { sequential, diverging, grey };
 
 struct PlotImage {
-  std::vector<double> x, y;  ///< middles of the cells, increasing; equally spaced or not
-  Field values;              ///< (x, y); NaN is left white
-  PlotAxis scale = {};       ///< of the colours
+  std::vector<double> x = {}, y = {};  ///< middles of the cells, increasing; equally spaced or not
+  Field values = {};                   ///< (x, y); NaN is left white
+  PlotAxis scale = {};                 ///< of the colours
   PlotPalette palette = PlotPalette::sequential;
   std::vector<double> contours = {};  ///< values to draw a line at, with their number
   bool color_bar = true;
