@@ -43,6 +43,15 @@ void add(StepSums& total, const StepSums& part) {
   total.saturated += part.saturated;
   total.least = std::min(total.least, part.least);
 }
+void add(GapSums& total, const GapSums& part) {
+  total.pressure += part.pressure;
+  total.count += part.count;
+  total.g += part.g;
+  total.misfit += part.misfit;
+  total.distance += part.distance;
+  total.saturated += part.saturated;
+  total.least = std::min(total.least, part.least);
+}
 void add(double& total, double part) { total += part; }
 
 // In the order of the slabs, so that the sum has the same bits for every thread count.
@@ -80,11 +89,18 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, double contact_modulus, Bound
 template <class Real>
 void ActiveSetCg<Real>::correct_load(const ContactTarget& target, double* p) const {
   const double load = target.value * static_cast<double>(points()), bound = target.bound;
-  const bool loaded = sum_rows([&](Index begin, Index end) {
-                        return *std::max_element(p + begin * grid_.ny, p + end * grid_.ny);
-                      }) > 0;
-  if (!loaded) {
+  const double carried = sum_rows([&](Index begin, Index end) {
+    return kernels_.clip(p + begin * grid_.ny, (end - begin) * grid_.ny, bound);
+  });
+  if (!(carried > 0)) {
     std::fill(p, p + points(), target.value);
+    return;
+  }
+  if (std::isinf(bound)) {
+    const double scale = load / carried;
+    for_rows([&](Index begin, Index end) {
+      for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) p[k] *= scale;
+    });
     return;
   }
   const auto correction = correction_for_load(load, bound, [&](const LoadCorrection& trial) {
@@ -114,10 +130,12 @@ Convolution2D<double>& ActiveSetCg<Real>::exact_compliance() {
   }
 }
 
+// g = Gp − h and what follows from it.
 template <class Real>
-void ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
+ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
   ++run.outcome.fft_count;
-  if (exact || std::is_same_v<Real, double>) {
+  exact = exact || std::is_same_v<Real, double>;
+  if (exact) {
     exact_compliance().apply(run.p, run.g);
   } else {
     for_rows([&](Index begin, Index end) {
@@ -125,14 +143,34 @@ void ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
     });
     compliance_.apply(w_.get(), w_.get());
     run.has_direction = false;  // its image is gone
-    for_rows([&](Index begin, Index end) {
-      for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k)
-        run.g[k] = static_cast<double>(w_[k]);
-    });
   }
-  for_rows([&](Index begin, Index end) {
-    for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) run.g[k] -= heights_[k];
-  });
+  // Counted from a plane near the true one, which is known only afterwards, Σp(g − plane) loses no digits.
+  const double near = run.load_given() ? run.level : run.target.value;
+  GapSums total;
+  total.least = std::numeric_limits<double>::infinity();
+  for (const GapSums& part : over_rows<GapSums>([&](Index begin, Index end) {
+         const Index first = begin * grid_.ny, count = (end - begin) * grid_.ny;
+         const double* heights = heights_.values + first;
+         const double* p = run.p + first;
+         double* g = run.g + first;
+         return exact ? kernels_.exact_gap(g, heights, heights_.zero, p, g, count, run.target.bound,
+                                           near)
+                      : kernels_.gap(w_.get() + first, heights, heights_.zero, p, g, count,
+                                     run.target.bound, near);
+       }))
+    add(total, part);
+  if (total.saturated > 0) return contact_residual(grid_, run.target, rms_height_, run.p, run.g);
+  ContactResidual result;
+  const double misfit =
+      run.load_given() ? total.misfit + (near - total.least) * total.pressure : total.distance;
+  result.residual = total.pressure > 0 ? misfit / (total.pressure * rms_height_) : 0;
+  if (run.load_given()) {
+    result.level = total.count > 0 ? total.g / total.count : total.least;
+  } else {
+    result.residual += std::max(0.0, near - total.least) / rms_height_;
+    result.level = near;
+  }
+  return result;
 }
 
 // One step of CG, and the change of the free set that it calls for. Returns false where no free cell is left.
@@ -140,7 +178,7 @@ template <class Real>
 bool ActiveSetCg<Real>::iterate(Run& run) {
   if (!(run.count > 0)) return false;
   const bool load_given = run.load_given();
-  const auto a = arrays(run.p, run.g, run.target.bound);
+  const auto a = arrays(run.target.bound);
 
   frame_residual();
   const auto preconditioned = total_of(over_tiles<PreconditionSums>(
@@ -206,14 +244,8 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
 // p within its bounds and at its load, g = Gp − h and e_c over all cells, and the tiles that they call for.
 template <class Real>
 void ActiveSetCg<Real>::refresh(Run& run) {
-  const double bound = run.target.bound;
-  for_rows([&](Index begin, Index end) {
-    for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k)
-      run.p[k] = std::clamp(run.p[k], 0.0, bound);
-  });
-  if (run.load_given()) correct_load(run.target, run.p);
-  dense_gap(run, run.limits.exact);
-  const auto [level, residual] = contact_residual(grid_, run.target, rms_height_, run.p, run.g);
+  collect_pressure(run);
+  const auto [level, residual] = dense_gap(run, run.limits.exact);
   run.level = level;
   run.outcome.residual = residual;
   run.at_refresh = std::max(residual, std::numeric_limits<double>::min());
@@ -237,8 +269,7 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
   } else {
     run.level = target.value;
   }
-  dense_gap(run, false);
-  run.level = contact_residual(grid_, target, rms_height_, p, g).level;
+  run.level = dense_gap(run, false).level;
   choose_tiles(run, widest_margin);
   for (;;) {
     const bool progressed = iterate(run);

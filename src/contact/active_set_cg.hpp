@@ -60,7 +60,7 @@ class ActiveSetCg {
 
   Index points() const { return grid_.points(); }
   Index tile_points() const { return static_cast<Index>(tiles_.size()) * tile_width; }
-  TileArrays<Real> arrays(double* p, double* g, double bound);
+  TileArrays<Real> arrays(double bound);
 
   // Dense passes: body(begin, end) over the slabs of rows.
   template <class Body>
@@ -90,9 +90,11 @@ class ActiveSetCg {
   void reset();
   void correct_load(const ContactTarget& target, double* p) const;
   Convolution2D<double>& exact_compliance();
-  void dense_gap(Run& run, bool exact);
+  ContactResidual dense_gap(Run& run, bool exact);
   void choose_tiles(Run& run, double margin);
   void list_tiles();
+  void release_tiles();
+  void collect_pressure(Run& run);
   void begin_set(Run& run, const std::vector<SetSums>& parts);
   void frame_residual();
   bool iterate(Run& run);
@@ -117,7 +119,10 @@ class ActiveSetCg {
   // Not initialised before reset(), which lets the thread that will use a page touch it first.
   LargeArray<Real> t_, w_;  // dense
   LargeArray<Real> r_;      // framed
-  LargeArray<Real> z_, m_;  // tile after tile
+  // Tile after tile, with zeros where a row ends within a tile. Between two refreshes p and g are up to date only here.
+  LargeArray<double> p_, g_;
+  LargeArray<Real> z_, m_;
+  std::vector<unsigned char> quiet_;
 };
 
 }  // namespace salebra::detail

@@ -7,9 +7,10 @@
 namespace salebra::detail {
 
 template <class Real>
-TileArrays<Real> ActiveSetCg<Real>::arrays(double* p, double* g, double bound) {
-  return {tiles_.data(), grid_.ny, framed_stride_,  p,    g, t_.get(), w_.get(), r_.get(),
-          z_.get(),      m_.get(), stencil_.data(), bound};
+TileArrays<Real> ActiveSetCg<Real>::arrays(double bound) {
+  return {tiles_.data(), grid_.ny,        framed_stride_, t_.get(), w_.get(),
+          r_.get(),      p_.get(),        g_.get(),       z_.get(), m_.get(),
+          quiet_.data(), stencil_.data(), bound};
 }
 
 template <class Real>
@@ -32,6 +33,14 @@ void ActiveSetCg<Real>::reset() {
   std::fill_n(r_.get() + framed_rows * framed_stride_, tile_width, Real(0));
 }
 
+template <class Real>
+void ActiveSetCg<Real>::release_tiles() {
+  p_.reset();
+  g_.reset();
+  z_.reset();
+  m_.reset();
+}
+
 // The tiles that are in use, row by row, with room for what is stored tile after tile.
 template <class Real>
 void ActiveSetCg<Real>::list_tiles() {
@@ -41,8 +50,13 @@ void ActiveSetCg<Real>::list_tiles() {
       if (in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)])
         tiles_.push_back(
             {static_cast<std::int32_t>(row), static_cast<std::int32_t>(k * tile_width)});
+  // Free first: what was there may be as large as what comes.
+  release_tiles();
+  p_ = large_array<double>(static_cast<std::size_t>(tile_points()));
+  g_ = large_array<double>(static_cast<std::size_t>(tile_points()));
   z_ = large_array<Real>(static_cast<std::size_t>(tile_points()));
   m_ = large_array<Real>(static_cast<std::size_t>(tile_points()));
+  quiet_.assign(tiles_.size(), 0);
 }
 
 // The tiles of all cells that carry pressure or are closer to the plane than margin·h_rms, and the free cells in them.
@@ -66,22 +80,56 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
       }
   });
   list_tiles();
-  begin_set(run, over_tiles<SetSums>([&](Index begin, Index end) {
-              SetSums sums;
-              for (Index k = begin; k < end; ++k) {
-                const Tile tile = tiles_[static_cast<std::size_t>(k)];
-                const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
-                const Index dense = tile.row * grid_.ny + tile.column;
-                for (Index i = 0; i < width; ++i) {
-                  const double p = run.p[dense + i], g = run.g[dense + i];
-                  const bool free = p >= bound ? g > run.level : p > 0 || g < run.level;
-                  m_[static_cast<std::size_t>(k * tile_width + i)] = free ? Real(1) : Real(0);
-                  sums.count += free ? 1 : 0;
-                  sums.g += free ? g : 0;
-                }
-              }
-              return sums;
-            }));
+  begin_set(
+      run, over_tiles<SetSums>([&](Index begin, Index end) {
+        SetSums sums;
+        for (Index k = begin; k < end; ++k) {
+          const Tile tile = tiles_[static_cast<std::size_t>(k)];
+          const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
+          const Index dense = tile.row * grid_.ny + tile.column;
+          const Index packed = k * tile_width;
+          bool busy = false;
+          for (Index i = 0; i < tile_width; ++i) {
+            const double p = i < width ? run.p[dense + i] : 0, g = i < width ? run.g[dense + i] : 0;
+            const bool free = i < width && (p >= bound ? g > run.level : p > 0 || g < run.level);
+            p_[packed + i] = p;
+            g_[packed + i] = g;
+            m_[packed + i] = free ? Real(1) : Real(0);
+            sums.count += free ? 1 : 0;
+            sums.g += free ? g : 0;
+            busy |= free || p != 0;
+          }
+          if (busy) continue;
+          quiet_[static_cast<std::size_t>(k)] = 1;
+          std::fill_n(t_.get() + dense, width, Real(0));
+          std::fill_n(r_.get() + (tile.row + frame) * framed_stride_ + tile.column + frame, width,
+                      Real(0));
+        }
+        return sums;
+      }));
+}
+
+// Puts p back into the dense array, within its bounds and at its load.
+template <class Real>
+void ActiveSetCg<Real>::collect_pressure(Run& run) {
+  double sum = 0;
+  for (const double part : over_tiles<double>([&](Index begin, Index end) {
+         return kernels_.clip(p_.get() + begin * tile_width, (end - begin) * tile_width,
+                              run.target.bound);
+       }))
+    sum += part;
+  const bool scaled = run.load_given() && std::isinf(run.target.bound) && sum > 0;
+  const double scale = scaled ? run.target.value * static_cast<double>(points()) / sum : 1;
+  for_tiles([&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) {
+      const Tile tile = tiles_[static_cast<std::size_t>(k)];
+      const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
+      double* p = run.p + tile.row * grid_.ny + tile.column;
+      for (Index i = 0; i < width; ++i) p[i] = scale * p_[k * tile_width + i];
+    }
+  });
+  release_tiles();
+  if (run.load_given() && !scaled) correct_load(run.target, run.p);
 }
 
 // Number of free cells, the level, and the residual on them, after the set or g changed.
@@ -94,7 +142,7 @@ void ActiveSetCg<Real>::begin_set(Run& run, const std::vector<SetSums>& parts) {
   }
   run.count = total.count;
   if (run.load_given() && run.count > 0) run.level = total.g / run.count;
-  const auto a = arrays(run.p, run.g, run.target.bound);
+  const auto a = arrays(run.target.bound);
   for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, run.level); });
 }
 
@@ -133,9 +181,9 @@ LoadCorrection ActiveSetCg<Real>::correction_over_tiles(const Run& run, double p
     for (const LoadSums& part : over_tiles<LoadSums>([&](Index begin, Index end) {
            LoadSums sums;
            for (Index k = begin; k < end; ++k) {
-             const Tile tile = tiles_[static_cast<std::size_t>(k)];
-             const double* p = run.p + tile.row * grid_.ny + tile.column;
-             const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
+             const double* p = p_.get() + k * tile_width;
+             const Index width =
+                 std::min<Index>(tile_width, grid_.ny - tiles_[static_cast<std::size_t>(k)].column);
              for (Index i = 0; i < width; ++i) sums.add(trial(p[i], bound), bound);
            }
            return sums;
@@ -149,7 +197,7 @@ LoadCorrection ActiveSetCg<Real>::correction_over_tiles(const Run& run, double p
 // its load, at the cost of one transform pair.
 template <class Real>
 void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
-  const auto a = arrays(run.p, run.g, run.target.bound);
+  const auto a = arrays(run.target.bound);
   if (!truncate) {
     begin_set(run, over_tiles<SetSums>([&](Index begin, Index end) {
                 return kernels_.change_set(a, begin, end, run.level);

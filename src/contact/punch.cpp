@@ -25,8 +25,6 @@ template <class Real>
 double ActiveSetCg<Real>::punch_load(const double* p, double bound, Field* pressure) {
   reset();
   const auto in_set = [bound](double x) { return x > 0 && x < bound; };
-  const std::size_t size = static_cast<std::size_t>(points());
-  std::vector<double> q(size, 0.0), g(size, -1.0);
   for_rows([&](Index begin, Index end) {
     for (Index k = begin * tiles_per_row_; k < end * tiles_per_row_; ++k) {
       const Index first = k / tiles_per_row_ * grid_.ny + k % tiles_per_row_ * tile_width;
@@ -38,10 +36,14 @@ double ActiveSetCg<Real>::punch_load(const double* p, double bound, Field* press
   for (std::size_t k = 0; k < tiles_.size(); ++k) {
     const Index first = tiles_[k].row * grid_.ny + tiles_[k].column;
     const Index width = std::min<Index>(tile_width, grid_.ny - tiles_[k].column);
+    const std::size_t packed = k * tile_width;
+    std::fill_n(p_.get() + packed, tile_width, 0.0);
+    std::fill_n(g_.get() + packed, tile_width, -1.0);
+    std::fill_n(m_.get() + packed, tile_width, Real(0));
     for (Index i = 0; i < width; ++i)
-      m_[k * tile_width + static_cast<std::size_t>(i)] = in_set(p[first + i]) ? Real(1) : Real(0);
+      if (in_set(p[first + i])) m_[packed + static_cast<std::size_t>(i)] = Real(1);
   }
-  const auto a = arrays(q.data(), g.data(), std::numeric_limits<double>::infinity());
+  const auto a = arrays(std::numeric_limits<double>::infinity());
   const auto tiles = static_cast<Index>(tiles_.size());
   const auto over = [&]<class Sums>(Sums, auto kernel) {
     return parallel::map_slabs<Sums>(tiles, kernel, tiles * tile_width);
@@ -79,13 +81,17 @@ double ActiveSetCg<Real>::punch_load(const double* p, double bound, Field* press
     if (iteration + 1 == most_iterations && small_gains < gains_in_a_row)
       return std::numeric_limits<double>::quiet_NaN();
   }
-  if (pressure) *pressure = Eigen::Map<const Field>(q.data(), grid_.nx, grid_.ny);
-  exact_compliance().apply(q.data(), g.data());
+  Field q = Field::Zero(grid_.nx, grid_.ny), image = uninitialised_field(grid_.nx, grid_.ny);
+  for (std::size_t k = 0; k < tiles_.size(); ++k)
+    std::copy_n(p_.get() + k * tile_width, std::min<Index>(tile_width, grid_.ny - tiles_[k].column),
+                q.data() + tiles_[k].row * grid_.ny + tiles_[k].column);
+  release_tiles();
+  if (pressure) *pressure = q;
+  exact_compliance().apply(q.data(), image.data());
   return sum_rows([&](Index begin, Index end) {
     double part = 0;
-    for (auto k = static_cast<std::size_t>(begin * grid_.ny);
-         k < static_cast<std::size_t>(end * grid_.ny); ++k)
-      part += q[k] * (2 - g[k]);
+    for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k)
+      part += q.data()[k] * (2 - image.data()[k]);
     return part;
   });
 }

@@ -23,14 +23,16 @@ struct TileArrays {
   const Tile* tiles;
   std::ptrdiff_t ny;             // cells of a row of the dense arrays
   std::ptrdiff_t framed_stride;  // from one row of r to the next
-  double* p;                     // dense: pressure
-  double* g;                     // dense: Gp − h
   Real* t;                       // dense: search direction, zero off the tiles
   Real* w;                       // dense: Gt
   Real* r;                       // framed: (g − level) on the free cells, zero elsewhere
+  double* p;                     // tile after tile: pressure
+  double* g;                     // tile after tile: Gp − h
   Real* z;                       // tile after tile: preconditioned residual
   Real*
       m;  // tile after tile: 1 on free cells, where g = level is wanted; 0 where p is held at a bound
+  unsigned char*
+      quiet;  // tile after tile: 1 where no cell is free or loaded, and then r and t are zero
   const Real* stencil;  // stencil_size weights
   double bound;         // largest pressure allowed; may be infinite
 };
@@ -53,6 +55,14 @@ struct StepSums {
 };
 struct SetSums {
   double count = 0, g = 0;  // free cells and Σg over them
+};
+struct GapSums {
+  double pressure = 0;      // Σp
+  double count = 0, g = 0;  // cells with 0 < p < bound and Σg over them
+  double misfit = 0;        // Σ p(g − plane)
+  double distance = 0;      // Σ p|g − plane|
+  double saturated = 0;     // cells at the bound
+  double least = 0;         // least g
 };
 
 template <class Real>
@@ -77,6 +87,14 @@ struct TileKernels {
                    double scale, double shift);
   // g += t, t = z; the free cells and Σg as they are then
   SetSums (*add_displacement)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end);
+
+  // Over consecutive cells of the dense arrays: g = u − (heights − zero), and what the contact plane follows from. u may be g.
+  GapSums (*gap)(const Real* u, const double* heights, double zero, const double* p, double* g,
+                 std::ptrdiff_t count, double bound, double plane);
+  GapSums (*exact_gap)(const double* u, const double* heights, double zero, const double* p,
+                       double* g, std::ptrdiff_t count, double bound, double plane);
+  // Σp over consecutive cells, p clipped to [0, bound] first.
+  double (*clip)(double* p, std::ptrdiff_t count, double bound);
 };
 
 // The table for the widest vectors that this processor has.

@@ -32,13 +32,22 @@ struct FullWidth {
 };
 
 // Calls body(packed, dense, framed, width) with the offsets of each tile; width is a constant for all but the last of a row.
-template <class Real, class Body>
-SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, const Body& body) {
+// quiet_body likewise, where the tile is quiet.
+template <class Real, class Body, class QuietBody>
+SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, const Body& body,
+                              const QuietBody& quiet_body) {
   for (Size k = begin; k < end; ++k) {
     const Size row = a.tiles[k].row, column = a.tiles[k].column;
     const Size dense = row * a.ny + column,
                framed = (row + frame) * a.framed_stride + column + frame;
-    if (a.ny - column >= tile_width) {
+    const bool whole = a.ny - column >= tile_width;
+    if (a.quiet[k]) {
+      if (whole) {
+        quiet_body(k * tile_width, dense, framed, FullWidth{});
+      } else {
+        quiet_body(k * tile_width, dense, framed, a.ny - column);
+      }
+    } else if (whole) {
       body(k * tile_width, dense, framed, FullWidth{});
     } else {
       body(k * tile_width, dense, framed, a.ny - column);
@@ -46,10 +55,42 @@ SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, c
   }
 }
 
+// The same, where a quiet tile adds nothing and does not change.
+template <class Real, class Body>
+SALEBRA_INLINE void for_active_tiles(const TileArrays<Real>& a, Size begin, Size end,
+                                     const Body& body) {
+  for_tiles(a, begin, end, body, [](Size, Size, Size, auto) {});
+}
+
+// Lets a tile rest whose cells are all held and without load.
+template <class Real, class Width>
+SALEBRA_INLINE void rest(const TileArrays<Real>& a, Size packed, Size dense, Size framed,
+                         Width width) {
+  const Real* m = a.m + packed;
+  const double* p = a.p + packed;
+  int loaded = 0, free = 0;
+  for (Size i = 0; i < width; ++i) loaded |= p[i] != 0;
+  for (Size i = 0; i < width; ++i) free |= m[i] != 0;
+  if (loaded | free) return;
+  a.quiet[packed / tile_width] = 1;
+  for (Size i = 0; i < width; ++i) {
+    a.t[dense + i] = 0;
+    a.r[framed + i] = 0;
+  }
+}
+
+// Whether a cell without load is below the plane.
+template <class Width>
+SALEBRA_INLINE bool any_below(const double* g, double level, Width width) {
+  int below = 0;
+  for (Size i = 0; i < width; ++i) below |= g[i] < level;
+  return below != 0;
+}
+
 template <class Real>
 void residual(const TileArrays<Real>& a, Size begin, Size end, double level) {
-  for_tiles(a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
-    const double* g = a.g + dense;
+  for_active_tiles(a, begin, end, [&](Size packed, Size, Size framed, auto width) {
+    const double* g = a.g + packed;
     const Real* m = a.m + packed;
     Real* r = a.r + framed;
     for (Size i = 0; i < width; ++i) r[i] = m[i] * static_cast<Real>(g[i] - level);
@@ -96,7 +137,7 @@ SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, Size w
 template <class Real>
 PreconditionSums precondition(const TileArrays<Real>& a, Size begin, Size end) {
   Lanes sum_z, sum_zw, sum_zz, sum_t, sum_w;
-  for_tiles(a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
+  for_active_tiles(a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
     const Real *m = a.m + packed, *t = a.t + dense, *w = a.w + dense;
     Real* z = a.z + packed;
     Real any = 0;
@@ -124,7 +165,7 @@ template <class Real>
 double direct(const TileArrays<Real>& a, Size begin, Size end, double z_mean, double beta,
               double t_mean) {
   Lanes sum;
-  for_tiles(a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
+  for_active_tiles(a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
     const Real *m = a.m + packed, *z = a.z + packed, *r = a.r + framed;
     Real* t = a.t + dense;
     for (Size i = 0; i < width; ++i) {
@@ -140,7 +181,7 @@ double direct(const TileArrays<Real>& a, Size begin, Size end, double z_mean, do
 template <class Real>
 CurvatureSums curvature(const TileArrays<Real>& a, Size begin, Size end) {
   Lanes sum_tw, sum_w;
-  for_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
+  for_active_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
     const Real *m = a.m + packed, *t = a.t + dense, *w = a.w + dense;
     for (Size i = 0; i < width; ++i) {
       const double y = w[i];
@@ -156,36 +197,49 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
   Lanes outside, wrong, clipped, pressure, misfit, signed_misfit, saturated, least;
   for (int lane = 0; lane < tile_width; ++lane) least.value[lane] = __builtin_inf();
   const double bound = a.bound;
-  for_tiles(a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
-    const Real *m = a.m + packed, *t = a.t + dense, *w = a.w + dense;
-    double *p = a.p + dense, *g = a.g + dense;
-    Real* r = a.r + framed;
-    for (Size i = 0; i < width; ++i) {
-      const double x = p[i] - alpha * static_cast<double>(t[i]);
-      const double y = g[i] - alpha * static_cast<double>(w[i]);
-      p[i] = x;
-      g[i] = y;
-      const double free = m[i], apart = y - level;
-      r[i] = static_cast<Real>(free * apart);
-      const double above = x < 0 ? 0 : x;
-      const double held_in = above < bound ? above : bound;
-      const double beyond = x - held_in;
-      const bool full = held_in >= bound;
-      const double below = full ? 0 : held_in;
-      const double open = apart > 0 ? apart : 0, closed = apart < 0 ? -apart : 0;
-      const double violation = (1 - free) * (full ? open : closed);
-      outside.value[i] += beyond * beyond;
-      wrong.value[i] += violation * violation;
-      clipped.value[i] += beyond < 0 ? -beyond : beyond;
-      pressure.value[i] += below;
-      const double saturated_misfit = full ? held_in * open : 0;
-      misfit.value[i] += below * (open + closed) + saturated_misfit;
-      signed_misfit.value[i] += below * apart + saturated_misfit;
-      saturated.value[i] += full ? 1 : 0;
-      const double candidate = full ? __builtin_inf() : y;
-      least.value[i] = candidate < least.value[i] ? candidate : least.value[i];
-    }
-  });
+  for_tiles(
+      a, begin, end,
+      [&](Size packed, Size dense, Size framed, auto width) {
+        const Real *m = a.m + packed, *t = a.t + dense, *w = a.w + dense;
+        double *p = a.p + packed, *g = a.g + packed;
+        Real* r = a.r + framed;
+        for (Size i = 0; i < width; ++i) {
+          const double x = p[i] - alpha * static_cast<double>(t[i]);
+          const double y = g[i] - alpha * static_cast<double>(w[i]);
+          p[i] = x;
+          g[i] = y;
+          const double free = m[i], apart = y - level;
+          r[i] = static_cast<Real>(free * apart);
+          const double above = x < 0 ? 0 : x;
+          const double held_in = above < bound ? above : bound;
+          const double beyond = x - held_in;
+          const bool full = held_in >= bound;
+          const double below = full ? 0 : held_in;
+          const double open = apart > 0 ? apart : 0, closed = apart < 0 ? -apart : 0;
+          const double violation = (1 - free) * (full ? open : closed);
+          outside.value[i] += beyond * beyond;
+          wrong.value[i] += violation * violation;
+          clipped.value[i] += beyond < 0 ? -beyond : beyond;
+          pressure.value[i] += below;
+          const double saturated_misfit = full ? held_in * open : 0;
+          misfit.value[i] += below * (open + closed) + saturated_misfit;
+          signed_misfit.value[i] += below * apart + saturated_misfit;
+          saturated.value[i] += full ? 1 : 0;
+          const double candidate = full ? __builtin_inf() : y;
+          least.value[i] = candidate < least.value[i] ? candidate : least.value[i];
+        }
+      },
+      [&](Size packed, Size dense, Size, auto width) {
+        const Real* w = a.w + dense;
+        double* g = a.g + packed;
+        for (Size i = 0; i < width; ++i) {
+          const double y = g[i] - alpha * static_cast<double>(w[i]);
+          g[i] = y;
+          const double apart = y - level, closed = apart < 0 ? -apart : 0;
+          wrong.value[i] += closed * closed;
+          least.value[i] = y < least.value[i] ? y : least.value[i];
+        }
+      });
   double lowest = least.value[0];
   for (int lane = 1; lane < tile_width; ++lane)
     lowest = least.value[lane] < lowest ? least.value[lane] : lowest;
@@ -205,15 +259,21 @@ template <class Real>
 SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level) {
   Lanes count, sum;
   const double bound = a.bound;
-  for_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
+  const auto change = [&](Size packed, Size dense, Size framed, auto width) {
     Real* m = a.m + packed;
-    const double *p = a.p + dense, *g = a.g + dense;
+    const double *p = a.p + packed, *g = a.g + packed;
     for (Size i = 0; i < width; ++i) {
       const double free = freed(m[i], p[i], g[i], level, bound);
       m[i] = static_cast<Real>(free);
       count.value[i] += free;
       sum.value[i] += free * g[i];
     }
+    rest(a, packed, dense, framed, width);
+  };
+  for_tiles(a, begin, end, change, [&](Size packed, Size dense, Size framed, auto width) {
+    if (!any_below(a.g + packed, level, width)) return;
+    a.quiet[packed / tile_width] = 0;
+    change(packed, dense, framed, width);
   });
   return {count.sum(), sum.sum()};
 }
@@ -222,10 +282,10 @@ template <class Real>
 void truncate(const TileArrays<Real>& a, Size begin, Size end, double level, double scale,
               double shift) {
   const double bound = a.bound;
-  for_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
+  const auto cut = [&](Size packed, Size dense, Size, auto width) {
     Real *z = a.z + packed, *t = a.t + dense, *m = a.m + packed;
-    double* p = a.p + dense;
-    const double* g = a.g + dense;
+    double* p = a.p + packed;
+    const double* g = a.g + packed;
     for (Size i = 0; i < width; ++i) {
       z[i] = t[i];
       const double above = (p[i] < 0 ? 0 : p[i] * scale) + shift;
@@ -237,30 +297,104 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double level, dou
       t[i] = static_cast<Real>(kept - p[i]);
       p[i] = kept;
     }
+  };
+  for_tiles(a, begin, end, cut, [&](Size packed, Size dense, Size framed, auto width) {
+    if (shift == 0 && !any_below(a.g + packed, level, width)) return;
+    a.quiet[packed / tile_width] = 0;
+    cut(packed, dense, framed, width);
   });
 }
 
 template <class Real>
 SetSums add_displacement(const TileArrays<Real>& a, Size begin, Size end) {
   Lanes count, sum;
-  for_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
-    double* g = a.g + dense;
-    Real* t = a.t + dense;
-    const Real *m = a.m + packed, *z = a.z + packed;
+  for_tiles(
+      a, begin, end,
+      [&](Size packed, Size dense, Size framed, auto width) {
+        double* g = a.g + packed;
+        Real* t = a.t + dense;
+        const Real *m = a.m + packed, *z = a.z + packed;
+        for (Size i = 0; i < width; ++i) {
+          g[i] += static_cast<double>(t[i]);
+          t[i] = z[i];
+          count.value[i] += static_cast<double>(m[i]);
+          sum.value[i] += static_cast<double>(m[i]) * g[i];
+        }
+        rest(a, packed, dense, framed, width);
+      },
+      [&](Size packed, Size dense, Size, auto width) {
+        double* g = a.g + packed;
+        Real* t = a.t + dense;
+        for (Size i = 0; i < width; ++i) {
+          g[i] += static_cast<double>(t[i]);
+          t[i] = 0;
+        }
+      });
+  return {count.sum(), sum.sum()};
+}
+
+// Calls body(first, width) for runs of 16 cells and the rest.
+template <class Body>
+SALEBRA_INLINE void for_runs(Size count, const Body& body) {
+  Size first = 0;
+  for (; first + tile_width <= count; first += tile_width) body(first, FullWidth{});
+  if (first < count) body(first, count - first);
+}
+
+template <class Displacement>
+GapSums gap(const Displacement* u, const double* heights, double zero, const double* p, double* g,
+            Size count, double bound, double plane) {
+  Lanes pressure, free_count, free_g, misfit, distance, saturated, least;
+  for (int lane = 0; lane < tile_width; ++lane) least.value[lane] = __builtin_inf();
+  for_runs(count, [&](Size first, auto width) {
     for (Size i = 0; i < width; ++i) {
-      g[i] += static_cast<double>(t[i]);
-      t[i] = z[i];
-      count.value[i] += static_cast<double>(m[i]);
-      sum.value[i] += static_cast<double>(m[i]) * g[i];
+      const double x = p[first + i], height = heights[first + i] - zero;
+      const double y = static_cast<double>(u[first + i]) - height;
+      g[first + i] = y;
+      const double loaded = x > 0 ? 1.0 : 0.0, free = x < bound ? loaded : 0.0;
+      const double part = x * (y - plane);
+      pressure.value[i] += x;
+      free_count.value[i] += free;
+      free_g.value[i] += free * y;
+      misfit.value[i] += part;
+      distance.value[i] += part < 0 ? -part : part;
+      saturated.value[i] += x < bound ? 0.0 : 1.0;
+      least.value[i] = y < least.value[i] ? y : least.value[i];
     }
   });
-  return {count.sum(), sum.sum()};
+  double lowest = least.value[0];
+  for (int lane = 1; lane < tile_width; ++lane)
+    lowest = least.value[lane] < lowest ? least.value[lane] : lowest;
+  return {pressure.sum(), free_count.sum(), free_g.sum(), misfit.sum(),
+          distance.sum(), saturated.sum(),  lowest};
+}
+
+double clip(double* p, Size count, double bound) {
+  Lanes sum;
+  for_runs(count, [&](Size first, auto width) {
+    for (Size i = 0; i < width; ++i) {
+      const double above = p[first + i] < 0 ? 0.0 : p[first + i];
+      const double kept = above < bound ? above : bound;
+      p[first + i] = kept;
+      sum.value[i] += kept;
+    }
+  });
+  return sum.sum();
 }
 
 template <class Real>
 TileKernels<Real> table() {
-  return {residual<Real>, precondition<Real>, direct<Real>,   curvature<Real>,
-          step<Real>,     change_set<Real>,   truncate<Real>, add_displacement<Real>};
+  return {residual<Real>,
+          precondition<Real>,
+          direct<Real>,
+          curvature<Real>,
+          step<Real>,
+          change_set<Real>,
+          truncate<Real>,
+          add_displacement<Real>,
+          gap<Real>,
+          gap<double>,
+          clip};
 }
 
 TileKernels<float> table_float() { return table<float>(); }
