@@ -57,7 +57,6 @@ struct Convolution2D<Real>::Passes {
     half = (shape.nx + 1) / 2;
     modes = shape.period_y / 2 + 1;
     column_stride = padded(half);
-    spectrum = large_array<Complex>(count(components * shape.period_y * column_stride));
     make_plans();
   }
 
@@ -284,6 +283,8 @@ struct Convolution2D<Real>::Passes {
       if (tables[static_cast<std::size_t>(t)].values == nullptr)
         set_symbol(
             t / 2, t - t / 2, [](Index, Index) { return 0.0; }, Parity::even);
+    if (!spectrum)
+      spectrum = large_array<Complex>(count(components * shape.period_y * column_stride));
     rows_forward(fields);
     columns();
     rows_backward(results);
@@ -325,6 +326,11 @@ void Convolution2D<Real>::apply(const std::array<const Real*, 2>& fields,
   require(passes_->components == 2, "components", passes_->components,
           "must be 2 to transform two fields");
   passes_->apply(fields.data(), results.data());
+}
+
+template <class Real>
+void Convolution2D<Real>::release_spectrum() {
+  passes_->spectrum.reset();
 }
 
 template class Convolution2D<float>;

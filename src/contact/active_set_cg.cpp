@@ -137,6 +137,8 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
   exact = exact || std::is_same_v<Real, double>;
   if (exact) {
     exact_compliance().apply(run.p, run.g);
+    // The tiles, which are listed anew after this, may take its place.
+    if constexpr (std::is_same_v<Real, float>) exact_compliance().release_spectrum();
   } else {
     for_rows([&](Index begin, Index end) {
       for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) w_[k] = static_cast<Real>(run.p[k]);

@@ -17,7 +17,8 @@ enum class Parity { even, odd };
 /// convolution is circular, with period >= 2n − 1 it is that of isolated fields. Three passes over memory: rows, then columns, each
 /// of which stays in cache while it is transformed, multiplied by the symbols and transformed back, then rows.
 /// The result has the same bits for every thread count. One object may run in one thread at a time.
-/// Memory for each point of the period: a half-spectrum of sizeof(Real) bytes a component, and a quarter of that for each symbol.
+/// Memory: sizeof(Real) bytes for each component and each of nx·period_y points while it is in use, and a quarter of that for each
+/// symbol and each point of the period.
 template <class Real>
 class Convolution2D {
  public:
@@ -37,6 +38,9 @@ class Convolution2D {
   const Shape& shape() const;
   /// K_ab and K_ba. Symbols are zero until set. `symbol` is called from several threads.
   void set_symbol(int a, int b, const Symbol& symbol, Parity parity = Parity::even);
+
+  /// Gives the memory of the spectrum back until the next apply(); symbols stay.
+  void release_spectrum();
 
   /// One component. result may be field itself.
   void apply(const Real* field, Real* result);
