@@ -5,15 +5,13 @@
 #include <salebra/base/parallel.hpp>
 
 #include "fftw.hpp"
+#include "spectrum_kernels.hpp"
 
 namespace salebra {
 namespace {
 
 // Pairs of rows that are turned into columns together: eight complex numbers of a column are one or two whole cache lines.
 constexpr Index pairs_at_once = 8;
-
-// Columns are so far apart that the processor does not guess the next one: it is asked for this many columns earlier.
-constexpr Index ahead = 32;
 
 // Added to the lengths of columns and rows, so that equal places of all of them do not fall into one set of the cache.
 constexpr Index gap = 8;
@@ -34,6 +32,7 @@ struct Convolution2D<Real>::Passes {
   using Api = detail::Fftw<Real>;
   using Complex = std::complex<Real>;
 
+  const detail::SpectrumKernels<Real>& kernels = detail::spectrum_kernels<Real>();
   Shape shape;
   int components;
   Index half;                    // pairs of rows
@@ -66,6 +65,8 @@ struct Convolution2D<Real>::Passes {
   Complex* column(int component, Index index) {
     return spectrum.get() + (component * shape.period_y + index) * column_stride;
   }
+  static Real* real(Complex* numbers) { return reinterpret_cast<Real*>(numbers); }
+  static const Real* real(const Complex* numbers) { return reinterpret_cast<const Real*>(numbers); }
   static typename Api::Complex* raw(Complex* numbers) {
     return reinterpret_cast<typename Api::Complex*>(numbers);
   }
@@ -122,14 +123,18 @@ struct Convolution2D<Real>::Passes {
       for (int component = 0; component < components; ++component) {
         for (Index i = 0; i < pairs; ++i) {
           const Real* field = fields[component] + (first + i) * shape.ny;
-          const Real* partner = first + i + half < shape.nx ? field + half * shape.ny : nullptr;
-          interleave(field, partner, row);
+          const bool paired = first + i + half < shape.nx;
+          kernels.interleave(field, paired ? field + half * shape.ny : nullptr, shape.ny,
+                             real(row));
+          std::fill(row + shape.ny, row + shape.period_y, Complex{});
           Api::execute(row_forward.get(), raw(row), raw(rows + i * row_stride));
         }
-        for (Index k = 0; k < shape.period_y; ++k) {
-          Complex* to = column(component, k) + first;
-          __builtin_prefetch(column(component, std::min(k + ahead, shape.period_y - 1)) + first, 1);
-          copy_pairs(pairs, rows + k, row_stride, to, 1);
+        Complex* to = column(component, 0) + first;
+        if (pairs == pairs_at_once) {
+          kernels.to_columns(real(rows), row_stride, shape.period_y, real(to), column_stride);
+        } else {
+          for (Index k = 0; k < shape.period_y; ++k)
+            for (Index i = 0; i < pairs; ++i) to[k * column_stride + i] = rows[i * row_stride + k];
         }
       }
     });
@@ -138,39 +143,22 @@ struct Convolution2D<Real>::Passes {
   void rows_backward(Real* const* results) {
     for_groups([&](Index first, Index pairs, Complex* row, Complex* rows, Index row_stride) {
       for (int component = 0; component < components; ++component) {
-        for (Index k = 0; k < shape.period_y; ++k) {
-          const Complex* from = column(component, k) + first;
-          __builtin_prefetch(column(component, std::min(k + ahead, shape.period_y - 1)) + first);
-          copy_pairs(pairs, from, 1, rows + k, row_stride);
+        const Complex* from = column(component, 0) + first;
+        if (pairs == pairs_at_once) {
+          kernels.to_rows(real(from), column_stride, shape.period_y, real(rows), row_stride);
+        } else {
+          for (Index k = 0; k < shape.period_y; ++k)
+            for (Index i = 0; i < pairs; ++i)
+              rows[i * row_stride + k] = from[k * column_stride + i];
         }
         for (Index i = 0; i < pairs; ++i) {
           Api::execute(row_backward.get(), raw(rows + i * row_stride), raw(row));
           Real* result = results[component] + (first + i) * shape.ny;
-          for (Index j = 0; j < shape.ny; ++j) result[j] = row[j].real();
-          if (first + i + half < shape.nx)
-            for (Index j = 0; j < shape.ny; ++j) result[half * shape.ny + j] = row[j].imag();
+          const bool paired = first + i + half < shape.nx;
+          kernels.split(real(row), shape.ny, result, paired ? result + half * shape.ny : nullptr);
         }
       }
     });
-  }
-
-  static void copy_pairs(Index pairs, const Complex* from, Index from_stride, Complex* to,
-                         Index to_stride) {
-    if (pairs == pairs_at_once) {
-      for (Index i = 0; i < pairs_at_once; ++i) to[i * to_stride] = from[i * from_stride];
-    } else {
-      for (Index i = 0; i < pairs; ++i) to[i * to_stride] = from[i * from_stride];
-    }
-  }
-
-  // A pair of rows, zero-padded to the period.
-  void interleave(const Real* field, const Real* partner, Complex* row) const {
-    if (partner) {
-      for (Index j = 0; j < shape.ny; ++j) row[j] = {field[j], partner[j]};
-    } else {
-      for (Index j = 0; j < shape.ny; ++j) row[j] = {field[j], Real(0)};
-    }
-    std::fill(row + shape.ny, row + shape.period_y, Complex{});
   }
 
   void columns() {
@@ -204,39 +192,21 @@ struct Convolution2D<Real>::Passes {
 
   // 2·x from z(k) and z(−k), zero-padded to the period.
   void separate(const Complex* z, const Complex* mirrored, Complex* x) const {
-    const Real* a = reinterpret_cast<const Real*>(z);
-    const Real* b = reinterpret_cast<const Real*>(mirrored);
-    Real* near = reinterpret_cast<Real*>(x);
-    Real* far = reinterpret_cast<Real*>(x + half);
-    for (Index i = 0; i < 2 * half; i += 2) {
-      near[i] = a[i] + b[i];
-      near[i + 1] = a[i + 1] - b[i + 1];
-    }
-    for (Index i = 0; i < 2 * (shape.nx - half); i += 2) {
-      far[i] = a[i + 1] + b[i + 1];
-      far[i + 1] = b[i] - a[i];
-    }
+    const Index paired = shape.nx - half;
+    kernels.separate(real(z), real(mirrored), paired, real(x), real(x + half));
+    if (paired < half) x[paired] = z[paired] + std::conj(mirrored[paired]);
     std::fill(x + shape.nx, x + shape.period_x, Complex{});
   }
 
   // z(k) and z(−k) from x.
   void join(const Complex* x, Complex* z, Complex* mirrored) const {
     const Index paired = shape.nx - half;
-    const Real* near = reinterpret_cast<const Real*>(x);
-    const Real* far = reinterpret_cast<const Real*>(x + half);
-    Real* a = reinterpret_cast<Real*>(z);
-    Real* b = reinterpret_cast<Real*>(mirrored);
     if (z == mirrored) {
       // The spectrum of a real row is real here.
       for (Index i = 0; i < half; ++i) z[i] = {x[i].real(), i < paired ? x[half + i].real() : 0};
       return;
     }
-    for (Index i = 0; i < 2 * paired; i += 2) {
-      a[i] = near[i] - far[i + 1];
-      a[i + 1] = near[i + 1] + far[i];
-      b[i] = near[i] + far[i + 1];
-      b[i + 1] = far[i] - near[i + 1];
-    }
+    kernels.join(real(x), real(x + half), paired, real(z), real(mirrored));
     if (paired < half) {
       z[paired] = x[paired];
       mirrored[paired] = std::conj(x[paired]);
@@ -244,21 +214,9 @@ struct Convolution2D<Real>::Passes {
   }
 
   void multiply(Index j, Complex* numbers) const {
-    const Real* symbol = tables[0].values.get() + j * table_rows();
-    const Real sign = tables[0].parity == Parity::odd ? Real(-1) : Real(1);
-    // Written in real numbers, so that it vectorises.
-    Real* value = reinterpret_cast<Real*>(numbers);
-    for (Index i = 0; i < table_rows(); ++i) {
-      value[2 * i] *= symbol[i];
-      value[2 * i + 1] *= symbol[i];
-    }
-    const Index negative = shape.period_x - table_rows();
-    value += 2 * table_rows();
-    for (Index i = 0; i < negative; ++i) {
-      const Real factor = sign * symbol[negative - i];
-      value[2 * i] *= factor;
-      value[2 * i + 1] *= factor;
-    }
+    kernels.multiply(real(numbers), table_rows(), shape.period_x - table_rows(),
+                     tables[0].parity == Parity::odd ? Real(-1) : Real(1),
+                     tables[0].values.get() + j * table_rows());
   }
 
   void multiply_pair(Index j, Complex* first, Complex* second) const {
