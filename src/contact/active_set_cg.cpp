@@ -76,7 +76,7 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, double contact_modulus, Bound
       compliance_(normal_compliance<Real>(grid, contact_modulus, boundary)),
       kernels_(tile_kernels<Real>()),
       tiles_per_row_((grid.ny + tile_width - 1) / tile_width),
-      framed_stride_(grid.ny + 2 * frame) {
+      framed_stride_((grid.ny + tile_width - 1) / tile_width * tile_width + 2 * side_frame) {
   const InverseStencil inverse(grid);
   for (int i = -frame; i <= frame; ++i)
     for (int j = -frame; j <= frame; ++j)

@@ -74,7 +74,8 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
         unsigned char& used = in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)];
         if (used && !needed) {
           std::fill_n(t_.get() + row * grid_.ny + column, width, Real(0));
-          std::fill_n(r_.get() + (row + frame) * framed_stride_ + column + frame, width, Real(0));
+          std::fill_n(r_.get() + (row + frame) * framed_stride_ + column + side_frame, width,
+                      Real(0));
         }
         used = needed;
       }
@@ -102,8 +103,8 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
           if (busy) continue;
           quiet_[static_cast<std::size_t>(k)] = 1;
           std::fill_n(t_.get() + dense, width, Real(0));
-          std::fill_n(r_.get() + (tile.row + frame) * framed_stride_ + tile.column + frame, width,
-                      Real(0));
+          std::fill_n(r_.get() + (tile.row + frame) * framed_stride_ + tile.column + side_frame,
+                      width, Real(0));
         }
         return sums;
       }));
@@ -154,7 +155,7 @@ void ActiveSetCg<Real>::frame_residual() {
   const auto wrapped = [](Index k, Index n) { return (k % n + n) % n; };
   for_rows([&](Index begin, Index end) {
     for (Index row = begin; row < end; ++row) {
-      Real* r = r_.get() + (row + frame) * framed_stride_ + frame;
+      Real* r = r_.get() + (row + frame) * framed_stride_ + side_frame;
       for (Index k = 1; k <= frame; ++k) {
         r[-k] = r[wrapped(-k, ny)];
         r[ny + k - 1] = r[wrapped(k - 1, ny)];

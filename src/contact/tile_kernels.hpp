@@ -12,6 +12,8 @@ namespace salebra::detail {
 
 inline constexpr int tile_width = 16;
 inline constexpr int frame = 3;  // cells around the residual: the radius of InverseStencil
+// The frame to the left and right is as wide as a tile, so that tiles of the residual begin on cache lines.
+inline constexpr int side_frame = tile_width;
 inline constexpr int stencil_size = (2 * frame + 1) * (2 * frame + 1);
 
 struct Tile {
@@ -29,8 +31,8 @@ struct TileArrays {
   double* p;                     // tile after tile: pressure
   double* g;                     // tile after tile: Gp − h
   Real* z;                       // tile after tile: preconditioned residual
-  Real*
-      m;  // tile after tile: 1 on free cells, where g = level is wanted; 0 where p is held at a bound
+  // Tile after tile: 1 on free cells, where g = level is wanted; 0 where p is held at a bound.
+  Real* m;
   unsigned char*
       quiet;  // tile after tile: 1 where no cell is free or loaded, and then r and t are zero
   const Real* stencil;  // stencil_size weights

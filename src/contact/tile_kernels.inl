@@ -39,7 +39,7 @@ SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, c
   for (Size k = begin; k < end; ++k) {
     const Size row = a.tiles[k].row, column = a.tiles[k].column;
     const Size dense = row * a.ny + column,
-               framed = (row + frame) * a.framed_stride + column + frame;
+               framed = (row + frame) * a.framed_stride + column + side_frame;
     const bool whole = a.ny - column >= tile_width;
     if (a.quiet[k]) {
       if (whole) {
@@ -62,16 +62,26 @@ SALEBRA_INLINE void for_active_tiles(const TileArrays<Real>& a, Size begin, Size
   for_tiles(a, begin, end, body, [](Size, Size, Size, auto) {});
 }
 
+// Whether any of a tile's numbers is not +0, from their bits: the test of each number would not vectorise.
+template <class Number, class Width>
+SALEBRA_INLINE bool any(const Number* tile, Width width) {
+  unsigned long long bits = 0;
+  if (width == tile_width) {
+    constexpr int words = tile_width * static_cast<int>(sizeof(Number)) / 8;
+    unsigned long long word[words];
+    __builtin_memcpy(word, tile, sizeof(word));
+    for (int i = 0; i < words; ++i) bits |= word[i];
+  } else {
+    for (Size i = 0; i < width; ++i) bits |= tile[i] != 0;
+  }
+  return bits != 0;
+}
+
 // Lets a tile rest whose cells are all held and without load.
 template <class Real, class Width>
 SALEBRA_INLINE void rest(const TileArrays<Real>& a, Size packed, Size dense, Size framed,
                          Width width) {
-  const Real* m = a.m + packed;
-  const double* p = a.p + packed;
-  int loaded = 0, free = 0;
-  for (Size i = 0; i < width; ++i) loaded |= p[i] != 0;
-  for (Size i = 0; i < width; ++i) free |= m[i] != 0;
-  if (loaded | free) return;
+  if (any(a.m + packed, width) || any(a.p + packed, width)) return;
   a.quiet[packed / tile_width] = 1;
   for (Size i = 0; i < width; ++i) {
     a.t[dense + i] = 0;
@@ -97,6 +107,72 @@ void residual(const TileArrays<Real>& a, Size begin, Size end, double level) {
   });
 }
 
+#if defined(__AVX512F__)
+// 16 sums over the stencil from whole cache lines: rows above and below are added before they are weighted, and neighbours in a row
+// come from two registers by one permutation, which is cheaper than a load that crosses a line.
+template <int size>
+struct PlaceOf {
+  typedef long long Type;
+};
+template <>
+struct PlaceOf<4> {
+  typedef int Type;
+};
+
+template <class Real>
+struct StencilLoop {
+  typedef Real Vector __attribute__((vector_size(register_bytes)));
+  static constexpr int lanes = register_bytes / static_cast<int>(sizeof(Real)),
+                       registers = tile_width / lanes;
+
+  // Cells shift to the right of low, where high follows low.
+  template <int shift>
+  static SALEBRA_INLINE Vector shifted(Vector low, Vector high) {
+    typedef typename PlaceOf<sizeof(Real)>::Type Places
+        __attribute__((vector_size(register_bytes)));
+    Places places;
+    for (int lane = 0; lane < lanes; ++lane) places[lane] = lane + shift;
+    return __builtin_shuffle(low, high, places);
+  }
+
+  static SALEBRA_INLINE void apply(const TileArrays<Real>& a, Size framed, Real* sums) {
+    Vector total[registers] = {};
+    const Real* centre = a.r + framed;
+#pragma GCC unroll 4
+    for (int i = 0; i <= frame; ++i) {
+      Vector row[registers + 2];
+      for (int k = 0; k < registers + 2; ++k) {
+        const Real* place = centre + (k - 1) * lanes;
+        __builtin_memcpy(&row[k], place + i * a.framed_stride, sizeof(Vector));
+        if (i > 0) {
+          Vector other;
+          __builtin_memcpy(&other, place - i * a.framed_stride, sizeof(Vector));
+          row[k] += other;
+        }
+      }
+      const Real* weight = a.stencil + (frame + i) * (2 * frame + 1) + frame;
+      for (int k = 1; k <= registers; ++k) {
+        Vector& sum = total[k - 1];
+        sum += weight[0] * row[k];
+        sum +=
+            weight[1] * (shifted<1>(row[k], row[k + 1]) + shifted<lanes - 1>(row[k - 1], row[k]));
+        sum +=
+            weight[2] * (shifted<2>(row[k], row[k + 1]) + shifted<lanes - 2>(row[k - 1], row[k]));
+        sum +=
+            weight[3] * (shifted<3>(row[k], row[k + 1]) + shifted<lanes - 3>(row[k - 1], row[k]));
+      }
+    }
+    static_assert(frame == 3);
+    for (int k = 0; k < registers; ++k)
+      __builtin_memcpy(sums + k * lanes, &total[k], sizeof(Vector));
+  }
+};
+
+template <class Real>
+SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, FullWidth, Real* sums) {
+  StencilLoop<Real>::apply(a, framed, sums);
+}
+#else
 // 16 sums over the stencil in as many registers as they need, in two chains so that additions overlap.
 template <class Real>
 SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, FullWidth, Real* sums) {
@@ -121,6 +197,7 @@ SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, FullWi
     __builtin_memcpy(sums + k * lanes, &total, sizeof(total));
   }
 }
+#endif
 
 template <class Real>
 SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, Size width, Real* sums) {
@@ -138,14 +215,9 @@ template <class Real>
 PreconditionSums precondition(const TileArrays<Real>& a, Size begin, Size end) {
   Lanes sum_z, sum_zw, sum_zz, sum_t, sum_w;
   for_active_tiles(a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
-    const Real *m = a.m + packed, *t = a.t + dense, *w = a.w + dense;
+    const Real* m = a.m + packed;
+    const Real *t = a.t + dense, *w = a.w + dense;
     Real* z = a.z + packed;
-    Real any = 0;
-    for (Size i = 0; i < width; ++i) any += m[i];
-    if (any == 0) {
-      for (Size i = 0; i < width; ++i) z[i] = 0;
-      return;
-    }
     apply_stencil(a, framed, width, z);
     for (Size i = 0; i < width; ++i) {
       const Real free = z[i] * m[i];
@@ -166,7 +238,8 @@ double direct(const TileArrays<Real>& a, Size begin, Size end, double z_mean, do
               double t_mean) {
   Lanes sum;
   for_active_tiles(a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
-    const Real *m = a.m + packed, *z = a.z + packed, *r = a.r + framed;
+    const Real* m = a.m + packed;
+    const Real *z = a.z + packed, *r = a.r + framed;
     Real* t = a.t + dense;
     for (Size i = 0; i < width; ++i) {
       const double x = static_cast<double>(m[i]) * (static_cast<double>(z[i]) - z_mean +
@@ -182,7 +255,8 @@ template <class Real>
 CurvatureSums curvature(const TileArrays<Real>& a, Size begin, Size end) {
   Lanes sum_tw, sum_w;
   for_active_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
-    const Real *m = a.m + packed, *t = a.t + dense, *w = a.w + dense;
+    const Real* m = a.m + packed;
+    const Real *t = a.t + dense, *w = a.w + dense;
     for (Size i = 0; i < width; ++i) {
       const double y = w[i];
       sum_tw.value[i] += static_cast<double>(t[i]) * y;
@@ -200,7 +274,8 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
   for_tiles(
       a, begin, end,
       [&](Size packed, Size dense, Size framed, auto width) {
-        const Real *m = a.m + packed, *t = a.t + dense, *w = a.w + dense;
+        const Real* m = a.m + packed;
+        const Real *t = a.t + dense, *w = a.w + dense;
         double *p = a.p + packed, *g = a.g + packed;
         Real* r = a.r + framed;
         for (Size i = 0; i < width; ++i) {
@@ -283,7 +358,8 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double level, dou
               double shift) {
   const double bound = a.bound;
   const auto cut = [&](Size packed, Size dense, Size, auto width) {
-    Real *z = a.z + packed, *t = a.t + dense, *m = a.m + packed;
+    Real *z = a.z + packed, *t = a.t + dense;
+    Real* m = a.m + packed;
     double* p = a.p + packed;
     const double* g = a.g + packed;
     for (Size i = 0; i < width; ++i) {
@@ -313,7 +389,8 @@ SetSums add_displacement(const TileArrays<Real>& a, Size begin, Size end) {
       [&](Size packed, Size dense, Size framed, auto width) {
         double* g = a.g + packed;
         Real* t = a.t + dense;
-        const Real *m = a.m + packed, *z = a.z + packed;
+        const Real* m = a.m + packed;
+        const Real* z = a.z + packed;
         for (Size i = 0; i < width; ++i) {
           g[i] += static_cast<double>(t[i]);
           t[i] = z[i];
