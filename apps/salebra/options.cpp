@@ -108,7 +108,7 @@ double MaterialOptions::modulus_ratio() const {
 }
 
 void SurfaceOptions::add_to(CLI::App& app, bool needed, const std::string& field) {
-  app.add_option(field, file, "file with heights: HDF5, NPY, text matrix or XYZ")
+  app.add_option(field, file, "file with heights: HDF5, NetCDF, X3P, NPY, GSF, GXYZF, SUR, text matrix or XYZ")
       ->required(needed)
       ->type_name("FILE");
   const std::string group = "Surface";

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <salebra/base/grid.hpp>
+#include <salebra/io/read_surface.hpp>
 #include <string>
 #include <string_view>
 
@@ -30,13 +31,24 @@ bool is_hdf5(const std::filesystem::path& file);
 /// Metres in one `unit` of length; throws InvalidInput naming the file for anything else.
 double metres_per(const std::filesystem::path& file, const std::string& unit);
 
+/// Any format but HDF5, by its first bytes. `file` is only named in messages, and where a sidecar may lie.
+LoadedSurface read_content(const std::filesystem::path& file, std::string_view content);
+
+/// The surface in metres, with what the options say in place of the file. Throws InvalidInput as read_surface does.
+Surface completed(const std::filesystem::path& file, LoadedSurface loaded,
+                  const ReadOptions& options);
+
 /// The readers of formats, each of a content that begins as its format does.
 bool is_gsf(std::string_view content);
 LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view content);
+bool is_gxyzf(std::string_view content);
+LoadedSurface read_gxyzf(const std::filesystem::path& file, std::string_view content);
 LoadedSurface read_netcdf(const std::filesystem::path& file, std::string_view content);
 LoadedSurface read_npy(const std::filesystem::path& file, std::string_view content);
 bool is_sur(std::string_view content);
 LoadedSurface read_sur(const std::filesystem::path& file, std::string_view content);
+bool is_zip(std::string_view content);
+LoadedSurface read_x3p(const std::filesystem::path& file, std::string_view content);
 LoadedSurface read_text(const std::filesystem::path& file, std::string_view content);
 LoadedSurface read_hdf5(const std::filesystem::path& file);
 

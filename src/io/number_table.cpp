@@ -26,7 +26,7 @@ std::vector<std::vector<double>> read_number_table(const std::filesystem::path& 
       titled = true;
       continue;
     }
-    if (!format) format = detail::number_format(file, line, lines.number());
+    detail::settle_format(file, line, lines.number(), format);
     values.clear();
     detail::append_numbers(file, line, lines.number(), *format, values);
     if (values.size() != columns)

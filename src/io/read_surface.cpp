@@ -19,13 +19,7 @@ constexpr std::string_view npy_magic("\x93NUMPY", 6);
 detail::LoadedSurface load(const std::filesystem::path& file) {
   // HDF5 is read through its own library, which need not hold the whole file.
   if (detail::is_hdf5(file)) return detail::read_hdf5(file);
-  const std::string content = detail::file_content(file);
-  if (content.starts_with(npy_magic)) return detail::read_npy(file, content);
-  if (detail::is_gsf(content)) return detail::read_gsf(file, content);
-  if (detail::is_sur(content)) return detail::read_sur(file, content);
-  if (content.starts_with("CDF\1") || content.starts_with("CDF\2") || content.starts_with("CDF\5"))
-    return detail::read_netcdf(file, content);
-  return detail::read_text(file, content);
+  return detail::read_content(file, detail::file_content(file));
 }
 
 double size_along(const std::filesystem::path& file, const char* field,
@@ -81,6 +75,17 @@ std::string file_content(const std::filesystem::path& file) {
   return content;
 }
 
+LoadedSurface read_content(const std::filesystem::path& file, std::string_view content) {
+  if (content.starts_with(npy_magic)) return read_npy(file, content);
+  if (is_gsf(content)) return read_gsf(file, content);
+  if (is_gxyzf(content)) return read_gxyzf(file, content);
+  if (is_sur(content)) return read_sur(file, content);
+  if (is_zip(content)) return read_x3p(file, content);
+  if (content.starts_with("CDF\1") || content.starts_with("CDF\2") || content.starts_with("CDF\5"))
+    return read_netcdf(file, content);
+  return read_text(file, content);
+}
+
 double metres_per(const std::filesystem::path& file, const std::string& unit) {
   try {
     const double metres = parse_quantity("1 " + unit, Dimension::length, "unit");
@@ -90,10 +95,8 @@ double metres_per(const std::filesystem::path& file, const std::string& unit) {
   refuse(file, "has heights in '" + unit + "', which is no unit of length; convert them to metres");
 }
 
-}  // namespace detail
-
-Surface read_surface(const std::filesystem::path& file, const ReadOptions& options) {
-  detail::LoadedSurface loaded = load(file);
+Surface completed(const std::filesystem::path& file, LoadedSurface loaded,
+                  const ReadOptions& options) {
   Surface surface;
   surface.grid.nx = loaded.heights.rows();
   surface.grid.ny = loaded.heights.cols();
@@ -101,12 +104,18 @@ Surface read_surface(const std::filesystem::path& file, const ReadOptions& optio
   surface.grid.ly = size_along(file, "size_y", options.size_y, loaded.size_y);
   surface.heights = std::move(loaded.heights);
   const std::string unit = loaded.unit.empty() ? options.height_unit : loaded.unit;
-  if (!unit.empty() && unit != "m") surface.heights *= detail::metres_per(file, unit);
+  if (!unit.empty() && unit != "m") surface.heights *= metres_per(file, unit);
   if (surface.heights.isInf().any())
-    detail::refuse(file, "holds an infinite height; mark undefined points as nan");
+    refuse(file, "holds an infinite height; mark undefined points as nan");
   surface.periodic = options.periodic.value_or(loaded.periodic.value_or(false));
   surface.origin = file.string();
   return surface;
+}
+
+}  // namespace detail
+
+Surface read_surface(const std::filesystem::path& file, const ReadOptions& options) {
+  return detail::completed(file, load(file), options);
 }
 
 }  // namespace salebra

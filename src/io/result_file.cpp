@@ -99,7 +99,8 @@ ResultFile::~ResultFile() = default;
 
 ResultGroup ResultFile::group(const std::string& path) {
   require(state_->output != nullptr, "result file", path, "is asked for after commit");
-  auto place = std::make_shared<ResultGroup::Place>(state_->output, state_->output->group(path));
+  auto place = std::make_shared<ResultGroup::Place>(
+      ResultGroup::Place{state_->output, state_->output->group(path)});
   state_->groups.push_back(place);
   return ResultGroup(std::move(place));
 }

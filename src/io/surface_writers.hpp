@@ -14,8 +14,19 @@ namespace salebra::detail {
 /// indent   of the members; −1: all on one line
 std::string description_of(const Surface& surface, const Provenance& provenance, int indent);
 
+/// Appends the shortest digits that read back as the same double, or "nan".
+void append_number(std::string& text, double value);
+
 void write_netcdf(const std::filesystem::path& file, const Surface& surface,
                   const Provenance& provenance, const WriteOptions& options);
+void write_x3p(const std::filesystem::path& file, const Surface& surface,
+               const Provenance& provenance, const WriteOptions& options);
+/// Points where the surface has a height; undefined points are left out.
+void write_gxyzf(const std::filesystem::path& file, const Surface& surface,
+                 const WriteOptions& options);
+/// All points of the grid; undefined ones as nan.
+void write_xyz(const std::filesystem::path& file, const Surface& surface,
+               const WriteOptions& options);
 void write_gsf(const std::filesystem::path& file, const Surface& surface,
                const WriteOptions& options);
 

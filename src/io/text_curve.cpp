@@ -142,8 +142,7 @@ ForceCurve read_text_curve(const std::filesystem::path& file, std::string_view c
     if (columns.empty())
       refuse(file,
              "does not name its columns; begin with a line such as 'pressure [Pa], mean_gap [m]'");
-    if (!format || (*format == NumberFormat{} && line.find_first_of(",;") != line.npos))
-      format = number_format(file, line, lines.number());
+    settle_format(file, line, lines.number(), format);
     values.clear();
     append_numbers(file, line, lines.number(), *format, values);
     // A last field that is empty leaves no trace behind its separator.

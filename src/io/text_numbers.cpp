@@ -72,6 +72,41 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
+/// How one line would be read.
+NumberFormat format_of(const std::filesystem::path& file, std::string_view line, int number) {
+  const bool semicolon = line.find(';') != std::string_view::npos;
+  if (line.find(',') == std::string_view::npos)
+    return {.separator = semicolon ? Separator::semicolon : Separator::blank,
+            .decimal_comma = false};
+
+  const bool point = line.find('.') != std::string_view::npos;
+  std::ptrdiff_t commas = 0, commas_before_blank = 0, blanks_after_digit = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool at_end = i + 1 == line.size();
+    if (line[i] == ',') {
+      ++commas;
+      if (at_end || is_blank(line[i + 1])) ++commas_before_blank;
+    } else if (is_blank(line[i]) && i > 0 && line[i - 1] != ',' && !is_blank(line[i - 1]) &&
+               !at_end && line[i + 1] != ',') {
+      ++blanks_after_digit;
+    }
+  }
+  if (semicolon || blanks_after_digit > 0) {
+    if (point)
+      refuse_line(file, number, "mixes decimal points with commas; write one separator and points");
+    if (commas_before_blank > 0 && !semicolon)
+      refuse_line(file, number, "mixes blanks and commas as separators; write one of them");
+    return {.separator = semicolon ? Separator::semicolon : Separator::blank,
+            .decimal_comma = true};
+  }
+  // Commas alone: separators, unless "1,5" or "1,5e-7,…" could as well be decimal fractions.
+  const bool exponent = line.find_first_of("eE") != std::string_view::npos;
+  if (!point && commas_before_blank == 0 && (commas == 1 || exponent))
+    refuse_line(file, number,
+                "can be read with commas as separators or as decimal commas; write decimal points");
+  return {.separator = Separator::comma, .decimal_comma = false};
+}
+
 }  // namespace
 
 Lines::Lines(std::string_view text)
@@ -128,37 +163,24 @@ bool starts_with_number(std::string_view line) {
   return stop == line.data() + line.size() || is_blank(*stop) || *stop == ',' || *stop == ';';
 }
 
-NumberFormat number_format(const std::filesystem::path& file, std::string_view line, int number) {
+void settle_format(const std::filesystem::path& file, std::string_view line, int number,
+                   std::optional<NumberFormat>& format) {
   line = trimmed(line);
-  const bool semicolon = line.find(';') != std::string_view::npos;
-  if (line.find(',') == std::string_view::npos)
-    return {semicolon ? Separator::semicolon : Separator::blank, false};
-
   const bool point = line.find('.') != std::string_view::npos;
-  std::ptrdiff_t commas = 0, commas_before_blank = 0, blanks_after_digit = 0;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const bool at_end = i + 1 == line.size();
-    if (line[i] == ',') {
-      ++commas;
-      if (at_end || is_blank(line[i + 1])) ++commas_before_blank;
-    } else if (is_blank(line[i]) && i > 0 && line[i - 1] != ',' && !is_blank(line[i - 1]) &&
-               !at_end && line[i + 1] != ',') {
-      ++blanks_after_digit;
-    }
+  const bool open = !format || (!format->decimal_comma && format->separator != Separator::comma &&
+                                line.find_first_of(",;") != std::string_view::npos);
+  if (open) {
+    NumberFormat found = format_of(file, line, number);
+    if (format && format->has_decimal_point && found.decimal_comma)
+      refuse_line(file, number, "has decimal commas after decimal points; write points");
+    if (format && format->has_separator && found.separator != format->separator)
+      refuse_line(file, number, "separates its values otherwise than the lines before");
+    found.has_decimal_point = format && format->has_decimal_point;
+    found.has_separator =
+        found.separator != Separator::blank || line.find_first_of(" \t") != std::string_view::npos;
+    format = found;
   }
-  if (semicolon || blanks_after_digit > 0) {
-    if (point)
-      refuse_line(file, number, "mixes decimal points with commas; write one separator and points");
-    if (commas_before_blank > 0 && !semicolon)
-      refuse_line(file, number, "mixes blanks and commas as separators; write one of them");
-    return {semicolon ? Separator::semicolon : Separator::blank, true};
-  }
-  // Commas alone: separators, unless "1,5" or "1,5e-7,…" could as well be decimal fractions.
-  const bool exponent = line.find_first_of("eE") != std::string_view::npos;
-  if (!point && commas_before_blank == 0 && (commas == 1 || exponent))
-    refuse_line(file, number,
-                "can be read with commas as separators or as decimal commas; write decimal points");
-  return {Separator::comma, false};
+  format->has_decimal_point = format->has_decimal_point || point;
 }
 
 void append_numbers(const std::filesystem::path& file, std::string_view line, int number,

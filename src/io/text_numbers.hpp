@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,7 +32,8 @@ enum class Separator { blank, comma, semicolon };
 struct NumberFormat {
   Separator separator = Separator::blank;
   bool decimal_comma = false;
-  bool operator==(const NumberFormat&) const = default;
+  bool has_separator = false;      ///< in a line so far
+  bool has_decimal_point = false;  ///< in a line so far
 };
 
 /// Without a byte order mark. Throws InvalidInput for UTF-16 and for text with NUL bytes.
@@ -43,8 +45,11 @@ std::string utf8(std::string_view text);
 /// Whether the first value of the line is a number, "nan" or (an undefined point) empty.
 bool starts_with_number(std::string_view line);
 
-/// How the values of a line of numbers are separated and written. Throws InvalidInput where it can be read in two ways.
-NumberFormat number_format(const std::filesystem::path& file, std::string_view line, int number);
+/// How the values of a line of numbers are separated and written. Lines before it have the say, if `format` holds a value; a line
+/// of whole numbers leaves open whether commas are decimal. Throws InvalidInput where the line can be read in two ways, and where it
+/// contradicts the lines before.
+void settle_format(const std::filesystem::path& file, std::string_view line, int number,
+                   std::optional<NumberFormat>& format);
 
 /// Appends the values of a line; an empty field is NaN, a separator at the end of the line none.
 /// Throws InvalidInput naming the line and what was found in it. Cost: one pass, no allocation but values'.

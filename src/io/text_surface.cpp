@@ -19,6 +19,7 @@ struct TextHeader {
   std::optional<double> height_factor;  ///< metres per value
   std::optional<Index> columns, rows;   ///< as declared
   std::string value_unit;
+  std::string lateral_unit;  ///< of x and y in XYZ points
 };
 
 std::string lower(std::string_view text) {
@@ -63,6 +64,8 @@ void read_entry(const std::filesystem::path& file, std::string_view key, std::st
     header.rows = stated_count(value);
   } else if (name == "value units" || name == "data unit") {
     header.value_unit = value;
+  } else if (name == "lateral units") {
+    header.lateral_unit = value;
   } else if (name.starts_with("height conversion factor")) {
     double factor;
     const auto [end, status] = std::from_chars(value.data(), value.data() + value.size(), factor);
@@ -117,9 +120,7 @@ TextMatrix read_rows(const std::filesystem::path& file, std::string_view text, T
       if (matrix.rows == 0) read_header_line(file, content, header);
       continue;
     }
-    // A first row of whole numbers does not show whether commas are decimal.
-    if (!format || (*format == NumberFormat{} && content.find_first_of(",;") != content.npos))
-      format = number_format(file, content, lines.number());
+    settle_format(file, content, lines.number(), format);
     const std::size_t before = matrix.values.size();
     append_numbers(file, content, lines.number(), *format, matrix.values);
     const auto columns = static_cast<Index>(matrix.values.size() - before);
@@ -148,11 +149,13 @@ LoadedSurface read_text(const std::filesystem::path& file, std::string_view cont
   TextHeader header;
   const TextMatrix matrix = read_rows(file, require_text(file, content), header);
   LoadedSurface surface;
-  if (matrix.columns == 3 && !header.width && !header.pixel_size)
+  if (matrix.columns == 3 && !header.width && !header.pixel_size) {
     surface = grid_of_points(file, matrix.values);
-  else
+    if (!header.lateral_unit.empty()) scale_plane(file, header.lateral_unit, surface);
+  } else {
     surface.heights =
         Eigen::Map<const Field>(matrix.values.data(), matrix.rows, matrix.columns).transpose();
+  }
   if (header.height_factor)
     surface.heights *= *header.height_factor;
   else

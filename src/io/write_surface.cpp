@@ -68,25 +68,17 @@ void write_npy(const std::filesystem::path& file, const Surface& surface,
   array.commit();
 }
 
-void append_number(std::string& text, double value) {
-  std::array<char, 32> digits;
-  const auto end = std::isnan(value)
-                       ? std::copy_n("nan", 3, digits.data())
-                       : std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  text.append(digits.data(), end);
-}
-
 void write_text(const std::filesystem::path& file, const Surface& surface,
                 const WriteOptions& options) {
   detail::AtomicFile output(file, options);
   std::string line = "# Channel: heights\n# Width: ";
-  append_number(line, surface.grid.lx);
+  detail::append_number(line, surface.grid.lx);
   line += " m\n# Height: ";
-  append_number(line, surface.grid.ly);
+  detail::append_number(line, surface.grid.ly);
   line += " m\n# Value units: m\n";
   for (Index iy = 0; iy < surface.grid.ny; ++iy) {
     for (Index ix = 0; ix < surface.grid.nx; ++ix) {
-      append_number(line, surface.heights(ix, iy));
+      detail::append_number(line, surface.heights(ix, iy));
       line += ix + 1 < surface.grid.nx ? '\t' : '\n';
     }
     output.write(line);
@@ -96,6 +88,14 @@ void write_text(const std::filesystem::path& file, const Surface& surface,
 }
 
 }  // namespace
+
+void detail::append_number(std::string& text, double value) {
+  std::array<char, 32> digits;
+  const auto end = std::isnan(value)
+                       ? std::copy_n("nan", 3, digits.data())
+                       : std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  text.append(digits.data(), end);
+}
 
 std::string detail::description_of(const Surface& surface, const Provenance& provenance,
                                    int indent) {
@@ -130,12 +130,18 @@ void write_surface(const std::filesystem::path& file, const Surface& surface,
     write_text(file, surface, options);
   else if (extension == ".nc")
     detail::write_netcdf(file, surface, provenance, options);
+  else if (extension == ".x3p")
+    detail::write_x3p(file, surface, provenance, options);
   else if (extension == ".gsf")
     detail::write_gsf(file, surface, options);
+  else if (extension == ".gxyzf")
+    detail::write_gxyzf(file, surface, options);
+  else if (extension == ".xyz")
+    detail::write_xyz(file, surface, options);
   else
-    throw InvalidInput(
-        file.string() + ": has the extension '" + extension +
-        "', which names no format that is written; use .h5, .nc, .npy, .gsf or .txt");
+    throw InvalidInput(file.string() + ": has the extension '" + extension +
+                       "', which names no format that is written; use .h5, .nc, .npy, .x3p, .gsf, "
+                       ".gxyzf, .xyz or .txt");
 }
 
 }  // namespace salebra

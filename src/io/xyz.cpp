@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <salebra/base/error.hpp>
+
+#include "atomic_file.hpp"
+#include "surface_writers.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -14,8 +18,16 @@ struct Axis {
   Index points = 0;
 };
 
-/// Equally spaced values among the coordinates, from the least to the greatest.
+/// Whether every value lies a whole number of steps from the first.
 /// Coordinates are written with few digits: they may lie up to a tenth of a step from the grid.
+bool on_grid(const std::vector<double>& sorted, double step) {
+  return std::ranges::all_of(sorted, [&](double value) {
+    const double place = (value - sorted.front()) / step;
+    return std::abs(place - std::round(place)) <= 0.1;
+  });
+}
+
+/// Equally spaced values among the coordinates, from the least to the greatest.
 Axis find_axis(const std::filesystem::path& file, std::vector<double> coordinates,
                const char* name) {
   std::ranges::sort(coordinates);
@@ -24,10 +36,11 @@ Axis find_axis(const std::filesystem::path& file, std::vector<double> coordinate
     refuse(file, std::string("has points whose ") + name + " is not a number; remove them");
   // Values closer than 1e-6 of the span are one line of the grid, hence at most a million lines are told apart.
   std::size_t lines = 1;
-  double line = coordinates.front();
+  double line = coordinates.front(), least_gap = span;
   for (const double value : coordinates) {
     if (value - line > 1e-6 * span) {
       ++lines;
+      least_gap = std::min(least_gap, value - line);
       line = value;
     }
   }
@@ -35,14 +48,16 @@ Axis find_axis(const std::filesystem::path& file, std::vector<double> coordinate
     refuse(file, std::string("has three columns whose ") + name +
                      " does not vary; as XYZ points it is no surface, as a matrix it lacks its "
                      "size in the header");
-  const double step = span / static_cast<double>(lines - 1);
-  for (const double value : coordinates) {
-    const double place = (value - coordinates.front()) / step;
-    if (std::abs(place - std::round(place)) > 0.1)
-      refuse(file, std::string("has three columns, but as XYZ points their ") + name +
-                       " is not equally spaced; resample them on a regular grid");
-  }
-  return {coordinates.front(), step, static_cast<Index>(lines)};
+  double intervals = static_cast<double>(lines - 1);
+  // Where a few whole lines are undefined, the closest neighbours still show the step.
+  constexpr double most_missing = 0.1;
+  if (!on_grid(coordinates, span / intervals) &&
+      std::round(span / least_gap) * (1 - most_missing) <= intervals)
+    intervals = std::round(span / least_gap);
+  if (!on_grid(coordinates, span / intervals))
+    refuse(file, std::string("has three columns, but as XYZ points their ") + name +
+                     " is not equally spaced; resample them on a regular grid");
+  return {coordinates.front(), span / intervals, static_cast<Index>(intervals) + 1};
 }
 
 }  // namespace
@@ -78,6 +93,46 @@ LoadedSurface grid_of_points(const std::filesystem::path& file, const std::vecto
   surface.size_x = along_x.step * static_cast<double>(along_x.points);
   surface.size_y = along_y.step * static_cast<double>(along_y.points);
   return surface;
+}
+
+void scale_plane(const std::filesystem::path& file, const std::string& unit,
+                 LoadedSurface& surface) {
+  const double metres = metres_per(file, unit);
+  surface.size_x = surface.size_x.value() * metres;
+  surface.size_y = surface.size_y.value() * metres;
+}
+
+void require_points(const std::filesystem::path& file, const Surface& surface) {
+  const Grid2D& grid = surface.grid;
+  if (grid.nx < 2 || grid.ny < 2)
+    throw InvalidInput(file.string() +
+                       ": would hold a single line of points, which has no step across; write .h5 "
+                       "or .nc");
+  if (2 * surface.undefined_points() > grid.points())
+    throw InvalidInput(file.string() +
+                       ": would hold points on less than half of the grid, which then is not "
+                       "recognised; write .h5 or .nc");
+}
+
+void write_xyz(const std::filesystem::path& file, const Surface& surface,
+               const WriteOptions& options) {
+  require_points(file, surface);
+  const Grid2D& grid = surface.grid;
+  AtomicFile output(file, options);
+  std::string text = "# Channel: heights\n# Lateral units: m\n# Value units: m\n";
+  for (Index ix = 0; ix < grid.nx; ++ix) {
+    for (Index iy = 0; iy < grid.ny; ++iy) {
+      append_number(text, static_cast<double>(ix) * grid.dx());
+      text += '\t';
+      append_number(text, static_cast<double>(iy) * grid.dy());
+      text += '\t';
+      append_number(text, surface.heights(ix, iy));
+      text += '\n';
+    }
+    output.write(text);
+    text.clear();
+  }
+  output.commit();
 }
 
 }  // namespace salebra::detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "loaded_surface.hpp"
@@ -13,5 +14,13 @@ namespace salebra::detail {
 /// Throws InvalidInput if the points are on no regular grid, fill less than half of it, or one is given twice.
 /// Cost: two sorts of the points.
 LoadedSurface grid_of_points(const std::filesystem::path& file, const std::vector<double>& xyz);
+
+/// Takes the sizes of such a grid from a unit of length to metres.
+void scale_plane(const std::filesystem::path& file, const std::string& unit,
+                 LoadedSurface& surface);
+
+/// Throws InvalidInput for a surface that its points alone do not describe: a single line has no step across, and less than half of
+/// a grid is not recognised.
+void require_points(const std::filesystem::path& file, const Surface& surface);
 
 }  // namespace salebra::detail

@@ -23,7 +23,7 @@ TEST_CASE("Measured surfaces have the statistics of the reference", "[read]") {
   const auto reference = nlohmann::json::parse(std::ifstream(measured / "reference.json"));
   for (const char* name :
        {"matrix-2.txt", "matrix-3.txt", "gwyddion-export-english.txt", "gwyddion-export-german.txt",
-        "txt_example.txt", "xyz-1.txt", "xyz-2.txt", "nc-1.nc", "sur-2.sur"}) {
+        "txt_example.txt", "xyz-1.txt", "xyz-2.txt", "nc-1.nc", "sur-2.sur", "x3p-2.x3p"}) {
     INFO(name);
     const nlohmann::json& expected = reference.at(name);
     const auto number = [&](const char* key) { return expected.at(key).get<double>(); };
@@ -66,8 +66,7 @@ TEST_CASE("A bare array needs its size from the user and keeps its axes", "[read
 
 TEST_CASE("Files that are broken on purpose give one line that names them", "[read]") {
   if (!std::filesystem::exists(measured)) return;
-  for (const char* name :
-       {"wrongnpyfile.npy", "nonsense_txt_file.txt", "x3p-2.x3p", "absent.txt", "."}) {
+  for (const char* name : {"wrongnpyfile.npy", "nonsense_txt_file.txt", "absent.txt", "."}) {
     INFO(name);
     CHECK_THROWS_AS(read_surface(measured / name), InvalidInput);
     CHECK_THROWS_WITH(read_surface(measured / name), Contains(name) && !Contains("\n"));
@@ -97,6 +96,8 @@ TEST_CASE("Text is read in the spellings of many programs", "[read]") {
   check(header + "1.0,2.5,3\n-4,5,6\n");
   check(header + "1,0 2,5 3,0\n-4 5 6\n");
   check(header + "1,0;2,5;3\n-4;5;6\n");
+  // The first row leaves open whether commas are decimal.
+  check(header + "1;2,5;3\n-4;5;6\n");
   check("# Breite: 3 \xb5m\r# H\xf6he: 2 \xb5m\r# Value units: nm\r1 2.5 3\r-4 5 6\r");
   check(
       "w=3 h=2\npixel size=1e-006 m\ndata unit=rad\nheight conversion factor (-> m)=1e-9\n"
@@ -118,6 +119,9 @@ TEST_CASE("Text that can be read in two ways, or not at all, is refused with its
   };
   CHECK_THAT(message(header + "1,5\n2,5\n"), Contains("line 3") && Contains("decimal"));
   CHECK_THAT(message(header + "1,5 2.5\n1 2\n"), Contains("mixes"));
+  CHECK_THAT(message(header + "1.5;2\n2,5;3\n"), Contains("line 4") && Contains("after"));
+  CHECK_THAT(message(header + "1 2 3\n4,5,6\n"), Contains("line 4") && Contains("otherwise"));
+  CHECK_THAT(message(header + "1;2;3\n4,5,6\n"), Contains("line 4") && Contains("otherwise"));
   CHECK_THAT(message(header + "1 2 3\n4 5\n"), Contains("line 4") && Contains("2 values"));
   CHECK_THAT(message(header + "1 2 3\n4 five 6\n"), Contains("line 4") && Contains("five"));
   CHECK_THAT(message(header + "1 2 3\n4 5.5.5 6\n"), Contains("line 4"));
@@ -151,6 +155,32 @@ TEST_CASE("XYZ points are put on their grid, whatever their order, or refused", 
   CHECK_THROWS_WITH(read("0 0 1\n1 1 1\n2 2 1\n3 3 1\n4 4 1\n"), Contains("half"));
   CHECK_THROWS_WITH(read("0 nan 1\n1 1 1\n"), Contains("coordinates"));
   CHECK_THROWS_WITH(read("1 1 1\n1 1 1\n"), Contains("vary"));
+}
+
+TEST_CASE("XYZ points with units, and with lines that are missing, are put on their grid",
+          "[read]") {
+  const Scratch scratch;
+  const auto read = [&](const std::string& text) {
+    return read_surface(scratch.file("points.xyz", text));
+  };
+  const Surface units =
+      read("# Lateral units: µm\n# Value units: nm\n0 0 1\n0 2 2\n1 0 3\n1 2 4\n");
+  CHECK(units.grid.lx == Approx(2e-6));
+  CHECK(units.grid.ly == Approx(4e-6));
+  CHECK(units.heights(1, 0) == Approx(3e-9));
+  CHECK(units.heights(0, 1) == Approx(2e-9));
+  CHECK_THROWS_WITH(read("# Lateral units: V\n0 0 1\n0 2 2\n1 0 3\n1 2 4\n"), Contains("'V'"));
+  // One line of twelve is missing; coordinates are rounded to a tenth of a step.
+  std::string text;
+  for (int ix = 0; ix < 12; ++ix)
+    for (int iy = 0; iy < 2 && ix != 5; ++iy)
+      text += std::to_string(0.3 * ix + (ix % 2 ? 0.01 : 0)) + " " + std::to_string(iy) + " " +
+              std::to_string(ix) + "\n";
+  const Surface gap = read(text);
+  CHECK(gap.grid.nx == 12);
+  CHECK(gap.undefined_points() == 2);
+  CHECK(gap.heights(11, 1) == 11);
+  CHECK(gap.grid.lx == Approx(12 * (0.3 * 11 + 0.01) / 11));
 }
 
 TEST_CASE("NPY arrays of every kind are read alike", "[read]") {

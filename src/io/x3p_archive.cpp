@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <zip.h>
+
+#include <memory>
+
+#include "x3p.hpp"
+
+namespace salebra::detail {
+namespace {
+
+/// No deflate stream is shorter than 1/1032 of its content.
+constexpr std::uint64_t best_compression = 1032;
+
+struct CloseArchive {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+};
+struct CloseMember {
+  void operator()(zip_file_t* member) const { zip_fclose(member); }
+};
+
+using Archive = std::unique_ptr<zip_t, CloseArchive>;
+
+Archive opened(const std::filesystem::path& file, std::string_view content) {
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* source = zip_source_buffer_create(content.data(), content.size(), 0, &error);
+  zip_t* archive = source ? zip_open_from_source(source, ZIP_RDONLY, &error) : nullptr;
+  if (!archive) {
+    if (source) zip_source_free(source);
+    const std::string reason = zip_error_strerror(&error);
+    zip_error_fini(&error);
+    refuse(file, "is a truncated or damaged ZIP archive (" + reason + "); copy or save it again");
+  }
+  zip_error_fini(&error);
+  return Archive(archive);
+}
+
+std::optional<std::string> extracted(const std::filesystem::path& file, zip_t* archive,
+                                     const std::string& name, std::optional<std::uint64_t> bytes) {
+  const auto index = zip_name_locate(archive, name.c_str(), 0);
+  if (index < 0) return {};
+  const auto number = static_cast<std::uint64_t>(index);
+  zip_stat_t about;
+  constexpr std::uint64_t needed = ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE;
+  if (zip_stat_index(archive, number, 0, &about) != 0 || (about.valid & needed) != needed)
+    refuse(file, "does not state the size of its member " + name + "; it is damaged");
+  if (bytes && about.size != *bytes)
+    refuse(file, "holds " + std::to_string(about.size) + " bytes in its member " + name +
+                     " where its main.xml asks for " + std::to_string(*bytes) +
+                     "; it is truncated or damaged");
+  if (about.size > (bytes ? *bytes : max_xml_size) ||
+      about.size / best_compression > about.comp_size)
+    refuse(file, "declares " + std::to_string(about.size) + " bytes for its member " + name +
+                     ", more than it can hold; it is damaged or made to fill the memory");
+  const std::unique_ptr<zip_file_t, CloseMember> stream(zip_fopen_index(archive, number, 0));
+  if (!stream)
+    refuse(file, "has a member " + name + " that cannot be unpacked (" + zip_strerror(archive) +
+                     "); save it without encryption, deflated or stored");
+  std::string content(about.size, '\0');
+  std::uint64_t filled = 0;
+  while (filled < about.size) {
+    const auto got = zip_fread(stream.get(), content.data() + filled, about.size - filled);
+    if (got <= 0) break;
+    filled += static_cast<std::uint64_t>(got);
+  }
+  // The checksum of the member is compared where its end is read.
+  char beyond;
+  if (filled < about.size || zip_fread(stream.get(), &beyond, 1) != 0)
+    refuse(file, "has a damaged member " + name + "; copy or save it again");
+  return content;
+}
+
+}  // namespace
+
+bool is_zip(std::string_view content) { return content.starts_with("PK\x03\x04"); }
+
+LoadedSurface read_x3p(const std::filesystem::path& file, std::string_view content) {
+  const Archive archive = opened(file, content);
+  return x3p_surface(file, [&](const std::string& name, std::optional<std::uint64_t> bytes) {
+    return extracted(file, archive.get(), name, bytes);
+  });
+}
+
+}  // namespace salebra::detail

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <pugixml.hpp>
+
+#include "md5.hpp"
+#include "text_numbers.hpp"
+#include "x3p.hpp"
+
+namespace salebra::detail {
+namespace {
+
+std::string_view text_of(const pugi::xml_node& node) {
+  std::string_view text = node.text().get();
+  const auto is_space = [](char symbol) {
+    return symbol == ' ' || symbol == '\t' || symbol == '\n' || symbol == '\r';
+  };
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+bool same_digits(std::string_view a, std::string_view b) {
+  const auto lower = [](char symbol) {
+    return symbol >= 'A' && symbol <= 'F' ? static_cast<char>(symbol - 'A' + 'a') : symbol;
+  };
+  return std::ranges::equal(a, b, {}, lower, lower);
+}
+
+/// main.xml with what all its uses need: the file for messages, and entries by their path below the root.
+class Description {
+ public:
+  Description(const std::filesystem::path& file, const std::string& xml) : file_(file) {
+    const pugi::xml_parse_result result = document_.load_buffer(xml.data(), xml.size());
+    if (!result)
+      refuse(file, std::string("has a main.xml that is no XML (") + result.description() +
+                       "); it is damaged");
+    root_ = document_.document_element();
+    if (!std::string_view(root_.name()).ends_with("ISO5436_2"))
+      refuse(file, "has a main.xml that describes no surface of ISO 25178-72; name an X3P file");
+  }
+
+  bool has(const char* path) const { return !root_.first_element_by_path(path).empty(); }
+  std::string_view words(const char* path) const {
+    return text_of(root_.first_element_by_path(path));
+  }
+  std::string_view required(const char* path) const {
+    const std::string_view text = words(path);
+    if (text.empty()) refuse(file_, std::string("lacks ") + path + " in its main.xml");
+    return text;
+  }
+  double number(const char* path) const {
+    double value = 0;
+    parse(path, required(path), value);
+    if (!std::isfinite(value)) wrong(path);
+    return value;
+  }
+  double number(const char* path, double otherwise) const {
+    return words(path).empty() ? otherwise : number(path);
+  }
+  Index count(const char* path) const {
+    Index value = 0;
+    parse(path, required(path), value);
+    if (value < 1) wrong(path);
+    return value;
+  }
+  [[noreturn]] void wrong(const char* path) const {
+    refuse(file_, std::string("has ") + path + " = '" + std::string(words(path).substr(0, 24)) +
+                      "' in its main.xml, which cannot be; correct it");
+  }
+
+ private:
+  template <class Number>
+  void parse(const char* path, std::string_view text, Number& value) const {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (status != std::errc{} || end != text.data() + text.size()) wrong(path);
+  }
+
+  const std::filesystem::path& file_;
+  pugi::xml_document document_;
+  pugi::xml_node root_;
+};
+
+template <class Stored>
+double stored_at(const char* bytes) {
+  static_assert(std::endian::native == std::endian::little);
+  Stored value;
+  std::memcpy(&value, bytes, sizeof value);
+  return static_cast<double>(value);
+}
+
+struct HeightType {
+  std::size_t bytes = 0;
+  double (*read)(const char*) = nullptr;
+};
+
+HeightType height_type(const Description& description) {
+  const std::string_view name = description.required("Record1/Axes/CZ/DataType");
+  if (name == "I") return {2, stored_at<std::int16_t>};
+  if (name == "L") return {4, stored_at<std::int32_t>};
+  if (name == "F") return {4, stored_at<float>};
+  if (name == "D") return {8, stored_at<double>};
+  description.wrong("Record1/Axes/CZ/DataType");
+}
+
+/// Lines "<32 digits> *<name>" of md5checksum.hex. The standard asks for main.xml; some programs state a data file instead.
+void check_checksum_file(const std::filesystem::path& file, const Description& description,
+                         const std::string& xml, const X3pMember& member) {
+  const std::string_view name = description.words("Record4/ChecksumFile");
+  const auto sums = member(name.empty() ? "md5checksum.hex" : std::string(name), {});
+  if (!sums) return;
+  Lines lines(*sums);
+  for (std::string_view line; lines.next(line);) {
+    constexpr std::size_t digits = 32;
+    if (line.size() < digits) continue;
+    const std::string_view sum = line.substr(0, digits);
+    std::string_view of = trimmed(line.substr(digits));
+    if (of.starts_with('*')) of.remove_prefix(1);
+    if ((of.empty() || of == "main.xml") && !same_digits(sum, md5(xml)))
+      refuse(file, "has a main.xml that does not match its checksum; it was damaged or edited");
+  }
+}
+
+void check_sum(const std::filesystem::path& file, const Description& description, const char* path,
+               const std::string& content, std::string_view name) {
+  const std::string_view sum = description.words(path);
+  if (!sum.empty() && !same_digits(sum, md5(content)))
+    refuse(file, "has a member " + std::string(name) +
+                     " that does not match its checksum; it was damaged or edited");
+}
+
+void require_height_map(const std::filesystem::path& file, const Description& description) {
+  if (description.words("Record1/FeatureType") != "SUR")
+    refuse(file, "holds a feature of type '" +
+                     std::string(description.words("Record1/FeatureType").substr(0, 24)) +
+                     "', not a surface (SUR); profiles and point clouds are not read");
+  for (const char* axis : {"Record1/Axes/CX/AxisType", "Record1/Axes/CY/AxisType"})
+    if (description.required(axis) != "I")
+      refuse(file, "lists its points instead of a grid (" + std::string(axis) +
+                       " is not I); resample them on one");
+  if (description.required("Record1/Axes/CZ/AxisType") != "A")
+    description.wrong("Record1/Axes/CZ/AxisType");
+  if (description.number("Record3/MatrixDimension/SizeZ", 1) != 1)
+    refuse(file, "holds several layers; save one of them");
+  if (!description.has("Record3/DataLink"))
+    refuse(file, "holds its heights within main.xml; save it with a binary data file");
+  // A turn within the plane leaves heights over the file's own axes as they are.
+  if (std::abs(description.number("Record1/Axes/Rotation/r33", 1) - 1) > 1e-6)
+    refuse(file, "is turned out of its plane; level it before saving");
+}
+
+}  // namespace
+
+LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& member) {
+  const auto xml = member("main.xml", {});
+  if (!xml) refuse(file, "is a ZIP archive without main.xml; name an X3P file");
+  const Description description(file, *xml);
+  check_checksum_file(file, description, *xml, member);
+  require_height_map(file, description);
+
+  const Index nx = description.count("Record3/MatrixDimension/SizeX"),
+              ny = description.count("Record3/MatrixDimension/SizeY");
+  const HeightType type = height_type(description);
+  std::uint64_t points = 0, bytes = 0;
+  if (__builtin_mul_overflow(static_cast<std::uint64_t>(nx), static_cast<std::uint64_t>(ny),
+                             &points) ||
+      __builtin_mul_overflow(points, type.bytes, &bytes))
+    refuse(file, "declares more points than any memory holds; it is damaged");
+  const std::string data_name(description.required("Record3/DataLink/PointDataLink"));
+  const auto data = member(data_name, bytes);
+  if (!data) refuse(file, "lacks its member " + data_name + " of heights; it is damaged");
+  check_sum(file, description, "Record3/DataLink/MD5ChecksumPointData", *data, data_name);
+
+  const double step_x = description.number("Record1/Axes/CX/Increment"),
+               step_y = description.number("Record1/Axes/CY/Increment");
+  if (step_x == 0) description.wrong("Record1/Axes/CX/Increment");
+  if (step_y == 0) description.wrong("Record1/Axes/CY/Increment");
+  const double step_z = description.number("Record1/Axes/CZ/Increment", 1),
+               offset_z = description.number("Record1/Axes/CZ/Offset", 0);
+
+  LoadedSurface surface;
+  surface.unit = "m";
+  surface.size_x = std::abs(step_x) * static_cast<double>(nx);
+  surface.size_y = std::abs(step_y) * static_cast<double>(ny);
+  surface.heights.resize(nx, ny);
+  // Points may be listed against the direction of an axis; x and y grow with ix and iy all the same.
+  for (Index row = 0; row < ny; ++row) {
+    const Index iy = step_y > 0 ? row : ny - 1 - row;
+    for (Index column = 0; column < nx; ++column) {
+      const Index ix = step_x > 0 ? column : nx - 1 - column;
+      const auto place = static_cast<std::size_t>(row * nx + column);
+      surface.heights(ix, iy) = type.read(data->data() + type.bytes * place) * step_z + offset_z;
+    }
+  }
+  if (const std::string mask_name(description.words("Record3/DataLink/ValidPointsLink"));
+      !mask_name.empty()) {
+    const auto valid = member(mask_name, (points + 7) / 8);
+    if (!valid) refuse(file, "lacks its member " + mask_name + " of valid points; it is damaged");
+    check_sum(file, description, "Record3/DataLink/MD5ChecksumValidPoints", *valid, mask_name);
+    for (Index row = 0; row < ny; ++row) {
+      for (Index column = 0; column < nx; ++column) {
+        const auto place = static_cast<std::size_t>(row * nx + column);
+        if ((static_cast<unsigned char>((*valid)[place / 8]) >> place % 8 & 1) == 0)
+          surface.heights(step_x > 0 ? column : nx - 1 - column, step_y > 0 ? row : ny - 1 - row) =
+              std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  }
+  return surface;
+}
+
+}  // namespace salebra::detail
