@@ -138,7 +138,10 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
   if (exact) {
     exact_compliance().apply(run.p, run.g);
     // The tiles, which are listed anew after this, may take its place.
-    if constexpr (std::is_same_v<Real, float>) exact_compliance().release_spectrum();
+    if constexpr (std::is_same_v<Real, float>) {
+      exact_compliance().release_spectrum();
+      ++run.outcome.exact_fft_count;
+    }
   } else {
     for_rows([&](Index begin, Index end) {
       for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) w_[k] = static_cast<Real>(run.p[k]);
@@ -212,6 +215,10 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
   const auto step = total_of(over_tiles<StepSums>(
       [&](Index begin, Index end) { return kernels_.step(a, begin, end, alpha, run.level); }));
   ++run.outcome.iterations;
+  const auto resting =
+      static_cast<double>(std::count(quiet_.begin(), quiet_.end(), 1)) * tile_width;
+  run.outcome.resting_cells += resting;
+  run.outcome.active_cells += static_cast<double>(tile_points()) - resting;
   const double carried =
       step.pressure + (step.saturated > 0 ? step.saturated * run.target.bound : 0);
   const double scale_of_misfit = carried * rms_height_;

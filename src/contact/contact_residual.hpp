@@ -39,6 +39,8 @@ struct ActiveSetOutcome {
   double level = 0;
   int iterations = 0;
   int fft_count = 0;
+  int exact_fft_count = 0;  // of them in double precision, where the inner loop is not
+  double active_cells = 0, resting_cells = 0;  // cells of the tiles, summed over the iterations
   bool converged = false;
   bool interrupted = false;
 };

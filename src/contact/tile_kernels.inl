@@ -31,9 +31,25 @@ struct FullWidth {
   constexpr operator Size() const { return tile_width; }
 };
 
+// The dense arrays are read in pieces whose distances the processor does not guess: it is asked for them this many tiles earlier.
+inline constexpr Size ahead = 16;
+
+// Which of the dense arrays a pass reads.
+enum Reads : unsigned { reads_t = 1, reads_w = 2, reads_r = 4, reads_frame = 8 };
+
+template <unsigned reads, class Real>
+SALEBRA_INLINE void fetch(const TileArrays<Real>& a, const Tile& tile) {
+  const Size dense = tile.row * a.ny + tile.column;
+  const Real* r = a.r + (tile.row + frame) * a.framed_stride + tile.column + side_frame;
+  if constexpr (reads & reads_t) __builtin_prefetch(a.t + dense);
+  if constexpr (reads & reads_w) __builtin_prefetch(a.w + dense);
+  if constexpr (reads & reads_r) __builtin_prefetch(r);
+  if constexpr (reads & reads_frame) __builtin_prefetch(r + frame * a.framed_stride);
+}
+
 // Calls body(packed, dense, framed, width) with the offsets of each tile; width is a constant for all but the last of a row.
 // quiet_body likewise, where the tile is quiet.
-template <class Real, class Body, class QuietBody>
+template <unsigned reads, class Real, class Body, class QuietBody>
 SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, const Body& body,
                               const QuietBody& quiet_body) {
   for (Size k = begin; k < end; ++k) {
@@ -41,6 +57,7 @@ SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, c
     const Size dense = row * a.ny + column,
                framed = (row + frame) * a.framed_stride + column + side_frame;
     const bool whole = a.ny - column >= tile_width;
+    if (k + ahead < end) fetch<reads>(a, a.tiles[k + ahead]);
     if (a.quiet[k]) {
       if (whole) {
         quiet_body(k * tile_width, dense, framed, FullWidth{});
@@ -56,10 +73,10 @@ SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, c
 }
 
 // The same, where a quiet tile adds nothing and does not change.
-template <class Real, class Body>
+template <unsigned reads, class Real, class Body>
 SALEBRA_INLINE void for_active_tiles(const TileArrays<Real>& a, Size begin, Size end,
                                      const Body& body) {
-  for_tiles(a, begin, end, body, [](Size, Size, Size, auto) {});
+  for_tiles<reads>(a, begin, end, body, [](Size, Size, Size, auto) {});
 }
 
 // Whether any of a tile's numbers is not +0, from their bits: the test of each number would not vectorise.
@@ -99,7 +116,7 @@ SALEBRA_INLINE bool any_below(const double* g, double level, Width width) {
 
 template <class Real>
 void residual(const TileArrays<Real>& a, Size begin, Size end, double level) {
-  for_active_tiles(a, begin, end, [&](Size packed, Size, Size framed, auto width) {
+  for_active_tiles<reads_r>(a, begin, end, [&](Size packed, Size, Size framed, auto width) {
     const double* g = a.g + packed;
     const Real* m = a.m + packed;
     Real* r = a.r + framed;
@@ -214,22 +231,23 @@ SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, Size w
 template <class Real>
 PreconditionSums precondition(const TileArrays<Real>& a, Size begin, Size end) {
   Lanes sum_z, sum_zw, sum_zz, sum_t, sum_w;
-  for_active_tiles(a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
-    const Real* m = a.m + packed;
-    const Real *t = a.t + dense, *w = a.w + dense;
-    Real* z = a.z + packed;
-    apply_stencil(a, framed, width, z);
-    for (Size i = 0; i < width; ++i) {
-      const Real free = z[i] * m[i];
-      z[i] = free;
-      const double x = free, free_w = static_cast<double>(m[i]) * static_cast<double>(w[i]);
-      sum_z.value[i] += x;
-      sum_zw.value[i] += x * static_cast<double>(w[i]);
-      sum_zz.value[i] += x * x;
-      sum_t.value[i] += static_cast<double>(m[i]) * static_cast<double>(t[i]);
-      sum_w.value[i] += free_w;
-    }
-  });
+  for_active_tiles<reads_t | reads_w | reads_frame>(
+      a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
+        const Real* m = a.m + packed;
+        const Real *t = a.t + dense, *w = a.w + dense;
+        Real* z = a.z + packed;
+        apply_stencil(a, framed, width, z);
+        for (Size i = 0; i < width; ++i) {
+          const Real free = z[i] * m[i];
+          z[i] = free;
+          const double x = free, free_w = static_cast<double>(m[i]) * static_cast<double>(w[i]);
+          sum_z.value[i] += x;
+          sum_zw.value[i] += x * static_cast<double>(w[i]);
+          sum_zz.value[i] += x * x;
+          sum_t.value[i] += static_cast<double>(m[i]) * static_cast<double>(t[i]);
+          sum_w.value[i] += free_w;
+        }
+      });
   return {sum_z.sum(), sum_zw.sum(), sum_zz.sum(), sum_t.sum(), sum_w.sum()};
 }
 
@@ -237,32 +255,35 @@ template <class Real>
 double direct(const TileArrays<Real>& a, Size begin, Size end, double z_mean, double beta,
               double t_mean) {
   Lanes sum;
-  for_active_tiles(a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
-    const Real* m = a.m + packed;
-    const Real *z = a.z + packed, *r = a.r + framed;
-    Real* t = a.t + dense;
-    for (Size i = 0; i < width; ++i) {
-      const double x = static_cast<double>(m[i]) * (static_cast<double>(z[i]) - z_mean +
-                                                    beta * (static_cast<double>(t[i]) - t_mean));
-      t[i] = static_cast<Real>(x);
-      sum.value[i] += x * static_cast<double>(r[i]);
-    }
-  });
+  for_active_tiles<reads_t | reads_r>(
+      a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
+        const Real* m = a.m + packed;
+        const Real *z = a.z + packed, *r = a.r + framed;
+        Real* t = a.t + dense;
+        for (Size i = 0; i < width; ++i) {
+          const double x =
+              static_cast<double>(m[i]) *
+              (static_cast<double>(z[i]) - z_mean + beta * (static_cast<double>(t[i]) - t_mean));
+          t[i] = static_cast<Real>(x);
+          sum.value[i] += x * static_cast<double>(r[i]);
+        }
+      });
   return sum.sum();
 }
 
 template <class Real>
 CurvatureSums curvature(const TileArrays<Real>& a, Size begin, Size end) {
   Lanes sum_tw, sum_w;
-  for_active_tiles(a, begin, end, [&](Size packed, Size dense, Size, auto width) {
-    const Real* m = a.m + packed;
-    const Real *t = a.t + dense, *w = a.w + dense;
-    for (Size i = 0; i < width; ++i) {
-      const double y = w[i];
-      sum_tw.value[i] += static_cast<double>(t[i]) * y;
-      sum_w.value[i] += static_cast<double>(m[i]) * y;
-    }
-  });
+  for_active_tiles<reads_t | reads_w>(a, begin, end,
+                                      [&](Size packed, Size dense, Size, auto width) {
+                                        const Real* m = a.m + packed;
+                                        const Real *t = a.t + dense, *w = a.w + dense;
+                                        for (Size i = 0; i < width; ++i) {
+                                          const double y = w[i];
+                                          sum_tw.value[i] += static_cast<double>(t[i]) * y;
+                                          sum_w.value[i] += static_cast<double>(m[i]) * y;
+                                        }
+                                      });
   return {sum_tw.sum(), sum_w.sum()};
 }
 
@@ -271,7 +292,7 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
   Lanes outside, wrong, clipped, pressure, misfit, signed_misfit, saturated, least;
   for (int lane = 0; lane < tile_width; ++lane) least.value[lane] = __builtin_inf();
   const double bound = a.bound;
-  for_tiles(
+  for_tiles<reads_t | reads_w | reads_r>(
       a, begin, end,
       [&](Size packed, Size dense, Size framed, auto width) {
         const Real* m = a.m + packed;
@@ -345,7 +366,7 @@ SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level
     }
     rest(a, packed, dense, framed, width);
   };
-  for_tiles(a, begin, end, change, [&](Size packed, Size dense, Size framed, auto width) {
+  for_tiles<0>(a, begin, end, change, [&](Size packed, Size dense, Size framed, auto width) {
     if (!any_below(a.g + packed, level, width)) return;
     a.quiet[packed / tile_width] = 0;
     change(packed, dense, framed, width);
@@ -374,7 +395,7 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double level, dou
       p[i] = kept;
     }
   };
-  for_tiles(a, begin, end, cut, [&](Size packed, Size dense, Size framed, auto width) {
+  for_tiles<reads_t>(a, begin, end, cut, [&](Size packed, Size dense, Size framed, auto width) {
     if (shift == 0 && !any_below(a.g + packed, level, width)) return;
     a.quiet[packed / tile_width] = 0;
     cut(packed, dense, framed, width);
@@ -384,7 +405,7 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double level, dou
 template <class Real>
 SetSums add_displacement(const TileArrays<Real>& a, Size begin, Size end) {
   Lanes count, sum;
-  for_tiles(
+  for_tiles<reads_t>(
       a, begin, end,
       [&](Size packed, Size dense, Size framed, auto width) {
         double* g = a.g + packed;

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// contact_profile — where the time of a periodic contact goes.
+//
+// usage: contact_profile [N [THREADS [LOAD...]]]          default: 2048 1 0.005 0.02 0.1
+//
+// LOAD is p/(E*·rms slope) on a self-affine surface: H = 0.8, roll-off at 1/8 of the side, shortest wave 8 cells, rms slope 0.1.
+// The solver's levels are run one by one as press_to_pressure() runs them. Transforms are timed apart, after the solve, on the
+// arrays' true sizes; what a solve took beyond its transforms is its pointwise passes. Traffic is what the passes must move to and
+// from memory if nothing stays in a cache between two of them, a write to a line counted twice because the line is read first.
+// The machine's bandwidth is that of a copy of arrays beyond every cache, counted in the same way.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <salebra/base/memory.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/contact/normal.hpp>
+#include <salebra/generators/exact_rms.hpp>
+#include <vector>
+
+#include "contact/active_set_cg.hpp"
+#include "contact/nested_contact.hpp"
+
+namespace {
+
+using namespace salebra;
+
+double now() {
+  using Clock = std::chrono::steady_clock;
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
+template <class Body>
+double median_seconds(const Body& body) {
+  std::vector<double> seconds(5);
+  for (double& each : seconds) {
+    const double start = now();
+    body();
+    each = now() - start;
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + 2, seconds.end());
+  return seconds[2];
+}
+
+// Bytes per second of a copy, its read, its write and the read of the lines written.
+double copy_bandwidth() {
+  constexpr Index size = Index(1) << 25;
+  const auto from = large_array<double>(size), to = large_array<double>(size);
+  const auto in_slabs = [&](auto body) {
+    parallel::for_slabs(size, [&](Index begin, Index end) { body(begin, end); });
+  };
+  in_slabs([&](Index begin, Index end) {
+    std::fill(from.get() + begin, from.get() + end, 1.0);
+    std::fill(to.get() + begin, to.get() + end, 0.0);
+  });
+  // Through a volatile factor, or else the compiler calls memcpy, which writes past the cache.
+  volatile double factor = 1.5;
+  const double seconds = median_seconds([&] {
+    in_slabs([&, f = factor](Index begin, Index end) {
+      for (Index k = begin; k < end; ++k)
+        to[static_cast<std::size_t>(k)] = f * from[static_cast<std::size_t>(k)];
+    });
+  });
+  return 24 * static_cast<double>(size) / seconds;
+}
+
+template <class Real>
+double pair_seconds(const Grid2D& grid) {
+  auto compliance = normal_compliance<Real>(grid, 1, Boundary::periodic);
+  const auto size = static_cast<std::size_t>(grid.points());
+  const auto field = large_array<Real>(size), result = large_array<Real>(size);
+  std::fill_n(field.get(), size, Real(1));
+  compliance.apply(field.get(), result.get());
+  return median_seconds([&] { compliance.apply(field.get(), result.get()); });
+}
+
+// A pair reads the field and the symbol, writes, reads, writes and reads the spectrum, and writes the result: in sizes of a cell's
+// number 1 + ¼, 2, 1 + 1, 1, 2 – the columns write lines that they have read.
+constexpr double pair_numbers = 8.25;
+// An iteration on a cell of a tile in use, in mixed precision; on one of a tile at rest, its gap and its image.
+constexpr double active_bytes = 24 + 20 + 12 + 52, resting_bytes = 8 + 8 + 4;
+
+struct Share {
+  double setup = 0, prolongation = 0, single_pairs = 0, double_pairs = 0, pointwise = 0;
+  double total() const { return setup + prolongation + single_pairs + double_pairs + pointwise; }
+};
+
+void profile(const Surface& surface, double load, double bandwidth) {
+  const Grid2D& physical = surface.grid;
+  const double cell = physical.dx(), side = static_cast<double>(physical.nx);
+  const Grid2D grid{physical.nx, physical.ny, side, side};
+  const double highest = surface.heights.maxCoeff();
+  const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
+  const detail::ContactTarget target{detail::ContactTarget::Kind::mean_pressure, load * 0.1 * cell};
+
+  Share coarse, fine;
+  double start = now();
+  const auto levels = detail::contact_levels(grid, {surface.heights.data(), highest},
+                                             Boundary::periodic, std::numeric_limits<int>::max());
+  coarse.setup += now() - start;
+  Field pressure, gap;
+  detail::ActiveSetOutcome outcome;
+  double pointwise_bytes = 0, pair = 0, solves = 0;
+  for (std::size_t k = levels.size(); k-- > 0;) {
+    const detail::ContactLevel& level = levels[k];
+    Share& share = k == 0 ? fine : coarse;
+    start = now();
+    Field guess = uninitialised_field(level.grid.nx, level.grid.ny);
+    if (k + 1 == levels.size()) {
+      guess.setConstant(target.value);
+    } else {
+      detail::prolong(levels[k + 1], pressure, gap, outcome.level, level, Boundary::periodic,
+                      0.6 / cell_compliance(level.grid, 1), guess.data());
+    }
+    pressure = std::move(guess);
+    gap = uninitialised_field(level.grid.nx, level.grid.ny);
+    share.prolongation += now() - start;
+
+    start = now();
+    detail::ActiveSetCg<float> solver(level.grid, 1, Boundary::periodic, level.heights, rms);
+    share.setup += now() - start;
+    start = now();
+    outcome =
+        solver.solve(target, {k == 0 ? 1e-8 : 1e-3, 1000, k == 0}, pressure.data(), gap.data());
+    const double solve = now() - start;
+    pair = pair_seconds<float>(level.grid);
+    const double exact_pair = outcome.exact_fft_count > 0 ? pair_seconds<double>(level.grid) : 0;
+    const double single = pair * (outcome.fft_count - outcome.exact_fft_count);
+    const double exact = exact_pair * outcome.exact_fft_count;
+    share.single_pairs += single;
+    share.double_pairs += exact;
+    share.pointwise += solve - single - exact;
+    solves = solve;
+    pointwise_bytes = active_bytes * outcome.active_cells + resting_bytes * outcome.resting_cells;
+  }
+
+  const double total = coarse.total() + fine.total(), cells = static_cast<double>(grid.points());
+  const auto line = [&](const char* name, double seconds) {
+    std::printf("  %-44s %8.3f s %5.1f %%\n", name, seconds, 100 * seconds / total);
+  };
+  std::printf("load %g: %d pairs (%d of them in double), %d iterations, e_c %.1e\n", load,
+              outcome.fft_count, outcome.exact_fft_count, outcome.iterations, outcome.residual);
+  line("coarser levels, all of it", coarse.total());
+  line("prolongation", fine.prolongation);
+  line("set-up: plans, symbol, stencil", fine.setup);
+  line("transforms in float", fine.single_pairs);
+  line("transforms in double", fine.double_pairs);
+  line("pointwise passes", fine.pointwise);
+  std::printf("  %-44s %8.3f s\n", "all", total);
+  const double pair_rate = pair_numbers * sizeof(float) * cells / pair;
+  const double pointwise_rate = pointwise_bytes / fine.pointwise;
+  std::printf("  a pair in float takes %.2f ms and moves %.1f GB/s, %.0f %% of a copy\n",
+              1e3 * pair, 1e-9 * pair_rate, 100 * pair_rate / bandwidth);
+  std::printf(
+      "  pointwise: %.1f %% of the cells in use, %.1f %% at rest; iterations alone move %.1f GB/s, "
+      "%.0f %% of a copy\n",
+      100 * outcome.active_cells / cells / outcome.iterations,
+      100 * outcome.resting_cells / cells / outcome.iterations, 1e-9 * pointwise_rate,
+      100 * pointwise_rate / bandwidth);
+  const double needed =
+      (pair_numbers * sizeof(float) * (outcome.fft_count + outcome.exact_fft_count) * cells +
+       pointwise_bytes) /
+      bandwidth;
+  std::printf(
+      "  memory traffic of the finest level at the speed of a copy: %.3f s, %.0f %% of its solve\n",
+      needed, 100 * needed / solves);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Index n = argc > 1 ? std::atol(argv[1]) : 2048;
+  parallel::set_threads(argc > 2 ? std::atoi(argv[2]) : 1);
+  std::vector<double> loads;
+  for (int k = 3; k < argc; ++k) loads.push_back(std::atof(argv[k]));
+  if (loads.empty()) loads = {0.005, 0.02, 0.1};
+  if (n < 64 || loads.front() <= 0) return 2;
+
+  const double cell = 1.0 / static_cast<double>(n);
+  const SelfAffineSpectrum spectrum(
+      {.hurst = 0.8, .rolloff = 0.125, .short_cutoff = 8 * cell, .rms_slope = 0.1});
+  const Surface surface = exact_rms({n, n, 1, 1}, spectrum, 1, Rms::slope);
+  const double bandwidth = copy_bandwidth();
+  std::printf("%ld x %ld cells, %d thread(s); a copy moves %.1f GB/s\n", static_cast<long>(n),
+              static_cast<long>(n), parallel::threads(), 1e-9 * bandwidth);
+  for (const double load : loads) profile(surface, load, bandwidth);
+}
