@@ -35,10 +35,11 @@ struct Convolution2D<Real>::Passes {
   const detail::SpectrumKernels<Real>& kernels = detail::spectrum_kernels<Real>();
   Shape shape;
   int components;
-  Index half;                    // pairs of rows
-  Index modes;                   // columns of the field's half-spectrum
-  Index column_stride;           // from one column of z to the next
-  LargeArray<Complex> spectrum;  // [component][column of z][pair]
+  Index half;                   // pairs of rows
+  Index modes;                  // columns of the field's half-spectrum
+  Index column_stride;          // from one column of z to the next
+  Complex* spectrum = nullptr;  // [component][column of z][pair]
+  LargeArray<Complex> own_spectrum;
   struct Table {
     LargeArray<Real> values;  // [column][i = 0 … period_x/2], over 2·points of the transform
     Parity parity = Parity::even;
@@ -60,10 +61,11 @@ struct Convolution2D<Real>::Passes {
   }
 
   Index points() const { return shape.period_x * shape.period_y; }
+  std::size_t spectrum_size() const { return count(components * shape.period_y * column_stride); }
   Index table_rows() const { return shape.period_x / 2 + 1; }
   Index groups() const { return (half + pairs_at_once - 1) / pairs_at_once; }
   Complex* column(int component, Index index) {
-    return spectrum.get() + (component * shape.period_y + index) * column_stride;
+    return spectrum + (component * shape.period_y + index) * column_stride;
   }
   static Real* real(Complex* numbers) { return reinterpret_cast<Real*>(numbers); }
   static const Real* real(const Complex* numbers) { return reinterpret_cast<const Real*>(numbers); }
@@ -241,8 +243,10 @@ struct Convolution2D<Real>::Passes {
       if (tables[static_cast<std::size_t>(t)].values == nullptr)
         set_symbol(
             t / 2, t - t / 2, [](Index, Index) { return 0.0; }, Parity::even);
-    if (!spectrum)
-      spectrum = large_array<Complex>(count(components * shape.period_y * column_stride));
+    if (!spectrum) {
+      own_spectrum = large_array<Complex>(spectrum_size());
+      spectrum = own_spectrum.get();
+    }
     rows_forward(fields);
     columns();
     rows_backward(results);
@@ -287,8 +291,14 @@ void Convolution2D<Real>::apply(const std::array<const Real*, 2>& fields,
 }
 
 template <class Real>
-void Convolution2D<Real>::release_spectrum() {
-  passes_->spectrum.reset();
+std::size_t Convolution2D<Real>::spectrum_bytes() const {
+  return passes_->spectrum_size() * sizeof(std::complex<Real>);
+}
+
+template <class Real>
+void Convolution2D<Real>::keep_spectrum_in(void* memory) {
+  passes_->own_spectrum.reset();
+  passes_->spectrum = static_cast<std::complex<Real>*>(memory);
 }
 
 template class Convolution2D<float>;

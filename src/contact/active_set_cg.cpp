@@ -126,6 +126,8 @@ Convolution2D<double>& ActiveSetCg<Real>::exact_compliance() {
   } else {
     if (!exact_compliance_)
       exact_compliance_ = normal_compliance<double>(grid_, contact_modulus_, boundary_);
+    // The tiles are listed anew after it is used.
+    exact_compliance_->keep_spectrum_in(pool(exact_compliance_->spectrum_bytes()));
     return *exact_compliance_;
   }
 }
@@ -137,11 +139,7 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
   exact = exact || std::is_same_v<Real, double>;
   if (exact) {
     exact_compliance().apply(run.p, run.g);
-    // The tiles, which are listed anew after this, may take its place.
-    if constexpr (std::is_same_v<Real, float>) {
-      exact_compliance().release_spectrum();
-      ++run.outcome.exact_fft_count;
-    }
+    if constexpr (std::is_same_v<Real, float>) ++run.outcome.exact_fft_count;
   } else {
     for_rows([&](Index begin, Index end) {
       for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) w_[k] = static_cast<Real>(run.p[k]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <salebra/base/convolution.hpp>
 #include <salebra/base/memory.hpp>
@@ -93,7 +94,7 @@ class ActiveSetCg {
   ContactResidual dense_gap(Run& run, bool exact);
   void choose_tiles(Run& run, double margin);
   void list_tiles();
-  void release_tiles();
+  std::byte* pool(std::size_t bytes);
   void collect_pressure(Run& run);
   void begin_set(Run& run, const std::vector<SetSums>& parts);
   void frame_residual();
@@ -120,9 +121,12 @@ class ActiveSetCg {
   LargeArray<Real> t_, w_;  // dense
   LargeArray<Real> r_;      // framed
   // Tile after tile, with zeros where a row ends within a tile. Between two refreshes p and g are up to date only here.
-  LargeArray<double> p_, g_;
-  LargeArray<Real> z_, m_;
+  double *p_ = nullptr, *g_ = nullptr;
+  Real *z_ = nullptr, *m_ = nullptr;
   std::vector<unsigned char> quiet_;
+  // Holds the tiles' arrays and, while they are not needed, the spectrum of the exact check.
+  LargeArray<std::byte> pool_;
+  std::size_t pool_size_ = 0;
 };
 
 }  // namespace salebra::detail

@@ -8,9 +8,9 @@ namespace salebra::detail {
 
 template <class Real>
 TileArrays<Real> ActiveSetCg<Real>::arrays(double bound) {
-  return {tiles_.data(), grid_.ny,        framed_stride_, t_.get(), w_.get(),
-          r_.get(),      p_.get(),        g_.get(),       z_.get(), m_.get(),
-          quiet_.data(), stencil_.data(), bound};
+  return {
+      tiles_.data(), grid_.ny,        framed_stride_, t_.get(), w_.get(), r_.get(), p_, g_, z_, m_,
+      quiet_.data(), stencil_.data(), bound};
 }
 
 template <class Real>
@@ -34,11 +34,13 @@ void ActiveSetCg<Real>::reset() {
 }
 
 template <class Real>
-void ActiveSetCg<Real>::release_tiles() {
-  p_.reset();
-  g_.reset();
-  z_.reset();
-  m_.reset();
+std::byte* ActiveSetCg<Real>::pool(std::size_t bytes) {
+  if (bytes > pool_size_) {
+    pool_.reset();  // first, lest both are there at once
+    pool_ = large_array<std::byte>(bytes);
+    pool_size_ = bytes;
+  }
+  return pool_.get();
 }
 
 // The tiles that are in use, row by row, with room for what is stored tile after tile.
@@ -50,12 +52,12 @@ void ActiveSetCg<Real>::list_tiles() {
       if (in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)])
         tiles_.push_back(
             {static_cast<std::int32_t>(row), static_cast<std::int32_t>(k * tile_width)});
-  // Free first: what was there may be as large as what comes.
-  release_tiles();
-  p_ = large_array<double>(static_cast<std::size_t>(tile_points()));
-  g_ = large_array<double>(static_cast<std::size_t>(tile_points()));
-  z_ = large_array<Real>(static_cast<std::size_t>(tile_points()));
-  m_ = large_array<Real>(static_cast<std::size_t>(tile_points()));
+  const auto size = static_cast<std::size_t>(tile_points());
+  std::byte* memory = pool(size * 2 * (sizeof(double) + sizeof(Real)));
+  p_ = reinterpret_cast<double*>(memory);
+  g_ = p_ + size;
+  z_ = reinterpret_cast<Real*>(g_ + size);
+  m_ = z_ + size;
   quiet_.assign(tiles_.size(), 0);
 }
 
@@ -115,7 +117,7 @@ template <class Real>
 void ActiveSetCg<Real>::collect_pressure(Run& run) {
   double sum = 0;
   for (const double part : over_tiles<double>([&](Index begin, Index end) {
-         return kernels_.clip(p_.get() + begin * tile_width, (end - begin) * tile_width,
+         return kernels_.clip(p_ + begin * tile_width, (end - begin) * tile_width,
                               run.target.bound);
        }))
     sum += part;
@@ -129,7 +131,6 @@ void ActiveSetCg<Real>::collect_pressure(Run& run) {
       for (Index i = 0; i < width; ++i) p[i] = scale * p_[k * tile_width + i];
     }
   });
-  release_tiles();
   if (run.load_given() && !scaled) correct_load(run.target, run.p);
 }
 
@@ -182,7 +183,7 @@ LoadCorrection ActiveSetCg<Real>::correction_over_tiles(const Run& run, double p
     for (const LoadSums& part : over_tiles<LoadSums>([&](Index begin, Index end) {
            LoadSums sums;
            for (Index k = begin; k < end; ++k) {
-             const double* p = p_.get() + k * tile_width;
+             const double* p = p_ + k * tile_width;
              const Index width =
                  std::min<Index>(tile_width, grid_.ny - tiles_[static_cast<std::size_t>(k)].column);
              for (Index i = 0; i < width; ++i) sums.add(trial(p[i], bound), bound);

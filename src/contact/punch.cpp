@@ -37,9 +37,9 @@ double ActiveSetCg<Real>::punch_load(const double* p, double bound, Field* press
     const Index first = tiles_[k].row * grid_.ny + tiles_[k].column;
     const Index width = std::min<Index>(tile_width, grid_.ny - tiles_[k].column);
     const std::size_t packed = k * tile_width;
-    std::fill_n(p_.get() + packed, tile_width, 0.0);
-    std::fill_n(g_.get() + packed, tile_width, -1.0);
-    std::fill_n(m_.get() + packed, tile_width, Real(0));
+    std::fill_n(p_ + packed, tile_width, 0.0);
+    std::fill_n(g_ + packed, tile_width, -1.0);
+    std::fill_n(m_ + packed, tile_width, Real(0));
     for (Index i = 0; i < width; ++i)
       if (in_set(p[first + i])) m_[packed + static_cast<std::size_t>(i)] = Real(1);
   }
@@ -83,9 +83,8 @@ double ActiveSetCg<Real>::punch_load(const double* p, double bound, Field* press
   }
   Field q = Field::Zero(grid_.nx, grid_.ny), image = uninitialised_field(grid_.nx, grid_.ny);
   for (std::size_t k = 0; k < tiles_.size(); ++k)
-    std::copy_n(p_.get() + k * tile_width, std::min<Index>(tile_width, grid_.ny - tiles_[k].column),
+    std::copy_n(p_ + k * tile_width, std::min<Index>(tile_width, grid_.ny - tiles_[k].column),
                 q.data() + tiles_[k].row * grid_.ny + tiles_[k].column);
-  release_tiles();
   if (pressure) *pressure = q;
   exact_compliance().apply(q.data(), image.data());
   return sum_rows([&](Index begin, Index end) {

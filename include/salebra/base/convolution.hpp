@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <salebra/base/grid.hpp>
@@ -39,8 +40,10 @@ class Convolution2D {
   /// K_ab and K_ba. Symbols are zero until set. `symbol` is called from several threads.
   void set_symbol(int a, int b, const Symbol& symbol, Parity parity = Parity::even);
 
-  /// Gives the memory of the spectrum back until the next apply(); symbols stay.
-  void release_spectrum();
+  /// Lets apply() keep its spectrum in the memory given, of at least spectrum_bytes() on a boundary of 64 bytes, which is the
+  /// caller's to use between two calls; nullptr: in memory of its own again.
+  void keep_spectrum_in(void* memory);
+  std::size_t spectrum_bytes() const;
 
   /// One component. result may be field itself.
   void apply(const Real* field, Real* result);
