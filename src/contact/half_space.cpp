@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <functional>
@@ -67,7 +68,34 @@ struct WaveVector {
 
 }  // namespace
 
+namespace {
+
+// The corners' terms grow with the distance r and their sum falls with it: a part (r/cell)² of rounding, 1e-9 at 4096 cells. Far
+// away the integrands are smooth over the cell, and nine Gauss points leave 4e-4 (cell/r)⁶.
+constexpr double far_cells = 32;
+
+CellIntegrals far_cell_integrals(double x, double y, double dx, double dy) {
+  constexpr std::array<double, 3> places{-0.7745966692414834, 0, 0.7745966692414834};
+  constexpr std::array<double, 3> weights{5.0 / 18, 8.0 / 18, 5.0 / 18};
+  CellIntegrals sum;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double xi = x + places[i] * dx / 2, eta = y + places[j] * dy / 2;
+      const double square = xi * xi + eta * eta;
+      const double inverse = weights[i] * weights[j] * dx * dy / std::sqrt(square);
+      sum.inverse_distance += inverse;
+      sum.xx += inverse * xi * xi / square;
+      sum.yy += inverse * eta * eta / square;
+      sum.xy += inverse * xi * eta / square;
+    }
+  return sum;
+}
+
+}  // namespace
+
 CellIntegrals cell_integrals(double x, double y, double dx, double dy) {
+  if (std::max(std::abs(x), std::abs(y)) > far_cells * std::max(dx, dy))
+    return far_cell_integrals(x, y, dx, dy);
   CellIntegrals sum;
   for (const int side_x : {-1, 1})
     for (const int side_y : {-1, 1}) {

@@ -211,8 +211,10 @@ NormalContactState press(const Surface& surface, double contact_modulus, const D
   const ContactTarget target{kind, load_given ? value / scaled.pressure_unit : value,
                              options.hardness / scaled.pressure_unit};
   const Heights heights{surface.heights.data(), depths.highest};
-  // A flat punch has no roughness to compare a gap with: its cells are the only length there is.
-  const double length = depths.rms > 0 ? depths.rms : std::sqrt(surface.grid.cell_area());
+  // A flat punch has no roughness to compare a gap with, and its problem is linear: the displacement is the length.
+  const double displacement =
+      load_given ? value / contact_modulus * std::sqrt(surface.grid.area()) : value;
+  const double length = depths.rms > 0 ? depths.rms : displacement;
   auto solution = options.precision == Precision::mixed
                       ? solve_nested<float>(scaled, heights, length, target, options)
                       : solve_nested<double>(scaled, heights, length, target, options);

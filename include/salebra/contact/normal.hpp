@@ -12,7 +12,8 @@ namespace salebra {
 enum class Precision { mixed, full };
 
 struct NormalContactOptions {
-  /// Stop at e_c = Σp(g − g_min)/(Σp · h_rms) < tolerance, checked densely in double precision; 1e-14 … 1e-1.
+  /// Stop at e_c = Σp(g − g_min)/(Σp · h_rms) < tolerance, checked densely in double precision; 1e-14 … 1e-1. For a flat punch h_rms
+  /// is replaced by the indentation, or by pressure·√area/E*.
   double tolerance = 1e-10;
   int max_iterations = 1000;  ///< on the finest level, >= 1
   Boundary boundary = Boundary::periodic;
