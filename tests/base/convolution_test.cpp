@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <salebra/base/convolution.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 
 using namespace salebra;
@@ -90,6 +92,28 @@ TEST_CASE("A convolution has the same bits for one thread and for two, and may w
   parallel::set_threads(0);
   CHECK((one == two).all());
   CHECK((one == in_place).all());
+}
+
+TEST_CASE(
+    "A convolution may keep its spectrum in memory that is used for something else in between",
+    "[convolution]") {
+  const Index n = 45;
+  const Field field = Field::Random(n, n);
+  Field own(n, n), lent(n, n);
+  Convolution2D<double> convolution({n, n, n, n});
+  convolution.set_symbol(0, 0, [](Index i, Index j) { return 1 / (1.0 + double(i * i + j * j)); });
+  convolution.apply(field.data(), own.data());
+  const auto bytes = convolution.spectrum_bytes();
+  const auto memory = large_array<unsigned char>(bytes);
+  convolution.keep_spectrum_in(memory.get());
+  for (int round = 0; round < 2; ++round) {
+    std::fill_n(memory.get(), bytes, static_cast<unsigned char>(0xff));
+    convolution.apply(field.data(), lent.data());
+    CHECK((own == lent).all());
+  }
+  convolution.keep_spectrum_in(nullptr);
+  convolution.apply(field.data(), lent.data());
+  CHECK((own == lent).all());
 }
 
 TEST_CASE("Fast transform sizes have no prime factor above 5 and are even", "[convolution]") {
