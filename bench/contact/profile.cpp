@@ -107,7 +107,7 @@ void profile(const Surface& surface, double load, double bandwidth) {
     const detail::ContactLevel& level = levels[k];
     Share& share = k == 0 ? fine : coarse;
     start = now();
-    Field guess = uninitialised_field(level.grid.nx, level.grid.ny);
+    Field guess(level.grid.nx, level.grid.ny);
     if (k + 1 == levels.size()) {
       guess.setConstant(target.value);
     } else {
@@ -115,7 +115,7 @@ void profile(const Surface& surface, double load, double bandwidth) {
                       0.6 / cell_compliance(level.grid, 1), guess.data());
     }
     pressure = std::move(guess);
-    gap = uninitialised_field(level.grid.nx, level.grid.ny);
+    gap = Field(level.grid.nx, level.grid.ny);
     share.prolongation += now() - start;
 
     start = now();

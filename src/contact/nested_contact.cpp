@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 
 namespace salebra::detail {
@@ -53,7 +52,7 @@ std::vector<Weights> interpolation(Index coarse, Index fine, Boundary boundary) 
 }
 
 Field sampled(const Grid2D& fine, const Heights& heights, Index nx, Index ny, Boundary boundary) {
-  Field coarse = uninitialised_field(nx, ny);
+  Field coarse(nx, ny);
   const auto at = [&](Index i, Index j) {
     return heights[into(i, fine.nx, boundary) * fine.ny + into(j, fine.ny, boundary)];
   };

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal.hpp>
 
@@ -108,13 +107,13 @@ Solution solve_nested(const Scaled& scaled, const Heights& heights, double rms_h
       pressure = Field::Constant(
           nx, ny, target.kind == ContactTarget::Kind::mean_pressure ? target.value : 0.0);
     } else {
-      pressure = uninitialised_field(nx, ny);
+      pressure.resize(nx, ny);
       const double step = prediction / cell_compliance(level.grid, 1);
       detail::prolong(levels[k + 1], solution.pressure, solution.gap, solution.outcome.level, level,
                       options.boundary, step, pressure.data());
     }
     solution.pressure = std::move(pressure);
-    solution.gap = uninitialised_field(nx, ny);
+    solution.gap = Field(nx, ny);
     ActiveSetLimits limits{
         k == 0 ? options.tolerance : std::max(coarse_tolerance, options.tolerance),
         options.max_iterations, k == 0};

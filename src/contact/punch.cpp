@@ -81,7 +81,7 @@ double ActiveSetCg<Real>::punch_load(const double* p, double bound, Field* press
     if (iteration + 1 == most_iterations && small_gains < gains_in_a_row)
       return std::numeric_limits<double>::quiet_NaN();
   }
-  Field q = Field::Zero(grid_.nx, grid_.ny), image = uninitialised_field(grid_.nx, grid_.ny);
+  Field q = Field::Zero(grid_.nx, grid_.ny), image(grid_.nx, grid_.ny);
   for (std::size_t k = 0; k < tiles_.size(); ++k)
     std::copy_n(p_ + k * tile_width, std::min<Index>(tile_width, grid_.ny - tiles_[k].column),
                 q.data() + tiles_[k].row * grid_.ny + tiles_[k].column);
