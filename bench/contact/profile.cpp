@@ -4,8 +4,8 @@
 // usage: contact_profile [N [THREADS [LOAD...]]]          default: 2048 1 0.005 0.02 0.1
 //
 // LOAD is p/(E*·rms slope) on a self-affine surface: H = 0.8, roll-off at 1/8 of the side, shortest wave 8 cells, rms slope 0.1.
-// The solver's levels are run one by one as press_to_pressure() runs them. Transforms are timed apart, after the solve, on the
-// arrays' true sizes; what a solve took beyond its transforms is its pointwise passes. Traffic is what the passes must move to and
+// The solver's levels are run one by one as press_to_pressure() runs them. What a solve takes beyond its transforms is its
+// pointwise passes. Traffic is what the passes must move to and
 // from memory if nothing stays in a cache between two of them, a write to a line counted twice because the line is read first.
 // The machine's bandwidth is that of a copy of arrays beyond every cache, counted in the same way.
 
@@ -66,16 +66,6 @@ double copy_bandwidth() {
   return 24 * static_cast<double>(size) / seconds;
 }
 
-template <class Real>
-double pair_seconds(const Grid2D& grid) {
-  auto compliance = normal_compliance<Real>(grid, 1, Boundary::periodic);
-  const auto size = static_cast<std::size_t>(grid.points());
-  const auto field = large_array<Real>(size), result = large_array<Real>(size);
-  std::fill_n(field.get(), size, Real(1));
-  compliance.apply(field.get(), result.get());
-  return median_seconds([&] { compliance.apply(field.get(), result.get()); });
-}
-
 // A pair reads the field and the symbol, writes, reads, writes and reads the spectrum, and writes the result: in sizes of a cell's
 // number 1 + ¼, 2, 1 + 1, 1, 2 – the columns write lines that they have read.
 constexpr double pair_numbers = 8.25;
@@ -125,13 +115,11 @@ void profile(const Surface& surface, double load, double bandwidth) {
     outcome =
         solver.solve(target, {k == 0 ? 1e-8 : 1e-3, 1000, k == 0}, pressure.data(), gap.data());
     const double solve = now() - start;
-    pair = pair_seconds<float>(level.grid);
-    const double exact_pair = outcome.exact_fft_count > 0 ? pair_seconds<double>(level.grid) : 0;
-    const double single = pair * (outcome.fft_count - outcome.exact_fft_count);
-    const double exact = exact_pair * outcome.exact_fft_count;
-    share.single_pairs += single;
-    share.double_pairs += exact;
-    share.pointwise += solve - single - exact;
+    share.double_pairs += outcome.exact_fft_seconds;
+    share.single_pairs += outcome.fft_seconds - outcome.exact_fft_seconds;
+    share.pointwise += solve - outcome.fft_seconds;
+    pair = (outcome.fft_seconds - outcome.exact_fft_seconds) /
+           (outcome.fft_count - outcome.exact_fft_count);
     solves = solve;
     pointwise_bytes = active_bytes * outcome.active_cells + resting_bytes * outcome.resting_cells;
   }

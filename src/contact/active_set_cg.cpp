@@ -2,6 +2,7 @@
 #include "active_set_cg.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <salebra/base/parallel.hpp>
 #include <type_traits>
@@ -21,6 +22,20 @@ constexpr std::array<double, 2> other_thresholds = {1.0, 0.1};
 constexpr double refresh_after = 1e-4;
 // A start for a finer level needs no more than this many refreshes.
 constexpr int most_inexact_refreshes = 3;
+
+// Adds the seconds until its end.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point start_ = Clock::now();
+};
 
 void add(PreconditionSums& total, const PreconditionSums& part) {
   total.z += part.z;
@@ -132,19 +147,39 @@ Convolution2D<double>& ActiveSetCg<Real>::exact_compliance() {
   }
 }
 
+template <class Real>
+void ActiveSetCg<Real>::transform(Run& run, const Real* field, Real* result) {
+  const Stopwatch stopwatch(run.outcome.fft_seconds);
+  ++run.outcome.fft_count;
+  compliance_.apply(field, result);
+}
+
+template <class Real>
+void ActiveSetCg<Real>::exact_transform(Run& run) {
+  double seconds = 0;
+  {
+    const Stopwatch stopwatch(seconds);
+    exact_compliance().apply(run.p, run.g);
+  }
+  ++run.outcome.fft_count;
+  run.outcome.fft_seconds += seconds;
+  if constexpr (std::is_same_v<Real, float>) {
+    ++run.outcome.exact_fft_count;
+    run.outcome.exact_fft_seconds += seconds;
+  }
+}
+
 // g = Gp − h and what follows from it.
 template <class Real>
 ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
-  ++run.outcome.fft_count;
   exact = exact || std::is_same_v<Real, double>;
   if (exact) {
-    exact_compliance().apply(run.p, run.g);
-    if constexpr (std::is_same_v<Real, float>) ++run.outcome.exact_fft_count;
+    exact_transform(run);
   } else {
     for_rows([&](Index begin, Index end) {
       for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) w_[k] = static_cast<Real>(run.p[k]);
     });
-    compliance_.apply(w_.get(), w_.get());
+    transform(run, w_.get(), w_.get());
     run.has_direction = false;  // its image is gone
   }
   // Counted from a plane near the true one, which is known only afterwards, Σp(g − plane) loses no digits.
@@ -200,8 +235,7 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
   double descent = direct(beta);
   if (descent <= 0 && beta > 0) descent = direct(0);
 
-  compliance_.apply(t_.get(), w_.get());
-  ++run.outcome.fft_count;
+  transform(run, t_.get(), w_.get());
   run.has_direction = true;
   const auto curvature = total_of(over_tiles<CurvatureSums>(
       [&](Index begin, Index end) { return kernels_.curvature(a, begin, end); }));

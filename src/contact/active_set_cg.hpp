@@ -91,6 +91,8 @@ class ActiveSetCg {
   void reset();
   void correct_load(const ContactTarget& target, double* p) const;
   Convolution2D<double>& exact_compliance();
+  void transform(Run& run, const Real* field, Real* result);
+  void exact_transform(Run& run);
   ContactResidual dense_gap(Run& run, bool exact);
   void choose_tiles(Run& run, double margin);
   void list_tiles();

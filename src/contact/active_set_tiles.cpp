@@ -212,8 +212,7 @@ void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
     kernels_.truncate(a, begin, end, run.level, correction.scale, correction.shift);
   });
   // In place, so that w keeps the image of the last direction: CG goes on without a restart.
-  compliance_.apply(t_.get(), t_.get());
-  ++run.outcome.fft_count;
+  transform(run, t_.get(), t_.get());
   const auto sums = over_tiles<SetSums>(
       [&](Index begin, Index end) { return kernels_.add_displacement(a, begin, end); });
   for_rows([&](Index begin, Index end) {
