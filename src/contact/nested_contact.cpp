@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 
 namespace salebra::detail {
@@ -56,19 +57,23 @@ Field sampled(const Grid2D& fine, const Heights& heights, Index nx, Index ny, Bo
   const auto at = [&](Index i, Index j) {
     return heights[into(i, fine.nx, boundary) * fine.ny + into(j, fine.ny, boundary)];
   };
+  std::vector<Place> along_y;
+  for (Index j = 0; j < ny; ++j) along_y.push_back(place(j, ny, fine.ny));
   parallel::for_slabs(
       nx,
       [&](Index begin, Index end) {
-        for (Index i = begin; i < end; ++i)
+        for (Index i = begin; i < end; ++i) {
+          const auto [a, x] = place(i, nx, fine.nx);
+          const double* row = heights.values + a * fine.ny;
           for (Index j = 0; j < ny; ++j) {
-            const auto [a, x] = place(i, nx, fine.nx);
-            const auto [b, y] = place(j, ny, fine.ny);
-            double value = at(a, b);
+            const auto [b, y] = along_y[static_cast<std::size_t>(j)];
+            double value = row[b] - heights.zero;
             if (x > 0 || y > 0)
               value = (1 - x) * ((1 - y) * value + y * at(a, b + 1)) +
                       x * ((1 - y) * at(a + 1, b) + y * at(a + 1, b + 1));
             coarse(i, j) = value;
           }
+        }
       },
       nx * ny);
   return coarse;
@@ -96,28 +101,45 @@ std::vector<ContactLevel> contact_levels(const Grid2D& grid, const Heights& heig
 void prolong(const ContactLevel& coarse, const Field& coarse_pressure, const Field& coarse_gap,
              double level, const ContactLevel& fine, Boundary boundary, double step,
              double* pressure) {
-  using Rows = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Index ny = fine.grid.ny;
-  const auto along_y = interpolation(coarse.grid.ny, ny, boundary);
+  const Index coarse_ny = coarse.grid.ny, ny = fine.grid.ny;
+  const auto along_y = interpolation(coarse_ny, ny, boundary);
   const auto along_x = interpolation(coarse.grid.nx, fine.grid.nx, boundary);
-  Rows p_rows(coarse.grid.nx, ny), u_rows(coarse.grid.nx, ny);
+  const auto size = static_cast<std::size_t>(coarse.grid.nx * ny);
+  const auto p_rows = large_array<float>(size), u_rows = large_array<float>(size);
   parallel::for_slabs(
       coarse.grid.nx,
       [&](Index begin, Index end) {
-        std::vector<float> displacement(static_cast<std::size_t>(coarse.grid.ny));
+        // One point before and two beyond, as the interpolation between two points wants them.
+        std::vector<float> p_framed(static_cast<std::size_t>(coarse_ny + 3)), u_framed(p_framed);
+        float *p = p_framed.data() + 1, *u = u_framed.data() + 1;
         for (Index i = begin; i < end; ++i) {
-          for (Index j = 0; j < coarse.grid.ny; ++j)
-            displacement[static_cast<std::size_t>(j)] = static_cast<float>(
-                coarse_gap(i, j) + coarse.heights[i * coarse.grid.ny + j] - level);
-          for (Index j = 0; j < ny; ++j) {
-            const Weights& w = along_y[static_cast<std::size_t>(j)];
-            float p = 0, u = 0;
-            for (std::size_t k = 0; k < 4; ++k) {
-              p += w.linear[k] * static_cast<float>(coarse_pressure(i, w.point[k]));
-              u += w.cubic[k] * displacement[static_cast<std::size_t>(w.point[k])];
+          const double* heights = coarse.heights.values + i * coarse_ny;
+          for (Index j = 0; j < coarse_ny; ++j) {
+            p[j] = static_cast<float>(coarse_pressure(i, j));
+            u[j] =
+                static_cast<float>(coarse_gap(i, j) + (heights[j] - coarse.heights.zero) - level);
+          }
+          for (const Index j : {Index(-1), coarse_ny, coarse_ny + 1}) {
+            p[j] = p[into(j, coarse_ny, boundary)];
+            u[j] = u[into(j, coarse_ny, boundary)];
+          }
+          float *p_row = p_rows.get() + i * ny, *u_row = u_rows.get() + i * ny;
+          if (ny == 2 * coarse_ny) {
+            const Weights& between = along_y[1];
+            const float outer = between.cubic[0], inner = between.cubic[1];
+            for (Index j = 0; j < coarse_ny; ++j) {
+              p_row[2 * j] = p[j];
+              p_row[2 * j + 1] = 0.5f * (p[j] + p[j + 1]);
+              u_row[2 * j] = u[j];
+              u_row[2 * j + 1] = inner * (u[j] + u[j + 1]) + outer * (u[j - 1] + u[j + 2]);
             }
-            p_rows(i, j) = p;
-            u_rows(i, j) = u;
+          } else {
+            for (Index j = 0; j < ny; ++j) {
+              const Weights& w = along_y[static_cast<std::size_t>(j)];
+              p_row[j] = w.linear[1] * p[w.point[1]] + w.linear[2] * p[w.point[2]];
+              u_row[j] = 0;
+              for (std::size_t k = 0; k < 4; ++k) u_row[j] += w.cubic[k] * u[w.point[k]];
+            }
           }
         }
       },
@@ -127,15 +149,26 @@ void prolong(const ContactLevel& coarse, const Field& coarse_pressure, const Fie
       [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
           const Weights& w = along_x[static_cast<std::size_t>(i)];
-          for (Index j = 0; j < ny; ++j) {
-            float p = 0, u = 0;
-            for (std::size_t k = 0; k < 4; ++k) {
-              p += w.linear[k] * p_rows(w.point[k], j);
-              u += w.cubic[k] * u_rows(w.point[k], j);
-            }
-            const double predicted =
-                static_cast<double>(p) - step * (static_cast<double>(u) - fine.heights[i * ny + j]);
-            pressure[i * ny + j] = std::max(0.0, predicted);
+          std::array<const float*, 4> p{}, u{};
+          for (std::size_t k = 0; k < 4; ++k) {
+            p[k] = p_rows.get() + w.point[k] * ny;
+            u[k] = u_rows.get() + w.point[k] * ny;
+          }
+          const double* heights = fine.heights.values + i * ny;
+          const double zero = fine.heights.zero;
+          double* row = pressure + i * ny;
+          const auto predict = [&](Index j, float p_here, float u_here) {
+            const double predicted = static_cast<double>(p_here) -
+                                     step * (static_cast<double>(u_here) - (heights[j] - zero));
+            row[j] = predicted > 0 ? predicted : 0;
+          };
+          if (w.linear[2] == 0) {
+            for (Index j = 0; j < ny; ++j) predict(j, p[1][j], u[1][j]);
+          } else {
+            for (Index j = 0; j < ny; ++j)
+              predict(j, w.linear[1] * p[1][j] + w.linear[2] * p[2][j],
+                      w.cubic[0] * u[0][j] + w.cubic[1] * u[1][j] + w.cubic[2] * u[2][j] +
+                          w.cubic[3] * u[3][j]);
           }
         }
       },

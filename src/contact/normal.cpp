@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal.hpp>
+#include <vector>
 
 #include "nested_contact.hpp"
 
@@ -32,30 +34,60 @@ struct Depths {
   double rms = 0;      // h_rms
 
   explicit Depths(const Field& heights) {
-    const Index rows = heights.rows(), columns = heights.cols();
     const double* h = heights.data();
-    const auto mean_over = [&](auto value) {
-      return parallel::sum_slabs(
-                 rows,
-                 [&](Index begin, Index end) {
-                   double sum = 0;
-                   for (Index k = begin * columns; k < end * columns; ++k) sum += value(h[k]);
-                   return sum;
-                 },
-                 heights.size()) /
-             static_cast<double>(heights.size());
-    };
-    highest = -parallel::min_slabs(
-        rows,
+    const double points = static_cast<double>(heights.size()), origin = h[0];
+    // Counted from one of them, heights lose no digits to a large mean.
+    Sums total;
+    total.highest = origin;
+    for (const Sums& part : sums(heights, origin)) {
+      total.highest = std::max(total.highest, part.highest);
+      total.first += part.first;
+    }
+    highest = total.highest;
+    const double mean_height = origin + total.first / points;
+    mean = (highest - origin) - total.first / points;
+    double square = 0, first = 0;
+    for (const Sums& part : sums(heights, mean_height)) {
+      square += part.second;
+      first += part.first;
+    }
+    rms = std::sqrt(std::max(0.0, square / points - first / points * (first / points)));
+  }
+
+ private:
+  struct Sums {
+    double highest = 0, first = 0, second = 0;  // largest h, Σ(h − origin), Σ(h − origin)²
+  };
+  static std::vector<Sums> sums(const Field& heights, double origin) {
+    return parallel::map_slabs<Sums>(
+        heights.rows(),
         [&](Index begin, Index end) {
-          return -*std::max_element(h + begin * columns, h + end * columns);
+          // Several partial sums, because one alone waits for each of its additions.
+          constexpr Index lanes = 8;
+          const double* h = heights.data() + begin * heights.cols();
+          const Index count = (end - begin) * heights.cols();
+          std::array<double, lanes> top, first{}, second{};
+          top.fill(h[0]);
+          const auto add = [&](std::size_t lane, double height) {
+            const double deviation = height - origin;
+            top[lane] = height > top[lane] ? height : top[lane];
+            first[lane] += deviation;
+            second[lane] += deviation * deviation;
+          };
+          Index k = 0;
+          for (; k + lanes <= count; k += lanes)
+            for (Index lane = 0; lane < lanes; ++lane)
+              add(static_cast<std::size_t>(lane), h[k + lane]);
+          for (; k < count; ++k) add(0, h[k]);
+          Sums result{top[0], 0, 0};
+          for (std::size_t lane = 0; lane < lanes; ++lane) {
+            result.highest = std::max(result.highest, top[lane]);
+            result.first += first[lane];
+            result.second += second[lane];
+          }
+          return result;
         },
         heights.size());
-    mean = mean_over([&](double height) { return highest - height; });
-    rms = std::sqrt(mean_over([&](double height) {
-      const double deviation = highest - height - mean;
-      return deviation * deviation;
-    }));
   }
 };
 
