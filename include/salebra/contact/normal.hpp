@@ -49,7 +49,8 @@ struct NormalContactState {
 /// constrained CG (Polonsky and Keer 1999, doi:10.1016/S0043-1648(99)00113-1) in that CG is not restarted when the set changes.
 /// contact_modulus   E* > 0, Pa;   nominal_pressure > 0, Pa, below the hardness
 /// throws            InvalidInput before any work; non-convergence is returned, not thrown
-/// cost              one transform pair an iteration, 15 to 100 iterations; at most 64 bytes a cell with heights and result
+/// cost              one transform pair an iteration, 15 to 100 iterations; 57 to 67 bytes a cell with heights and result, the more the
+///                   larger the contact (docs/performance.md)
 NormalContactState press_to_pressure(const Surface& surface, double contact_modulus,
                                      double nominal_pressure,
                                      const NormalContactOptions& options = {});

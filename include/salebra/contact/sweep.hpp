@@ -15,7 +15,7 @@ struct SweepOptions {
       true;  ///< K by a punch solve on each contact set, and K_t = (G*/E*)K where G* is known
   /// With stiffness: K_t along x by a stick solve on each contact set instead of (G*/E*)K; needs the bodies or Poisson's ratio.
   bool stick = false;
-  /// Loads solved at the same time, each on one thread and with 64 bytes a cell of its own; 1 gives all threads to one load
+  /// Loads solved at the same time, each on one thread and with 50 to 60 bytes a cell of its own; 1 gives all threads to one load
   /// after the other; 0: as many as there are threads.
   int concurrent_loads = 0;
 };
