@@ -211,17 +211,10 @@ void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
   for_tiles([&](Index begin, Index end) {
     kernels_.truncate(a, begin, end, run.level, correction.scale, correction.shift);
   });
-  // In place, so that w keeps the image of the last direction: CG goes on without a restart.
-  transform(run, t_.get(), t_.get());
+  // The last direction and its image come back afterwards: CG goes on without a restart.
+  transform(run, t_.get(), w_.get());
   const auto sums = over_tiles<SetSums>(
       [&](Index begin, Index end) { return kernels_.add_displacement(a, begin, end); });
-  for_rows([&](Index begin, Index end) {
-    for (Index row = begin; row < end; ++row)
-      for (Index k = 0; k < tiles_per_row_; ++k)
-        if (!in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)])
-          std::fill_n(t_.get() + row * grid_.ny + k * tile_width,
-                      std::min<Index>(tile_width, grid_.ny - k * tile_width), Real(0));
-  });
   begin_set(run, sums);
 }
 

@@ -84,10 +84,10 @@ struct TileKernels {
   // Frees held cells whose gap has the wrong sign, holds free cells whose pressure left its bounds.
   SetSums (*change_set)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                         double level);
-  // The same, and p becomes min(scale·max(p, 0) + shift, bound), t the change of p, z the old t.
+  // The same, and p becomes min(scale·max(p, 0) + shift, bound), t the change of p, z the old t, r the old w.
   void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double level,
                    double scale, double shift);
-  // g += t, t = z; the free cells and Σg as they are then
+  // g += w, w = r, t = z; the free cells and Σg as they are then. r has to be made again.
   SetSums (*add_displacement)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end);
 
   // Over consecutive cells of the dense arrays: g = u − (heights − zero), and what the contact plane follows from. u may be g.

@@ -378,7 +378,11 @@ template <class Real>
 void truncate(const TileArrays<Real>& a, Size begin, Size end, double level, double scale,
               double shift) {
   const double bound = a.bound;
-  const auto cut = [&](Size packed, Size dense, Size, auto width) {
+  const auto keep_image = [&](Size dense, Size framed, auto width) {
+    for (Size i = 0; i < width; ++i) a.r[framed + i] = a.w[dense + i];
+  };
+  const auto cut = [&](Size packed, Size dense, Size framed, auto width) {
+    keep_image(dense, framed, width);
     Real *z = a.z + packed, *t = a.t + dense;
     Real* m = a.m + packed;
     double* p = a.p + packed;
@@ -395,8 +399,12 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double level, dou
       p[i] = kept;
     }
   };
-  for_tiles<reads_t>(a, begin, end, cut, [&](Size packed, Size dense, Size framed, auto width) {
-    if (shift == 0 && !any_below(a.g + packed, level, width)) return;
+  constexpr unsigned reads = reads_t | reads_w | reads_r;
+  for_tiles<reads>(a, begin, end, cut, [&](Size packed, Size dense, Size framed, auto width) {
+    if (shift == 0 && !any_below(a.g + packed, level, width)) {
+      keep_image(dense, framed, width);
+      return;
+    }
     a.quiet[packed / tile_width] = 0;
     cut(packed, dense, framed, width);
   });
@@ -405,27 +413,28 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double level, dou
 template <class Real>
 SetSums add_displacement(const TileArrays<Real>& a, Size begin, Size end) {
   Lanes count, sum;
-  for_tiles<reads_t>(
+  for_tiles<reads_t | reads_w | reads_r>(
       a, begin, end,
       [&](Size packed, Size dense, Size framed, auto width) {
         double* g = a.g + packed;
-        Real* t = a.t + dense;
-        const Real* m = a.m + packed;
-        const Real* z = a.z + packed;
+        Real *t = a.t + dense, *w = a.w + dense;
+        const Real *m = a.m + packed, *z = a.z + packed, *r = a.r + framed;
         for (Size i = 0; i < width; ++i) {
-          g[i] += static_cast<double>(t[i]);
+          g[i] += static_cast<double>(w[i]);
+          w[i] = r[i];
           t[i] = z[i];
           count.value[i] += static_cast<double>(m[i]);
           sum.value[i] += static_cast<double>(m[i]) * g[i];
         }
         rest(a, packed, dense, framed, width);
       },
-      [&](Size packed, Size dense, Size, auto width) {
+      [&](Size packed, Size dense, Size framed, auto width) {
         double* g = a.g + packed;
-        Real* t = a.t + dense;
+        Real *w = a.w + dense, *r = a.r + framed;
         for (Size i = 0; i < width; ++i) {
-          g[i] += static_cast<double>(t[i]);
-          t[i] = 0;
+          g[i] += static_cast<double>(w[i]);
+          w[i] = r[i];
+          r[i] = 0;
         }
       });
   return {count.sum(), sum.sum()};
