@@ -281,7 +281,8 @@ TEST_CASE("A sweep takes K_t from stick solves on its contact sets", "[stick]") 
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     const NormalContactState state = press_to_pressure(surface, contact_modulus, pressures[k]);
     const StickStiffness direct = stick_stiffness(contact_set(state), grid, material);
-    CHECK(stuck.samples[k].tangential_stiffness == Approx(direct.xx).epsilon(1e-9));
+    // A sweep ends its stick solves early: K_t is a maximum, and its error the square of that of the tractions, 1e-3, at worst ten times.
+    CHECK(stuck.samples[k].tangential_stiffness == Approx(direct.xx).epsilon(1e-5));
     CHECK(stuck.samples[k].normal_stiffness == plain.samples[k].normal_stiffness);
     // Ridges along y: stiffer across them than a round contact would be.
     CHECK(stuck.samples[k].tangential_stiffness > 1.02 * plain.samples[k].tangential_stiffness);
