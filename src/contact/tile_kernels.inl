@@ -127,29 +127,24 @@ void residual(const TileArrays<Real>& a, Size begin, Size end, double level) {
 #if defined(__AVX512F__)
 // 16 sums over the stencil from whole cache lines: rows above and below are added before they are weighted, and neighbours in a row
 // come from two registers by one permutation, which is cheaper than a load that crosses a line.
-template <int size>
-struct PlaceOf {
-  typedef long long Type;
-};
-template <>
-struct PlaceOf<4> {
-  typedef int Type;
-};
-
 template <class Real>
 struct StencilLoop {
   typedef Real Vector __attribute__((vector_size(register_bytes)));
   static constexpr int lanes = register_bytes / static_cast<int>(sizeof(Real)),
                        registers = tile_width / lanes;
 
-  // Cells shift to the right of low, where high follows low.
+  // The numbers that begin `shift` places after the first of low, where high follows low.
   template <int shift>
   static SALEBRA_INLINE Vector shifted(Vector low, Vector high) {
-    typedef typename PlaceOf<sizeof(Real)>::Type Places
-        __attribute__((vector_size(register_bytes)));
-    Places places;
-    for (int lane = 0; lane < lanes; ++lane) places[lane] = lane + shift;
-    return __builtin_shuffle(low, high, places);
+    if constexpr (lanes == 16) {
+      return __builtin_shufflevector(low, high, shift, shift + 1, shift + 2, shift + 3, shift + 4,
+                                     shift + 5, shift + 6, shift + 7, shift + 8, shift + 9,
+                                     shift + 10, shift + 11, shift + 12, shift + 13, shift + 14,
+                                     shift + 15);
+    } else {
+      return __builtin_shufflevector(low, high, shift, shift + 1, shift + 2, shift + 3, shift + 4,
+                                     shift + 5, shift + 6, shift + 7);
+    }
   }
 
   static SALEBRA_INLINE void apply(const TileArrays<Real>& a, Size framed, Real* sums) {
