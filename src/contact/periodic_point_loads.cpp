@@ -110,7 +110,7 @@ void PeriodicPointLoads::find_pairs(double cutoff) {
     for (Index shift = -1; shift <= 1; ++shift)
       cells_around.push_back((cell + shift + count) % count);
     std::ranges::sort(cells_around);
-    cells_around.erase(std::ranges::unique(cells_around).begin(), cells_around.end());
+    cells_around.erase(std::unique(cells_around.begin(), cells_around.end()), cells_around.end());
     return cells_around;
   };
   for (std::size_t i = 0; i < points_.size(); ++i) {

@@ -32,7 +32,7 @@ TEST_CASE("A spectrum given by columns transforms as one given whole", "[fft]") 
   for (const Index columns : {Index{1}, (all + 1) / 2, all - 1, all}) {
     if (columns < 1) continue;
     std::vector<std::complex<double>> modes = some_modes(nx, ny, columns);
-    const auto column = [&](Index j, std::span<std::complex<double>> out) {
+    const auto column = [&, nx = nx](Index j, std::span<std::complex<double>> out) {
       for (Index i = 0; i < nx; ++i) out[std::size_t(i)] = modes[std::size_t(i * all + j)];
     };
     parallel::set_threads(1);

@@ -23,7 +23,7 @@ void check(const AwkwardContact& contact, Boundary boundary = Boundary::periodic
        {std::pair{Precision::mixed, 1e-8}, std::pair{Precision::full, 1e-12}}) {
     options.precision = precision;
     options.tolerance = tolerance;
-    const auto sound = [&](const NormalContactState& state) {
+    const auto sound = [&, tolerance = tolerance](const NormalContactState& state) {
       CHECK(state.converged);
       CHECK(state.residual < tolerance);
       // Transforms of another kind round differently, by 1e-15 of the heights.
