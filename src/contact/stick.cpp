@@ -100,7 +100,7 @@ void StickSolver::reserve(const ContactSet& largest) {
 
 StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options,
-                               bool along_x_only, const Field& guess_x) {
+                               bool along_x_only, const Field& guess) {
   grid.validate();
   detail::require_valid(options);
   detail::require_tangential(material);
@@ -113,9 +113,9 @@ StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
       system_of(options.hold_lateral ? detail::Traction::tangential : detail::Traction::along_x);
   const detail::PointList points = system.points(contact);
   const Index count = points.size();
-  require(guess_x.size() == 0 || (guess_x.rows() == grid.nx && guess_x.cols() == grid.ny),
-          "guess_x", guess_x.size(), "values do not match the grid; give nx × ny values");
-  const UnitMotion along_x = move_by_one(system, points, 0, options, guess_x);
+  require(guess.size() == 0 || (guess.rows() == grid.nx && guess.cols() == grid.ny), "guess",
+          guess.size(), "values do not match the grid; give nx × ny values");
+  const UnitMotion along_x = move_by_one(system, points, 0, options, guess);
   StickStiffness stiffness;
   const auto add = [&](const StickReport& report) {
     stiffness.iterations += report.iterations;
@@ -133,13 +133,13 @@ StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
   }
   if (!options.hold_lateral) {
     detail::ContactSystem across = system_of(detail::Traction::along_y);
-    const UnitMotion along_y = move_by_one(across, across.points(contact), 0, options);
+    const UnitMotion along_y = move_by_one(across, across.points(contact), 0, options, guess);
     add(along_y.report);
     stiffness.yy =
         (sum_of(along_y.tractions, 0, count) + correction(along_y, along_y)) * grid.cell_area();
     return stiffness;
   }
-  const UnitMotion along_y = move_by_one(system, points, 1, options);
+  const UnitMotion along_y = move_by_one(system, points, 1, options, guess);
   add(along_y.report);
   stiffness.yy =
       (sum_of(along_y.tractions, count, count) + correction(along_y, along_y)) * grid.cell_area();
@@ -149,7 +149,8 @@ StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
 }
 
 PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
-                               double contact_modulus, const StickOptions& options) {
+                               double contact_modulus, const StickOptions& options,
+                               Field* pressure) {
   grid.validate();
   detail::require_valid(options);
   detail::require_contact(contact, grid, options.boundary);
@@ -158,6 +159,11 @@ PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
                                detail::loading_window(contact, grid, options.boundary));
   const detail::PointList points = system.points(contact);
   const UnitMotion press = move_by_one(system, points, 0, options);
+  if (pressure) {
+    *pressure = Field::Zero(grid.nx, grid.ny);
+    for (std::size_t k = 0; k < points.cell.size(); ++k)
+      pressure->data()[points.cell[k]] = press.tractions[k];
+  }
   return {
       .normal_stiffness =
           (sum_of(press.tractions, 0, points.size()) + correction(press, press)) * grid.cell_area(),

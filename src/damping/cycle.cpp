@@ -17,126 +17,132 @@ double dot(const TangentialField& a, const TangentialField& b) {
   return (a.x * b.x + a.y * b.y).sum();
 }
 
-// A stuck contact and what it remembers: where each of its cells has been drawn to.
+// A stuck contact, whose memory is the state: where each of its cells has been drawn to.
 class StuckContact {
  public:
   StuckContact(const Grid2D& grid, const Material& material, const CycleOptions& options,
-               double motion_scale)
+               double motion_scale, CycleState& state)
       : cell_area_(grid.cell_area()),
         scale_(motion_scale),
         direction_x_(std::cos(options.direction)),
         direction_y_(options.stick.hold_lateral ? std::sin(options.direction) : 0.0),
         solver_(grid, material, options.stick),
-        contact_(ContactSet::Constant(grid.nx, grid.ny, false)),
-        displacement_(zero(grid)),
-        traction_(zero(grid)),
-        unit_motion_(zero(grid)),
-        unit_traction_(zero(grid)) {
-    unit_motion_.x = direction_x_;
-    unit_motion_.y = direction_y_;
-  }
+        state_(state),
+        unit_motion_{Field::Constant(grid.nx, grid.ny, direction_x_),
+                     Field::Constant(grid.nx, grid.ny, direction_y_)} {}
 
   void reserve(const ContactSet& largest) { solver_.reserve(largest); }
 
   double tangential_force() const {
-    return cell_area_ * (direction_x_ * traction_.x.sum() + direction_y_ * traction_.y.sum());
+    return cell_area_ *
+           (direction_x_ * state_.traction.x.sum() + direction_y_ * state_.traction.y.sum());
   }
-  double stored_energy() const { return cell_area_ / 2 * dot(traction_, displacement_); }
-  const ContactSet& contact() const { return contact_; }
-  double contact_area() const { return cell_area_ * static_cast<double>(contact_.count()); }
-  bool converged() const { return converged_; }
+  double stored_energy() const {
+    return cell_area_ / 2 * dot(state_.traction, state_.displacement);
+  }
+  double contact_area() const { return cell_area_ * static_cast<double>(state_.contact.count()); }
   bool interrupted() const { return interrupted_; }
-  long iterations() const { return iterations_; }
-  long fft_count() const { return fft_count_; }
 
   // Moves the body; returns the work of the tangential force, which is linear in the move.
   double move(double distance) {
-    if (!contact_.any()) return 0;
+    if (!state_.contact.any()) return 0;
     const double force_before = tangential_force();
-    traction_.x += distance * unit_traction_.x;
-    traction_.y += distance * unit_traction_.y;
-    displacement_.x += contact_.select(Field(distance * unit_motion_.x), 0.0);
-    displacement_.y += contact_.select(Field(distance * unit_motion_.y), 0.0);
+    state_.traction.x += distance * state_.unit_traction.x;
+    state_.traction.y += distance * state_.unit_traction.y;
+    state_.displacement.x += state_.contact.select(Field(distance * unit_motion_.x), 0.0);
+    state_.displacement.y += state_.contact.select(Field(distance * unit_motion_.y), 0.0);
     return (force_before + tangential_force()) / 2 * distance;
   }
 
   // Replaces the contact set at rest; returns the energy released.
   double change_to(const ContactSet& contact) {
-    if ((contact == contact_).all()) return 0;
-    const ContactSet leaving = contact_ && !contact, staying = contact_ && contact;
-    const ContactSet entering = contact && !contact_;
+    if ((contact == state_.contact).all()) return 0;
+    const ContactSet leaving = state_.contact && !contact, staying = state_.contact && contact;
+    const ContactSet entering = contact && !state_.contact;
     const double released = leaving.any() ? release(leaving, staying) : 0;
     if (entering.any()) {
-      const TangentialField present = solver_.displacement(staying, traction_, entering);
-      fft_count_ += 2;
-      displacement_.x = entering.select(present.x, displacement_.x);
-      displacement_.y = entering.select(present.y, displacement_.y);
+      const TangentialField present = solver_.displacement(staying, state_.traction, entering);
+      state_.fft_count += 2;
+      state_.displacement.x = entering.select(present.x, state_.displacement.x);
+      state_.displacement.y = entering.select(present.y, state_.displacement.y);
     }
-    contact_ = contact;
+    state_.contact = contact;
     // The stick traction of the last set is a good guess for this one; solve() reads it on the contact only.
-    count(solver_.solve(contact_, unit_motion_, 1.0, unit_traction_));
+    count(solver_.solve(contact, unit_motion_, 1.0, state_.unit_traction));
     return released;
   }
 
  private:
-  static TangentialField zero(const Grid2D& grid) {
-    return {Field::Zero(grid.nx, grid.ny), Field::Zero(grid.nx, grid.ny)};
-  }
   void count(const StickReport& report) {
-    iterations_ += report.iterations;
-    fft_count_ += report.fft_count;
-    converged_ = converged_ && report.converged;
+    state_.iterations += report.iterations;
+    state_.fft_count += report.fft_count;
+    state_.converged = state_.converged && report.converged;
     interrupted_ = interrupted_ || report.interrupted;
   }
 
   double release(const ContactSet& leaving, const ContactSet& staying) {
-    const TangentialField before = traction_;
-    count(solver_.solve(staying, displacement_, scale_, traction_));
-    const TangentialField relaxed = solver_.displacement(staying, traction_, leaving);
-    fft_count_ += 2;
+    const TangentialField before = state_.traction;
+    count(solver_.solve(staying, state_.displacement, scale_, state_.traction));
+    const TangentialField relaxed = solver_.displacement(staying, state_.traction, leaving);
+    state_.fft_count += 2;
     double released = 0;
     for (Index ix = 0; ix < leaving.rows(); ++ix)
       for (Index iy = 0; iy < leaving.cols(); ++iy)
         if (leaving(ix, iy)) {
-          released += before.x(ix, iy) * (displacement_.x(ix, iy) - relaxed.x(ix, iy)) +
-                      before.y(ix, iy) * (displacement_.y(ix, iy) - relaxed.y(ix, iy));
-          displacement_.x(ix, iy) = displacement_.y(ix, iy) = 0;
+          double& x = state_.displacement.x(ix, iy);
+          double& y = state_.displacement.y(ix, iy);
+          released += before.x(ix, iy) * (x - relaxed.x(ix, iy)) +
+                      before.y(ix, iy) * (y - relaxed.y(ix, iy));
+          x = y = 0;
         }
     return released * cell_area_ / 2;
   }
 
   double cell_area_, scale_, direction_x_, direction_y_;
   StickSolver solver_;
-  ContactSet contact_;
-  TangentialField displacement_;  // of the cells in contact, 0 elsewhere
-  TangentialField traction_;
-  TangentialField unit_motion_,
-      unit_traction_;  // the body's direction, and the stick traction of a unit move
-  bool converged_ = true, interrupted_ = false;
-  long iterations_ = 0, fft_count_ = 0;
+  CycleState& state_;
+  TangentialField unit_motion_;  // the body's direction
+  bool interrupted_ = false;
 };
 
-// Asks for each indentation once: going down, a cycle meets the levels of its way up again.
+// Asks for each indentation once. Rounding them makes a level the same whoever asks first, so that a resumed run meets the same.
 class LevelStore {
  public:
   LevelStore(const ContactLevels& levels, double resolution)
       : levels_(levels), resolution_(resolution) {}
 
   const ContactLevel& at(double indentation) {
-    auto next = stored_.lower_bound(indentation - resolution_);
-    if (next != stored_.end() && next->first <= indentation + resolution_) return next->second;
-    const ContactLevel& level = stored_.emplace(indentation, levels_(indentation)).first->second;
-    converged_ = converged_ && level.converged;
-    return level;
+    const long long key = resolution_ > 0 ? std::llround(indentation / resolution_) : 0;
+    const auto found = stored_.find(key);
+    if (found != stored_.end()) return found->second;
+    const double rounded = resolution_ > 0 ? static_cast<double>(key) * resolution_ : indentation;
+    return stored_.emplace(key, levels_(rounded)).first->second;
   }
-  bool converged() const { return converged_; }
 
  private:
   const ContactLevels& levels_;
   double resolution_;
-  std::map<double, ContactLevel> stored_;
-  bool converged_ = true;
+  std::map<long long, ContactLevel> stored_;
 };
+
+CycleState at_rest(const Grid2D& grid) {
+  const auto zero = [&] {
+    return TangentialField{Field::Zero(grid.nx, grid.ny), Field::Zero(grid.nx, grid.ny)};
+  };
+  CycleState state;
+  state.contact = ContactSet::Constant(grid.nx, grid.ny, false);
+  state.displacement = zero();
+  state.traction = zero();
+  state.unit_traction = zero();
+  return state;
+}
+
+void require_state(const CycleState& state, const Grid2D& grid, const CycleOptions& options) {
+  require(state.contact.rows() == grid.nx && state.contact.cols() == grid.ny, "resume",
+          state.contact.size(), "cells do not match the grid; resume with the run's own settings");
+  require(state.step >= 0 && state.step <= options.steps && state.period < options.max_periods,
+          "resume", state.step, "is not one of the steps; resume with the run's own settings");
+}
 
 void validate(const CycleOptions& options, const Trajectory& trajectory) {
   require(options.steps >= 4, "steps", options.steps, "must be >= 4");
@@ -193,71 +199,96 @@ CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
   }
   LevelStore store(levels, 1e-9 * (greatest - least));
   CycleResult result;
-  result.largest = store.at(greatest).contact;
-  require(result.largest.rows() == grid.nx && result.largest.cols() == grid.ny, "levels",
-          result.largest.size(), "cells do not match the grid");
+  const ContactSet widest = store.at(greatest).contact;
+  require(widest.rows() == grid.nx && widest.cols() == grid.ny, "levels", widest.size(),
+          "cells do not match the grid");
+  const bool resumed = options.resume != nullptr;
+  if (resumed) require_state(*options.resume, grid, options);
+  CycleState state = resumed ? *options.resume : at_rest(grid);
   // Without tangential motion nothing is solved for, and any scale will do.
-  StuckContact contact(grid, material, options, right > left ? right - left : 1.0);
-  contact.reserve(result.largest);
-  contact.change_to(store.at(trajectory.indentation(0)).contact);
-  result.smallest = result.largest;
+  StuckContact contact(grid, material, options, right > left ? right - left : 1.0, state);
+  contact.reserve(widest);
+  if (!resumed) {
+    state.largest = state.smallest = widest;
+    contact.change_to(store.at(trajectory.indentation(0)).contact);
+    state.converged = state.converged && store.at(greatest).converged;
+  }
 
-  double last_work = 0;
-  for (int period = 0; period < options.max_periods; ++period) {
-    result.samples.clear();
-    const double energy_at_start = contact.stored_energy();
-    double work = 0, released = 0, x = trajectory.tangential(0);
-    const double start = x;
-    for (int k = 0; k <= steps; ++k) {
-      const ContactLevel& level = store.at(trajectory.indentation(time(k)));
-      released += contact.change_to(level.contact);
-      result.smallest = result.smallest && level.contact;
-      result.largest = result.largest || level.contact;
-      const auto add_sample = [&] {
-        result.samples.push_back({.t = time(k),
-                                  .indentation = trajectory.indentation(time(k)),
-                                  .tangential = x - start,
-                                  .tangential_force = contact.tangential_force(),
-                                  .normal_force = level.force,
-                                  .work = work,
-                                  .released_energy = released,
-                                  .contact_area = contact.contact_area()});
-      };
-      const auto move_to = [&](double t) {
-        const double next = trajectory.tangential(t);
-        work += contact.move(next - x);
-        x = next;
-      };
-      if (k > 0) move_to(time(k));
-      add_sample();
-      if (k < steps) move_to(time(k + 0.5));
-      if (contact.interrupted() ||
-          (options.on_progress &&
-           !options.on_progress({"cycle", static_cast<double>(k) / steps, k, 0}))) {
+  const auto move_to = [&](double t) {
+    const double next = trajectory.tangential(t);
+    state.work += contact.move(next - state.tangential);
+    state.tangential = next;
+  };
+  const auto take_step = [&](int k) {
+    const ContactLevel& level = store.at(trajectory.indentation(time(k)));
+    state.converged = state.converged && level.converged;
+    state.released_energy += contact.change_to(level.contact);
+    state.smallest = state.smallest && level.contact;
+    state.largest = state.largest || level.contact;
+    if (k > 0) move_to(time(k));
+    state.step = k;
+    state.samples.push_back({.t = time(k),
+                             .indentation = trajectory.indentation(time(k)),
+                             .tangential = state.tangential - state.period_start,
+                             .tangential_force = contact.tangential_force(),
+                             .normal_force = level.force,
+                             .work = state.work,
+                             .released_energy = state.released_energy,
+                             .contact_area = contact.contact_area()});
+  };
+  const auto begin_period = [&] {
+    state.samples.clear();
+    state.work = state.released_energy = 0;
+    state.energy_at_period_start = contact.stored_energy();
+    state.tangential = state.period_start = trajectory.tangential(0);
+  };
+
+  if (!resumed) begin_period();
+  for (int k = resumed ? state.step : 0;; ++k) {
+    if (!resumed || k != options.resume->step || state.period != options.resume->period) {
+      take_step(k);
+      if (contact.interrupted()) {
         result.interrupted = true;
         break;
       }
+      if (options.on_state) options.on_state(state);
     }
-    ++result.periods;
-    result.stored_energy_change = contact.stored_energy() - energy_at_start;
-    result.work_per_cycle = work - result.stored_energy_change;
-    result.released_energy = released;
-    if (result.interrupted) break;
+    if (options.on_progress &&
+        !options.on_progress({"cycle", static_cast<double>(k) / steps, k, 0})) {
+      result.interrupted = true;
+      break;
+    }
+    if (k < steps) {
+      move_to(time(k + 0.5));
+      continue;
+    }
+    const double lost = state.work - (contact.stored_energy() - state.energy_at_period_start);
     // Started at the least indentation, every other cell has been released and has entered again: the period repeats.
     const bool from_least = trajectory.indentation(0) <= least + 1e-9 * (greatest - least);
-    const double change = std::abs(result.work_per_cycle - last_work);
-    result.steady = from_least || (period > 0 && change <= 1e-6 * std::abs(result.work_per_cycle));
-    if (result.steady) break;
-    last_work = result.work_per_cycle;
+    result.steady = from_least ||
+                    (state.period > 0 && std::abs(lost - state.last_work) <= 1e-6 * std::abs(lost));
+    if (result.steady || state.period + 1 == options.max_periods) break;
+    state.last_work = lost;
+    ++state.period;
+    begin_period();
+    k = -1;
   }
+
+  result.periods = state.period + 1;
+  result.stored_energy_change = contact.stored_energy() - state.energy_at_period_start;
+  result.work_per_cycle = state.work - result.stored_energy_change;
+  result.released_energy = state.released_energy;
+  result.smallest = state.smallest;
+  result.largest = state.largest;
+  result.samples = state.samples;
   result.contact_area_min = result.contact_area_max = contact.contact_area();
   for (const CycleSample& sample : result.samples) {
     result.contact_area_min = std::min(result.contact_area_min, sample.contact_area);
     result.contact_area_max = std::max(result.contact_area_max, sample.contact_area);
   }
-  result.iterations = contact.iterations();
-  result.fft_count = contact.fft_count();
-  result.converged = contact.converged() && store.converged() && !result.interrupted;
+  result.iterations = state.iterations;
+  result.fft_count = state.fft_count;
+  result.converged = state.converged && !result.interrupted;
   return result;
 }
 

@@ -187,10 +187,12 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
         static_cast<double>(level.contact.count()) / static_cast<double>(grid.points());
     values.sample.converged = level.converged;
     if (with_stiffness) {
-      const StickStiffness stick =
-          stick_stiffness(level.contact, grid, material, options.stick, options.direction == 0);
+      Field pressure;
       const PunchStiffness punch =
-          punch_stiffness(level.contact, grid, material.contact_modulus, options.stick);
+          punch_stiffness(level.contact, grid, material.contact_modulus, options.stick, &pressure);
+      const StickStiffness stick =
+          stick_stiffness(level.contact, grid, material, options.stick, options.direction == 0,
+                          Field(pressure * modulus_ratio));
       const double c = std::cos(options.direction), s = std::sin(options.direction);
       values.sample.tangential_stiffness =
           options.direction == 0 ? stick.xx

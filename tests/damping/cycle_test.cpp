@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/contact_spots.hpp>
 #include <salebra/damping/cycle.hpp>
 
 using namespace salebra;
@@ -99,6 +102,67 @@ TEST_CASE("The simulated loss is half the integral of s squared over K_t, for an
           Approx(theorem(levels, grid, material, trajectory, options)).epsilon(1e-7));
     CHECK(cycle.released_energy == Approx(cycle.work_per_cycle).epsilon(1e-7));
   }
+}
+
+TEST_CASE("The nested sets of these tests split and merge", "[cycle]") {
+  const Grid2D grid{27, 20, 1.3e-3, 1e-3};
+  std::vector<std::size_t> pieces;
+  for (const double indentation : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    const ContactSet contact = islands(grid)(indentation).contact;
+    pieces.push_back(contact_spots(contact.cast<double>(), grid).spots.size());
+  }
+  CHECK(*std::max_element(pieces.begin(), pieces.end()) >
+        *std::min_element(pieces.begin(), pieces.end()));
+  CHECK(std::adjacent_find(pieces.begin(), pieces.end(), std::less<>()) != pieces.end());
+  CHECK(std::adjacent_find(pieces.begin(), pieces.end(), std::greater<>()) != pieces.end());
+}
+
+TEST_CASE("Cells that enter and leave while the body rests release nothing", "[cycle]") {
+  const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
+  const Grid2D grid{27, 20, 1.3e-3, 1e-3};
+  const Material material = Material::of_contact_modulus(contact_modulus, 0.4);
+  // The core is moved, the contact grows and shrinks again around it, which has been displaced; then the core is moved back.
+  const Trajectory trajectory{
+      [](double t) {
+        return t < 0.3 || t > 0.7 ? 0.3 : 0.3 + 0.6 * std::sin((t - 0.3) / 0.4 * pi);
+      },
+      [](double t) {
+        return 1e-6 * (t < 0.25 ? t / 0.25 : t > 0.75 ? (1 - t) / 0.25 : 1.0);
+      }};
+  CycleOptions options{.steps = 20, .direction = 0.7};
+  options.stick.boundary = boundary;
+  const CycleResult cycle = simulate_cycle(islands(grid), grid, material, trajectory, options);
+  REQUIRE(cycle.converged);
+  CHECK(cycle.largest.count() > 2 * cycle.smallest.count());
+  const double core = stiffness_along(cycle.smallest, grid, material, options);
+  const double stored = core * 1e-12 / 2;
+  // The solvers' 1e-8 of the motion, twenty times.
+  CHECK(std::abs(cycle.released_energy) < 1e-6 * stored);
+  CHECK(std::abs(cycle.work_per_cycle) < 1e-6 * stored);
+  // All the while the force is that of the core: what enters carries no traction.
+  for (const CycleSample& sample : cycle.samples)
+    if (sample.t > 0.26 && sample.t < 0.74)
+      CHECK(sample.tangential_force == Approx(core * 1e-6).epsilon(1e-6));
+}
+
+TEST_CASE("A contact turned by 90 degrees loses along y what it lost along x", "[cycle]") {
+  const Grid2D grid{27, 20, 1.3e-3, 1e-3}, turned{20, 27, 1e-3, 1.3e-3};
+  const Material material = Material::of_contact_modulus(contact_modulus, 0.4);
+  const ContactLevels across = [&](double indentation) {
+    ContactLevel level = islands(grid)(indentation);
+    level.contact = ContactSet(level.contact.transpose());
+    return level;
+  };
+  const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 0.6}, 0.5);
+  CycleOptions along_x{.steps = 12}, along_y{.steps = 12, .direction = pi / 2};
+  const double first =
+      simulate_cycle(islands(grid), grid, material, motion, along_x).work_per_cycle;
+  const double second = simulate_cycle(across, turned, material, motion, along_y).work_per_cycle;
+  const double other =
+      simulate_cycle(islands(grid), grid, material, motion, along_y).work_per_cycle;
+  CHECK(second == Approx(first).epsilon(1e-7));
+  // The contact has no symmetry of its own that would hide an exchange of the axes.
+  CHECK(std::abs(other / first - 1) > 0.005);
 }
 
 TEST_CASE("The cone loses Eqs (12) and (15) at any amplitude", "[cycle]") {

@@ -90,10 +90,10 @@ struct StickStiffness {
 
 /// K_t of a contact set by two stick solves. With hold_lateral off each is a motion with no force across it, and xy = 0.
 /// The stiffness of one direction alone (yy = xy = NaN) costs half: `along_x_only`.
-/// guess_x: tractions τ_x of a unit motion along x to start from, such as (G*/E*) times the pressure of a punch; empty: none.
+/// guess: traction along the motion, for a unit motion, to start from, such as G*/E* times the pressure of a punch; empty: none.
 StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options = {},
-                               bool along_x_only = false, const Field& guess_x = {});
+                               bool along_x_only = false, const Field& guess = {});
 
 /// Normal stiffness K = dF/dδ of a contact set by the same solve with the normal kernel: a flat punch of that shape.
 struct PunchStiffness {
@@ -103,7 +103,9 @@ struct PunchStiffness {
   double residual = 0;
   bool converged = false;
 };
+/// pressure, where given, receives that of a unit approach, Pa/m.
 PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
-                               double contact_modulus, const StickOptions& options = {});
+                               double contact_modulus, const StickOptions& options = {},
+                               Field* pressure = nullptr);
 
 }  // namespace salebra

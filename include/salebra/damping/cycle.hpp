@@ -32,16 +32,6 @@ struct Trajectory {
 /// One period of an oscillation about a mean indentation, from one least indentation to the next.
 Trajectory trajectory_of(const Oscillation& motion, double mean_indentation);
 
-struct CycleOptions {
-  int steps = 64;  ///< changes of the contact in a period, >= 4
-  int max_periods =
-      4;  ///< at most, until a period repeats the last one; 1 suffices from the least indentation
-  double direction = 0;  ///< of the tangential motion against x, rad
-  /// Of each solve, on the scale of the tangential motion; work and released energy agree to about its size.
-  StickOptions stick = {.tolerance = 1e-8};
-  Progress on_progress = {};
-};
-
 /// The state between two moves.
 struct CycleSample {
   double t = 0;
@@ -52,6 +42,41 @@ struct CycleSample {
   double work = 0;              ///< ∫F_x dx since the start of the period, J
   double released_energy = 0;   ///< since the start of the period, J
   double contact_area = 0;      ///< m²
+};
+
+/// All that a simulated cycle remembers at one of its steps: from it the simulation goes on to the same bits.
+struct CycleState {
+  int period = 0;                     ///< periods finished
+  int step = 0;                       ///< 0 … steps, of the last sample
+  ContactSet contact;                 ///< now
+  ContactSet smallest, largest;       ///< of the steps so far
+  TangentialField displacement;       ///< of the cells in contact, m; 0 elsewhere
+  TangentialField traction;           ///< Pa
+  TangentialField unit_traction;      ///< stick traction of a unit move, Pa/m
+  double tangential = 0;              ///< x of the trajectory, m
+  double period_start = 0;            ///< x at the start of the period, m
+  double work = 0;                    ///< of the period, J
+  double released_energy = 0;         ///< of the period, J
+  double energy_at_period_start = 0;  ///< stored, J
+  double last_work = 0;               ///< W of the period before, J
+  std::vector<CycleSample> samples;   ///< of the period
+  long iterations = 0;
+  long fft_count = 0;
+  bool converged = true;
+};
+
+struct CycleOptions {
+  int steps = 64;  ///< changes of the contact in a period, >= 4
+  int max_periods =
+      4;  ///< at most, until a period repeats the last one; 1 suffices from the least indentation
+  double direction = 0;  ///< of the tangential motion against x, rad
+  /// Of each solve, on the scale of the tangential motion; work and released energy agree to about its size.
+  StickOptions stick = {.tolerance = 1e-8};
+  Progress on_progress = {};
+  /// Told the state at each step after its sample was taken, for checkpoints and fields; valid during the call.
+  std::function<void(const CycleState&)> on_state = {};
+  /// Goes on from this state instead of the start. It must come from the same levels, grid, material, trajectory and options.
+  const CycleState* resume = nullptr;
 };
 
 /// A simulated period of a stuck contact.
@@ -81,6 +106,7 @@ struct CycleResult {
 ///     release      cells that leave have τ = 0; the others are solved again with their displacements held
 ///     entry        cells enter with the displacement that they have at that time, and keep it relative to the body
 /// From a trajectory that starts, stress-free, at its least indentation the first period is already the steady one.
+/// Levels are asked at indentations rounded to 1e-9 of the sweep, each once: a cycle meets the levels of its way up again going down.
 /// The error of the steps is of second order: −h²/24 of W, h = 2π/steps, for K_t' = const and equal frequencies.
 /// cost  per step a stick solve, and another where cells leave
 CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,

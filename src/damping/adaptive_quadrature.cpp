@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <salebra/base/error.hpp>
+#include <salebra/damping/adaptive_quadrature.hpp>
+
+namespace salebra {
+namespace {
+
+// Fewer levels say nothing about their own scatter.
+int first_levels(const Oscillation& motion, const LevelQuadratureOptions& options) {
+  if (options.levels > 0) return options.levels;
+  return std::holds_alternative<Drag>(motion) ? 16 : 8;
+}
+
+void validate(const AdaptiveQuadratureOptions& options) {
+  require(options.relative_error > 0 && options.relative_error < 1, "relative_error",
+          options.relative_error, "must lie between 0 and 1");
+  require(options.most_points >= 1, "most_points", options.most_points, "must be >= 1");
+  require(options.most_levels >= 4, "most_levels", options.most_levels, "must be >= 4");
+}
+
+}  // namespace
+
+AdaptiveQuadratureResult adaptive_level_quadrature(const LevelsOnGrid& levels, const Grid2D& grid,
+                                                   const Material& material,
+                                                   const Oscillation& motion,
+                                                   double mean_indentation,
+                                                   const AdaptiveQuadratureOptions& options) {
+  validate(options);
+  grid.validate();
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  AdaptiveQuadratureResult result;
+  result.grid = grid;
+  result.levels = first_levels(motion, options.quadrature);
+  const auto run = [&] {
+    LevelQuadratureOptions quadrature = options.quadrature;
+    quadrature.levels = result.levels;
+    result.quadrature = level_quadrature(levels(result.grid), result.grid, material, motion,
+                                         mean_indentation, quadrature);
+    result.trials.push_back({result.grid, result.levels, result.quadrature.work_per_cycle,
+                             result.quadrature.stiffness_ratio, result.quadrature.error_estimate});
+    const std::size_t count = result.trials.size();
+    return count < 2 ? unknown
+                     : std::abs(result.trials[count - 1].work_per_cycle -
+                                result.trials[count - 2].work_per_cycle);
+  };
+  const auto finer_grid = [&] {
+    return std::max(result.grid.nx, result.grid.ny) * 2 <= options.most_points;
+  };
+  const auto more_levels = [&] { return result.levels * 2 <= options.most_levels; };
+
+  run();
+  double by_levels = unknown, by_grid = finer_grid() ? unknown : 0;
+  for (;;) {
+    result.error_estimate =
+        std::max({result.quadrature.error_estimate, by_levels == unknown ? 0 : by_levels,
+                  by_grid == unknown ? 0 : by_grid});
+    const bool compared = by_levels < unknown && by_grid < unknown;
+    result.reached = compared && result.quadrature.converged &&
+                     result.error_estimate <=
+                         options.relative_error * std::abs(result.quadrature.work_per_cycle);
+    if (result.reached || !result.quadrature.converged) break;
+    const bool levels_next = more_levels() && (by_levels >= by_grid || !finer_grid());
+    if (!levels_next && !finer_grid()) break;
+    if (levels_next) {
+      result.levels *= 2;
+      by_levels = run();
+    } else {
+      result.grid.nx *= 2;
+      result.grid.ny *= 2;
+      by_grid = run();
+    }
+  }
+  result.quadrature.error_estimate = result.error_estimate;
+  return result;
+}
+
+AdaptiveQuadratureResult adaptive_level_quadrature(const ContactLevels& levels, const Grid2D& grid,
+                                                   const Material& material,
+                                                   const Oscillation& motion,
+                                                   double mean_indentation,
+                                                   const AdaptiveQuadratureOptions& options) {
+  AdaptiveQuadratureOptions fixed_grid = options;
+  fixed_grid.most_points = 1;
+  return adaptive_level_quadrature([&](const Grid2D&) { return levels; }, grid, material, motion,
+                                   mean_indentation, fixed_grid);
+}
+
+}  // namespace salebra
