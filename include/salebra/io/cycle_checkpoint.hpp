@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <salebra/damping/cycle.hpp>
+#include <salebra/io/provenance.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace salebra {
+
+/// What decides every bit of a simulated cycle, as names and texts: grid, surface, material, motion, steps, tolerances, version.
+using CycleSettings = std::vector<std::pair<std::string, std::string>>;
+
+/// Short fingerprint of a field's bits, for settings.
+std::string fingerprint(const Field& values);
+
+/// Writes a state of simulate_cycle() to an HDF5 file, replacing the last one; the file is complete at any time.
+/// throws  IoError for what the system refuses
+void write_cycle_checkpoint(const std::filesystem::path& file, const CycleState& state,
+                            const CycleSettings& settings, const Provenance& provenance);
+
+/// The state of that file, bit for bit.
+/// throws  InvalidInput naming the file for what is not a checkpoint, and naming the setting where one differs
+CycleState read_cycle_checkpoint(const std::filesystem::path& file, const CycleSettings& settings);
+
+}  // namespace salebra

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <salebra/damping/cycle.hpp>
+#include <salebra/io/output.hpp>
+#include <salebra/io/provenance.hpp>
+#include <vector>
+
+namespace salebra {
+
+/// Fields of a simulated cycle at chosen steps, for ParaView and for any reader of HDF5:
+///     PREFIX.xdmf          what to open; lists the steps written so far
+///     PREFIX-mesh.h5       /mesh/points (nx, ny, 3): where each cell's middle lies, and /mesh/heights
+///     PREFIX-0016.h5       /fields/… (nx, ny) at step 16: contact, traction_x, traction_y, displacement_x, displacement_y,
+///                          pressure, gap
+/// All are (nx, ny) with x first. The points are given one by one, so that no reader has to guess which index is x.
+/// Every file is complete as soon as it is there; an interrupted run leaves the steps that it has finished.
+class CycleFields {
+ public:
+  /// Writes the mesh. Throws as require_output does, for any of its files.
+  CycleFields(std::filesystem::path prefix, const Surface& surface, Provenance provenance,
+              const WriteOptions& options = {});
+
+  /// Adds the state at a step, or replaces what was written of it. time: in periods. normal: pressure and gap there; a default
+  /// one where nothing is in contact.
+  void write(const CycleState& state, double time, const NormalContactState& normal);
+
+  /// Steps that an earlier, interrupted run has written, so that the list names them too.
+  void keep(int step, double time);
+
+ private:
+  struct Frame {
+    int step;
+    double time;
+  };
+  std::filesystem::path frame_file(int step) const;
+  void add(int step, double time);
+  void write_list() const;
+
+  std::filesystem::path prefix_;
+  Grid2D grid_;
+  Field heights_;
+  Provenance provenance_;
+  std::vector<double> x_, y_;
+  std::vector<Frame> frames_;
+};
+
+}  // namespace salebra

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <regex>
+#include <salebra/base/error.hpp>
+#include <salebra/io/cycle_checkpoint.hpp>
+#include <salebra/io/cycle_fields.hpp>
+#include <salebra/io/result_file.hpp>
+#include <sstream>
+
+#include "scratch.hpp"
+
+using namespace salebra;
+
+namespace {
+
+const Grid2D grid{12, 9, 1.2e-3, 0.7e-3};
+
+ContactLevel level_at(double indentation) {
+  ContactLevel level{.contact = ContactSet::Constant(grid.nx, grid.ny, false)};
+  for (Index ix = 3; ix < 9; ++ix)
+    for (Index iy = 2; iy < 7; ++iy)
+      level.contact(ix, iy) = static_cast<double>((ix * 7 + iy * 3) % 10) < 10 * indentation;
+  return level;
+}
+
+std::vector<CycleState> states_of_a_cycle() {
+  std::vector<CycleState> states;
+  CycleOptions options{.steps = 8, .direction = 0.6};
+  options.on_state = [&](const CycleState& state) { states.push_back(state); };
+  simulate_cycle(level_at, grid, Material::of_contact_modulus(1e9, 0.3),
+                 trajectory_of(EqualFrequency{0.4, 1e-6, 0.9}, 0.5), options);
+  return states;
+}
+
+bool same_bits(const TangentialField& a, const TangentialField& b) {
+  return (a.x == b.x).all() && (a.y == b.y).all();
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("A checkpoint gives a cycle's state back to the last bit", "[io]") {
+  const Scratch scratch;
+  const CycleState state = states_of_a_cycle()[5];
+  const CycleSettings settings{{"steps", "8"}, {"surface", fingerprint(state.traction.x)}};
+  const auto file = scratch / "cycle.h5";
+  write_cycle_checkpoint(file, states_of_a_cycle()[2], settings, {});
+  write_cycle_checkpoint(file, state, settings, {});  // replaces the last one
+  const CycleState read = read_cycle_checkpoint(file, settings);
+  CHECK(read.step == 5);
+  CHECK(read.period == state.period);
+  CHECK(read.iterations == state.iterations);
+  CHECK(read.fft_count == state.fft_count);
+  CHECK(read.converged == state.converged);
+  CHECK(read.tangential == state.tangential);
+  CHECK(read.period_start == state.period_start);
+  CHECK(read.work == state.work);
+  CHECK(read.released_energy == state.released_energy);
+  CHECK(read.energy_at_period_start == state.energy_at_period_start);
+  CHECK(read.last_work == state.last_work);
+  CHECK((read.contact == state.contact).all());
+  CHECK((read.smallest == state.smallest).all());
+  CHECK((read.largest == state.largest).all());
+  CHECK(same_bits(read.displacement, state.displacement));
+  CHECK(same_bits(read.traction, state.traction));
+  CHECK(same_bits(read.unit_traction, state.unit_traction));
+  REQUIRE(read.samples.size() == 6);
+  for (std::size_t k = 0; k < 6; ++k) {
+    CHECK(read.samples[k].t == state.samples[k].t);
+    CHECK(read.samples[k].tangential_force == state.samples[k].tangential_force);
+    CHECK(read.samples[k].normal_force == state.samples[k].normal_force);
+    CHECK(read.samples[k].contact_area == state.samples[k].contact_area);
+  }
+}
+
+TEST_CASE("A checkpoint of other settings, or what is none, is refused in one line", "[io]") {
+  const Scratch scratch;
+  const auto file = scratch / "cycle.h5";
+  write_cycle_checkpoint(file, states_of_a_cycle()[2], {{"steps", "64"}, {"nx", "12"}}, {});
+  CHECK_THROWS_WITH(read_cycle_checkpoint(file, {{"nx", "12"}, {"steps", "32"}}),
+                    Catch::Contains("steps was 64") && Catch::Contains("is 32 now"));
+  CHECK_THROWS_WITH(read_cycle_checkpoint(file, {{"phase", "1"}}),
+                    Catch::Contains("phase was not there"));
+  ResultFile other(scratch / "other.h5", {});
+  other.group("curve").index("sample", 3, "samples");
+  other.commit();
+  CHECK_THROWS_WITH(read_cycle_checkpoint(scratch / "other.h5", {}),
+                    Catch::Contains("is no checkpoint"));
+  CHECK_THROWS_AS(read_cycle_checkpoint(scratch.file("text.h5", "no HDF5"), {}), InvalidInput);
+}
+
+TEST_CASE("The XDMF list names datasets that are there, with their sizes, and every point's place",
+          "[io]") {
+  const Scratch scratch;
+  const std::vector<CycleState> states = states_of_a_cycle();
+  Surface surface;
+  surface.grid = grid;
+  surface.heights = Field::Random(grid.nx, grid.ny);
+  CycleFields fields(scratch / "a&b", surface, {});
+  for (const std::size_t k : {4u, 0u}) fields.write(states[k], 0.125 * double(k), {});
+  NormalContactState normal;
+  normal.pressure = Field::Random(grid.nx, grid.ny);
+  normal.gap = Field::Random(grid.nx, grid.ny);
+  fields.write(states[6], 0.75, normal);
+
+  const std::string list = text_of(scratch / "a&b.xdmf");
+  const std::regex item(
+      "<DataItem Dimensions=\"([0-9 ]+)\"[^>]*Format=\"HDF\">([^:<]+):([^<]+)</DataItem>");
+  int items = 0;
+  for (std::sregex_iterator at(list.begin(), list.end(), item), end; at != end; ++at, ++items) {
+    const std::string name = std::regex_replace((*at)[2].str(), std::regex("&amp;"), "&");
+    const ResultReader reader(scratch / name);
+    std::string shape;
+    for (const Index extent : reader.shape((*at)[3].str().substr(1)))
+      shape += (shape.empty() ? "" : " ") + std::to_string(extent);
+    CHECK(shape == (*at)[1].str());
+  }
+  CHECK(items == 3 * 9);  // points, heights and seven fields of each step
+  std::vector<std::string> times;
+  const std::regex time("<Time Value=\"([^\"]+)\"/>");
+  for (std::sregex_iterator at(list.begin(), list.end(), time), end; at != end; ++at)
+    times.push_back((*at)[1]);
+  CHECK(times == std::vector<std::string>{"0", "0.5", "0.75"});
+  CHECK(list.find("TopologyType=\"2DSMesh\" Dimensions=\"12 9\"") != std::string::npos);
+  // An ampersand or a bracket left as it is would end the parsing.
+  CHECK_FALSE(std::regex_search(list, std::regex("&(?!amp;|lt;)")));
+
+  // The value of cell (ix, iy) stands beside the point (x, y) of that cell.
+  const ResultReader mesh(scratch / "a&b-mesh.h5");
+  const std::vector<double> points = mesh.numbers("mesh/points");
+  const Field traction = ResultReader(scratch / "a&b-0004.h5").field("fields/traction_x");
+  for (Index ix = 0; ix < grid.nx; ++ix)
+    for (Index iy = 0; iy < grid.ny; ++iy) {
+      const auto at = static_cast<std::size_t>(3 * (ix * grid.ny + iy));
+      CHECK(points[at] == static_cast<double>(ix) * grid.dx());
+      CHECK(points[at + 1] == static_cast<double>(iy) * grid.dy());
+      CHECK(traction(ix, iy) == states[4].traction.x(ix, iy));
+    }
+  CHECK((ResultReader(scratch / "a&b-0006.h5").field("fields/pressure") == normal.pressure).all());
+}
+
+TEST_CASE("Fields of an interrupted cycle stay in the list of the resumed one", "[io]") {
+  const Scratch scratch;
+  const std::vector<CycleState> states = states_of_a_cycle();
+  Surface surface;
+  surface.grid = grid;
+  surface.heights = Field::Zero(grid.nx, grid.ny);
+  CycleFields(scratch / "f", surface, {}).write(states[2], 0.25, {});
+  CHECK_THROWS_AS(CycleFields(scratch / "f", surface, {}), InvalidInput);
+  CycleFields resumed(scratch / "f", surface, {}, {.overwrite = true});
+  resumed.keep(1, 0.125);  // never written
+  resumed.keep(2, 0.25);
+  resumed.write(states[3], 0.375, {});
+  const std::string list = text_of(scratch / "f.xdmf");
+  CHECK(list.find("step 2") != std::string::npos);
+  CHECK(list.find("step 3") != std::string::npos);
+  CHECK(list.find("step 1") == std::string::npos);
+}
