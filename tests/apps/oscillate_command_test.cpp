@@ -35,6 +35,69 @@ TEST_CASE("oscillate reproduces the paper's experiment by the name of a shape", 
   CHECK_FALSE(levels.contains("time"));
 }
 
+TEST_CASE("A killed cycle resumes to the same numbers", "[oscillate]") {
+  const ProgramTest test;
+  const std::string without_phase =
+      "oscillate --shape ellipsoid --points 32 --steps 32 --contact-modulus 1GPa --poisson 0.3 "
+      "--direction 30deg --json --phase ";
+  const std::string command = without_phase + "45deg";
+  const auto whole = test.run(command).json();
+  const std::string with_checkpoint = command + " --checkpoint c.h5 --checkpoint-every 0";
+  // Killed outright when its first checkpoint appears; where the cycle ended before, nothing was killed and nothing is left.
+  const auto killed = test.run(
+      with_checkpoint, "(while [ ! -e c.h5 ] && [ -e /proc/$$ ]; do :; done; kill -KILL $$) &");
+  if (killed.status == 0) return;
+  REQUIRE(test.files().count("c.h5") == 1);
+  check_refused(test.run(with_checkpoint), "c.h5");
+  check_refused(test.run(without_phase + "40deg --checkpoint c.h5 --resume"), "phase was 0.785");
+  const auto resumed = test.run(with_checkpoint + " --resume").json();
+  for (const char* key :
+       {"work_per_cycle", "released_energy", "work", "time", "fft_count", "contact_area_max"})
+    CHECK(resumed[key] == whole[key]);
+  CHECK(test.files().count("c.h5") == 0);
+  check_refused(test.run(with_checkpoint + " --resume"), "--resume");
+}
+
+TEST_CASE("oscillate chooses levels and cells for a requested error", "[oscillate]") {
+  const ProgramTest test;
+  const auto answer = test.run(
+                              "oscillate --shape parabola --points 32 --contact-modulus 1GPa "
+                              "--poisson 0.3 --relative-error 2% --method levels --json")
+                          .json();
+  CHECK(answer["error_reached"] == true);
+  CHECK(answer["error_estimate"].get<double>() <= 0.02 * answer["work_per_cycle"].get<double>());
+  CHECK(answer["nx"].get<int>() > 32);
+  CHECK(answer["trials"].size() >= 3);
+  CHECK(answer["trials"].back()["levels"] == answer["levels"]);
+  // A round contact.
+  CHECK(answer["ratio_finite"].get<double>() == Approx(1).epsilon(0.02));
+}
+
+TEST_CASE("oscillate writes fields for ParaView at the steps asked for", "[oscillate]") {
+  const ProgramTest test;
+  const std::string command =
+      "oscillate --shape cone --points 24 --steps 8 --levels 4 --contact-modulus 1GPa --poisson "
+      "0.3 "
+      "--quiet --fields f --field-steps ";
+  REQUIRE(test.run(command + "2,6").status == 0);
+  CHECK(test.files() == std::set<std::string>{"f.xdmf", "f-mesh.h5", "f-0002.h5", "f-0006.h5"});
+  check_refused(test.run(command + "9"), "--field-steps: 9");
+  check_refused(test.run(command + "2"), "f.xdmf");
+}
+
+TEST_CASE("figure3 shows the paper's four shapes", "[oscillate]") {
+  const ProgramTest test;
+  const auto answer = test.run(
+                              "figure3 --points 48 --steps 16 --contact-modulus 1GPa --poisson 0.3 "
+                              "--json -o f.h5")
+                          .json();
+  CHECK(keys(answer) == std::set<std::string>{"cylinder", "parabola", "pyramids", "sinusoids"});
+  CHECK(std::abs(answer["cylinder"]["work_over_elastic_energy"].get<double>()) < 1e-9);
+  CHECK(answer["cylinder"]["ratio"].is_null());
+  CHECK(answer["parabola"]["ratio_finite"].get<double>() == Approx(1).epsilon(0.02));
+  CHECK(test.files().count("f.h5") == 1);
+}
+
 TEST_CASE("oscillate says what it needs", "[oscillate]") {
   const ProgramTest test;
   const std::string material = " --contact-modulus 1GPa --poisson 0.3";
@@ -45,4 +108,9 @@ TEST_CASE("oscillate says what it needs", "[oscillate]") {
                 "--drag-velocity");
   check_refused(test.run("oscillate --shape cone --steps 2 --points 16" + material), "steps");
   check_refused(test.run("oscillate --shape cone --normal-amplitude 1um,2um" + material), "range");
+  check_refused(test.run("oscillate --shape cone --resume" + material), "--resume");
+  check_refused(test.run("oscillate --shape cone --method levels --fields f" + material),
+                "--method");
+  check_refused(test.run("oscillate --shape cone --relative-error 1% --levels 8" + material),
+                "--levels");
 }

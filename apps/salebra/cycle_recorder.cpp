@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cycle_recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/base/version.hpp>
+
+namespace salebra::cli {
+namespace {
+
+constexpr double default_checkpoint_every = 60;  // s
+
+// Everything that decides the bits of a cycle.
+CycleSettings settings_of(const OscillationCase& run, const CycleOptions& options) {
+  const Grid2D& grid = run.body.surface.grid;
+  CycleSettings settings{{"version", std::string(version())},
+                         {"surface", fingerprint(run.body.surface.heights)}};
+  const auto add = [&](const char* name, double value) {
+    settings.emplace_back(name, fmt::format("{}", value));
+  };
+  add("nx", static_cast<double>(grid.nx));
+  add("ny", static_cast<double>(grid.ny));
+  add("size_x", grid.lx);
+  add("size_y", grid.ly);
+  add("contact_modulus", run.material.contact_modulus);
+  add("cerruti_isotropic", run.material.cerruti_isotropic);
+  add("cerruti_directed", run.material.cerruti_directed);
+  add("indentation", run.indentation);
+  if (const auto* drag = std::get_if<Drag>(&run.motion)) {
+    add("normal_amplitude", drag->normal_amplitude);
+    add("drag_velocity", drag->drag_velocity);
+    add("angular_frequency", drag->angular_frequency);
+  } else {
+    const auto& equal = std::get<EqualFrequency>(run.motion);
+    add("normal_amplitude", equal.normal_amplitude);
+    add("tangential_amplitude", equal.tangential_amplitude);
+    add("phase", equal.phase);
+  }
+  add("direction", options.direction);
+  add("steps", options.steps);
+  add("tolerance", options.stick.tolerance);
+  settings.emplace_back("boundary", run.body.boundary == Boundary::free ? "free" : "periodic");
+  settings.emplace_back("lateral", options.stick.hold_lateral ? "held" : "free");
+  return settings;
+}
+
+std::vector<int> field_steps_of(const RecordOptions& record, int steps_of_cycle) {
+  std::vector<int> steps;
+  if (record.field_steps.empty())
+    for (int k = 0; k <= 8; ++k) steps.push_back(k * steps_of_cycle / 8);
+  for (const double step : record.field_steps) {
+    require(step == std::floor(step) && step >= 0 && step <= steps_of_cycle, "--field-steps", step,
+            "is not one of the steps; give whole numbers from 0 to --steps");
+    steps.push_back(static_cast<int>(step));
+  }
+  return steps;
+}
+
+}  // namespace
+
+void RecordOptions::add_to(CLI::App& app) {
+  app.add_option("--checkpoint", checkpoint,
+                 "file that keeps the state of the cycle while it runs; removed at its end")
+      ->type_name("FILE");
+  add_quantity(app, "--checkpoint-every", checkpoint_every, Dimension::time,
+               "time between checkpoints; default 60 s, 0 for every step");
+  app.add_flag("--resume", resume,
+               "go on from the checkpoint of an interrupted run, to the same result");
+  app.add_option("--fields", fields,
+                 "write PREFIX.xdmf for ParaView with its HDF5 files: contact, tractions, "
+                 "displacements, pressure, gap")
+      ->type_name("PREFIX");
+  add_values(app, "--field-steps", field_steps, Dimension::dimensionless,
+             "steps to write fields of; default nine over the cycle");
+}
+
+void RecordOptions::check(const Session& session) const {
+  require(!resume || !checkpoint.empty(), "--resume", "given",
+          "without --checkpoint; name the checkpoint");
+  require(!checkpoint_every || *checkpoint_every >= 0, "--checkpoint-every",
+          checkpoint_every.value_or(0), "must be >= 0");
+  if (checkpoint.empty()) return;
+  const bool there = std::filesystem::exists(checkpoint);
+  require(there || !resume, "--resume", checkpoint,
+          "is not there; leave out --resume to begin the cycle");
+  require(!there || resume || session.write_options().overwrite, checkpoint, "exists;",
+          "add --resume to go on from it, or --force to begin anew");
+}
+
+CycleRecorder::CycleRecorder(const RecordOptions& record, const OscillationCase& run,
+                             const CycleOptions& options, Session& session)
+    : run_(run),
+      steps_(options.steps),
+      settings_(settings_of(run, options)),
+      provenance_(session.provenance()),
+      checkpoint_(record.checkpoint),
+      every_(record.checkpoint_every.value_or(default_checkpoint_every)),
+      field_steps_(field_steps_of(record, options.steps)),
+      last_(std::chrono::steady_clock::now()) {
+  if (record.resume) state_ = read_cycle_checkpoint(checkpoint_, settings_);
+  if (record.fields.empty()) return;
+  fields_.emplace(record.fields, run.body.surface, provenance_,
+                  record.resume ? WriteOptions{.overwrite = true} : session.write_options());
+  if (state_)
+    for (const int step : field_steps_)
+      if (step <= state_->step) fields_->keep(step, time(step));
+}
+
+void CycleRecorder::operator()(const CycleState& state) {
+  if (fields_ && std::ranges::find(field_steps_, state.step) != field_steps_.end()) {
+    const double indentation = state.samples.back().indentation;
+    NormalContactState normal;
+    if (indentation > 0)
+      normal = press_to_indentation(run_.body.surface, run_.material.contact_modulus, indentation,
+                                    {.boundary = run_.body.boundary});
+    fields_->write(state, time(state.step), normal);
+  }
+  if (checkpoint_.empty()) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (std::chrono::duration<double>(now - last_).count() < every_ && !interrupted()) return;
+  write_cycle_checkpoint(checkpoint_, state, settings_, provenance_);
+  last_ = now;
+}
+
+void CycleRecorder::done() const {
+  std::error_code ignored;
+  if (!checkpoint_.empty()) std::filesystem::remove(checkpoint_, ignored);
+}
+
+}  // namespace salebra::cli

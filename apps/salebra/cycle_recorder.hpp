@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <salebra/io/cycle_checkpoint.hpp>
+#include <salebra/io/cycle_fields.hpp>
+#include <string>
+#include <vector>
+
+#include "options.hpp"
+#include "oscillation_case.hpp"
+
+namespace salebra::cli {
+
+/// Checkpoints and fields of a long cycle.
+struct RecordOptions {
+  std::string checkpoint, fields;
+  std::optional<double> checkpoint_every;
+  bool resume = false;
+  std::vector<double> field_steps;
+
+  void add_to(CLI::App& app);
+  /// Before any work: that the files suit what is asked for.
+  void check(const Session& session) const;
+};
+
+/// What is written while a cycle runs: checkpoints in time, fields at steps.
+class CycleRecorder {
+ public:
+  /// Reads the state to resume from and writes the mesh of the fields. Throws InvalidInput where a file is in the way or of
+  /// another run. `run` must outlive the recorder.
+  CycleRecorder(const RecordOptions& record, const OscillationCase& run,
+                const CycleOptions& options, Session& session);
+
+  /// The state to go on from; none where the cycle begins.
+  const CycleState* state() const { return state_ ? &*state_ : nullptr; }
+  /// For CycleOptions::on_state.
+  void operator()(const CycleState& state);
+  /// Removes the checkpoint: the result takes its place.
+  void done() const;
+
+ private:
+  double time(int step) const { return static_cast<double>(step) / steps_; }
+
+  const OscillationCase& run_;
+  int steps_;
+  CycleSettings settings_;
+  Provenance provenance_;
+  std::string checkpoint_;
+  double every_;  // s
+  std::vector<int> field_steps_;
+  std::chrono::steady_clock::time_point last_;
+  std::optional<CycleState> state_;
+  std::optional<CycleFields> fields_;
+};
+
+}  // namespace salebra::cli

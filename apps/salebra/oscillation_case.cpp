@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "oscillation_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/generators/shapes.hpp>
+
+namespace salebra::cli {
+namespace {
+
+double tangential_scale(const Oscillation& motion) {
+  if (const auto* drag = std::get_if<Drag>(&motion))
+    return drag->drag_velocity / drag->angular_frequency;
+  return std::get<EqualFrequency>(motion).tangential_amplitude;
+}
+
+std::vector<double> column(const CycleResult& cycle, double CycleSample::*quantity) {
+  std::vector<double> values;
+  for (const CycleSample& sample : cycle.samples) values.push_back(sample.*quantity);
+  return values;
+}
+
+Field map_of(const CycleResult& cycle) {
+  return cycle.smallest.cast<double>() + cycle.largest.cast<double>();
+}
+
+std::vector<double> positions(Index count, double spacing) {
+  std::vector<double> values;
+  for (Index k = 0; k < count; ++k) values.push_back(static_cast<double>(k) * spacing);
+  return values;
+}
+
+ContactLevels levels_of(const Body& body, const Material& material) {
+  return boundary_element_levels(body.surface, material.contact_modulus,
+                                 {.boundary = body.boundary});
+}
+
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+}  // namespace
+
+const std::vector<std::string>& shape_names() {
+  static const std::vector<std::string> names{"cylinder",  "parabola", "pyramids",
+                                              "sinusoids", "cone",     "ellipsoid"};
+  return names;
+}
+
+Body shape_body(const std::string& shape, const Grid2D& grid) {
+  const double size = grid.lx;
+  const PlanePoint center = off_grid_center(grid);
+  const PlanePoint shift{0.31 * grid.dx(), 0.17 * grid.dy()};
+  // u_z = 0.3 of the indentation.
+  if (shape == "cylinder")
+    return {flat_punch_surface(grid, 0.3 * size, size, center), Boundary::free, 0.02 * size,
+            0.006 * size};
+  if (shape == "parabola")
+    return {paraboloid_surface(grid, 4 * size, center), Boundary::free, 0.02 * size, 0.006 * size};
+  if (shape == "cone")
+    return {cone_surface(grid, 0.05, center), Boundary::free, 0.02 * size, 0.006 * size};
+  if (shape == "ellipsoid")
+    return {elliptic_paraboloid_surface(grid, 6 * size, 2 * size, center), Boundary::free,
+            0.02 * size, 0.006 * size};
+  if (shape == "pyramids")
+    return {pyramids_surface(grid, 4, 4, 0.1, shift), Boundary::free, 0.006 * size, 0.0018 * size};
+  require(shape == "sinusoids", "--shape", shape, "is not known; see --help");
+  return {sinusoid_surface(grid, 0.01 * size, 1, 4, shift), Boundary::periodic, 0.0045 * size,
+          0.00135 * size};
+}
+
+double OscillationOutcome::work_per_cycle() const {
+  return cycle ? cycle->work_per_cycle : levels.work_per_cycle;
+}
+
+double OscillationOutcome::elastic_energy() const {
+  double stiffness = 0;
+  for (const ForceSample& sample : levels.curve.samples)
+    if (std::isfinite(sample.tangential_stiffness))
+      stiffness = std::max(stiffness, sample.tangential_stiffness);
+  const double scale = tangential_scale(run.motion);
+  return stiffness * scale * scale / 2;
+}
+
+std::optional<double> OscillationOutcome::over(double reference) const {
+  // The quadrature of a contact whose cells do not change sums what its solvers leave.
+  const double uncertain = std::max(levels.error_estimate, 1e-7 * elastic_energy());
+  if (std::abs(reference) <= uncertain) return {};
+  return work_per_cycle() / reference;
+}
+
+bool OscillationOutcome::converged() const {
+  return levels.converged && (!cycle || cycle->converged);
+}
+
+CycleResult simulate(const OscillationCase& run, const CycleOptions& options) {
+  return simulate_cycle(levels_of(run.body, run.material), run.body.surface.grid, run.material,
+                        trajectory_of(run.motion, run.indentation), options);
+}
+
+OscillationOutcome run_routes(OscillationCase run, const OscillationRoutes& routes) {
+  OscillationOutcome outcome;
+  outcome.run = std::move(run);
+  OscillationCase& contact = outcome.run;
+  const Grid2D& grid = contact.body.surface.grid;
+  if (routes.relative_error) {
+    AdaptiveQuadratureOptions options;
+    options.relative_error = *routes.relative_error;
+    options.most_points = routes.most_points;
+    options.quadrature = routes.levels;
+    const auto choose = [&](const auto& levels) {
+      return adaptive_level_quadrature(levels, grid, contact.material, contact.motion,
+                                       contact.indentation, options);
+    };
+    if (routes.shape.empty()) {
+      outcome.choice = choose(levels_of(contact.body, contact.material));
+    } else {
+      const auto shape_on = [&, boundary = contact.body.boundary](const Grid2D& finer) {
+        Body body = shape_body(routes.shape, finer);
+        body.boundary = boundary;
+        return body;
+      };
+      outcome.choice = choose(LevelsOnGrid(
+          [&](const Grid2D& finer) { return levels_of(shape_on(finer), contact.material); }));
+      contact.body = shape_on(outcome.choice->grid);
+    }
+    outcome.levels = outcome.choice->quadrature;
+  } else {
+    outcome.levels =
+        level_quadrature(levels_of(contact.body, contact.material), grid, contact.material,
+                         contact.motion, contact.indentation, routes.levels);
+  }
+  if (outcome.levels.interrupted) throw Interrupted("interrupted; nothing was written");
+  if (routes.simulate) outcome.cycle = simulate(contact, routes.cycle);
+  return outcome;
+}
+
+Json to_json(const OscillationOutcome& outcome) {
+  const LevelQuadratureResult& levels = outcome.levels;
+  const Grid2D& grid = outcome.run.body.surface.grid;
+  Json object;
+  object["work_per_cycle"] = outcome.work_per_cycle();
+  object["work_by_levels"] = levels.work_per_cycle;
+  object["error_estimate"] = levels.error_estimate;
+  object["predicted"] = levels.small_amplitude_work;
+  object["ratio"] = or_null(outcome.over(levels.small_amplitude_work));
+  object["predicted_finite"] = levels.work_by_force;
+  object["ratio_finite"] = or_null(outcome.over(levels.work_by_force));
+  object["work_over_elastic_energy"] = outcome.work_per_cycle() / outcome.elastic_energy();
+  object["indentation"] = outcome.run.indentation;
+  object["force"] = levels.force;
+  object["curvature"] = levels.curvature;
+  object["nx"] = grid.nx;
+  object["ny"] = grid.ny;
+  // The two ends of the sweep are levels without a tangential solve, but for the last of a drag.
+  object["levels"] = levels.curve.samples.size() - 2;
+  if (outcome.choice) {
+    object["error_reached"] = outcome.choice->reached;
+    for (const QuadratureTrial& trial : outcome.choice->trials)
+      object["trials"].push_back({{"nx", trial.grid.nx},
+                                  {"ny", trial.grid.ny},
+                                  {"levels", trial.levels},
+                                  {"work_per_cycle", trial.work_per_cycle},
+                                  {"stiffness_ratio", trial.stiffness_ratio},
+                                  {"error_estimate", trial.error_estimate}});
+  }
+  if (outcome.cycle) {
+    const CycleResult& cycle = *outcome.cycle;
+    object["released_energy"] = cycle.released_energy;
+    object["contact_area_min"] = cycle.contact_area_min;
+    object["contact_area_max"] = cycle.contact_area_max;
+    object["fft_count"] = cycle.fft_count + levels.fft_count;
+    object["time"] = column(cycle, &CycleSample::t);
+    object["work"] = column(cycle, &CycleSample::work);
+  } else {
+    const auto& samples = levels.curve.samples;
+    object["contact_area_min"] = samples.front().contact_area_fraction * grid.area();
+    object["contact_area_max"] = samples.back().contact_area_fraction * grid.area();
+    object["fft_count"] = levels.fft_count;
+  }
+  object["converged"] = outcome.converged();
+  return object;
+}
+
+void write_outcome(ResultFile& file, const std::string& prefix, const OscillationOutcome& outcome) {
+  if (outcome.cycle) {
+    const CycleResult& cycle = *outcome.cycle;
+    ResultGroup group = file.group(prefix + "cycle");
+    const Grid2D& grid = outcome.run.body.surface.grid;
+    group.coordinate("x", positions(grid.nx, grid.dx()), "m", "position along x");
+    group.coordinate("y", positions(grid.ny, grid.dy()), "m", "position along y");
+    group.dataset("heights", outcome.run.body.surface.heights, "x", "y", "m",
+                  "height, a hill is positive");
+    group.dataset("contact", map_of(cycle), "x", "y", "1",
+                  "0 never in contact, 1 during a part of the cycle, 2 always");
+    group.coordinate("time", column(cycle, &CycleSample::t), "1", "time in periods");
+    const auto add = [&](const char* name, double CycleSample::*quantity, const char* units,
+                         const char* text) {
+      group.dataset(name, column(cycle, quantity), {"time"}, units, text);
+    };
+    add("indentation", &CycleSample::indentation, "m", "indentation");
+    add("tangential", &CycleSample::tangential, "m", "tangential displacement");
+    add("tangential_force", &CycleSample::tangential_force, "N", "tangential force");
+    add("force", &CycleSample::normal_force, "N", "normal force");
+    add("work", &CycleSample::work, "J", "work of the tangential force since the start");
+    add("released_energy", &CycleSample::released_energy, "J", "energy released since the start");
+    add("contact_area", &CycleSample::contact_area, "m^2", "contact area");
+    group.attribute("work_per_cycle", cycle.work_per_cycle);
+    group.attribute("predicted", outcome.levels.small_amplitude_work);
+    group.attribute("predicted_finite", outcome.levels.work_by_force);
+  }
+  ResultGroup group = file.group(prefix + "levels");
+  const ForceCurve& curve = outcome.levels.curve;
+  group.coordinate("indentation", curve.column(&ForceSample::indentation), "m", "indentation");
+  const auto add = [&](const char* name, double ForceSample::*quantity, const char* units,
+                       const char* text) {
+    group.dataset(name, curve.column(quantity), {"indentation"}, units, text);
+  };
+  add("force", &ForceSample::force, "N", "normal force");
+  add("normal_stiffness", &ForceSample::normal_stiffness, "N/m", "normal stiffness");
+  add("tangential_stiffness", &ForceSample::tangential_stiffness, "N/m",
+      "tangential stiffness in full stick");
+  add("contact_area_fraction", &ForceSample::contact_area_fraction, "1",
+      "contact area over nominal area");
+  group.attribute("work_per_cycle", outcome.levels.work_per_cycle);
+  group.attribute("error_estimate", outcome.levels.error_estimate);
+}
+
+PlotPanel contact_panel(const OscillationOutcome& outcome, const std::string& title) {
+  const Grid2D& grid = outcome.run.body.surface.grid;
+  PlotPanel panel;
+  panel.title = title;
+  panel.x = {.label = "x", .unit = "m"};
+  panel.y = {.label = "y", .unit = "m"};
+  panel.equal_scales = true;
+  panel.image = PlotImage{.x = positions(grid.nx, grid.dx()),
+                          .y = positions(grid.ny, grid.dy()),
+                          .values = map_of(*outcome.cycle),
+                          .scale = {.low = 0, .high = 2},
+                          .palette = PlotPalette::grey,
+                          .color_bar = false};
+  return panel;
+}
+
+PlotPanel work_panel(const OscillationOutcome& outcome, const std::string& title) {
+  const bool drag = std::holds_alternative<Drag>(outcome.run.motion);
+  const CycleResult& cycle = *outcome.cycle;
+  const double predicted = outcome.levels.small_amplitude_work;
+  const bool lossless = !outcome.over(predicted);
+  std::vector<double> values =
+      column(cycle, drag ? &CycleSample::released_energy : &CycleSample::work);
+  const double reference = lossless ? outcome.elastic_energy() : predicted;
+  for (double& value : values) value /= reference;
+  PlotPanel panel;
+  panel.title = title;
+  panel.x = {.label = "time in periods", .low = 0, .high = 1};
+  const std::string work = drag ? "energy released" : "W(t)";
+  panel.y = {.label = lossless ? work + " / (K_x u_x^2/2)"
+                               : work + (drag ? " / W_{Eq. 15}" : " / W_{Eq. 12}")};
+  panel.curves.push_back({.x = column(cycle, &CycleSample::t), .y = std::move(values), .color = 0});
+  panel.lines.push_back({.at = lossless ? 0.0 : 1.0});
+  return panel;
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <salebra/damping/adaptive_quadrature.hpp>
+#include <salebra/io/plot.hpp>
+#include <salebra/io/result_file.hpp>
+#include <string>
+#include <vector>
+
+#include "session.hpp"
+
+/// What `oscillate` and `figure3` share: the paper's bodies, a run by both routes, and how its result is told.
+namespace salebra::cli {
+
+/// A surface with its boundary, and the indentation and sweep of a shape that the command line leaves open.
+struct Body {
+  Surface surface;
+  Boundary boundary = Boundary::free;
+  double indentation = 0, normal_amplitude = 0;  ///< 0 for a surface from a file
+};
+
+/// The four of Fig. 3 first.
+const std::vector<std::string>& shape_names();
+/// A shape by its name, off the grid, with a contact that fills a third of it or less at the end of the sweep.
+Body shape_body(const std::string& shape, const Grid2D& grid);
+
+/// One contact and its motion.
+struct OscillationCase {
+  Body body;
+  Material material;
+  Oscillation motion;
+  double indentation = 0;  ///< mean
+};
+
+struct OscillationRoutes {
+  LevelQuadratureOptions levels;
+  CycleOptions cycle;
+  bool simulate = true;
+  /// Levels, and cells where the shape is known, are chosen for this error of the level quadrature.
+  std::optional<double> relative_error;
+  std::string shape;         ///< to be refined with relative_error; empty: the grid is given
+  Index most_points = 1024;  ///< of its finest grid
+};
+
+struct OscillationOutcome {
+  OscillationCase run;  ///< on the grid that was chosen
+  LevelQuadratureResult levels;
+  std::optional<AdaptiveQuadratureResult> choice;
+  std::optional<CycleResult> cycle;
+
+  double work_per_cycle() const;
+  /// ½K u² with the greatest stiffness of the sweep and u = u_x or v/ω: what a loss has to be compared with where there is none.
+  double elastic_energy() const;
+  /// The loss over a reference; empty where the reference is not larger than its own uncertainty.
+  std::optional<double> over(double reference) const;
+  bool converged() const;
+};
+
+/// Levels first, then the steps. Throws Interrupted where the levels were; a stopped cycle comes back as it is.
+OscillationOutcome run_routes(OscillationCase run, const OscillationRoutes& routes);
+
+/// The steps alone.
+CycleResult simulate(const OscillationCase& run, const CycleOptions& options);
+
+Json to_json(const OscillationOutcome& outcome);
+/// Groups PREFIXcycle and PREFIXlevels.
+void write_outcome(ResultFile& file, const std::string& prefix, const OscillationOutcome& outcome);
+
+/// Fig. 3b: black always in contact, grey during a part of the cycle.
+PlotPanel contact_panel(const OscillationOutcome& outcome, const std::string& title);
+/// Fig. 3c: W(t) over Eq. (12) for equal frequencies; the energy released so far over Eq. (15) for drag. Over ½Ku² where
+/// nothing is lost.
+PlotPanel work_panel(const OscillationOutcome& outcome, const std::string& title);
+
+}  // namespace salebra::cli
