@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rewrites the tables of direct_simulation.md from runs of the program.
+
+Usage: docs/direct_simulation.py PROGRAM [--tables shapes,convergence,rough] [--jobs N] [--measured FILE --measured-name TEXT]
+Each table stands between a line `<!-- NAME -->` and a line `<!-- end of NAME -->`. Only Python's own library is needed.
+"""
+import argparse
+import concurrent.futures
+import json
+import math
+import pathlib
+import subprocess
+import tempfile
+
+PAGE = pathlib.Path(__file__).with_name("direct_simulation.md")
+SWEEP = {"cylinder": 6e-6, "parabola": 6e-6, "pyramids": 1.8e-6, "sinusoids": 1.35e-6}  # u_z, m
+
+
+class Runs:
+    def __init__(self, program, jobs):
+        self.program = program
+        self.pool = concurrent.futures.ThreadPoolExecutor(jobs)
+
+    def answer(self, *arguments):
+        command = [self.program, *map(str, arguments), "--json", "--quiet", "--progress", "never", "--threads", "1"]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode != 0:
+            raise SystemExit(f"{' '.join(command)}\n{done.stderr}")
+        return json.loads(done.stdout)
+
+    def all(self, function, arguments):
+        return list(self.pool.map(lambda a: function(*a), arguments))
+
+
+def motion(case, amplitude):
+    if case == "b":
+        return ["--mode", "drag", "--normal-amplitude", amplitude, "--drag-velocity", "1mm/s", "--frequency", "100Hz"]
+    return ["--normal-amplitude", amplitude, "--tangential-amplitude", amplitude, "--phase", case]
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return lines + ["| " + " | ".join(row) + " |" for row in rows]
+
+
+def percent(value):
+    return f"{100 * value:+.2f} %"
+
+
+def shapes(runs, _):
+    """Ratios of Fig. 3's shapes."""
+    cases = [("90deg", 128), ("45deg", 128), ("b", 256)]
+    keys = [(s, c, n, nu) for s in SWEEP for c, n in cases for nu in (0, 0.3, 0.5)]
+
+    def run(shape, case, points, poisson):
+        return runs.answer("oscillate", "--shape", shape, "--points", points, "--contact-modulus", "1GPa",
+                           "--poisson", poisson, *motion(case, SWEEP[shape]))
+
+    rows = []
+    for (shape, case, points, poisson), a in zip(keys, runs.all(run, keys)):
+        w = a["work_per_cycle"]
+        lost = a["ratio_finite"] is not None
+        rows.append([shape, "(b)" if case == "b" else f"(a) {case[:2]}°", f"{points}²", str(poisson),
+                     f"{a['ratio']:.4f}" if lost else "no loss", f"{a['ratio_finite']:.4f}" if lost else "no loss",
+                     f"{100 * a['error_estimate'] / w:.2f} %" if lost else "",
+                     percent(a["work_by_levels"] / w - 1) if lost else "",
+                     f"{abs(a['released_energy'] / w - 1):.0e}" if lost else "",
+                     f"{a['work_over_elastic_energy']:.0e}" if not lost else ""])
+    return table(["shape", "case", "cells", "ν", "W over Eq. (12), (15)", "W over finite amplitude", "stated error",
+                  "levels against steps", "released energy off by", "W/(½K_t u²)"], rows)
+
+
+def paraboloid(case, ratio):
+    """Exact loss of R = 4 mm at δ = 20 ± 6 µm: K_t = 2G*√(Rδ), by parts, with the midpoint rule on 20000 points."""
+    radius, depth, u, n = 4e-3, 20e-6, 6e-6, 20000
+    modulus = 1e9 * ratio
+    theta = [math.pi * (k + 0.5) / n for k in range(n)]
+    stiffness = [2 * modulus * math.sqrt(radius * (depth + u * math.cos(t))) for t in theta]
+    step = math.pi / n
+    if case == "b":
+        s = sum(t * k for t, k in zip(theta, stiffness)) * step
+        least = 2 * modulus * math.sqrt(radius * (depth - u))
+        return 2 * (1e-3 / (2 * math.pi * 100)) ** 2 * (2 * s - math.pi**2 * least)
+    phase = math.radians(float(case[:2]))
+    s = sum(math.sin(2 * t) * k for t, k in zip(theta, stiffness)) * step
+    return 2 * (u * math.sin(phase)) ** 2 * s
+
+
+def convergence(runs, _):
+    """Paraboloid against its exact loss, over cells and steps."""
+    poisson, ratio = 0.3, 2 * 0.7 / 1.7
+    points, steps = [32, 64, 128, 256], [16, 32, 64, 128]
+    keys = [(c, n, k) for c in ("45deg", "b") for n in points for k in steps]
+
+    def run(case, n, k):
+        return runs.answer("oscillate", "--shape", "parabola", "--points", n, "--steps", k, "--contact-modulus", "1GPa",
+                           "--poisson", poisson, *motion(case, 6e-6))
+
+    answers = dict(zip(keys, runs.all(run, keys)))
+    rows = []
+    for case in ("45deg", "b"):
+        exact = paraboloid(case, ratio)
+        for n in points:
+            row = ["(b)" if case == "b" else "(a) 45°", f"{n}²"]
+            row += [percent(answers[case, n, k]["work_per_cycle"] / exact - 1) for k in steps]
+            last = answers[case, n, 128]
+            rows.append(row + [percent(last["work_by_levels"] / exact - 1),
+                               f"{100 * last['error_estimate'] / exact:.2f} %"])
+    return table(["case", "cells", *(f"{k} steps" for k in steps), "levels", "stated error of the levels"], rows)
+
+
+def rough(runs, arguments):
+    """Generated and measured surfaces: both routes against Eq. (16) and against the curve."""
+    modulus, slope, points = 1e9, 0.1, 128
+    with tempfile.TemporaryDirectory() as folder:
+        surfaces = []
+        for seed in (1, 2, 3):
+            file = f"{folder}/{seed}.h5"
+            runs.answer("generate", "--points", points, "--size-x", "10um", "--hurst", 0.8, "--rolloff", "1.25um",
+                        "--short-cutoff", f"{8 * 10 / points}um", "--rms-slope", slope, "--seed", seed, "-o", file)
+            surfaces.append((f"seed {seed}", [file], slope))
+        if arguments.measured:
+            found = runs.answer("info", arguments.measured)
+            surfaces.append((arguments.measured_name, [arguments.measured, "--boundary", "periodic"],
+                             found["rms_slope"]))
+
+        def fit(name, surface, scale):
+            curve = f"{folder}/{name.replace(' ', '_')}-curve.h5"
+            runs.answer("sweep", surface[0], "--pressures", f"{5e-4 * modulus * scale}:{0.2 * modulus * scale}:20",
+                        "--contact-modulus", modulus, "--poisson", 0.3, "-o", curve)
+            return runs.answer("fit", curve)["decay_length"]
+
+        lengths = runs.all(fit, surfaces)
+        keys = [(name, surface, scale, l, load, k, case)
+                for (name, surface, scale), l in zip(surfaces, lengths)
+                for load in (0.01, 0.05) for k in (0.1, 0.25, 0.5) for case in ("45deg", "b")]
+
+        def run(_, surface, scale, l, load, k, case):
+            return runs.answer("oscillate", "--surface", *surface, "--pressure", load * modulus * scale,
+                               "--contact-modulus", modulus, "--poisson", 0.3, "--decay-length", l,
+                               *motion(case, k * l))
+
+        rows = []
+        for (name, _, _, _, load, k, case), a in zip(keys, runs.all(run, keys)):
+            w = a["work_per_cycle"]
+            rows.append([name, str(load), str(k), "(b)" if case == "b" else "(a) 45°",
+                         percent(a["work_by_levels"] / w - 1), f"{100 * a['error_estimate'] / w:.2f} %",
+                         percent(a["predicted_finite"] / w - 1), percent(a["predicted"] / w - 1),
+                         percent(a["predicted_exponential"] / w - 1),
+                         percent(a["predicted_exponential_finite"] / w - 1),
+                         f"{abs(a['released_energy'] / w - 1):.0e}"])
+        return table(["surface", "p/(E*h')", "u_z/l", "case", "levels with K_t", "stated error", "levels with (G*/E*)K",
+                      "Eqs (12), (15) with F''", "Eq. (16) with l", "exponential law, finite u_z",
+                      "released energy"], rows)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("--tables", default="shapes,convergence,rough")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--measured")
+    parser.add_argument("--measured-name", default="measured")
+    arguments = parser.parse_args()
+    runs = Runs(arguments.program, arguments.jobs)
+    for name in arguments.tables.split(","):
+        lines = {"shapes": shapes, "convergence": convergence, "rough": rough}[name](runs, arguments)
+        text = PAGE.read_text(encoding="utf-8")
+        begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->"
+        before, rest = text.split(begin)
+        after = rest.split(end)[1]
+        PAGE.write_text(before + begin + "\n".join(lines) + "\n" + end + after, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
