@@ -15,7 +15,7 @@ namespace salebra {
 namespace {
 
 // K_t is a maximum over the tractions: its error is about the square of this.
-constexpr double stick_tolerance = 3e-3;
+constexpr double stick_tolerance = 1e-3;
 
 ForceSample sample_of(const NormalContactState& state, const Surface& surface,
                       const Material& material, const SweepOptions& options) {
