@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <salebra/base/error.hpp>
@@ -54,7 +55,11 @@ class Header {
   std::string bytes_ = std::string("CDF\x02", 4);
 };
 
-constexpr std::uint32_t dimension_tag = 10, variable_tag = 11, attribute_tag = 12, float64 = 6;
+constexpr std::uint32_t dimension_tag = 10, variable_tag = 11, attribute_tag = 12, int8 = 1,
+                        float64 = 6;
+
+/// Sizes of variables, and so their places, are multiples of four bytes.
+std::uint64_t padded(std::uint64_t bytes) { return (bytes + 3) / 4 * 4; }
 
 std::string header_of(const Surface& surface, const std::string& information,
                       std::uint64_t data_begin) {
@@ -68,13 +73,17 @@ std::string header_of(const Surface& surface, const std::string& information,
   header.word(static_cast<std::uint32_t>(grid.ny));
   header.list(attribute_tag, 1);
   header.note("json", information);
-  header.list(variable_tag, 3);
+  // SurfaceTopography asks for a mask where points are undefined; NaN among the heights is not enough for it.
+  const bool masked = surface.undefined_points() > 0;
+  header.list(variable_tag, masked ? 4 : 3);
   std::uint64_t begin = data_begin;
-  const auto place = [&](Index points) {
-    header.word(float64);
-    header.word(static_cast<std::uint32_t>(8 * points));
+  const auto place = [&](Index points, std::uint32_t kind) {
+    const std::uint64_t bytes =
+        padded((kind == float64 ? sizeof(double) : 1) * static_cast<std::uint64_t>(points));
+    header.word(kind);
+    header.word(static_cast<std::uint32_t>(bytes));
     header.offset(begin);
-    begin += 8 * static_cast<std::uint64_t>(points);
+    begin += bytes;
   };
   for (const auto& [name, axis, length, points] :
        {std::tuple("x", 0u, grid.lx, grid.nx), std::tuple("y", 1u, grid.ly, grid.ny)}) {
@@ -85,7 +94,7 @@ std::string header_of(const Surface& surface, const std::string& information,
     header.note("length", length);
     header.note("periodic", std::int32_t{surface.periodic});
     header.note("unit", "m");
-    place(points);
+    place(points, float64);
   }
   header.name("heights");
   header.word(2);
@@ -93,7 +102,15 @@ std::string header_of(const Surface& surface, const std::string& information,
   header.word(1);
   header.list(attribute_tag, 1);
   header.note("unit", "m");
-  place(grid.points());
+  place(grid.points(), float64);
+  if (masked) {
+    header.name("mask");
+    header.word(2);
+    header.word(0);
+    header.word(1);
+    header.list(0, 0);
+    place(grid.points(), int8);
+  }
   return header.bytes();
 }
 
@@ -122,6 +139,14 @@ void write_netcdf(const std::filesystem::path& file, const Surface& surface,
   for (Index ix = 0; ix < grid.nx; ++ix) {
     bytes.clear();
     for (Index iy = 0; iy < grid.ny; ++iy) append(bytes, surface.heights(ix, iy));
+    output.write(bytes);
+  }
+  if (surface.undefined_points() > 0) {
+    bytes.clear();
+    for (Index ix = 0; ix < grid.nx; ++ix)
+      for (Index iy = 0; iy < grid.ny; ++iy)
+        bytes += static_cast<char>(std::isnan(surface.heights(ix, iy)));
+    bytes.resize(padded(bytes.size()));
     output.write(bytes);
   }
   output.commit();

@@ -19,13 +19,16 @@ class Header {
   explicit Header(std::string_view content) : content_(content) {}
 
   std::int16_t int16(std::size_t at) const { return static_cast<std::int16_t>(bits(at, 2)); }
+  std::size_t size(std::size_t at) const { return bits(at, 2); }
   std::int32_t int32(std::size_t at) const { return static_cast<std::int32_t>(bits(at, 4)); }
   double float32(std::size_t at) const {
     return static_cast<double>(std::bit_cast<float>(bits(at, 4)));
   }
   std::string words(std::size_t at) const {
     const std::string_view field = content_.substr(at, 16);
-    return utf8(trimmed(field.substr(0, field.find('\0'))));
+    const std::string text = utf8(trimmed(field.substr(0, field.find('\0'))));
+    // Old programs write the micro sign of MS-DOS, which is another letter in Latin-1.
+    return text == "æm" ? "µm" : text;
   }
 
  private:
@@ -38,6 +41,9 @@ class Header {
 
   std::string_view content_;
 };
+
+/// A replica stands for the surface it was cast from: its heights were turned over, and one axis with them or not.
+enum class Inversion : std::int16_t { none, heights, along_x, along_y };
 
 }  // namespace
 
@@ -56,9 +62,7 @@ LoadedSurface read_sur(const std::filesystem::path& file, std::string_view conte
   const std::int32_t nx = header.int32(108), ny = header.int32(112);
   if (nx < 1 || ny < 1)
     refuse(file, "declares " + std::to_string(nx) + " x " + std::to_string(ny) + " points");
-  const std::int16_t comment = header.int16(334), zone = header.int16(336);
-  const std::uint64_t begin = header_size + static_cast<std::uint64_t>(comment > 0 ? comment : 0) +
-                              static_cast<std::uint64_t>(zone > 0 ? zone : 0);
+  const std::uint64_t begin = header_size + header.size(334) + header.size(336);
   const std::uint64_t bytes = static_cast<std::uint64_t>(nx) * static_cast<std::uint64_t>(ny) *
                               static_cast<std::uint64_t>(bits / 8);
   if (begin > content.size() || bytes > content.size() - begin)
@@ -70,8 +74,11 @@ LoadedSurface read_sur(const std::filesystem::path& file, std::string_view conte
   };
   surface.size_x = nx * length(120, 180);
   surface.size_y = ny * length(124, 196);
-  const double step = length(128, 212);
+  const Inversion inversion{header.int16(290)};
+  const double step = inversion == Inversion::none ? length(128, 212) : -length(128, 212);
   if (!std::isfinite(step) || step == 0) refuse(file, "has no step of heights; is it a SUR file?");
+  if (inversion < Inversion::none || inversion > Inversion::along_y)
+    refuse(file, "has an inversion of an unknown kind; is it a SUR file?");
   const bool has_undefined = header.int16(86) == 1;
   const std::int64_t undefined = std::int64_t{header.int32(100)} - 2;
   surface.heights.resize(nx, ny);
@@ -80,9 +87,10 @@ LoadedSurface read_sur(const std::filesystem::path& file, std::string_view conte
     for (Index ix = 0; ix < nx; ++ix) {
       const auto place = static_cast<std::size_t>(iy * nx + ix);
       const std::int32_t value = bits == 16 ? data.int16(2 * place) : data.int32(4 * place);
-      surface.heights(ix, iy) = has_undefined && value == undefined
-                                    ? std::numeric_limits<double>::quiet_NaN()
-                                    : value * step;
+      surface.heights(inversion == Inversion::along_x ? nx - 1 - ix : ix,
+                      inversion == Inversion::along_y ? ny - 1 - iy : iy) =
+          has_undefined && value == undefined ? std::numeric_limits<double>::quiet_NaN()
+                                              : value * step;
     }
   }
   return surface;

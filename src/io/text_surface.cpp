@@ -18,6 +18,8 @@ struct TextHeader {
   std::optional<double> pixel_size;     ///< m
   std::optional<double> height_factor;  ///< metres per value
   std::optional<Index> columns, rows;   ///< as declared
+  std::optional<Index>
+      points;  ///< as declared; without it a text that was cut between lines is whole
   std::string value_unit;
   std::string lateral_unit;  ///< of x and y in XYZ points
 };
@@ -62,6 +64,8 @@ void read_entry(const std::filesystem::path& file, std::string_view key, std::st
     header.columns = stated_count(value);
   } else if (name == "h") {
     header.rows = stated_count(value);
+  } else if (name == "points") {
+    header.points = stated_count(value);
   } else if (name == "value units" || name == "data unit") {
     header.value_unit = value;
   } else if (name == "lateral units") {
@@ -148,8 +152,13 @@ TextMatrix read_rows(const std::filesystem::path& file, std::string_view text, T
 LoadedSurface read_text(const std::filesystem::path& file, std::string_view content) {
   TextHeader header;
   const TextMatrix matrix = read_rows(file, require_text(file, content), header);
+  const bool are_points = matrix.columns == 3 && !header.width && !header.pixel_size;
+  if (const Index found = matrix.rows * (are_points ? 1 : matrix.columns);
+      header.points && *header.points != found)
+    refuse(file, "declares " + std::to_string(*header.points) + " points but holds " +
+                     std::to_string(found) + "; it is truncated or its header is wrong");
   LoadedSurface surface;
-  if (matrix.columns == 3 && !header.width && !header.pixel_size) {
+  if (are_points) {
     surface = grid_of_points(file, matrix.values);
     if (!header.lateral_unit.empty()) scale_plane(file, header.lateral_unit, surface);
   } else {

@@ -75,7 +75,7 @@ void write_text(const std::filesystem::path& file, const Surface& surface,
   detail::append_number(line, surface.grid.lx);
   line += " m\n# Height: ";
   detail::append_number(line, surface.grid.ly);
-  line += " m\n# Value units: m\n";
+  line += " m\n# Value units: m\n# Points: " + std::to_string(surface.grid.points()) + "\n";
   for (Index iy = 0; iy < surface.grid.ny; ++iy) {
     for (Index ix = 0; ix < surface.grid.nx; ++ix) {
       detail::append_number(line, surface.heights(ix, iy));

@@ -119,7 +119,8 @@ void write_xyz(const std::filesystem::path& file, const Surface& surface,
   require_points(file, surface);
   const Grid2D& grid = surface.grid;
   AtomicFile output(file, options);
-  std::string text = "# Channel: heights\n# Lateral units: m\n# Value units: m\n";
+  std::string text = "# Channel: heights\n# Lateral units: m\n# Value units: m\n# Points: " +
+                     std::to_string(grid.points()) + "\n";
   for (Index ix = 0; ix < grid.nx; ++ix) {
     for (Index iy = 0; iy < grid.ny; ++iy) {
       append_number(text, static_cast<double>(ix) * grid.dx());

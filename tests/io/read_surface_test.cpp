@@ -131,6 +131,8 @@ TEST_CASE("Text that can be read in two ways, or not at all, is refused with its
   CHECK_THAT(message("# Width: -3 um\n# Height: 3 um\n1 2 3\n"), Contains("size_x"));
   CHECK_THAT(message("1 2 3 4\n5 6 7 8\n"), Contains("size_x"));
   CHECK_THAT(message("w=4 h=650\npixel size=1 um\n1 2 3 4\n"), Contains("650 rows"));
+  CHECK_THAT(message(header + "# Points: 4\n1 2 3\n"), Contains("4 points") && Contains("holds 3"));
+  CHECK_THAT(message("# Points: 5\n0 0 1\n0 1 1\n1 0 1\n1 1 1\n"), Contains("holds 4"));
   CHECK_THAT(message(header + "# Value units: V\n1 2 3\n"), Contains("unit of length"));
   CHECK_THAT(message("height conversion factor (-> m)=0\n1 2 3\n"), Contains("conversion factor"));
   CHECK_THAT(message(std::string("1\0 2\0", 6)), Contains("NUL"));
@@ -270,11 +272,33 @@ TEST_CASE("A SUR file is refused where it is cut or of another kind", "[read]") 
   CHECK_THROWS_AS(read_surface(scratch.file("a.sur", content.substr(0, 511))), InvalidInput);
   CHECK_THROWS_AS(read_surface(scratch.file("a.sur", content.substr(0, content.size() - 1))),
                   InvalidInput);
+  // A private zone of more than 32767 bytes moves the heights beyond the end.
+  refused(337, '\x90', "truncated");
+  refused(290, 4, "inversion");
   refused(111, 0x7f, "truncated");      // points along x
   refused(111, '\x80', "points");       // a negative number of them
   refused(98, 8, "bits");               // bits of a point
   refused(14, 2, "one surface");        // objects in the file
   refused(212, 'V', "unit of length");  // unit of heights
+}
+
+TEST_CASE("A SUR file of a replica is turned over, with the axis that it names", "[read]") {
+  if (!std::filesystem::exists(measured)) return;
+  const Scratch scratch;
+  std::ifstream stream(measured / "sur-2.sur", std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  const auto read = [&](char inversion) {
+    std::string changed = content;
+    changed[290] = inversion;
+    return read_surface(scratch.file("a.sur", changed)).heights;
+  };
+  const auto same = [](const Field& a, const Field& b) {
+    return ((a == b) || (a.isNaN() && b.isNaN())).all();
+  };
+  const Field plain = read(0);
+  CHECK(same(read(1), -plain));
+  CHECK(same(read(2), -plain.colwise().reverse()));
+  CHECK(same(read(3), -plain.rowwise().reverse()));
 }
 
 TEST_CASE("A damaged HDF5 file is refused, without a word on standard error", "[read]") {
