@@ -172,7 +172,7 @@ class PanelScript {
     line("EOD");
     line("set palette defined ({})", palette_stops(image.palette));
     line("set cbrange [{:.9g}:{:.9g}]", *scale.low, *scale.high);
-    line("set cblabel {}", literal(scale.label));
+    line("set cblabel {} offset 0.8,0", literal(scale.label));
     if (!scale.tics.empty()) line("set cbtics {}", scale.tics);
     if (!image.color_bar) line("unset colorbox");
     const std::string columns = fmt::format("({:.12g}+{:.12g}*$1):({:.12g}+{:.12g}*$2):3",
@@ -195,7 +195,7 @@ class PanelScript {
       line("set contour base\nunset surface\nset cntrparam levels discrete {:.9g}", level);
       line("set table {}\nsplot $image{} matrix using {} with lines notitle\nunset table", block,
            number_, columns);
-      line("unset contour\nset surface\nstats {} using 1 nooutput\nmiddle = int(STATS_records/2)",
+      line("unset contour\nset surface\nstats {} using 1:2 nooutput\nmiddle = int(STATS_records/2)",
            block);
       plots_.push_back(fmt::format("{} using 1:2 with lines lw 1.2 lc '#202020' notitle", block));
       labels_.push_back(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <salebra/base/grid.hpp>
@@ -76,7 +77,8 @@ struct PlotPanel {
 
 struct Figure {
   std::string title = {};
-  std::vector<PlotPanel> panels = {};
+  std::deque<PlotPanel> panels = {};  ///< a reference to one stays good while others are added
+
   int columns = 0;  ///< of panels; 0: as many as make the figure about square
 };
 
