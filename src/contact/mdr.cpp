@@ -158,4 +158,21 @@ double IndenterLaw::pressure(double indentation, double r) const {
       .value;
 }
 
+double IndenterLaw::surface_displacement(double indentation, double r) const {
+  require(r >= 0, "radius", r, "must be >= 0");
+  if (!(indentation > 0)) return 0;
+  const double edge = contact_radius(indentation);
+  if (r <= edge) return indentation - profile_->height(r);
+  // x = r sin φ takes the singularity at the edge away.
+  std::vector<double> angles = {0};
+  for (const double at : profile_->breaks())
+    if (at > 0 && at < edge) angles.push_back(std::asin(at / r));
+  angles.push_back(std::asin(edge / r));
+  return 2 / std::numbers::pi *
+         detail::integrate(
+             [&](double angle) { return indentation - profile_->image(r * std::sin(angle)); },
+             angles, 1e-10)
+             .value;
+}
+
 }  // namespace salebra

@@ -220,6 +220,41 @@ DampingResult damping_of(const ContactLaw& law, const Position& position, const 
   return result;
 }
 
+DampingResult force_controlled(const ContactLaw& law, double mean_force, double force_amplitude,
+                               Kernel kernel, const DampingOptions& options) {
+  check(options);
+  require_positive(mean_force, "force");
+  require(force_amplitude >= 0 && force_amplitude <= mean_force, "force_amplitude", force_amplitude,
+          "must lie between 0 and the mean force");
+  // indentation_of() needs F > 0; 280 decades below the mean every K_t has reached its limit at F = 0.
+  const double least = std::max(1e-280 * mean_force, std::numeric_limits<double>::min());
+  auto stiffness_at = [&](double force) {
+    return law.tangential_stiffness(law.indentation_of(std::max(force, least)));
+  };
+  DampingResult result;
+  set_state(result, law, law.indentation_of(mean_force));
+  result.mean_force = mean_force;
+  kernel.normal_amplitude = force_amplitude / result.normal_stiffness;
+  const double small_factor = small_amplitude_factor(law, result.curvature, kernel);
+  if (options.amplitude == Amplitude::small) {
+    set_work(result, {small_factor, 0, true}, kernel);
+  } else {
+    const NormalCycle cycle{
+        [&](double angle) {
+          // F0 − F_a + F_a(1 + cosθ), so that F is accurate near a bottom at 0.
+          return stiffness_at((mean_force - force_amplitude) +
+                              2 * force_amplitude * square(std::cos(angle / 2)));
+        },
+        {0, pi},
+        stiffness_at(mean_force),
+        stiffness_at(mean_force - force_amplitude),
+        stiffness_at(mean_force + force_amplitude)};
+    set_work(result, work_factor(cycle, kernel, options.tolerance), kernel);
+  }
+  result.small_amplitude_work = small_factor * kernel.square_velocity;
+  return result;
+}
+
 }  // namespace
 
 double mean_force_of_cycle(const ContactLaw& law, double mean_indentation, double amplitude) {
@@ -285,38 +320,14 @@ std::vector<DampingResult> relaxation_damping(const ContactLaw& law,
 DampingResult relaxation_damping_force_controlled(const ContactLaw& law, double mean_force,
                                                   double force_amplitude, const Oscillation& motion,
                                                   const DampingOptions& options) {
-  check(options);
-  require_positive(mean_force, "force");
-  require(force_amplitude >= 0 && force_amplitude <= mean_force, "force_amplitude", force_amplitude,
-          "must lie between 0 and the mean force");
-  // indentation_of() needs F > 0; 280 decades below the mean every K_t has reached its limit at F = 0.
-  const double least = std::max(1e-280 * mean_force, std::numeric_limits<double>::min());
-  auto stiffness_at = [&](double force) {
-    return law.tangential_stiffness(law.indentation_of(std::max(force, least)));
-  };
-  DampingResult result;
-  set_state(result, law, law.indentation_of(mean_force));
-  result.mean_force = mean_force;
-  Kernel kernel = kernel_of(motion);
-  kernel.normal_amplitude = force_amplitude / result.normal_stiffness;
-  const double small_factor = small_amplitude_factor(law, result.curvature, kernel);
-  if (options.amplitude == Amplitude::small) {
-    set_work(result, {small_factor, 0, true}, kernel);
-  } else {
-    const NormalCycle cycle{
-        [&](double angle) {
-          // F0 − F_a + F_a(1 + cosθ), so that F is accurate near a bottom at 0.
-          return stiffness_at((mean_force - force_amplitude) +
-                              2 * force_amplitude * square(std::cos(angle / 2)));
-        },
-        {0, pi},
-        stiffness_at(mean_force),
-        stiffness_at(mean_force - force_amplitude),
-        stiffness_at(mean_force + force_amplitude)};
-    set_work(result, work_factor(cycle, kernel, options.tolerance), kernel);
-  }
-  result.small_amplitude_work = small_factor * kernel.square_velocity;
-  return result;
+  return force_controlled(law, mean_force, force_amplitude, kernel_of(motion), options);
+}
+
+DampingResult relaxation_damping_force_controlled(const ContactLaw& law, double mean_force,
+                                                  double force_amplitude,
+                                                  const TwoFrequencies& motion,
+                                                  const DampingOptions& options) {
+  return force_controlled(law, mean_force, force_amplitude, kernel_of(motion), options);
 }
 
 }  // namespace salebra

@@ -166,6 +166,27 @@ TEST_CASE("Eq (17) for the normal load: Hertz, cone and flat punch", "[mdr]") {
         Approx(contact_modulus * indentation / (pi * 8e-4)).epsilon(1e-9));
 }
 
+TEST_CASE("Outside the contact the surface is Hertz's, and far away a point force's", "[mdr]") {
+  const double radius = 1e-2, indentation = 1e-6, edge = std::sqrt(radius * indentation);
+  const IndenterLaw law(paraboloid_profile(radius), Material::of_moduli(1e9, 0.8e9));
+  for (const double ratio : {0.3, 1.0, 1.01, 2.0, 10.0}) {
+    const double r = ratio * edge;
+    const double hertz =
+        ratio <= 1
+            ? indentation - r * r / (2 * radius)
+            : indentation / pi *
+                  ((2 - ratio * ratio) * std::asin(1 / ratio) + std::sqrt(ratio * ratio - 1));
+    // The closed form itself cancels: (r/a)⁴ ulp of 1.
+    CHECK(law.surface_displacement(indentation, r) == Approx(hertz).epsilon(1e-10));
+  }
+  // u_z = F/(πE*r); Hertz's pressure has no dipole, so that the next term is (a/r)² times a number of order 1.
+  const IndenterLaw cone(cone_profile(0.1), Material::of_moduli(1e9, 0.8e9));
+  const double far = 1e3 * cone.contact_radius(indentation);
+  CHECK(cone.surface_displacement(indentation, far) ==
+        Approx(cone.force(indentation) / (pi * 1e9 * far)).epsilon(1e-5));
+  CHECK(cone.surface_displacement(-1e-6, 1e-6) == 0);
+}
+
 TEST_CASE("The pressure carries the force, for every profile", "[mdr]") {
   for (const Shape& shape : shapes()) {
     CAPTURE(shape.name);

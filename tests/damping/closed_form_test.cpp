@@ -15,16 +15,6 @@ const EqualFrequency equal{
     .normal_amplitude = 3e-7, .tangential_amplitude = 2e-7, .phase = 0.7, .angular_frequency = 50};
 const Drag drag{.normal_amplitude = 3e-7, .drag_velocity = 1e-4, .angular_frequency = 300};
 
-// Zero of a function that changes sign once in [low, high].
-double bisect(const std::function<double(double)>& f, double low, double high) {
-  const bool rising = f(high) > f(low);
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (low + high);
-    ((f(middle) > 0) == rising ? high : low) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 // Composite Gauss–Legendre with six points a panel: a route of its own for smooth integrands.
 double gauss(const std::function<double(double)>& f, double low, double high, int panels) {
   const double node[3] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
@@ -41,84 +31,10 @@ double gauss(const std::function<double(double)>& f, double low, double high, in
 
 }  // namespace
 
-TEST_CASE("Eq (6): the edge slope of a paraboloid is 2a/R", "[closed_form]") {
-  const double contact_modulus = 2e9, radius = 0.01, indentation = 1e-6;
-  const double contact_radius = std::sqrt(radius * indentation);
-  // F = (4/3)E*√R δ^{3/2}
-  const double curvature = contact_modulus * std::sqrt(radius / indentation);
-  CHECK(cf::edge_slope(contact_modulus, curvature) ==
-        Approx(2 * contact_radius / radius).epsilon(1e-14));
-}
-
-TEST_CASE("Eqs (7), (13): a spring is released by the way between touching and leaving",
+TEST_CASE("The damping constant of case (a) is that of a damper with the same loss",
           "[closed_form]") {
-  const double level = GENERATE(-2.9e-7, -1e-7, 0.0, 2e-7);
-  auto height = [&](double angle) { return -level + equal.normal_amplitude * std::cos(angle); };
-  const double touching = bisect(height, -pi, 0), leaving = bisect(height, 0, pi);
-  auto position = [](double angle) {
-    return equal.tangential_amplitude * std::cos(angle + equal.phase);
-  };
-  // The paper's s is x1 − x2; only its square matters.
-  CHECK(cf::released_distance(level, equal) ==
-        Approx(position(touching) - position(leaving)).epsilon(1e-12));
-  CHECK(cf::released_distance(level, drag) ==
-        Approx(drag.drag_velocity / drag.angular_frequency * (leaving - touching)).epsilon(1e-12));
-}
-
-TEST_CASE("Eq (8): a released spring loses the work that stretched it", "[closed_form]") {
-  const double stiffness = 8e8 * 1e-6, distance = 3e-7;
-  const double work = gauss([&](double x) { return stiffness * x; }, 0, distance, 1);
-  CHECK(cf::spring_energy(8e8, distance, 1e-6) == Approx(work).epsilon(1e-14));
-}
-
-TEST_CASE("Eq (9): only points that leave contact during the cycle lose energy", "[closed_form]") {
-  CHECK(cf::intermittent_contact(0.99e-7, -1e-7));
-  CHECK_FALSE(cf::intermittent_contact(1.01e-7, 1e-7));
-  CHECK_FALSE(cf::intermittent_contact(-1.01e-7, 1e-7));
-  CHECK(cf::released_distance(3.1e-7, equal) == 0);
-  CHECK(cf::released_distance(-3.1e-7, drag) == 0);
-}
-
-TEST_CASE("Eqs (10), (11), (14): the sum over springs gives the closed forms", "[closed_form]") {
-  const double tangential_modulus = 8e8, slope = 0.03;
-  auto by_sum = [&](const auto& motion) {
-    return cf::work_per_cycle(tangential_modulus, slope, motion.normal_amplitude,
-                              [&](double level) { return cf::released_distance(level, motion); });
-  };
-  // The quadrature is asked for 1e-13; at the ends of the interval s² is linear in (a), a root in (b).
-  CHECK(cf::work_per_cycle_by_slope(tangential_modulus, slope, equal) ==
-        Approx(by_sum(equal)).epsilon(1e-12));
-  CHECK(cf::work_per_cycle_by_slope(tangential_modulus, slope, drag) ==
-        Approx(by_sum(drag)).epsilon(1e-12));
-}
-
-TEST_CASE("Eqs (12), (15), (16): the shape-invariant forms are (11), (14) with the slope of (6)",
-          "[closed_form]") {
-  const double contact_modulus = 1e9, tangential_modulus = 8e8, curvature = 7e9;
-  const double ratio = tangential_modulus / contact_modulus;
-  const double slope = cf::edge_slope(contact_modulus, curvature);
-  CHECK(cf::work_per_cycle(ratio, curvature, equal) ==
-        Approx(cf::work_per_cycle_by_slope(tangential_modulus, slope, equal)).epsilon(1e-14));
-  CHECK(cf::work_per_cycle(ratio, curvature, drag) ==
-        Approx(cf::work_per_cycle_by_slope(tangential_modulus, slope, drag)).epsilon(1e-14));
-  const double decay_length = 2e-6, force = curvature * decay_length * decay_length;
-  CHECK(cf::work_per_cycle_rough(ratio, force, decay_length, drag) ==
-        Approx(cf::work_per_cycle(ratio, curvature, drag)).epsilon(1e-14));
-  EqualFrequency downwards = equal;
-  downwards.normal_amplitude = -equal.normal_amplitude;
-  CHECK(cf::work_per_cycle(ratio, curvature, downwards) ==
-        cf::work_per_cycle(ratio, curvature, equal));
-}
-
-TEST_CASE("The paper's power and damping constant follow from Eq (14)", "[closed_form]") {
-  const double tangential_modulus = 8e8, slope = 0.03;
-  const double work = cf::work_per_cycle_by_slope(tangential_modulus, slope, drag);
-  const double expected = 2 * (pi * pi - 4) * tangential_modulus * drag.normal_amplitude /
-                          (pi * slope * drag.angular_frequency);
-  CHECK(cf::damping_constant(work, drag) == Approx(expected).epsilon(1e-14));
-  CHECK(cf::power(work, drag) ==
-        Approx(expected * drag.drag_velocity * drag.drag_velocity).epsilon(1e-14));
-  // An equivalent damper loses γ⟨ẋ²⟩ = γ(u_x ω)²/2 in case (a).
+  const double work = 1e-9;
+  // An equivalent damper loses γ⟨ẋ²⟩ = γ(u_x ω)²/2.
   const double velocity = equal.tangential_amplitude * equal.angular_frequency;
   CHECK(cf::damping_constant(work, equal) * velocity * velocity / 2 ==
         Approx(cf::power(work, equal)).epsilon(1e-14));

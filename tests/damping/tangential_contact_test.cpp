@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/mdr.hpp>
 #include <salebra/damping/tangential_contact.hpp>
 #include <vector>
 
@@ -228,6 +229,31 @@ TEST_CASE("Cattaneo–Mindlin: force, stick and the loop of a paraboloid", "[tan
   contact.move_to(indentation, x);
   CHECK(contact.dissipated() - before == Approx(8 * primitive - 4 * x * exact(x)).epsilon(1e-8));
   CHECK(contact.dissipated_in_permanent_contact() == Approx(contact.dissipated()).epsilon(1e-12));
+}
+
+TEST_CASE(
+    "Cattaneo–Mindlin: the stick radius is a(1 − F_x/μF)^{1/3} under a sphere, ^{1/2} under a cone",
+    "[tangential]") {
+  const double friction = 0.4, indentation = 1e-6;
+  const Material material = Material::of_moduli(1e9, ratio * 1e9);
+  const bool sphere = GENERATE(true, false);
+  const IndenterLaw law(sphere ? paraboloid_profile(1e-2) : cone_profile(0.1), material);
+  const double sliding = friction / ratio * indentation, limit = friction * law.force(indentation);
+  const double edge = law.contact_radius(indentation);
+  TangentialContact contact(law, indentation, indentation,
+                            {.friction = friction, .tangential_range = 2 * sliding});
+  for (const double part : {0.1, 0.5, 0.9}) {
+    const double x = part * sliding, step = 1e-4 * sliding;
+    const auto force_at = [&](double shift) {
+      contact.start(indentation, 0);
+      contact.move_to(indentation, shift);
+      return contact.tangential_force();
+    };
+    // Only what sticks carries more: dF_x/dx = 2G*c, by central differences, second order in 1e-4/(1 − part).
+    const double stick = (force_at(x + step) - force_at(x - step)) / (2 * step) / (2 * ratio * 1e9);
+    CHECK(stick ==
+          Approx(edge * std::pow(1 - force_at(x) / limit, sphere ? 1.0 / 3 : 0.5)).epsilon(1e-6));
+  }
 }
 
 TEST_CASE("Varying normal force: the friction stack is springs with a limit", "[tangential]") {

@@ -112,6 +112,9 @@ class IndenterLaw final : public ContactLaw {
   double contact_radius(double indentation) const;
   /// p(r) under the indenter, Pa; infinite at the edge of a flat end.
   double pressure(double indentation, double r) const;
+  /// Normal displacement of the half-space's surface, m: δ − f(r) in contact,
+  /// (2/π) ∫_0^a (δ − g(x))/√(r² − x²) dx outside it.
+  double surface_displacement(double indentation, double r) const;
   const IndenterProfile& profile() const { return *profile_; }
   double contact_modulus() const { return contact_modulus_; }
 

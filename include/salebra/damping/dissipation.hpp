@@ -95,6 +95,10 @@ std::vector<DampingResult> relaxation_damping(const ContactLaw& law,
 DampingResult relaxation_damping_force_controlled(const ContactLaw& law, double mean_force,
                                                   double force_amplitude, const Oscillation& motion,
                                                   const DampingOptions& options = {});
+DampingResult relaxation_damping_force_controlled(const ContactLaw& law, double mean_force,
+                                                  double force_amplitude,
+                                                  const TwoFrequencies& motion,
+                                                  const DampingOptions& options = {});
 
 /// Mean of F over a cycle δ0 + u_z cosθ, N. Throws InvalidInput where the law does not cover the cycle.
 double mean_force_of_cycle(const ContactLaw& law, double mean_indentation, double normal_amplitude);
