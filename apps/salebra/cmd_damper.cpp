@@ -8,6 +8,7 @@
 #include <salebra/damping/damper.hpp>
 #include <salebra/io/result_file.hpp>
 
+#include "figures.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
 #include "program.hpp"
@@ -76,6 +77,20 @@ Json decay_of(const OscillatorDecay& decay) {
           {"frequency_ratio", decay.frequency_ratio}};
 }
 
+// The least amplitude that stabilises, over frequency.
+void add_border(Figure& figure, const std::vector<double>& omega,
+                const std::vector<double>& least) {
+  PlotCurve border{.y = least, .style = PlotStyle::line_and_points, .color = 1};
+  for (const double value : omega) border.x.push_back(value / (2 * std::numbers::pi));
+  const bool any = std::ranges::any_of(least, [](double value) { return std::isfinite(value); });
+  if (!any) return;
+  figure.panels.push_back(
+      {.title = "Least amplitude that stabilises",
+       .x = {.label = "frequency ω / 2π", .unit = "Hz", .logarithmic = spans_decades(border.x)},
+       .y = {.label = "normal amplitude u_z", .unit = "m", .logarithmic = true},
+       .curves = {border}});
+}
+
 void run(const DamperArguments& arguments, Session& session) {
   const LawOptions::Contact contact = arguments.law.contact(arguments.material);
   require(contact.positions.size() == 1, "--force-newton",
@@ -90,6 +105,7 @@ void run(const DamperArguments& arguments, Session& session) {
   const bool one = arguments.normal_amplitude.size() == 1 && omega.size() == 1;
 
   Json object;
+  Figure figure;
   if (!arguments.normal_amplitude.empty()) {
     const DamperMap map =
         damper_map(*contact.law, position, arguments.normal_amplitude, omega, options);
@@ -98,6 +114,7 @@ void run(const DamperArguments& arguments, Session& session) {
     if (omega.size() > 1) object["angular_frequency"] = omega;
     object["damping_constant"] = constants(map);
     if (session.has_output()) write_map(map, arguments.falling_slope, session);
+    if (!one) figure = damper_figure(map, arguments.falling_slope);
   } else {
     require(arguments.falling_slope.has_value(), "--normal-amplitude", "missing;",
             "give it, or --falling-slope to have it computed");
@@ -106,9 +123,11 @@ void run(const DamperArguments& arguments, Session& session) {
   }
   if (arguments.mass) {
     require(one, "--mass", *arguments.mass, "kg needs one --normal-amplitude and one --frequency");
-    object["decay"] = decay_of(oscillator_decay(
+    const OscillatorDecay decay = oscillator_decay(
         *contact.law, position, {arguments.normal_amplitude.front(), omega.front()},
-        {*arguments.mass, arguments.spring_stiffness.value_or(0)}, options));
+        {*arguments.mass, arguments.spring_stiffness.value_or(0)}, options);
+    object["decay"] = decay_of(decay);
+    figure.panels.push_back(decay_panel(decay));
   } else {
     require(!arguments.spring_stiffness, "--spring-stiffness", "given,",
             "but there is no --mass to oscillate");
@@ -117,11 +136,17 @@ void run(const DamperArguments& arguments, Session& session) {
     require_positive(*arguments.falling_slope, "--falling-slope");
     const double largest = arguments.largest_amplitude.value_or(
         arguments.normal_amplitude.empty() ? 1e-6 : std::ranges::max(arguments.normal_amplitude));
-    Json least = Json::array();
+    std::vector<double> least;
     for (const double frequency : omega)
       least.push_back(stabilising_amplitude(*contact.law, position, frequency,
                                             *arguments.falling_slope, largest, options));
-    object["stabilising_amplitude"] = least.size() == 1 ? least[0] : least;
+    object["stabilising_amplitude"] = least.size() == 1 ? Json(least[0]) : Json(least);
+    if (omega.size() > 1) add_border(figure, omega, least);
+  }
+  if (session.has_plot()) {
+    require(!figure.panels.empty(), "--plot", "one number",
+            "is no picture; give a range, --mass, or --falling-slope with several frequencies");
+    session.plot(figure);
   }
   session.answer(object);
 }
@@ -135,8 +160,9 @@ void add_damper_command(Program& program) {
       {"salebra damper --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 "
        "--normal-amplitude 20nm --frequency 20kHz --mass 10g --spring-stiffness 1kN/m",
        "salebra damper --curve curve.h5 --pressure 10MPa --poisson 0.3 --normal-amplitude "
-       "1:50nm:20 --frequency 1:100kHz:20 --falling-slope 5 --output map.h5"},
-      [arguments](Session& session) { run(*arguments, session); });
+       "1:50nm:20 --frequency 1:100kHz:20 --falling-slope 5 --output map.h5 --plot map.png"},
+      [arguments](Session& session) { run(*arguments, session); },
+      "γ over what varies, with the border of stability; the decay of the oscillator");
   arguments->law.add_to(command);
   arguments->material.add_to(command);
   const std::string motion = "Normal oscillation (both may be ranges)";

@@ -2,11 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/dissipation.hpp>
 
 #include "answer_file.hpp"
+#include "figures.hpp"
+#include "follow.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
 #include "program.hpp"
@@ -19,49 +23,202 @@ struct DampingArguments {
   std::string amplitude = "finite", hold = "indentation";
   MaterialOptions material;
   MotionOptions motion;
+  std::vector<double> force_amplitude;
+  FollowOptions follow;
 };
 
-void run(const DampingArguments& arguments, Session& session) {
-  const std::vector<Oscillation> motions = arguments.motion.motions();
-  const LawOptions::Contact contact = arguments.law.contact(arguments.material);
-  const auto& positions = contact.positions;
-  require(positions.size() == 1 || motions.size() == 1, "--force-newton",
-          fmt::format("{} values", positions.size()),
-          "are a second range; only one quantity may be a range");
+struct Case {
+  Position position;
+  Motion motion;
+  std::optional<double> force_amplitude;
+};
 
+// The quantity that has several values, by its name in JSON; "" if there is none.
+std::pair<std::string, std::vector<double>> varied(const DampingArguments& arguments) {
+  const LawOptions& law = arguments.law;
+  auto found = arguments.motion.varied();
+  for (const auto& [name, values] : {std::pair{"force", &law.force},
+                                     {"indentation", &law.indentation},
+                                     {"pressure", &law.pressure},
+                                     {"mean_gap", &law.mean_gap},
+                                     {"force_amplitude", &arguments.force_amplitude}}) {
+    if (values->size() < 2) continue;
+    require(found.second.empty(), name, fmt::format("{} values", values->size()),
+            "are a second range; only one quantity may be a range");
+    found = {name, *values};
+  }
+  return found;
+}
+
+std::vector<Motion> motions_of(const DampingArguments& arguments) {
+  if (arguments.force_amplitude.empty()) return arguments.motion.all_motions();
+  require(arguments.motion.normal_amplitude.empty(), "--force-amplitude",
+          arguments.force_amplitude.front(),
+          "is given beside --normal-amplitude; give one of them");
+  // The library takes the amplitude of the force in its place.
+  MotionOptions motion = arguments.motion;
+  motion.normal_amplitude = {0};
+  return motion.all_motions();
+}
+
+DampingResult result_of(const ContactLaw& law, const Case& one, const DampingOptions& options) {
+  if (!one.force_amplitude) return damping_of(law, one.position, one.motion, options);
+  const auto* force = std::get_if<AtForce>(&one.position);
+  require(force != nullptr, "--force-amplitude", *one.force_amplitude,
+          "goes with a mean force; give --force-newton or --pressure");
+  return std::visit(
+      [&](const auto& motion) {
+        return relaxation_damping_force_controlled(law, force->force, *one.force_amplitude, motion,
+                                                   options);
+      },
+      one.motion);
+}
+
+// Power of case (b) at the tangential motion's mean square velocity: what a slow tangential oscillation tends to.
+double slow_limit_power(const ContactLaw& law, const Case& one, const DampingOptions& options) {
+  const auto& motion = std::get<TwoFrequencies>(one.motion);
+  const double velocity =
+      motion.tangential_amplitude * motion.tangential_angular_frequency * std::numbers::sqrt2 / 2;
+  Case drag = one;
+  drag.motion = Drag{motion.normal_amplitude, velocity, motion.normal_angular_frequency};
+  return result_of(law, drag, options).power;
+}
+
+// Small-amplitude form over the exact one. Without a common period the two are means, and the work is not known.
+double small_over_exact(const DampingResult& result, const Motion& motion) {
+  if (!std::isnan(result.work_per_cycle))
+    return result.small_amplitude_work / result.work_per_cycle;
+  const auto* two = std::get_if<TwoFrequencies>(&motion);
+  if (two == nullptr) return std::numeric_limits<double>::quiet_NaN();
+  return result.small_amplitude_work * two->normal_angular_frequency / (2 * std::numbers::pi) /
+         result.power;
+}
+
+void follow_motion(const DampingArguments& arguments, const ContactLaw& law, const Case& one,
+                   const DampingOptions& options, Session& session) {
+  require(!one.force_amplitude, "--friction", arguments.follow.coefficient(),
+          "does not go with --force-amplitude; give --normal-amplitude");
+  const DampingResult full_stick = damping_of(law, one.position, one.motion, options);
+  const SampledMotion path = sampled(one.motion, full_stick.indentation, arguments.follow.steps);
+  const TrajectoryDamping loss =
+      trajectory_damping(law, path, {.friction = arguments.follow.coefficient()});
+  Json object;
+  add_losses(object, loss);
+  object["full_stick_work"] = full_stick.work_per_cycle;
+  object["curvature"] = full_stick.curvature;
+  object["force"] = full_stick.force;
+  object["indentation"] = full_stick.indentation;
+  session.plot(cycle_figure(path, loss));
+  write_answer(session, "damping", object);
+  session.answer(object);
+  if (!loss.converged)
+    throw NotConverged("--friction: the losses of the last two periods still differ; give more");
+}
+
+void tell_deviation(const DampingArguments& arguments, double ratio, Session& session) {
+  if (!std::isfinite(ratio)) return;
+  session.note(fmt::format("the small-amplitude form, {}, is {} off here",
+                           arguments.motion.mode == "drag"              ? "Eq. (15)"
+                           : arguments.motion.mode == "equal-frequency" ? "Eq. (12)"
+                                                                        : "I(r) of two frequencies",
+                           deviation_text(ratio - 1)));
+}
+
+// One period of a single case that a picture can show; nothing for a motion that never repeats.
+void plot_case(const ContactLaw& law, const Case& one, const DampingResult& result,
+               Session& session) {
+  if (!session.has_plot()) return;
+  require(!one.force_amplitude, "--plot", "one case",
+          "of --force-amplitude has no picture; give it as a range");
+  const SampledMotion path = sampled(one.motion, result.indentation, 1000);
+  session.plot(cycle_figure(path, trajectory_damping(law, path)));
+}
+
+void run(const DampingArguments& arguments, Session& session) {
+  if (!arguments.follow.trajectory.empty()) {
+    require(!arguments.motion.given() && arguments.force_amplitude.empty(), "--trajectory",
+            arguments.follow.trajectory, "is the motion; leave out the options of Motion");
+    follow_file(arguments.follow, *arguments.law.law_alone(arguments.material), session);
+    return;
+  }
+  const auto [quantity, values] = varied(arguments);
+  const std::vector<Motion> motions = motions_of(arguments);
+  const LawOptions::Contact contact = arguments.law.contact(arguments.material);
+  const ContactLaw& law = *contact.law;
+  const auto& positions = contact.positions;
   DampingOptions options;
   options.hold = arguments.hold == "force" ? Hold::force : Hold::indentation;
   options.amplitude = arguments.amplitude == "small" ? Amplitude::small : Amplitude::finite;
-  options.on_progress = session.progress();
-  std::vector<DampingCase> cases;
-  for (std::size_t i = 0; i < std::max(positions.size(), motions.size()); ++i) {
-    cases.push_back(
-        {positions[positions.size() == 1 ? 0 : i], motions[motions.size() == 1 ? 0 : i]});
+
+  const auto at = [](const auto& all, std::size_t i) { return all[all.size() == 1 ? 0 : i]; };
+  const std::size_t count = std::max<std::size_t>(1, values.size());
+  std::vector<Case> cases;
+  for (std::size_t i = 0; i < count; ++i) {
+    cases.push_back({at(positions, i), at(motions, i), {}});
+    if (!arguments.force_amplitude.empty())
+      cases.back().force_amplitude = at(arguments.force_amplitude, i);
   }
-  const auto results = relaxation_damping(*contact.law, cases, options);
+  const bool one = count == 1;
+  if (arguments.follow.friction) {
+    require(one, "--friction", *arguments.follow.friction, "takes one motion, not a range");
+    follow_motion(arguments, law, cases.front(), options, session);
+    return;
+  }
+
+  std::vector<DampingResult> results;
+  const Progress progress = session.progress();
+  for (std::size_t i = 0; i < count; ++i) {
+    results.push_back(result_of(law, cases[i], options));
+    if (!progress({"damping", static_cast<double>(i + 1) / static_cast<double>(count),
+                   static_cast<int>(i + 1), 0}))
+      throw Interrupted("damping: stopped before all cases were done");
+  }
   const auto lost = std::ranges::count(results, false, &DampingResult::converged);
 
-  const auto column = [&](double DampingResult::*quantity) -> Json {
-    if (cases.size() == 1) return results.front().*quantity;
-    Json values = Json::array();
-    for (const DampingResult& result : results) values.push_back(result.*quantity);
-    return values;
+  const auto column = [&](const auto& value_of) -> Json {
+    if (one) return value_of(0);
+    Json all = Json::array();
+    for (std::size_t i = 0; i < count; ++i) all.push_back(value_of(i));
+    return all;
+  };
+  const auto quantity_of = [&](double DampingResult::*member) {
+    return column([&](std::size_t i) { return results[i].*member; });
   };
   Json object;
-  if (const auto& [name, values] = arguments.motion.varied(); !values.empty())
-    object[name] = values;
-  object["work_per_cycle"] = column(&DampingResult::work_per_cycle);
-  object["power"] = column(&DampingResult::power);
-  object["damping_constant"] = column(&DampingResult::damping_constant);
-  object["curvature"] = column(&DampingResult::curvature);
-  object["force"] = column(&DampingResult::force);
-  if (lost == 0) write_answer(session, "damping", object);
-  if (cases.size() == 1 && options.amplitude == Amplitude::finite) {
-    const DampingResult& result = results.front();
-    session.note(fmt::format("the small-amplitude form, {}, gives {:+.2g} % here",
-                             arguments.motion.mode == "drag" ? "Eq. (15)" : "Eq. (12)",
-                             100 * (result.small_amplitude_work / result.work_per_cycle - 1)));
+  if (!one) object[quantity] = values;
+  object["work_per_cycle"] = quantity_of(&DampingResult::work_per_cycle);
+  object["power"] = quantity_of(&DampingResult::power);
+  object["damping_constant"] = quantity_of(&DampingResult::damping_constant);
+  object["curvature"] = quantity_of(&DampingResult::curvature);
+  if (quantity != "force") object["force"] = quantity_of(&DampingResult::force);
+  object["mean_force"] = quantity_of(&DampingResult::mean_force);
+  if (quantity != "indentation") object["indentation"] = quantity_of(&DampingResult::indentation);
+  object["closed_form"] = quantity_of(&DampingResult::small_amplitude_work);
+  const auto ratio = [&](std::size_t i) {
+    return 1 / small_over_exact(results[i], cases[i].motion);
+  };
+  object["ratio"] = column(ratio);
+  if (arguments.motion.mode == "two-frequencies") {
+    const auto period = [&](std::size_t i) {
+      return common_period(std::get<TwoFrequencies>(cases[i].motion));
+    };
+    object["normal_cycles"] = column([&](std::size_t i) { return period(i).normal_cycles; });
+    object["tangential_cycles"] =
+        column([&](std::size_t i) { return period(i).tangential_cycles; });
+    object["slow_limit_power"] =
+        column([&](std::size_t i) { return slow_limit_power(law, cases[i], options); });
+    if (one && period(0).normal_cycles == 0)
+      session.note("the frequencies have no common period: power is the mean over a long time");
   }
+  if (lost == 0) {
+    write_answer(session, "damping", object);
+    if (one)
+      plot_case(law, cases.front(), results.front(), session);
+    else if (session.has_plot())
+      session.plot(damping_figure(quantity, values, results));
+  }
+  if (one && options.amplitude == Amplitude::finite)
+    tell_deviation(arguments, small_over_exact(results.front(), cases.front().motion), session);
   session.answer(object);
   if (lost > 0) {
     throw NotConverged(fmt::format("damping: {} of {} integrals did not reach the tolerance", lost,
@@ -78,14 +235,22 @@ void add_damping_command(Program& program) {
       {"salebra damping --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 "
        "--normal-amplitude 5nm --drag-velocity 1mm/s --frequency 20kHz --amplitude small",
        "salebra damping --curve curve.h5 --pressure 10MPa --poisson 0.3 --normal-amplitude "
-       "1:20nm:8 --drag-velocity 1mm/s --frequency 20kHz"},
-      [arguments](Session& session) { run(*arguments, session); });
+       "1:20nm:8 --drag-velocity 1mm/s --frequency 20kHz --plot damping.png"},
+      [arguments](Session& session) { run(*arguments, session); },
+      "the loss over the quantity that is a range, or one period of a single motion");
   arguments->law.add_to(command);
-  arguments->motion.add_to(command);
+  arguments->motion.add_to(command, true);
+  const std::string normal = "Normal motion";
+  add_values(command, "--force-amplitude", arguments->force_amplitude, Dimension::force,
+             "F_a of a force-controlled motion F + F_a cos wt, instead of --normal-amplitude")
+      ->group(normal);
   add_choice(command, "--amplitude", arguments->amplitude, {"small", "finite"},
-             "of the normal oscillation; default finite");
+             "of the normal oscillation; default finite")
+      ->group(normal);
   add_choice(command, "--hold", arguments->hold, {"indentation", "force"},
-             "what stays in the mean; default indentation");
+             "what stays in the mean; default indentation")
+      ->group(normal);
+  arguments->follow.add_to(command);
   arguments->material.add_to(command);
 }
 

@@ -11,10 +11,11 @@
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
-#include <salebra/io/number_table.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/result_file.hpp>
 
+#include "figures.hpp"
+#include "follow.hpp"
 #include "indenter_options.hpp"
 #include "options.hpp"
 #include "program.hpp"
@@ -26,15 +27,17 @@ struct MdrArguments {
   IndenterOptions indenter;
   MaterialOptions material;
   MotionOptions motion;
-  std::optional<double> indentation, force, friction;
+  std::optional<double> indentation, force;
   std::vector<double> friction_numbers;
-  std::string hold = "indentation", stress_map, friction_map, trajectory;
-  int steps = 2000;
+  std::string hold = "indentation", stress_map, friction_map;
+  int phases = 256, radii = 400;
+  FollowOptions follow;
 };
 
 void write_stress_map(const MdrArguments& arguments, const IndenterLaw& law, double indentation,
                       const Oscillation& motion, Session& session) {
-  const StressMap map = stress_map(law, indentation, motion, 256, 400, session.progress());
+  const StressMap map =
+      stress_map(law, indentation, motion, arguments.phases, arguments.radii, session.progress());
   ResultFile file(arguments.stress_map, session.provenance(), session.write_options());
   ResultGroup group = file.group("stress_map");
   group.coordinate("angle", map.angle, "rad", "phase of the normal motion, 0 at its top");
@@ -43,6 +46,8 @@ void write_stress_map(const MdrArguments& arguments, const IndenterLaw& law, dou
   group.dataset("tangential_force", map.tangential_force, {"angle"}, "N", "tangential force");
   group.dataset("shear", map.shear, "angle", "radius", "Pa", "tangential stress, Eq. (17)");
   group.dataset("pressure", map.pressure, "angle", "radius", "Pa", "normal stress");
+  if (session.has_plot() && arguments.friction_map.empty())
+    session.plot(stress_figure(law, indentation, motion, map));
   file.commit();
 }
 
@@ -54,7 +59,7 @@ void write_friction_map(const MdrArguments& arguments, const IndenterLaw& law, d
   for (int i = 1; i <= 18; ++i) phases.push_back(std::numbers::pi / 36 * i);
   const FrictionMap map =
       friction_map(law, indentation, motion.normal_amplitude, motion.tangential_amplitude, numbers,
-                   phases, {.steps = arguments.steps, .on_progress = session.progress()});
+                   phases, {.steps = arguments.follow.steps, .on_progress = session.progress()});
   ResultFile file(arguments.friction_map, session.provenance(), session.write_options());
   ResultGroup group = file.group("friction_map");
   group.coordinate("friction_number", numbers, "1", "M = mu E* u_z/(G* u_x)");
@@ -64,6 +69,7 @@ void write_friction_map(const MdrArguments& arguments, const IndenterLaw& law, d
                 "part of it from springs that open and close");
   group.dataset("slip", map.slip, "friction_number", "phase", "1",
                 "part of it from slip in permanent contact");
+  if (session.has_plot()) session.plot(friction_figure(map));
   file.commit();
 }
 
@@ -76,47 +82,15 @@ void add_state(Json& object, const IndenterLaw& law, double indentation) {
   object["curvature"] = law.curvature(indentation);
 }
 
-void add_losses(Json& object, const TrajectoryDamping& loss) {
-  object["work_per_cycle"] = loss.work_per_cycle;
-  object["relaxation_work"] = loss.relaxation_work;
-  object["slip_work"] = loss.slip_work;
-  object["power"] = loss.power;
-  object["damping_constant"] = loss.damping_constant;
-  object["storage_stiffness"] = loss.storage_stiffness;
-  object["loss_factor"] = loss.loss_factor;
-}
-
-void follow_file(const MdrArguments& arguments, const IndenterLaw& law, Session& session) {
-  const auto columns = read_number_table(arguments.trajectory, 3);
-  const SampledMotion path{columns[0], columns[1], columns[2]};
-  const TrajectoryDamping loss = trajectory_damping(
-      law, path,
-      {.friction = arguments.friction.value_or(std::numeric_limits<double>::infinity())});
-  Json object;
-  add_losses(object, loss);
-  object["converged"] = loss.converged;
-  if (session.has_output()) {
-    ResultFile file(session.output(), session.provenance(), session.write_options());
-    ResultGroup group = file.group("trajectory");
-    group.coordinate("time", path.time, "s", "time");
-    group.dataset("indentation", path.indentation, {"time"}, "m", "indentation");
-    group.dataset("displacement", path.displacement, {"time"}, "m", "tangential displacement");
-    group.dataset("tangential_force", loss.tangential_force, {"time"}, "N", "tangential force");
-    group.dataset("dissipated", loss.dissipated, {"time"}, "J", "energy lost since the first time");
-    file.commit();
-  }
-  session.answer(object);
-  if (!loss.converged)
-    throw NotConverged("mdr: the losses of the last two periods still differ; give more friction");
-}
-
 void run(const MdrArguments& arguments, Session& session) {
   const Material material = arguments.material.material_with_tangential_modulus();
   const IndenterLaw law(arguments.indenter.indenter(), material);
-  if (!arguments.trajectory.empty()) {
-    require(!arguments.indentation && !arguments.force, "--trajectory", arguments.trajectory,
-            "holds the indentation; leave out --indentation and --force-newton");
-    follow_file(arguments, law, session);
+  if (!arguments.follow.trajectory.empty()) {
+    require(
+        !arguments.indentation && !arguments.force && !arguments.motion.given(), "--trajectory",
+        arguments.follow.trajectory,
+        "is the whole motion; leave out --indentation, --force-newton and the options of Motion");
+    follow_file(arguments.follow, law, session);
     return;
   }
   require(arguments.indentation.has_value() != arguments.force.has_value(), "--indentation",
@@ -130,48 +104,61 @@ void run(const MdrArguments& arguments, Session& session) {
       arguments.indentation ? *arguments.indentation : law.indentation_of(*arguments.force);
   Json object;
   if (arguments.motion.normal_amplitude.empty()) {
-    require(arguments.stress_map.empty() && arguments.friction_map.empty() && !arguments.friction,
-            "--normal-amplitude", "missing;", "maps and friction need a motion");
+    require(!arguments.motion.given() && arguments.stress_map.empty() &&
+                arguments.friction_map.empty() && !arguments.follow.friction,
+            "--normal-amplitude", "missing;", "a motion, maps and friction need it");
     add_state(object, law, settled);
+    if (session.has_plot()) session.plot(contact_figure(law, settled));
     session.answer(object);
     return;
   }
-  const std::vector<Oscillation> motions = arguments.motion.motions();
+  const std::vector<Motion> motions = arguments.motion.all_motions();
   require(motions.size() == 1, "--mode", fmt::format("{} motions", motions.size()),
           "are given; mdr takes one, salebra damping takes ranges");
-  const Oscillation& motion = motions.front();
-  const Hold hold = arguments.hold == "force" ? Hold::force : Hold::indentation;
+  const Motion& motion = motions.front();
+  const auto* equal = std::get_if<EqualFrequency>(&motion);
+  const auto* drag = std::get_if<Drag>(&motion);
+  require(arguments.stress_map.empty() || equal || drag, "--stress-map", arguments.stress_map,
+          "is of a single cycle; use --mode equal-frequency or drag");
+  require(arguments.friction_map.empty() || equal, "--friction-map", arguments.friction_map,
+          "is over the phase; use --mode equal-frequency");
   const DampingResult result =
-      relaxation_damping(law, AtIndentation{settled}, motion, {.hold = hold});
+      damping_of(law, AtIndentation{settled}, motion,
+                 {.hold = arguments.hold == "force" ? Hold::force : Hold::indentation});
   if (!result.converged) throw NotConverged("mdr: the integral did not reach the tolerance");
   add_state(object, law, result.indentation);
-  const double closed_form = result.small_amplitude_work;
-  if (arguments.friction) {
-    const TrajectoryDamping loss =
-        trajectory_damping(law, sample(motion, result.indentation, arguments.steps),
-                           {.friction = *arguments.friction});
+  const bool followed = arguments.follow.friction.has_value();
+  TrajectoryDamping loss;
+  SampledMotion path;
+  const bool mapped = !arguments.stress_map.empty() || !arguments.friction_map.empty();
+  if (followed || (session.has_plot() && !mapped)) {
+    path = sampled(motion, result.indentation, arguments.follow.steps);
+    loss = trajectory_damping(law, path, {.friction = arguments.follow.coefficient()});
+  }
+  if (followed) {
     add_losses(object, loss);
     object["full_stick_work"] = result.work_per_cycle;
-    object["closed_form"] = closed_form;
-    object["ratio"] = loss.work_per_cycle / closed_form;
-    if (!loss.converged)
-      throw NotConverged("mdr: the losses of the last two periods still differ; raise --friction");
   } else {
     object["work_per_cycle"] = result.work_per_cycle;
     object["power"] = result.power;
     object["damping_constant"] = result.damping_constant;
-    object["closed_form"] = closed_form;
-    object["ratio"] = result.work_per_cycle / closed_form;
   }
+  object["closed_form"] = result.small_amplitude_work;
+  object["ratio"] =
+      (followed ? loss.work_per_cycle : result.work_per_cycle) / result.small_amplitude_work;
+  if (const double deviation = result.small_amplitude_work / result.work_per_cycle - 1;
+      std::isfinite(deviation))
+    session.note(fmt::format(
+        "the small-amplitude form is {:+.2g} % off the loss in full stick here", 100 * deviation));
+  if (session.has_plot() && !mapped) session.plot(cycle_figure(path, loss));
   if (!arguments.stress_map.empty())
-    write_stress_map(arguments, law, result.indentation, motion, session);
-  if (!arguments.friction_map.empty()) {
-    const auto* equal = std::get_if<EqualFrequency>(&motion);
-    require(equal != nullptr, "--friction-map", arguments.friction_map,
-            "is over the phase; use --mode equal-frequency");
+    write_stress_map(arguments, law, result.indentation,
+                     equal ? Oscillation(*equal) : Oscillation(*drag), session);
+  if (!arguments.friction_map.empty())
     write_friction_map(arguments, law, result.indentation, *equal, session);
-  }
   session.answer(object);
+  if (followed && !loss.converged)
+    throw NotConverged("mdr: the losses of the last two periods still differ; raise --friction");
 }
 
 }  // namespace
@@ -182,11 +169,12 @@ void add_mdr_command(Program& program) {
       "mdr", "axisymmetric contact and its damping by the method of dimensionality reduction",
       {"salebra mdr --profile parabola --radius 10mm --indentation 1um --contact-modulus 1GPa "
        "--poisson 0.3 --mode equal-frequency --normal-amplitude 300nm --tangential-amplitude 200nm "
-       "--phase 90deg --stress-map fig4.h5",
+       "--phase 90deg --stress-map fig4.h5 --plot fig4.png",
        "salebra mdr --profile cone --angle 10deg --force-newton 1 --contact-modulus 1GPa --poisson "
        "0.3 "
        "--normal-amplitude 100nm --drag-velocity 1mm/s --frequency 20kHz --friction 0.3"},
-      [arguments](Session& session) { run(*arguments, session); });
+      [arguments](Session& session) { run(*arguments, session); },
+      "the map that is asked for; else one period of the motion; else the contact at rest");
   arguments->indenter.add_to(command);
   const std::string position = "Position";
   add_quantity(command, "--indentation", arguments->indentation, Dimension::length,
@@ -198,20 +186,9 @@ void add_mdr_command(Program& program) {
              "what stays fixed at finite amplitude")
       ->group(position);
   arguments->material.add_to(command);
-  arguments->motion.add_to(command);
-  const std::string more = "Friction and maps";
-  add_quantity(command, "--friction", arguments->friction, Dimension::dimensionless,
-               "coefficient; without it full stick")
-      ->group(more);
-  command
-      .add_option("--steps", arguments->steps, "straight steps a cycle where friction is followed")
-      ->check(CLI::Range(8, 10000000))
-      ->group(more);
-  command
-      .add_option("--trajectory", arguments->trajectory,
-                  "follow one period from a file of time, indentation, displacement (SI)")
-      ->type_name("FILE")
-      ->group(more);
+  arguments->motion.add_to(command, true);
+  arguments->follow.add_to(command);
+  const std::string more = "Maps";
   command
       .add_option("--stress-map", arguments->stress_map, "HDF5 file for stresses over r and phase")
       ->type_name("FILE")
@@ -220,6 +197,12 @@ void add_mdr_command(Program& program) {
       .add_option("--friction-map", arguments->friction_map,
                   "HDF5 file for W(mu)/W(infinity) over M and phase")
       ->type_name("FILE")
+      ->group(more);
+  command.add_option("--map-phases", arguments->phases, "of the stress map; default 256")
+      ->check(CLI::Range(8, 100000))
+      ->group(more);
+  command.add_option("--map-radii", arguments->radii, "of the stress map; default 400")
+      ->check(CLI::Range(8, 100000))
       ->group(more);
   add_values(command, "--friction-numbers", arguments->friction_numbers, Dimension::dimensionless,
              "M of the map; default 0.1:100:25")

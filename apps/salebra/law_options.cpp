@@ -44,15 +44,17 @@ std::vector<Position> positions_of(const std::string& name, const std::vector<do
   return positions;
 }
 
-LawOptions::Contact exponential(const LawOptions& arguments, const MaterialOptions& material) {
+std::unique_ptr<ContactLaw> exponential(const LawOptions& arguments,
+                                        const MaterialOptions& material) {
   const double decay_length =
       required(arguments.decay_length, "--decay-length", "--law exponential needs it");
   require_positive(decay_length, "--decay-length");
-  const auto [name, values] = position_of(arguments, {"force"});
+  require(!arguments.force.empty(), "--force-newton", "not given,",
+          "but --law exponential needs it");
+  require_positive(arguments.force.front(), "--force-newton");
   // The law has no scale of its own: F'' = F/l² whatever the reference force.
-  const auto positions = positions_of(name, values);
-  return {std::make_unique<ExponentialLaw>(values.front(), decay_length, material.modulus_ratio()),
-          positions};
+  return std::make_unique<ExponentialLaw>(arguments.force.front(), decay_length,
+                                          material.modulus_ratio());
 }
 
 std::shared_ptr<const IndenterProfile> profile_of(const LawOptions& arguments) {
@@ -65,16 +67,7 @@ std::shared_ptr<const IndenterProfile> profile_of(const LawOptions& arguments) {
                        required(arguments.exponent, "--exponent", "--law power needs it"));
 }
 
-LawOptions::Contact of_profile(const LawOptions& arguments, const MaterialOptions& bodies) {
-  const Material material = bodies.material_with_tangential_modulus();
-  const auto [name, values] = position_of(arguments, {"force", "indentation"});
-  return {std::make_unique<IndenterLaw>(profile_of(arguments), material),
-          positions_of(name, values)};
-}
-
-LawOptions::Contact of_curve(const LawOptions& arguments, const MaterialOptions& material) {
-  const ForceCurve curve = read_force_curve(arguments.curve);
-  auto law = std::make_unique<TabulatedLaw>(curve, material.modulus_ratio());
+std::vector<Position> positions_on_curve(const LawOptions& arguments, const ForceCurve& curve) {
   auto [name, values] = position_of(arguments, {"force", "indentation", "pressure", "mean_gap"});
   if (name == "pressure") {
     require_positive(curve.nominal_area, "nominal_area of " + arguments.curve);
@@ -88,7 +81,7 @@ LawOptions::Contact of_curve(const LawOptions& arguments, const MaterialOptions&
     for (double& value : values) value = origin - value;
     name = "indentation";
   }
-  return {std::move(law), positions_of(name, values)};
+  return positions_of(name, values);
 }
 
 }  // namespace
@@ -122,11 +115,31 @@ void LawOptions::add_to(CLI::App& command) {
       ->group(position);
 }
 
-LawOptions::Contact LawOptions::contact(const MaterialOptions& material) const {
+std::unique_ptr<ContactLaw> LawOptions::law_alone(const MaterialOptions& material) const {
   require(law.empty() != curve.empty(), "--law", law.empty() ? "missing;" : "given beside --curve;",
           "give exactly one of --law and --curve");
-  if (!curve.empty()) return of_curve(*this, material);
-  return law == "exponential" ? exponential(*this, material) : of_profile(*this, material);
+  if (!curve.empty())
+    return std::make_unique<TabulatedLaw>(read_force_curve(curve), material.modulus_ratio());
+  if (law == "exponential") return exponential(*this, material);
+  return std::make_unique<IndenterLaw>(profile_of(*this),
+                                       material.material_with_tangential_modulus());
+}
+
+LawOptions::Contact LawOptions::contact(const MaterialOptions& material) const {
+  if (!curve.empty() && law.empty()) {
+    const ForceCurve samples = read_force_curve(curve);
+    return {std::make_unique<TabulatedLaw>(samples, material.modulus_ratio()),
+            positions_on_curve(*this, samples)};
+  }
+  if (law == "exponential" && curve.empty()) {
+    const auto [name, values] = position_of(*this, {"force"});
+    return {law_alone(material), positions_of(name, values)};
+  }
+  auto force_law = law_alone(material);
+  const auto [name, values] = position_of(*this, {"force", "indentation"});
+  for (const double value : values)
+    require_positive(value, name == "force" ? "--force-newton" : "--indentation");
+  return {std::move(force_law), positions_of(name, values)};
 }
 
 }  // namespace salebra::cli

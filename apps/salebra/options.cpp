@@ -108,7 +108,8 @@ double MaterialOptions::modulus_ratio() const {
 }
 
 void SurfaceOptions::add_to(CLI::App& app, bool needed, const std::string& field) {
-  app.add_option(field, file, "file with heights: HDF5, NetCDF, X3P, NPY, GSF, GXYZF, SUR, text matrix or XYZ")
+  app.add_option(field, file,
+                 "file with heights: HDF5, NetCDF, X3P, NPY, GSF, GXYZF, SUR, text matrix or XYZ")
       ->required(needed)
       ->type_name("FILE");
   const std::string group = "Surface";
@@ -159,19 +160,27 @@ int PositionOptions::count() const {
   return mean_gap.has_value() + pressure.has_value() + indentation.has_value() + force.has_value();
 }
 
-void MotionOptions::add_to(CLI::App& app) {
+void MotionOptions::add_to(CLI::App& app, bool with_two_frequencies) {
   const std::string group = "Motion (one quantity may be a range from:to:count or a list)";
-  add_choice(app, "--mode", mode, {"drag", "equal-frequency"}, "default drag")->group(group);
+  std::vector<std::string> modes = {"drag", "equal-frequency"};
+  if (with_two_frequencies) modes.push_back("two-frequencies");
+  add_choice(app, "--mode", mode, modes, "default drag")->group(group);
   add_values(app, "--normal-amplitude", normal_amplitude, Dimension::length, "u_z")->group(group);
   add_values(app, "--tangential-amplitude", tangential_amplitude, Dimension::length,
-             "u_x, equal-frequency")
+             "u_x, not with drag")
       ->group(group);
-  add_values(app, "--phase", phase, Dimension::angle, "phase, equal-frequency")->group(group);
+  add_values(app, "--phase", phase, Dimension::angle, "phase of x at a maximum of z, not with drag")
+      ->group(group);
   add_values(app, "--drag-velocity", drag_velocity, Dimension::velocity, "v, drag")->group(group);
-  add_values(app, "--frequency", frequency, Dimension::frequency, "in Hz")->group(group);
+  add_values(app, "--frequency", frequency, Dimension::frequency, "of the normal motion, in Hz")
+      ->group(group);
   add_values(app, "--angular-frequency", angular_frequency, Dimension::angular_frequency,
              "in rad/s, instead of --frequency")
       ->group(group);
+  if (with_two_frequencies)
+    add_values(app, "--tangential-frequency", tangential_frequency, Dimension::frequency,
+               "two-frequencies: of the tangential motion, in Hz")
+        ->group(group);
 }
 
 std::pair<std::string, std::vector<double>> MotionOptions::varied() const {
@@ -180,6 +189,7 @@ std::pair<std::string, std::vector<double>> MotionOptions::varied() const {
                                      {"tangential_amplitude", &tangential_amplitude},
                                      {"phase", &phase},
                                      {"drag_velocity", &drag_velocity},
+                                     {"tangential_frequency", &tangential_frequency},
                                      {"frequency", &frequency},
                                      {"angular_frequency", &angular_frequency}}) {
     if (values->size() < 2) continue;
@@ -190,8 +200,8 @@ std::pair<std::string, std::vector<double>> MotionOptions::varied() const {
   return found;
 }
 
-std::vector<Oscillation> MotionOptions::motions() const {
-  const bool drag = mode == "drag";
+std::vector<Motion> MotionOptions::all_motions() const {
+  const bool drag = mode == "drag", two = mode == "two-frequencies";
   const auto check = [&](const std::vector<double>& values, std::string_view option, bool wanted) {
     require(!values.empty() || !wanted, option, "not given,", "but --mode " + mode + " needs it");
     require(values.empty() || wanted, option, "given,",
@@ -201,10 +211,11 @@ std::vector<Oscillation> MotionOptions::motions() const {
   check(tangential_amplitude, "--tangential-amplitude", !drag);
   check(phase, "--phase", !drag);
   check(drag_velocity, "--drag-velocity", drag);
+  check(tangential_frequency, "--tangential-frequency", two);
   require(frequency.empty() || angular_frequency.empty(), "--angular-frequency", "given",
           "beside --frequency; give one of them");
-  require(!drag || !frequency.empty() || !angular_frequency.empty(), "--frequency", "not given,",
-          "but --mode drag needs it, or --angular-frequency");
+  require((!drag && !two) || !frequency.empty() || !angular_frequency.empty(), "--frequency",
+          "not given,", "but --mode " + mode + " needs it, or --angular-frequency");
 
   std::vector<double> omega = angular_frequency;
   for (const double hertz : frequency) omega.push_back(2 * std::numbers::pi * hertz);
@@ -214,22 +225,41 @@ std::vector<Oscillation> MotionOptions::motions() const {
   else
     for (const double value : omega)
       require_positive(value, frequency.empty() ? "--angular-frequency" : "--frequency");
+  for (const double value : tangential_frequency) require_positive(value, "--tangential-frequency");
   const std::size_t count = std::max<std::size_t>(1, varied().second.size());
   const auto at = [](const std::vector<double>& values, std::size_t i) {
     return values.size() == 1 ? values.front() : values.at(i);
   };
-  std::vector<Oscillation> all;
+  std::vector<Motion> all;
   for (std::size_t i = 0; i < count; ++i) {
     if (drag) {
       all.emplace_back(Drag{.normal_amplitude = at(normal_amplitude, i),
                             .drag_velocity = at(drag_velocity, i),
                             .angular_frequency = at(omega, i)});
+    } else if (two) {
+      all.emplace_back(TwoFrequencies{
+          .normal_amplitude = at(normal_amplitude, i),
+          .tangential_amplitude = at(tangential_amplitude, i),
+          .phase = at(phase, i),
+          .normal_angular_frequency = at(omega, i),
+          .tangential_angular_frequency = 2 * std::numbers::pi * at(tangential_frequency, i)});
     } else {
       all.emplace_back(EqualFrequency{.normal_amplitude = at(normal_amplitude, i),
                                       .tangential_amplitude = at(tangential_amplitude, i),
                                       .phase = at(phase, i),
                                       .angular_frequency = at(omega, i)});
     }
+  }
+  return all;
+}
+
+std::vector<Oscillation> MotionOptions::motions() const {
+  std::vector<Oscillation> all;
+  for (const Motion& motion : all_motions()) {
+    if (const auto* drag = std::get_if<Drag>(&motion))
+      all.emplace_back(*drag);
+    else
+      all.emplace_back(std::get<EqualFrequency>(motion));
   }
   return all;
 }

@@ -11,6 +11,7 @@
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "session.hpp"
@@ -74,20 +75,27 @@ struct PositionOptions {
   int count() const;
 };
 
+/// Every motion that has a name on the command line.
+using Motion = std::variant<EqualFrequency, Drag, TwoFrequencies>;
+
 /// What moves; any one quantity may be a range.
 struct MotionOptions {
   std::string mode = "drag";
   std::vector<double> normal_amplitude, tangential_amplitude, phase, frequency, angular_frequency,
-      drag_velocity;
+      tangential_frequency, drag_velocity;
 
-  void add_to(CLI::App& app);
+  /// with_two_frequencies: offers --mode two-frequencies; then use all_motions().
+  void add_to(CLI::App& app, bool with_two_frequencies = false);
   /// Whether any of its quantities was.
   bool given() const {
     return !normal_amplitude.empty() || !tangential_amplitude.empty() || !phase.empty() ||
-           !frequency.empty() || !angular_frequency.empty() || !drag_velocity.empty();
+           !frequency.empty() || !angular_frequency.empty() || !tangential_frequency.empty() ||
+           !drag_velocity.empty();
   }
   /// Motions of all combinations, which is one line of them: throws InvalidInput if two quantities have several values.
   std::vector<Oscillation> motions() const;
+  /// The same with --mode two-frequencies among them.
+  std::vector<Motion> all_motions() const;
   /// Name and values of the quantity with several values; empty if there is none.
   std::pair<std::string, std::vector<double>> varied() const;
 };

@@ -41,7 +41,7 @@ std::string help_hint(const CLI::App& app) {
 
 CLI::App& Program::add_command(const std::string& name, const std::string& what,
                                const std::array<std::string, 2>& examples, Action action,
-                                const std::string& picture) {
+                               const std::string& picture) {
   auto common = std::make_shared<CommonOptions>();
   CLI::App* command = app_.add_subcommand(name, what);
   command->footer(

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -21,8 +22,9 @@ TEST_CASE("Damping of the exponential law at small amplitude is Eq. (16)", "[dam
   INFO(result.err);
   REQUIRE(result.status == 0);
   const auto answer = result.json();
-  CHECK(keys(answer) ==
-        std::set<std::string>{"work_per_cycle", "power", "damping_constant", "curvature", "force"});
+  CHECK(keys(answer) == std::set<std::string>{"work_per_cycle", "power", "damping_constant",
+                                              "curvature", "force", "mean_force", "indentation",
+                                              "closed_form", "ratio"});
   const double omega = 2 * pi * 2e4, ratio = 2 * 0.7 / 1.7;
   const double work = 2 * (pi * pi - 4) * ratio * 1 / 1e-14 * 5e-9 * 4e-6 / (omega * omega);
   // The same few products in another order.
@@ -93,6 +95,136 @@ TEST_CASE("A cone loses what Eqs (12) and (15) say at any amplitude", "[damping]
       "damping --law parabola --radius 1mm --force-newton 1mN --young 2GPa --poisson 0.5 " + drag +
       "--json");
   CHECK(parabola.status == 0);
+}
+
+TEST_CASE("damping says by how much the small-amplitude form is off", "[damping]") {
+  const ProgramTest test;
+  // k = u_z/l = 0.5: J(0.5)/J(0) by PHYSICS section 7, Eq. (16) is 20 % too high.
+  const auto run = test.run(
+      "damping --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 "
+      "--normal-amplitude 50nm --drag-velocity 1mm/s --frequency 20kHz --json");
+  const auto answer = run.json();
+  const double ratio = answer["ratio"].get<double>();
+  CHECK(1 / ratio == Approx(1.2).epsilon(0.02));
+  CHECK(answer["work_per_cycle"].get<double>() / answer["closed_form"].get<double>() ==
+        Approx(ratio).epsilon(1e-14));
+  CHECK_THAT(run.err, Catch::Contains("Eq. (15), is +20 % off here"));
+}
+
+TEST_CASE("Frequencies in a rational ratio lose their energy over the common period", "[damping]") {
+  const ProgramTest test;
+  const std::string cone =
+      "damping --law cone --angle 0.1 --indentation 100nm --contact-modulus 1GPa --poisson 0.3 "
+      "--mode two-frequencies --normal-amplitude 50nm --tangential-amplitude 30nm --phase 40deg "
+      "--json ";
+  const double curvature = 2e9 / (pi / 2 * std::tan(0.1)), ratio = 2 * 0.7 / 1.7;
+  const auto answer = test.run(cone + "--frequency 3kHz --tangential-frequency 2kHz").json();
+  CHECK(answer["normal_cycles"] == 3);
+  CHECK(answer["tangential_cycles"] == 2);
+  // p > 2: S = p/2; I(r) = 1 − (1 + cos 2πr)/(2(1 − 4r²)).
+  const double r = 2.0 / 3, release = 1 - (1 + std::cos(2 * pi * r)) / (2 * (1 - 4 * r * r));
+  const double work = 2 * ratio * curvature * 9e-16 * 5e-8 * 1.5 * release;
+  CHECK(answer["work_per_cycle"].get<double>() == Approx(work).epsilon(1e-9));
+  CHECK(answer["power"].get<double>() == Approx(work * 1000).epsilon(1e-9));
+
+  // No common period: the mean power of a neighbour, and the work of a period is not known.
+  const auto irrational = test.run(cone + "--frequency 3kHz --tangential-frequency 1999.9998765Hz");
+  CHECK(irrational.json()["work_per_cycle"].is_null());
+  CHECK(irrational.json()["normal_cycles"] == 0);
+  CHECK(irrational.json()["power"].get<double>() == Approx(work * 1000).epsilon(1e-5));
+  CHECK_THAT(irrational.err, Catch::Contains("no common period"));
+
+  // A slow tangential oscillation under a fast normal one is the damper of case (b).
+  const auto slow = test.run(cone + "--frequency 20kHz --tangential-frequency 100Hz").json();
+  CHECK(slow["power"].get<double>() ==
+        Approx(slow["slow_limit_power"].get<double>()).epsilon(1e-3));
+  const double velocity = 3e-8 * 2 * pi * 100, omega = 2 * pi * 2e4;
+  CHECK(slow["slow_limit_power"].get<double>() ==
+        Approx((pi * pi - 4) * ratio * curvature * 5e-8 / (pi * omega) * velocity * velocity / 2)
+            .epsilon(1e-9));
+}
+
+TEST_CASE("The mean force or the force itself may be what is given", "[damping]") {
+  const ProgramTest test;
+  const std::string law =
+      "damping --law exponential --force-newton 2 --decay-length 100nm --poisson 0.3 "
+      "--drag-velocity 1mm/s --frequency 20kHz --json ";
+  const auto held = test.run(law + "--hold force --normal-amplitude 100nm").json();
+  CHECK(held["mean_force"].get<double>() == Approx(2).epsilon(1e-9));
+  // A dead weight on the exponential law: F at the mean indentation is lower by I_0(1).
+  CHECK(held["force"].get<double>() == Approx(2 / std::cyl_bessel_i(0.0, 1.0)).epsilon(1e-9));
+  const auto free = test.run(law + "--normal-amplitude 100nm").json();
+  CHECK(free["force"].get<double>() == Approx(2).epsilon(1e-12));
+  CHECK(free["mean_force"].get<double>() == Approx(2 * std::cyl_bessel_i(0.0, 1.0)).epsilon(1e-9));
+
+  // Force control: Eq. (15) with F''u_z → F_a/l at every F_a <= F.
+  const auto controlled = test.run(law + "--force-amplitude 0.5,2").json();
+  const double ratio = 2 * 0.7 / 1.7, omega = 2 * pi * 2e4;
+  for (const std::size_t i : {0, 1}) {
+    const double amplitude = i == 0 ? 0.5 : 2;
+    CHECK(controlled["work_per_cycle"][i].get<double>() ==
+          Approx(2 * (pi * pi - 4) * ratio * amplitude / 1e-7 * 1e-6 / (omega * omega))
+              .epsilon(1e-8));
+  }
+  CHECK(controlled["force_amplitude"] == nlohmann::json({0.5, 2.0}));
+  check_refused(test.run(law + "--force-amplitude 3"), "force_amplitude");
+  check_refused(test.run(law + "--force-amplitude 1 --normal-amplitude 1nm"), "--force-amplitude");
+}
+
+TEST_CASE("Any law follows a motion from a file", "[damping]") {
+  const ProgramTest test;
+  std::string path = "# time indentation x\n";
+  for (int i = 0; i <= 2000; ++i) {
+    const double angle = 2 * pi * i / 2000;
+    path += std::to_string(i * 1e-3) + " " + std::to_string(-50 * std::cos(angle)) + "e-9 " +
+            std::to_string(30 * std::cos(angle + pi / 3)) + "e-9\n";
+  }
+  test.write("path.txt", path);
+  const std::string law =
+      "damping --law exponential --force-newton 2 --decay-length 100nm --poisson 0.3 --json ";
+  const auto followed = test.run(law + "--trajectory path.txt -o path.h5 --plot path.svg").json();
+  const auto exact = test.run(law +
+                              "--mode equal-frequency --normal-amplitude 50nm "
+                              "--tangential-amplitude 30nm --phase 60deg")
+                         .json();
+  // 2000 straight steps, written to 1e-6 nm.
+  CHECK(followed["work_per_cycle"].get<double>() ==
+        Approx(exact["work_per_cycle"].get<double>()).epsilon(1e-5));
+  CHECK(followed["power"].get<double>() ==
+        Approx(exact["work_per_cycle"].get<double>() / 2).epsilon(1e-5));
+  CHECK(test.files() == std::set<std::string>{"path.txt", "path.h5", "path.svg"});
+  check_refused(test.run(law + "--trajectory path.txt --normal-amplitude 1nm"), "--trajectory");
+  // Friction: less is lost by relaxation, and some by slip.
+  const auto rough = test.run(law +
+                              "--friction 1 --mode equal-frequency --normal-amplitude 50nm "
+                              "--tangential-amplitude 30nm --phase 60deg")
+                         .json();
+  CHECK(rough["full_stick_work"] == exact["work_per_cycle"]);
+  CHECK(rough["work_per_cycle"].get<double>() < exact["work_per_cycle"].get<double>());
+  CHECK(rough["slip_work"].get<double>() > 0);
+}
+
+TEST_CASE("Pictures of damping name what they show", "[damping][plot]") {
+  const ProgramTest test;
+  const std::string law =
+      "damping --law exponential --force-newton 2 --decay-length 100nm --poisson 0.3 "
+      "--drag-velocity 1mm/s --frequency 20kHz --json ";
+  REQUIRE(test.run(law + "--normal-amplitude 1:50nm:6 --plot curve.svg").status == 0);
+  const std::string curve = test.read("curve.svg");
+  CHECK_THAT(curve, Catch::Contains("amplitude of the normal oscillation (nm)"));
+  CHECK_THAT(curve, Catch::Contains("small-amplitude form"));
+  CHECK(test.run(law + "--normal-amplitude 50nm --plot cycle.png").status == 0);
+  CHECK(test.read("cycle.png").substr(1, 3) == "PNG");
+  check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.png"), "--force");
+  check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.pdf"), ".png or .svg");
+  // Without gnuplot: one line, status 1, and no answer is lost for a picture that was not asked for.
+  const auto without = test.run(law + "--normal-amplitude 50nm --plot new.png", "PATH=/nowhere;");
+  CHECK(without.status == 1);
+  CHECK_THAT(without.err, Catch::Contains("salebra: error: new.png: gnuplot is not installed"));
+  CHECK(std::count(without.err.begin(), without.err.end(), '\n') == 1);
+  CHECK(without.out.empty());
+  CHECK(test.run(law + "--normal-amplitude 50nm", "PATH=/nowhere;").status == 0);
+  CHECK(test.files() == std::set<std::string>{"curve.svg", "cycle.png"});
 }
 
 TEST_CASE("Damping without what it needs is refused by name", "[damping]") {

@@ -83,12 +83,142 @@ TEST_CASE("mdr writes the maps of Fig. 4 and of finite friction", "[mdr]") {
   const ProgramTest test;
   const std::string command =
       "mdr --profile parabola --radius 10mm --indentation 1um --json " + body + shear;
-  CHECK(test.run(command + "--stress-map fig4.h5").status == 0);
-  CHECK(test.files() == std::set<std::string>{"fig4.h5"});
+  CHECK(test.run(command + "--map-phases 32 --map-radii 32 --stress-map fig4.h5 --plot fig4.svg")
+            .status == 0);
+  CHECK(test.files() == std::set<std::string>{"fig4.h5", "fig4.svg"});
+  CHECK_THAT(test.read("fig4.svg"), Catch::Contains("tangential stress"));
   check_refused(test.run(command + "--stress-map fig4.h5"), "--force");
-  CHECK(test.run(command + "--steps 64 --friction-numbers 0.1:10:3 --friction-map map.h5").status ==
-        0);
-  CHECK(test.files() == std::set<std::string>{"fig4.h5", "map.h5"});
+  CHECK(test.run(command +
+                 "--steps 64 --friction-numbers 0.1:10:3 --friction-map map.h5 --plot map.png")
+            .status == 0);
+  CHECK(test.files() == std::set<std::string>{"fig4.h5", "fig4.svg", "map.h5", "map.png"});
+}
+
+TEST_CASE("mdr draws the contact at rest and a period of any of its motions", "[mdr][plot]") {
+  const ProgramTest test;
+  for (const std::string shape :
+       {"parabola --radius 10mm", "cone --angle 0.1", "sphere --radius 1mm",
+        "flat --flat-radius 0.1mm", "rounded --flat-radius 0.1mm --edge-radius 1mm"}) {
+    const auto result = test.run("mdr --profile " + shape +
+                                 " --indentation 1um --force --plot rest.svg --json " + body);
+    INFO(shape << ": " << result.err);
+    CHECK(result.status == 0);
+    CHECK_THAT(test.read("rest.svg"), Catch::Contains("one-dimensional image"));
+  }
+  const std::string motion =
+      "--mode two-frequencies --normal-amplitude 1.2um --tangential-amplitude 200nm --phase 60deg "
+      "--frequency 300Hz --tangential-frequency 200Hz --plot cycle.svg --json ";
+  const auto opening =
+      test.run("mdr --profile cone --angle 0.1 --indentation 1um --friction 0.5 " + body + motion);
+  INFO(opening.err);
+  REQUIRE(opening.status == 0);
+  CHECK(opening.json()["slip_work"].get<double>() >= 0);
+  CHECK_THAT(test.read("cycle.svg"), Catch::Contains("in contact"));
+}
+
+TEST_CASE("The CLI refuses each unusable input of a damped contact with its reason",
+          "[mdr][damping][bad-input]") {
+  const ProgramTest test;
+  const std::string mdr = "mdr --profile parabola --radius 10mm " + body;
+  const std::string cone = "mdr --profile cone --angle 0.1 " + body;
+  const std::string damping = "damping --law cone --angle 0.1 " + body;
+  const std::string table = "mdr --profile table --indentation 1um --table table.txt " + body;
+  const auto refused_table = [&](const std::string& rows, const std::string& reason) {
+    test.write("table.txt", rows);
+    check_refused(test.run(table), reason);
+  };
+  // Profile tables: falling, with doubled or unsorted radii, with too few points, undersampled, not numbers, empty.
+  refused_table("0 0\n1 1\n2 3\n3 2\n4 5\n5 6\n6 7\n", "4 is a row");
+  refused_table("0 0\n1 1\n1 3\n3 4\n4 5\n5 6\n6 7\n", "is a row whose radius");
+  refused_table("0 0\n2 1\n1 3\n3 4\n4 5\n5 6\n6 7\n", "is a row whose radius");
+  refused_table("0 0\n1 1\n2 2\n", "points");
+  refused_table("0 0\n1e-3 1e-9\n2e-3 1e-9\n3e-3 1e-4\n4e-3 1.1e-4\n5e-3 9e-3\n6e-3 1e-2\n7e-3 2\n",
+                "point");
+  refused_table("0 0\n1 nan\n2 2\n3 3\n4 4\n5 5\n6 6\n7 7\n", "not a finite number");
+  refused_table("", "table.txt");
+  check_refused(test.run("mdr --profile table --indentation 1um --table none.txt " + body),
+                "none.txt");
+  // Beyond the table.
+  test.write(
+      "short.txt",
+      "0 0\n1e-6 1e-9\n2e-6 4e-9\n3e-6 9e-9\n4e-6 16e-9\n5e-6 25e-9\n6e-6 36e-9\n7e-6 49e-9\n");
+  check_refused(test.run("mdr --profile table --indentation 1um --table short.txt " + body),
+                "indentation");
+
+  for (const std::string indentation : {"0", "-1um", "nan"}) {
+    check_refused(test.run(mdr + shear + "--indentation " + indentation), "--indentation");
+    check_refused(test.run(damping + shear + "--indentation " + indentation), "--indentation");
+    check_refused(
+        test.run("damper --law cone --angle 0.1 --normal-amplitude 1nm --frequency 1kHz " + body +
+                 "--indentation " + indentation),
+        "--indentation");
+  }
+  for (const std::string force : {"0", "-1", "inf"})
+    check_refused(test.run(damping + shear + "--force-newton " + force), "--force-newton");
+  for (const std::string friction : {"-1", "-1e-9", "nan"}) {
+    check_refused(test.run(mdr + shear + "--indentation 1um --friction " + friction), "friction");
+    check_refused(test.run(damping + shear + "--indentation 1um --friction " + friction),
+                  "friction");
+  }
+  const std::string drag = "--indentation 1um --normal-amplitude 1nm --drag-velocity 1mm/s ";
+  const std::string two =
+      "--indentation 1um --mode two-frequencies --normal-amplitude 1nm --tangential-amplitude 1nm "
+      "--phase 0 ";
+  for (const std::string frequency : {"0", "-1kHz", "nan"}) {
+    for (const std::string& command : {cone, damping}) {
+      check_refused(test.run(command + drag + "--frequency " + frequency), "--frequency");
+      check_refused(
+          test.run(command + two + "--frequency 1kHz --tangential-frequency " + frequency),
+          "--tangential-frequency");
+    }
+    check_refused(test.run(cone + shear + "--indentation 1um --frequency " + frequency),
+                  "--frequency");
+    check_refused(
+        test.run("damper --law cone --angle 0.1 --indentation 1um --normal-amplitude 1nm " + body +
+                 "--frequency " + frequency),
+        "--frequency");
+  }
+  check_refused(
+      test.run(cone +
+               "--indentation 1um --normal-amplitude -1nm --drag-velocity 1mm/s --frequency 1kHz"),
+      "normal_amplitude");
+  // Trajectories that are no period: open, standing still in time, too short, not numbers.
+  const auto refused_path = [&](const std::string& rows, const std::string& reason) {
+    test.write("path.txt", rows);
+    check_refused(test.run(cone + "--trajectory path.txt"), reason);
+    check_refused(test.run("damping --law cone --angle 0.1 --trajectory path.txt " + body), reason);
+  };
+  refused_path("0 1e-6 0\n1 2e-6 0\n2 1.5e-6 0\n", "one whole period");
+  refused_path("0 1e-6 0\n1 2e-6 0\n1 1e-6 0\n", "not later");
+  refused_path("0 1e-6 0\n1 1e-6 0\n", "samples");
+  refused_path("0 1e-6 0\n1 nan 0\n2 1e-6 0\n", "not finite");
+  CHECK(test.files() == std::set<std::string>{"table.txt", "short.txt", "path.txt"});
+}
+
+TEST_CASE("u_z beyond the indentation opens the contact and keeps the answer right",
+          "[mdr][bad-input]") {
+  const ProgramTest test;
+  // The cone while it opens, by the released distances of Eq. (7) over the levels 0 … δ + u_z alone.
+  const double indentation = 1e-6, amplitude = 1.5e-6, stroke = 2e-7, phase = pi / 3;
+  const double ratio = 1.4 / 1.7, curvature = 2e9 / (pi / 2 * std::tan(0.1));
+  double sum = 0;
+  const int levels = 200000;
+  for (int i = 0; i < levels; ++i) {
+    const double z = -indentation + (indentation + amplitude) * (i + 0.5) / levels;
+    const double s = 2 * stroke * std::sin(phase) * std::sqrt(1 - z * z / (amplitude * amplitude));
+    sum += s * s;
+  }
+  const double work = 0.5 * ratio * curvature * sum * (indentation + amplitude) / levels;
+  const std::string motion =
+      " --indentation 1um --mode equal-frequency --normal-amplitude 1.5um --tangential-amplitude "
+      "200nm --phase 60deg --json " +
+      body;
+  CHECK(
+      test.run("mdr --profile cone --angle 0.1" + motion).json()["work_per_cycle"].get<double>() ==
+      Approx(work).epsilon(1e-8));
+  CHECK(
+      test.run("damping --law cone --angle 0.1" + motion).json()["work_per_cycle"].get<double>() ==
+      Approx(work).epsilon(1e-8));
 }
 
 TEST_CASE("mdr refuses what it cannot use by name", "[mdr]") {
@@ -132,10 +262,18 @@ TEST_CASE("damper: γ, the decay it makes and the amplitude that stabilises", "[
                             "--normal-amplitude 1:50nm:4 --frequency 1:100kHz:3 "
                             "--falling-slope 5 --output map.h5")
                        .json();
+  REQUIRE(test.run(law + "--normal-amplitude 1:50nm:4 --frequency 1:100kHz:3 "
+                         "--falling-slope 5 --plot map.svg")
+              .status == 0);
+  CHECK_THAT(test.read("map.svg"), Catch::Contains("Steady sliding is stable where"));
+  CHECK(test.run(law + "--normal-amplitude 20nm --frequency 20kHz --mass 10g --plot decay.svg")
+            .status == 0);
+  check_refused(test.run(law + "--normal-amplitude 20nm --frequency 20kHz --plot none.svg"),
+                "--plot");
   REQUIRE(map["damping_constant"].size() == 4);
   REQUIRE(map["damping_constant"][0].size() == 3);
   CHECK(map["stabilising_amplitude"].size() == 3);
-  CHECK(test.files() == std::set<std::string>{"map.h5"});
+  CHECK(test.files() == std::set<std::string>{"map.h5", "map.svg", "decay.svg"});
   check_refused(test.run(law + "--normal-amplitude 1nm"), "--frequency");
   check_refused(test.run(law + "--frequency 1kHz"), "--normal-amplitude");
   check_refused(test.run(law + "--normal-amplitude 1nm,2nm --frequency 1kHz --mass 1"), "--mass");

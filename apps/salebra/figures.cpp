@@ -1,0 +1,420 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <salebra/base/quantity.hpp>
+#include <salebra/base/units.hpp>
+
+namespace salebra::cli {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double degrees = 180 / pi;
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+// Where an increasing or decreasing run of the path passes the level, as (x, index); the first after `from`.
+struct Passage {
+  std::size_t index = 0;
+  double x = nothing;
+  bool found = false;
+};
+
+Passage passage(const SampledMotion& path, double level, bool rising, std::size_t from) {
+  for (std::size_t i = from + 1; i < path.time.size(); ++i) {
+    const double before = path.indentation[i - 1] - level, now = path.indentation[i] - level;
+    if (rising ? before < 0 && now >= 0 : before >= 0 && now < 0) {
+      const double share = before / (before - now);
+      return {i,
+              path.displacement[i - 1] + share * (path.displacement[i] - path.displacement[i - 1]),
+              true};
+    }
+  }
+  return {};
+}
+
+// An axis with a little room beyond the values.
+PlotAxis roomy(PlotAxis axis, const std::vector<double>& values) {
+  const auto [low, high] = std::ranges::minmax(values);
+  axis.low = low - 0.05 * (high - low);
+  axis.high = high + 0.05 * (high - low);
+  if (!(*axis.low < *axis.high)) axis.low = axis.high = {};
+  return axis;
+}
+
+PlotPanel path_panel(const SampledMotion& path) {
+  PlotPanel panel;
+  panel.title = "A point of the body and the spring it meets";
+  panel.x = roomy({.label = "x", .unit = "m"}, path.displacement);
+  panel.y = {.label = "height over the undeformed surface", .unit = "m"};
+  const auto [low, high] = std::ranges::minmax(path.indentation);
+  const double level = 0.5 * (low + high);
+  PlotCurve orbit{.name = "path of the point"};
+  orbit.x = path.displacement;
+  for (const double indentation : path.indentation) orbit.y.push_back(level - indentation);
+  panel.curves.push_back(orbit);
+  const Passage touch = passage(path, level, true, 0);
+  const Passage leave = touch.found ? passage(path, level, false, touch.index) : Passage{};
+  if (leave.found) {
+    panel.curves.push_back({.name = "in contact: x_1 to x_2",
+                            .x = {touch.x, leave.x},
+                            .y = {0, 0},
+                            .style = PlotStyle::line_and_points});
+  }
+  panel.lines.push_back({.at = 0});
+  panel.legend = PlotLegend::top_left;
+  panel.y.low = -0.55 * (high - low);
+  panel.y.high = 0.8 * (high - low);
+  return panel;
+}
+
+}  // namespace
+
+PlotAxis axis_of(std::string_view name, bool logarithmic) {
+  const Quantity quantity = find_quantity(name);
+  const std::string unit(si_unit(quantity.dimension));
+  return {.label = plot_text(quantity.long_name.empty() ? name : quantity.long_name),
+          .unit = unit == "1" ? "" : unit,
+          .logarithmic = logarithmic};
+}
+
+bool spans_decades(const std::vector<double>& values) {
+  const auto [low, high] = std::ranges::minmax(values);
+  return low > 0 && high > 30 * low;
+}
+
+Figure contact_figure(const IndenterLaw& law, double indentation) {
+  constexpr int points = 400;
+  const double edge = law.contact_radius(indentation);
+  const double reach = std::min(1.8 * edge, law.profile().largest_radius());
+  PlotCurve body{.name = "indenter", .color = 6}, surface{.name = "surface", .color = 0};
+  PlotCurve image{.name = "image g(|x|) − δ", .color = 6},
+      springs{.name = "ends of the springs", .color = 0};
+  PlotCurve pressure{.color = 1};
+  for (int i = -points; i <= points; ++i) {
+    const double r = 1.8 * edge * i / points, distance = std::abs(r);
+    surface.x.push_back(r);
+    surface.y.push_back(-law.surface_displacement(indentation, distance));
+    const double depth = distance <= reach ? law.profile().image(distance) - indentation : nothing;
+    springs.x.push_back(r);
+    springs.y.push_back(distance <= edge ? std::min(0.0, depth) : 0);
+    if (distance <= reach) {
+      body.x.push_back(r);
+      body.y.push_back(law.profile().height(distance) - indentation);
+      image.x.push_back(r);
+      image.y.push_back(depth);
+    }
+    // Between the points of the curve where it may be infinite.
+    if (distance < 1.2 * edge) {
+      pressure.x.push_back(r);
+      pressure.y.push_back(law.pressure(indentation, distance * (1 - 1e-9)));
+    }
+  }
+  PlotCurve coils{.name = "springs", .color = 7};
+  for (int i = -24; i <= 24; ++i) {
+    const double x = 1.8 * edge * i / 25;
+    const double depth = std::abs(x) <= edge ? law.profile().image(std::abs(x)) - indentation : 0.0;
+    coils.x.insert(coils.x.end(), {x, x, nothing});
+    coils.y.insert(coils.y.end(), {-1.5 * indentation, std::min(0.0, depth), nothing});
+  }
+  Figure figure;
+  figure.columns = 2;
+  const PlotAxis height = {.label = "height", .unit = "m"};
+  figure.panels.push_back({.title = "(a) contact with the half-space",
+                           .x = {.label = "r", .unit = "m"},
+                           .y = height,
+                           .curves = {surface, body},
+                           .legend = PlotLegend::bottom_right});
+  figure.panels.push_back(
+      {.title = "(b) one-dimensional image, Eq. (3)",
+       .x = {.label = "x", .unit = "m"},
+       .y = {.label = "height", .unit = "m", .low = -1.5 * indentation, .high = 1.8 * indentation},
+       .curves = {coils, springs, image},
+       .legend = PlotLegend::top_left});
+  figure.panels.push_back({.title = "(c) pressure",
+                           .x = {.label = "r", .unit = "m"},
+                           .y = {.label = "p", .unit = "Pa", .low = 0},
+                           .curves = {pressure}});
+  PlotCurve force{.x = {}, .y = {}};
+  const double most = std::min(1.5 * indentation, law.highest_indentation());
+  for (int i = 0; i <= 200; ++i) {
+    force.x.push_back(most * i / 200);
+    force.y.push_back(law.force(most * i / 200));
+  }
+  figure.panels.push_back({.title = "(d) force",
+                           .x = {.label = "indentation δ", .unit = "m"},
+                           .y = {.label = "F", .unit = "N"},
+                           .curves = {force,
+                                      {.x = {indentation},
+                                       .y = {law.force(indentation)},
+                                       .style = PlotStyle::points,
+                                       .color = 1}}});
+  return figure;
+}
+
+Figure cycle_figure(const SampledMotion& path, const TrajectoryDamping& loss) {
+  Figure figure;
+  figure.columns = 3;
+  figure.panels.push_back(path_panel(path));
+  figure.panels.push_back(
+      {.title = "Loop: its area is the loss",
+       .x = roomy({.label = "x", .unit = "m"}, path.displacement),
+       .y = roomy({.label = "tangential force F_x", .unit = "N"}, loss.tangential_force),
+       .curves = {{.x = path.displacement, .y = loss.tangential_force, .color = 1}}});
+  PlotPanel& work = figure.panels.emplace_back();
+  work.title = "Energy lost, W = " + format_quantity(loss.work_per_cycle, Dimension::energy, 4) +
+               " a period";
+  const double start = path.time.front();
+  PlotCurve lost{.x = path.time, .y = loss.dissipated, .color = 2};
+  for (double& time : lost.x) time = (time - start) / path.period();
+  work.x = {.label = "t / period"};
+  work.y = {.label = "energy lost since the start", .unit = "J"};
+  work.curves.push_back(lost);
+  return figure;
+}
+
+Figure damping_figure(const std::string& quantity, const std::vector<double>& values,
+                      const std::vector<DampingResult>& results) {
+  PlotCurve exact{.name = "W", .x = values}, small{.name = "small-amplitude form", .x = values};
+  small.style = PlotStyle::dashed;
+  PlotCurve ratio{.x = values, .color = 2}, constant{.x = values, .color = 3};
+  for (const DampingResult& result : results) {
+    exact.y.push_back(result.work_per_cycle);
+    small.y.push_back(result.small_amplitude_work);
+    ratio.y.push_back(100 * (result.small_amplitude_work / result.work_per_cycle - 1));
+    constant.y.push_back(result.damping_constant);
+  }
+  const PlotAxis x = axis_of(quantity, spans_decades(values));
+  Figure figure;
+  figure.columns = 3;
+  figure.panels.push_back({.title = "Energy dissipated in a cycle",
+                           .x = x,
+                           .y = {.label = "W", .unit = "J", .logarithmic = spans_decades(exact.y)},
+                           .curves = {exact, small},
+                           .legend = PlotLegend::top_left});
+  figure.panels.push_back({.title = "Small-amplitude form against W",
+                           .x = x,
+                           .y = {.label = "deviation (%)"},
+                           .curves = {ratio}});
+  if (std::ranges::any_of(constant.y, [](double value) { return std::isfinite(value); }))
+    figure.panels.push_back(
+        {.title = "Damping constant",
+         .x = x,
+         .y = {.label = "γ", .unit = "N s/m", .logarithmic = spans_decades(constant.y)},
+         .curves = {constant}});
+  return figure;
+}
+
+Figure stress_figure(const IndenterLaw& law, double indentation, const Oscillation& motion,
+                     const StressMap& map) {
+  const OscillatingStress stress(law, indentation, motion);
+  const double most = std::ranges::max(map.contact_radius), least = stress.least_contact_radius();
+  const std::vector<double> cycle = scaled(map.angle, 1 / (2 * pi));
+  const PlotAxis radius = {.label = "r", .unit = "m"};
+  const PlotAxis time = {.label = "ωt / 2π"};
+  // Both singularities would take all the colour: the scale ends where 2 % of the stressed points are beyond it.
+  std::vector<double> sizes;
+  for (Index i = 0; i < map.shear.rows(); ++i)
+    for (Index j = 0; j < map.shear.cols(); ++j)
+      if (map.shear(i, j) != 0) sizes.push_back(std::abs(map.shear(i, j)));
+  std::ranges::sort(sizes);
+  const double limit =
+      sizes.empty() ? 1
+                    : sizes[static_cast<std::size_t>(0.98 * static_cast<double>(sizes.size() - 1))];
+  PlotCurve edge{.x = map.contact_radius, .y = cycle, .color = 6};
+  const auto in_contact = [&](const Field& field) {
+    Field image = field.transpose();
+    for (Index i = 0; i < image.rows(); ++i)
+      for (Index j = 0; j < image.cols(); ++j)
+        if (map.radius[static_cast<std::size_t>(i)] >=
+            map.contact_radius[static_cast<std::size_t>(j)])
+          image(i, j) = nothing;
+    return image;
+  };
+
+  Figure figure;
+  figure.columns = 2;
+  PlotPanel& shear = figure.panels.emplace_back();
+  shear.title = "(a) tangential stress τ";
+  shear.x = radius;
+  shear.y = time;
+  shear.image = PlotImage{.x = map.radius,
+                          .y = cycle,
+                          .values = in_contact(map.shear),
+                          .scale = {.label = "τ", .unit = "Pa", .low = -limit, .high = limit},
+                          .palette = PlotPalette::diverging};
+  shear.curves.push_back(edge);
+
+  const auto section = [&](double angle, std::string title) {
+    PlotPanel panel;
+    panel.title = std::move(title);
+    panel.x = radius;
+    panel.y = {.label = "τ", .unit = "Pa", .low = -3 * limit, .high = 3 * limit};
+    PlotCurve curve{.color = 1};
+    const double here = stress.contact_radius(angle);
+    // Cosine spacing on both sides of the least radius, where the logarithm is, and towards the edge.
+    for (const auto& [from, to] : {std::pair{0.0, least}, {least, here}}) {
+      for (int i = 0; i <= 300 && to > from; ++i) {
+        const double r = from + (to - from) * 0.5 * (1 - std::cos(pi * (0.003 + 0.994 * i / 300)));
+        curve.x.push_back(r);
+        curve.y.push_back(stress.shear(angle, r));
+      }
+    }
+    curve.x.push_back(here);
+    curve.y.push_back(0);
+    curve.x.push_back(1.05 * most);
+    curve.y.push_back(0);
+    panel.curves.push_back(curve);
+    panel.x.low = 0;
+    panel.x.high = 1.05 * most;
+    for (const double at : {least, most}) panel.lines.push_back({.at = at, .vertical = true});
+    return panel;
+  };
+  figure.panels.push_back(section(pi / 3, "(b) τ(r) while pulling out, ωt/2π = 1/6"));
+  PlotPanel& pressure = figure.panels.emplace_back();
+  pressure.title = "(c) pressure p";
+  pressure.x = radius;
+  pressure.y = time;
+  pressure.image = PlotImage{.x = map.radius,
+                             .y = cycle,
+                             .values = in_contact(map.pressure),
+                             .scale = {.label = "p", .unit = "Pa"}};
+  pressure.curves.push_back(edge);
+  figure.panels.push_back(section(-pi / 3, "(d) τ(r) while pressing in, ωt/2π = −1/6"));
+  for (const double at : {1.0 / 6, -1.0 / 6}) figure.panels[0].lines.push_back({.at = at});
+  return figure;
+}
+
+Figure friction_figure(const FrictionMap& map) {
+  Figure figure;
+  figure.columns = 3;
+  const PlotAxis number = {.label = "M = μE* u_z / (G* u_x)", .logarithmic = true};
+  PlotPanel& panel = figure.panels.emplace_back();
+  panel.title = "(a) W(μ) / W(∞)";
+  panel.x = number;
+  panel.y = {.label = "phase φ_0 (°)"};
+  panel.image = PlotImage{.x = map.friction_number,
+                          .y = scaled(map.phase, degrees),
+                          .values = map.loss,
+                          .scale = {.label = "W(μ) / W(∞)", .low = 0, .high = 1.5},
+                          .contours = {0.5, 0.9, 0.95, 0.99}};
+
+  PlotPanel& missing = figure.panels.emplace_back();
+  missing.title = "(b) how far the result for μ = ∞ is off";
+  missing.x = number;
+  missing.y = {.label = "|1 − W(μ) / W(∞)|", .logarithmic = true, .low = 1e-4, .high = 2};
+  missing.legend = PlotLegend::top_right;
+  PlotPanel& parts = figure.panels.emplace_back();
+  parts.x = number;
+  parts.y = {.label = "share of W(∞)"};
+  parts.legend = PlotLegend::bottom_right;
+  const auto nearest = [&](double angle) {
+    const auto distance = [&](double phase) { return std::abs(phase - angle); };
+    return static_cast<Index>(std::ranges::min_element(map.phase, {}, distance) -
+                              map.phase.begin());
+  };
+  std::vector<Index> columns;
+  for (const double angle : {30.0, 45.0, 60.0, 90.0}) {
+    const Index j = nearest(angle / degrees);
+    if (std::ranges::find(columns, j) == columns.end()) columns.push_back(j);
+  }
+  for (const Index j : columns) {
+    PlotCurve curve{
+        .name = fmt::format("φ_0 = {:.0f}°", map.phase[static_cast<std::size_t>(j)] * degrees),
+        .x = map.friction_number};
+    for (Index i = 0; i < map.loss.rows(); ++i) curve.y.push_back(std::abs(1 - map.loss(i, j)));
+    missing.curves.push_back(curve);
+  }
+  const Index j = columns.back();
+  parts.title = fmt::format("(c) parts of the loss at φ_0 = {:.0f}°",
+                            map.phase[static_cast<std::size_t>(j)] * degrees);
+  PlotCurve relaxation{.name = "levels that open", .x = map.friction_number};
+  PlotCurve slip{.name = "slip in permanent contact", .x = map.friction_number};
+  PlotCurve sum{.name = "sum", .x = map.friction_number, .style = PlotStyle::dashed, .color = 6};
+  for (Index i = 0; i < map.loss.rows(); ++i) {
+    relaxation.y.push_back(map.relaxation(i, j));
+    slip.y.push_back(map.slip(i, j));
+    sum.y.push_back(map.loss(i, j));
+  }
+  parts.curves = {relaxation, slip, sum};
+  return figure;
+}
+
+Figure damper_figure(const DamperMap& map, std::optional<double> falling_slope) {
+  Figure figure;
+  PlotPanel& panel = figure.panels.emplace_back();
+  panel.title = "Damping constant γ";
+  const Index amplitudes = map.damping_constant.rows(), frequencies = map.damping_constant.cols();
+  const PlotAxis amplitude = {.label = "normal amplitude u_z",
+                              .unit = "m",
+                              .logarithmic = spans_decades(map.normal_amplitude)};
+  const std::vector<double> hertz = scaled(map.angular_frequency, 1 / (2 * pi));
+  const PlotAxis frequency = {
+      .label = "frequency ω / 2π", .unit = "Hz", .logarithmic = spans_decades(hertz)};
+  if (amplitudes > 1 && frequencies > 1) {
+    panel.x = frequency;
+    panel.y = amplitude;
+    panel.image = PlotImage{.x = hertz,
+                            .y = map.normal_amplitude,
+                            .values = map.damping_constant.transpose(),
+                            .scale = {.label = "γ", .unit = "N s/m", .logarithmic = true}};
+    if (falling_slope) {
+      panel.title =
+          fmt::format("Steady sliding is stable where γ > b = {:.4g} N s/m", *falling_slope);
+      panel.image->contours = {*falling_slope};
+    }
+    return figure;
+  }
+  panel.y = {.label = "γ", .unit = "N s/m"};
+  const bool over_amplitude = amplitudes > 1;
+  panel.x = over_amplitude ? amplitude : frequency;
+  PlotCurve curve{.x = over_amplitude ? map.normal_amplitude : hertz,
+                  .style = PlotStyle::line_and_points};
+  for (Index i = 0; i < amplitudes; ++i)
+    for (Index j = 0; j < frequencies; ++j) curve.y.push_back(map.damping_constant(i, j));
+  panel.y.logarithmic = spans_decades(curve.y);
+  panel.curves.push_back(curve);
+  if (falling_slope) panel.lines.push_back({.at = *falling_slope, .name = "b, stable above"});
+  return figure;
+}
+
+PlotPanel decay_panel(const OscillatorDecay& decay) {
+  PlotPanel panel;
+  panel.title = fmt::format("Free decay: damping ratio {:.3g}", decay.damping_ratio);
+  const double ratio = decay.damping_ratio, omega = decay.natural_frequency;
+  const double duration = std::min(4 * decay.decay_time, 60 * 2 * pi / omega);
+  panel.x = {.label = "time", .unit = "s"};
+  panel.y = {.label = "x / x_0"};
+  PlotCurve path{.name = "x"}, bound{.name = "exp(−t/decay time)", .style = PlotStyle::dashed};
+  for (int i = 0; i <= 4000; ++i) {
+    const double time = duration * i / 4000;
+    path.x.push_back(time);
+    // Released at rest; beyond ζ = 1 by its two exponentials, which do not overflow.
+    const double fall = ratio * omega, split = omega * std::sqrt(std::abs(1 - ratio * ratio));
+    if (split * duration < 1e-6)
+      path.y.push_back(std::exp(-fall * time) * (1 + fall * time));
+    else if (ratio < 1)
+      path.y.push_back(std::exp(-fall * time) *
+                       (std::cos(split * time) + fall / split * std::sin(split * time)));
+    else
+      path.y.push_back(0.5 * ((1 + fall / split) * std::exp((split - fall) * time) +
+                              (1 - fall / split) * std::exp(-(split + fall) * time)));
+    bound.x.push_back(time);
+    bound.y.push_back(std::exp(-time / decay.decay_time));
+  }
+  panel.curves = {path};
+  if (ratio < 1) panel.curves.push_back(bound);
+  return panel;
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "follow.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <salebra/base/error.hpp>
+#include <salebra/io/number_table.hpp>
+#include <salebra/io/result_file.hpp>
+
+#include "figures.hpp"
+
+namespace salebra::cli {
+
+void FollowOptions::add_to(CLI::App& app) {
+  const std::string group = "Friction and measured motion";
+  add_quantity(app, "--friction", friction, Dimension::dimensionless,
+               "coefficient; without it full stick")
+      ->group(group);
+  app.add_option("--steps", steps, "straight steps a cycle where friction is followed")
+      ->check(CLI::Range(8, 10000000))
+      ->group(group);
+  app.add_option("--trajectory", trajectory,
+                 "follow one period from a file of time, indentation, displacement (SI)")
+      ->type_name("FILE")
+      ->group(group);
+}
+
+double FollowOptions::coefficient() const {
+  if (friction) require(*friction >= 0, "--friction", *friction, "must be >= 0");
+  return friction.value_or(std::numeric_limits<double>::infinity());
+}
+
+DampingResult damping_of(const ContactLaw& law, const Position& position, const Motion& motion,
+                         const DampingOptions& options) {
+  return std::visit([&](const auto& m) { return relaxation_damping(law, position, m, options); },
+                    motion);
+}
+
+SampledMotion sampled(const Motion& motion, double mean_indentation, int steps) {
+  return std::visit([&](const auto& m) { return sample(m, mean_indentation, steps); }, motion);
+}
+
+std::string deviation_text(double deviation) {
+  return std::abs(deviation) < 1e-4 ? "less than 0.01 %"
+                                    : fmt::format("{:+.2g} %", 100 * deviation);
+}
+
+void add_losses(Json& object, const TrajectoryDamping& loss) {
+  object["work_per_cycle"] = loss.work_per_cycle;
+  object["relaxation_work"] = loss.relaxation_work;
+  object["slip_work"] = loss.slip_work;
+  object["power"] = loss.power;
+  object["damping_constant"] = loss.damping_constant;
+  object["storage_stiffness"] = loss.storage_stiffness;
+  object["loss_factor"] = loss.loss_factor;
+}
+
+void follow_file(const FollowOptions& options, const ContactLaw& law, Session& session) {
+  const auto columns = read_number_table(options.trajectory, 3);
+  const SampledMotion path{columns[0], columns[1], columns[2]};
+  const TrajectoryDamping loss = trajectory_damping(law, path, {.friction = options.coefficient()});
+  Json object;
+  add_losses(object, loss);
+  object["converged"] = loss.converged;
+  if (session.has_output()) {
+    ResultFile file(session.output(), session.provenance(), session.write_options());
+    ResultGroup group = file.group("trajectory");
+    group.coordinate("time", path.time, "s", "time");
+    group.dataset("indentation", path.indentation, {"time"}, "m", "indentation");
+    group.dataset("displacement", path.displacement, {"time"}, "m", "tangential displacement");
+    group.dataset("tangential_force", loss.tangential_force, {"time"}, "N", "tangential force");
+    group.dataset("dissipated", loss.dissipated, {"time"}, "J", "energy lost since the first time");
+    file.commit();
+  }
+  session.plot(cycle_figure(path, loss));
+  session.answer(object);
+  if (!loss.converged)
+    throw NotConverged(
+        "--trajectory: the losses of the last two periods still differ; give more friction");
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <salebra/contact/law.hpp>
+#include <salebra/damping/trajectory_damping.hpp>
+#include <string>
+
+#include "options.hpp"
+
+namespace salebra::cli {
+
+/// Following a path step by step: from a file, or because friction makes the loss depend on its history.
+struct FollowOptions {
+  std::optional<double> friction;
+  std::string trajectory;
+  int steps = 2000;
+
+  void add_to(CLI::App& app);
+  /// μ; infinite where it was not given.
+  double coefficient() const;
+};
+
+/// What stays of a motion when it meets the law: the same for any of its kinds.
+DampingResult damping_of(const ContactLaw& law, const Position& position, const Motion& motion,
+                         const DampingOptions& options = {});
+/// One period, `steps` for each normal cycle. Throws InvalidInput where there is none.
+SampledMotion sampled(const Motion& motion, double mean_indentation, int steps);
+
+/// "+20 %", with two digits; "less than 0.01 %" where the closed form is as good as exact.
+std::string deviation_text(double deviation);
+
+/// Adds the JSON keys of a loss that was followed.
+void add_losses(Json& object, const TrajectoryDamping& loss);
+
+/// --trajectory: reads one period of (time, indentation, displacement), answers, writes --output and --plot.
+/// Throws NotConverged where the last periods differ.
+void follow_file(const FollowOptions& options, const ContactLaw& law, Session& session);
+
+}  // namespace salebra::cli
