@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How fast TangentialContact follows a trajectory on a tabulated law, one core.
 // Sample runs:  damping_engine        damping_engine 10000000 100        damping_engine 10000000 100 0.3
-// Arguments: steps, steps a cycle, friction coefficient (none: full stick).
+// Arguments: steps, steps a cycle, friction coefficient (none or inf: full stick).
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +10,8 @@
 #include <numbers>
 #include <salebra/damping/tangential_contact.hpp>
 #include <vector>
+
+#include "../contact/process_cost.hpp"
 
 int main(int argc, char** argv) {
   using namespace salebra;
@@ -46,7 +48,9 @@ int main(int argc, char** argv) {
   }
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   std::printf(
-      "%ld steps in %.3f s, %.0f ns a step, at most %zu pieces of history, %.9g J a cycle\n", steps,
-      seconds, 1e9 * seconds / static_cast<double>(steps), memory,
+      "%8ld steps in %.3f s, %.0f ns a step, at most %zu pieces of history, peak memory %.1f MB, "
+      "%.9g J a cycle\n",
+      steps, seconds, 1e9 * seconds / static_cast<double>(steps), memory,
+      1e-6 * static_cast<double>(bench::peak_bytes()),
       contact.dissipated() * per_cycle / static_cast<double>(steps));
 }

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Runs every command of docs/figures.md at small size and looks for each picture that the page shows.
+file(REMOVE_RECURSE ${SCRATCH})
+file(MAKE_DIRECTORY ${SCRATCH})
+execute_process(COMMAND ${CMAKE_COMMAND} -E env SALEBRA=${PROGRAM} ${ROOT}/docs/make-figures --small ${SCRATCH}
+  RESULT_VARIABLE status OUTPUT_VARIABLE commands ERROR_VARIABLE errors)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "make-figures ended with ${status} after\n${commands}${errors}")
+endif()
+file(READ ${ROOT}/docs/figures.md page)
+string(REGEX MATCHALL "\\]\\(images/[^)]+\\)" links "${page}")
+list(LENGTH links count)
+if(count LESS 8)
+  message(FATAL_ERROR "docs/figures.md shows ${count} pictures; where are the others?")
+endif()
+foreach(link ${links})
+  string(REGEX REPLACE "\\]\\(images/(.*)\\)" "\\1" picture "${link}")
+  foreach(where ${SCRATCH} ${ROOT}/docs/images)
+    if(NOT EXISTS ${where}/${picture})
+      message(FATAL_ERROR "docs/figures.md shows images/${picture}, which is not in ${where}")
+    endif()
+  endforeach()
+endforeach()
