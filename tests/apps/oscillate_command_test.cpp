@@ -44,8 +44,9 @@ TEST_CASE("A killed cycle resumes to the same numbers", "[oscillate]") {
   const auto whole = test.run(command).json();
   const std::string with_checkpoint = command + " --checkpoint c.h5 --checkpoint-every 0";
   // Killed outright when its first checkpoint appears; where the cycle ended before, nothing was killed and nothing is left.
-  const auto killed = test.run(
-      with_checkpoint, "(while [ ! -e c.h5 ] && [ -e /proc/$$ ]; do :; done; kill -KILL $$) &");
+  const auto killed =
+      test.run(with_checkpoint,
+               "(while [ ! -e c.h5 ] && [ -e /proc/$$ ]; do sleep 0.02; done; kill -KILL $$) &");
   if (killed.status == 0) return;
   REQUIRE(test.files().count("c.h5") == 1);
   check_refused(test.run(with_checkpoint), "c.h5");
