@@ -10,17 +10,24 @@ namespace salebra::cli {
 namespace {
 
 double number(const Json& value) {
+  if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
-void write(ResultFile& file, const std::string& path, const Json& object) {
+}  // namespace
+
+std::string unit_of(const std::string& name) {
+  return name == "Spc" ? "1/m" : std::string(si_unit(find_quantity(name).dimension));
+}
+
+void write_answer(ResultFile& file, const std::string& path, const Json& object) {
   ResultGroup group = file.group(path);
   bool has_samples = false;
   for (const auto& [name, value] : object.items()) {
     const Quantity quantity = find_quantity(name);
-    const std::string unit(si_unit(quantity.dimension)), long_name(quantity.long_name);
+    const std::string unit = unit_of(name), long_name(quantity.long_name);
     if (value.is_object()) {
-      write(file, path + "/" + name, value);
+      write_answer(file, path + "/" + name, value);
     } else if (value.is_string()) {
       group.attribute(name, value.get<std::string>());
     } else if (value.is_array()) {
@@ -35,12 +42,10 @@ void write(ResultFile& file, const std::string& path, const Json& object) {
   }
 }
 
-}  // namespace
-
 void write_answer(const Session& session, const std::string& group, const Json& object) {
   if (!session.has_output()) return;
   ResultFile file(session.output(), session.provenance(), session.write_options());
-  write(file, group, object);
+  write_answer(file, group, object);
   file.commit();
 }
 

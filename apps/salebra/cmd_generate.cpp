@@ -5,37 +5,54 @@
 #include <cmath>
 #include <memory>
 #include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
+#include <salebra/generators/composite.hpp>
+#include <salebra/generators/exact_rms.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/forecast.hpp>
+#include <salebra/generators/non_gaussian.hpp>
 #include <salebra/generators/random_phase.hpp>
-#include <salebra/generators/spectrum.hpp>
+#include <salebra/io/read_surface.hpp>
 #include <salebra/io/write_surface.hpp>
+#include <salebra/surface/bearing.hpp>
 #include <salebra/surface/moments.hpp>
 
 #include "options.hpp"
 #include "program.hpp"
+#include "result_tables.hpp"
+#include "shape_options.hpp"
+#include "spectrum_options.hpp"
+#include "surface_figure.hpp"
 
 namespace salebra::cli {
 namespace {
 
 struct GenerateArguments {
-  std::string points;
-  std::optional<double> size_x, size_y, hurst, long_cutoff, rolloff, short_cutoff, rms_height,
-      rms_slope;
-  std::string method = "filtered-noise";
+  std::string points, crop, crop_from = "0", composite, heights_from, method, exact = "heights";
+  std::optional<double> size_x, size_y, skewness, kurtosis, weibull;
+  SpectrumOptions spectrum;
+  ShapeOptions shape;
+  bool profile = false;
   std::uint64_t seed = 1;
+  int max_iterations = NonGaussianOptions{}.max_iterations;
+
+  bool non_gaussian() const { return skewness || kurtosis || weibull || !heights_from.empty(); }
 };
+
+/// One or two whole numbers, the second of which is the first where it is left out.
+std::pair<Index, Index> counts_of(const std::string& text, const std::string& option,
+                                  double least) {
+  const auto values = parse_values(text, Dimension::dimensionless, option);
+  for (const double count : values)
+    require(count == std::floor(count) && count >= least && count <= 1 << 20, option, text,
+            fmt::format("must be one or two whole numbers >= {}, NX[,NY]", least));
+  require(values.size() <= 2, option, text, "has too many numbers; write NX[,NY]");
+  return {static_cast<Index>(values.front()), static_cast<Index>(values.back())};
+}
 
 Grid2D grid_of(const GenerateArguments& arguments) {
   Grid2D grid;
-  const auto points = parse_values(arguments.points, Dimension::dimensionless, "--points");
-  for (const double count : points) {
-    require(count == std::floor(count) && count >= 1 && count <= 1 << 20, "--points",
-            arguments.points, "must be one or two whole numbers >= 1, NX[,NY]");
-  }
-  require(points.size() <= 2, "--points", arguments.points, "has too many numbers; write NX[,NY]");
-  grid.nx = Index(points.front());
-  grid.ny = Index(points.back());
+  std::tie(grid.nx, grid.ny) = counts_of(arguments.points, "--points", 1);
   grid.lx = *arguments.size_x;
   grid.ly = arguments.size_y.value_or(grid.lx * double(grid.ny) / double(grid.nx));
   grid.validate();
@@ -63,36 +80,170 @@ Json all_of(const SpectralMoments& moments) {
   return object;
 }
 
-void run(const GenerateArguments& arguments, Session& session) {
-  const Grid2D grid = grid_of(arguments);
-  const SelfAffineSpectrum spectrum({.hurst = *arguments.hurst,
-                                     .long_cutoff = arguments.long_cutoff,
-                                     .rolloff = arguments.rolloff,
-                                     .short_cutoff = *arguments.short_cutoff,
-                                     .rms_height = arguments.rms_height,
-                                     .rms_slope = arguments.rms_slope});
-  const Forecast expected = forecast(grid, spectrum);
+/// Heights of a file; its own size does not matter here.
+Surface read_unsized(const std::string& file) {
+  ReadOptions options;
+  options.size_x = 1;
+  options.size_y = 1;
+  return read_surface(file, options);
+}
+
+/// Empty for heights as the random surface has them.
+std::optional<HeightDistribution> distribution_of(const GenerateArguments& arguments) {
+  if (!arguments.non_gaussian()) return {};
+  const bool johnson = arguments.skewness || arguments.kurtosis;
+  require(johnson + arguments.weibull.has_value() + !arguments.heights_from.empty() == 1,
+          "--skewness", "given", "beside --weibull or --heights-from; give one distribution");
+  if (arguments.weibull) return weibull_heights(*arguments.weibull);
+  if (johnson)
+    return johnson_heights(arguments.skewness.value_or(0),
+                           required(arguments.kurtosis, "--kurtosis", "--skewness needs it"));
+  const Surface measured = read_unsized(arguments.heights_from);
+  return sampled_heights(BearingCurve(detrended(measured, customary_detrend(measured))).heights());
+}
+
+void report_memory(std::size_t bytes, const std::string& points, Session& session) {
+  const double needed = 1e-9 * static_cast<double>(bytes);
+  const double available = 1e-9 * static_cast<double>(available_memory());
+  require(available == 0 || needed <= available, "--points", points,
+          fmt::format("needs {:.3g} GB of memory and {:.3g} GB are available; use fewer points",
+                      needed, available));
+  session.note(fmt::format("memory: {:.3g} GB needed, {:.3g} GB available", needed, available));
+}
+
+/// A random surface, with what is to be said of it added to the answer.
+Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, Session& session,
+                       Json& answer) {
+  const std::shared_ptr<const Spectrum> spectrum = arguments.spectrum.spectrum();
+  const std::optional<HeightDistribution> distribution = distribution_of(arguments);
+  // Before the sums over all modes, which take long on a grid that does not fit.
+  spectrum->require_carried_by(grid);
+  report_memory(arguments.non_gaussian() ? non_gaussian_memory(grid) : generation_memory(grid),
+                arguments.points, session);
+  const Forecast expected = forecast(grid, *spectrum);
   for (const std::string& warning : expected.warnings) session.warn(warning);
-  const Surface surface = arguments.method == "random-phase"
-                              ? random_phase(grid, spectrum, arguments.seed)
-                              : filtered_noise(grid, spectrum, arguments.seed);
+  const std::string method = !arguments.method.empty()  ? arguments.method
+                             : arguments.non_gaussian() ? "random-phase"
+                                                        : "filtered-noise";
+  answer["seed"] = arguments.seed;
+  answer["method"] = arguments.non_gaussian() ? "non-gaussian" : method;
+  if (const Json lay = arguments.spectrum.anisotropy(); !lay.is_null()) answer["anisotropy"] = lay;
+  answer["target"] = rms_of(expected.target);
+  answer["lattice"] = all_of(expected.lattice);
+  if (arguments.non_gaussian()) {
+    require(method == "random-phase", "--method", method,
+            "has no other heights than its own; leave it out beside a distribution");
+    NonGaussianSurface made =
+        non_gaussian(grid, *spectrum, *distribution, arguments.seed,
+                     {.exact = arguments.exact == "heights" ? Exact::heights : Exact::spectrum,
+                      .max_iterations = arguments.max_iterations,
+                      .on_progress = session.progress()});
+    if (made.interrupted) throw Interrupted("generate: interrupted; no surface was written");
+    if (!made.converged)
+      throw NotConverged(
+          fmt::format("generate: the spectrum still changes after {} iterations; "
+                      "raise --max-iterations",
+                      made.iterations));
+    answer["distribution"] = {{"name", distribution->name},
+                              {"iterations", made.iterations},
+                              {"spectrum_mismatch", made.spectrum_mismatch},
+                              {"converged", made.converged}};
+    return std::move(made.surface);
+  }
+  if (method == "random-phase") return random_phase(grid, *spectrum, arguments.seed);
+  if (method == "exact-rms")
+    return exact_rms(grid, *spectrum, arguments.seed,
+                     arguments.spectrum.rms_slope ? Rms::slope : Rms::height);
+  return filtered_noise(grid, *spectrum, arguments.seed);
+}
+
+Surface cropped(const GenerateArguments& arguments, const Surface& surface) {
+  const auto [nx, ny] = counts_of(arguments.crop, "--crop", 1);
+  const auto [first_x, first_y] = counts_of(arguments.crop_from, "--crop-from", 0);
+  return crop_surface(surface, first_x, first_y, nx, ny);
+}
+
+void make_profile(const GenerateArguments& arguments, Session& session) {
+  require_tables(session, {"profile"});
+  const auto [points, lines] = counts_of(arguments.points, "--points", 1);
+  require(lines == points && !arguments.size_y && arguments.crop.empty() &&
+              arguments.composite.empty() && !arguments.non_gaussian() && !session.has_plot(),
+          "--profile", "given", "with an option that only surfaces have; leave that out");
+  const double length = *arguments.size_x;
+  const SelfAffineProfileSpectrum spectrum = arguments.spectrum.profile_spectrum();
+  const std::string method = arguments.method.empty() ? "filtered-noise" : arguments.method;
+  require(method != "exact-rms", "--method", method,
+          "is for surfaces; a random-phase profile has exactly its lattice value");
+  const Profile profile = method == "random-phase"
+                              ? random_phase_profile(points, length, spectrum, arguments.seed)
+                              : filtered_noise_profile(points, length, spectrum, arguments.seed);
+  // A surface of one row, of which the moments along y are 0.
+  Surface line{{points, 1, length, length}, Field(points, 1), true, profile.origin};
+  std::vector<double> x;
+  for (Index k = 0; k < points; ++k) {
+    line.heights(k, 0) = profile.heights[static_cast<std::size_t>(k)];
+    x.push_back(static_cast<double>(k) * profile.dx());
+  }
+  const Json answer{{"points", points},
+                    {"size_x", length},
+                    {"seed", arguments.seed},
+                    {"method", method},
+                    {"target", rms_of(spectrum.moments())},
+                    {"lattice", rms_of(spectrum.lattice_moments(points, length))},
+                    {"realised", rms_of(spectral_moments(line))}};
+  if (!session.has_output())
+    session.note("no file was written; add --output FILE.csv, .json or .h5 to keep the profile");
+  write_tables(session, "generate", answer,
+               {{"profile",
+                 {{"x", "m", "position", x}, {"heights", "m", "height", profile.heights}},
+                 "periodic, " + profile.origin}});
+  session.answer(answer);
+}
+
+void run(const GenerateArguments& arguments, Session& session) {
+  require(!arguments.shape.given() || (!arguments.spectrum.given() && !arguments.profile &&
+                                       !arguments.non_gaussian() && arguments.method.empty()),
+          "--shape", arguments.shape.shape, "is no random surface; give it or a spectrum");
+  if (arguments.profile) return make_profile(arguments, session);
+  const Grid2D grid = grid_of(arguments);
+  Json answer{{"nx", grid.nx}, {"ny", grid.ny}, {"size_x", grid.lx}, {"size_y", grid.ly}};
+  Surface surface;
+  if (arguments.shape.given()) {
+    surface = arguments.shape.surface(grid);
+    answer["shape"] = arguments.shape.shape;
+  } else {
+    surface = random_surface(arguments, grid, session, answer);
+  }
+  if (!arguments.composite.empty()) {
+    surface = composite_surface(surface, read_surface(arguments.composite));
+    answer["composite"] = arguments.composite;
+  }
+  if (!arguments.crop.empty()) {
+    surface = cropped(arguments, surface);
+    answer["nx"] = surface.grid.nx;
+    answer["ny"] = surface.grid.ny;
+    answer["size_x"] = surface.grid.lx;
+    answer["size_y"] = surface.grid.ly;
+    answer["periodic"] = surface.periodic;
+  }
+  // Wave by wave where the surface is periodic, by differences of its points elsewhere.
+  if (surface.periodic || (surface.grid.nx >= 3 && surface.grid.ny >= 3))
+    answer["realised"] = all_of(surface_moments(surface));
+  if (arguments.non_gaussian()) {
+    const HeightStatistics heights = height_statistics(surface);
+    answer["realised"]["skewness"] = heights.skewness;
+    answer["realised"]["kurtosis"] = heights.kurtosis;
+  }
   if (session.has_output()) {
     Provenance provenance = session.provenance();
-    provenance.seed = arguments.seed;
-    provenance.configuration = spectrum.description();
+    if (!arguments.shape.given()) provenance.seed = arguments.seed;
+    provenance.configuration = surface.origin;
     write_surface(session.output(), surface, provenance, session.write_options());
   } else {
     session.note("no file was written; add --output FILE to keep the surface");
   }
-  session.answer({{"nx", grid.nx},
-                  {"ny", grid.ny},
-                  {"size_x", grid.lx},
-                  {"size_y", grid.ly},
-                  {"seed", arguments.seed},
-                  {"method", arguments.method},
-                  {"target", rms_of(expected.target)},
-                  {"lattice", all_of(expected.lattice)},
-                  {"realised", all_of(surface_moments(surface))}});
+  if (session.has_plot()) session.plot(surface_figure(surface));
+  session.answer(answer);
 }
 
 }  // namespace
@@ -100,12 +251,13 @@ void run(const GenerateArguments& arguments, Session& session) {
 void add_generate_command(Program& program) {
   auto arguments = std::make_shared<GenerateArguments>();
   CLI::App& command = program.add_command(
-      "generate", "make a self-affine random surface",
+      "generate", "make a random surface, a profile or an analytic shape",
       {"salebra generate --points 512 --size-x 10um --hurst 0.8 --rolloff 2um --short-cutoff 160nm "
        "--rms-height 30nm -o rough.h5",
-       "salebra generate --points 256,128 --size-x 1mm --hurst 0.5 --long-cutoff 0.5mm "
-       "--short-cutoff 40um --rms-slope 0.1 --method random-phase --seed 7 --json"},
-      [arguments](Session& session) { run(*arguments, session); });
+       "salebra generate --points 256,128 --size-x 1mm --correlation gaussian --correlation-length "
+       "50um --stretch-along 3 --rms-height 1um --skewness -1 --kurtosis 5 --seed 7 --json"},
+      [arguments](Session& session) { run(*arguments, session); },
+      "heights, power spectral density with the fitted law, distribution of heights");
   command.add_option("--points", arguments->points, "cells along x and y, NX[,NY]")
       ->required()
       ->type_name("NX[,NY]");
@@ -113,27 +265,57 @@ void add_generate_command(Program& program) {
       ->required();
   add_quantity(command, "--size-y", arguments->size_y, Dimension::length,
                "period along y; default: square cells");
-  add_quantity(command, "--hurst", arguments->hurst, Dimension::dimensionless,
-               "Hurst exponent, 0 < H <= 1")
-      ->required();
-  add_quantity(command, "--long-cutoff", arguments->long_cutoff, Dimension::length,
-               "longest wavelength; default: the cell");
-  add_quantity(command, "--rolloff", arguments->rolloff, Dimension::length,
-               "wavelength where the plateau ends; default: --long-cutoff");
-  add_quantity(command, "--short-cutoff", arguments->short_cutoff, Dimension::length,
-               "shortest wavelength, at least two cells")
-      ->required();
-  add_quantity(command, "--rms-height", arguments->rms_height, Dimension::length,
-               "of the spectrum; or --rms-slope");
-  add_quantity(command, "--rms-slope", arguments->rms_slope, Dimension::dimensionless,
-               "of the spectrum, sqrt(<|grad h|^2>)");
-  add_choice(command, "--method", arguments->method, {"filtered-noise", "random-phase"},
-             "default filtered-noise");
+  add_choice(command, "--method", arguments->method,
+             {"filtered-noise", "random-phase", "exact-rms"},
+             "Gaussian process, exact mode powers, or exact rms; default filtered-noise");
   command
       .add_option_function<std::string>(
           "--seed", [arguments](const std::string& text) { arguments->seed = seed_of(text); },
           "any whole number >= 0; default 1")
       ->type_name("INTEGER");
+  arguments->spectrum.add_to(command);
+
+  const std::string heights = "Heights that are not Gaussian";
+  add_quantity(command, "--skewness", arguments->skewness, Dimension::dimensionless,
+               "of Johnson's distribution; default 0")
+      ->group(heights);
+  add_quantity(command, "--kurtosis", arguments->kurtosis, Dimension::dimensionless,
+               "the same; 3 for a Gaussian")
+      ->group(heights);
+  add_quantity(command, "--weibull", arguments->weibull, Dimension::dimensionless,
+               "shape of Weibull's distribution")
+      ->group(heights);
+  command
+      .add_option("--heights-from", arguments->heights_from,
+                  "the distribution of heights of this surface, less its trend")
+      ->type_name("FILE")
+      ->group(heights);
+  add_choice(command, "--exact", arguments->exact, {"heights", "spectrum"},
+             "which of the two holds exactly; default heights")
+      ->group(heights);
+  command.add_option("--max-iterations", arguments->max_iterations, "at most; default 200")
+      ->group(heights);
+
+  arguments->shape.add_to(command);
+
+  const std::string after = "What is done with it";
+  command
+      .add_flag("--profile", arguments->profile,
+                "a line of heights in place of a surface: --points N, self-affine")
+      ->group(after);
+  command
+      .add_option("--composite", arguments->composite,
+                  "add the heights of this surface, which has the same points")
+      ->type_name("FILE")
+      ->group(after);
+  command
+      .add_option("--crop", arguments->crop,
+                  "keep so many points, as a surface that is not periodic")
+      ->type_name("NX[,NY]")
+      ->group(after);
+  command.add_option("--crop-from", arguments->crop_from, "first point kept; default 0,0")
+      ->type_name("X[,Y]")
+      ->group(after);
 }
 
 }  // namespace salebra::cli

@@ -8,6 +8,7 @@
 #include "answer_file.hpp"
 #include "options.hpp"
 #include "program.hpp"
+#include "surface_figure.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -43,6 +44,7 @@ void run(const SurfaceOptions& options, Session& session) {
                       {"rms_height", summits.rms_height},
                       {"mean_radius", summits.mean_radius}}}};
   write_answer(session, "info", answer);
+  if (session.has_plot()) session.plot(surface_figure(surface));
   session.answer(answer);
 }
 
@@ -54,7 +56,8 @@ void add_info_command(Program& program) {
       "info", "size and statistics of a surface",
       {"salebra info scan.txt",
        "salebra info heights.npy --size-x 10um --size-y 10um --detrend none --json"},
-      [options](Session& session) { run(*options, session); });
+      [options](Session& session) { run(*options, session); },
+      "heights, power spectral density with the fitted law, distribution of heights");
   options->add_to(command);
 }
 

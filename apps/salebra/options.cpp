@@ -120,7 +120,7 @@ void SurfaceOptions::add_to(CLI::App& app, bool needed, const std::string& field
                  "such as nm, for files that do not name one; default m")
       ->type_name("UNIT")
       ->group(group);
-  add_choice(app, "--detrend", detrend, {"none", "mean", "plane"},
+  add_choice(app, "--detrend", detrend, {"none", "mean", "plane", "quadratic"},
              "default: plane if measured, mean if generated")
       ->group(group);
 }
@@ -141,6 +141,7 @@ std::optional<Detrend> SurfaceOptions::detrend_method() const {
   if (detrend == "none") return Detrend::none;
   if (detrend == "mean") return Detrend::mean;
   if (detrend == "plane") return Detrend::plane;
+  if (detrend == "quadratic") return Detrend::quadratic;
   return {};
 }
 

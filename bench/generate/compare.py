@@ -61,7 +61,7 @@ def main():
     parser.add_argument("--repeats", type=int, default=5)
     args = parser.parse_args()
 
-    print(f"{'points':>7} {'program':<20} {'seconds':>9} {'over salebra':>13}")
+    print(f"{'points':>7} {'program':<28} {'seconds':>9} {'over salebra':>13}")
     for n in args.points:
         peers = {"Tamaas": tamaas, "SurfaceTopography": surface_topography, "numpy": plain_numpy}
         makers = {name: make(n, args.cells) for name, make in peers.items()}
@@ -74,13 +74,21 @@ def main():
                 start = time.process_time()
                 make(seed)
                 times[name].append(time.process_time() - start)
-        reference = statistics.median(run["filtered_noise"] for run in own)
-        fft = statistics.median(min(run["fft_estimate"], run["fft_measured"]) for run in own)
-        rows = {"salebra": reference, "one c2r FFT (FFTW)": fft}
+        median = {key: statistics.median(run[key] for run in own) for key in own[0]}
+        reference = median["filtered_noise"]
+        fft = min(median["fft_estimate"], median["fft_measured"])
+        rows = {"salebra, filtered noise": reference, "salebra, random phase": median["random_phase"],
+                "one c2r FFT (FFTW)": fft, "normal numbers of all modes": median["random_numbers_of_all_modes"]}
         rows |= {name: statistics.median(values) for name, values in times.items()}
         for name, seconds in rows.items():
-            print(f"{n:>7} {name:<20} {seconds:>9.4f} {seconds / reference:>13.2f}")
-        print(f"{n:>7} peak memory of salebra over the heights: {own[0]['memory_over_heights']:.2f}")
+            print(f"{n:>7} {name:<28} {seconds:>9.4f} {seconds / reference:>13.2f}")
+        best = min(makers, key=lambda name: rows[name])
+        limit = 1.6 * fft + median["random_numbers_of_all_modes"]
+        scaling = max(run["two_threads_over_one"] for run in own)
+        print(f"{n:>7} faster than the best peer ({best}): {rows[best] / reference:.1f} times\n"
+              f"{n:>7} over 1.6 FFT + random numbers: {reference / limit:.2f}\n"
+              f"{n:>7} two threads: {scaling:.2f} times as fast as one\n"
+              f"{n:>7} peak memory over the heights: {own[0]['memory_over_heights']:.3f}")
 
 
 if __name__ == "__main__":

@@ -10,6 +10,8 @@
 #include <salebra/generators/random_phase.hpp>
 #include <vector>
 
+#include "synthesis.hpp"
+
 namespace salebra {
 namespace {
 
@@ -112,12 +114,21 @@ class TargetAmplitudes {
 
 }  // namespace
 
+std::size_t non_gaussian_memory(const Grid2D& grid) {
+  // Heights, those of the iteration before, the ordered ones and their ranks (two numbers each); modes and their targets.
+  const auto points = static_cast<std::size_t>(grid.points());
+  const auto modes = static_cast<std::size_t>(grid.nx * (grid.ny / 2 + 1));
+  return (5 * points + 3 * modes) * sizeof(double);
+}
+
 NonGaussianSurface non_gaussian(const Grid2D& grid, const Spectrum& spectrum,
                                 const HeightDistribution& distribution, std::uint64_t seed,
                                 const NonGaussianOptions& options) {
   require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "must be >= 1");
   require(options.tolerance >= 0 && options.tolerance < 1, "tolerance", options.tolerance,
           "must lie in 0 <= tolerance < 1");
+  spectrum.require_carried_by(grid);
+  detail::require_memory(grid, non_gaussian_memory(grid));
   NonGaussianSurface result;
   result.surface = random_phase(grid, spectrum, seed);
   result.surface.origin = distribution.name + ", " + result.surface.origin;

@@ -8,10 +8,9 @@
 #include <string>
 
 namespace salebra::detail {
-namespace {
 
-void require_memory(const Grid2D& grid) {
-  const double gigabytes = 1e-9 * static_cast<double>(column_fft_memory(grid.nx, grid.ny));
+void require_memory(const Grid2D& grid, std::size_t bytes) {
+  const double gigabytes = 1e-9 * static_cast<double>(bytes);
   const double available = 1e-9 * static_cast<double>(available_memory());
   std::ostringstream constraint;
   constraint.precision(3);
@@ -21,11 +20,9 @@ void require_memory(const Grid2D& grid) {
           std::to_string(grid.nx) + " x " + std::to_string(grid.ny), constraint.str());
 }
 
-}  // namespace
-
 Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Chance chance) {
   const CarriedModes carried(grid, spectrum);
-  require_memory(grid);
+  require_memory(grid, column_fft_memory(grid.nx, grid.ny));
   const RandomModes modes(carried, seed, chance);
   return backward_by_columns(
       grid.nx, grid.ny, carried.j_max() + 1,

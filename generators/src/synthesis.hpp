@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+
 #include "modes.hpp"
 
 namespace salebra::detail {
 
 /// h(x) = Σ_q a(q) e^{iq·x} on the points of the grid with the amplitudes of RandomModes. Same bits for every thread count.
 Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Chance chance);
+
+/// Throws InvalidInput where the system says that less than so many bytes are available.
+void require_memory(const Grid2D& grid, std::size_t bytes);
 
 }  // namespace salebra::detail

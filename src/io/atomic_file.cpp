@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <salebra/base/error.hpp>
+#include <salebra/io/text_file.hpp>
 #include <string>
 
 namespace salebra {
@@ -96,4 +97,12 @@ void AtomicFile::fail(const char* doing, int error) const {
 }
 
 }  // namespace detail
+
+void write_text_file(const std::filesystem::path& file, std::string_view text,
+                     const WriteOptions& options) {
+  detail::AtomicFile output(file, options);
+  output.write(text);
+  output.commit();
+}
+
 }  // namespace salebra

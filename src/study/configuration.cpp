@@ -96,8 +96,8 @@ MeasuredSurface read_measured(TomlTable& table, const std::filesystem::path& fol
     if (*size) check_positive(table, key, **size);
   }
   surface.height_unit = table.text("height_unit").value_or("");
-  if (const auto choice = table.choice("detrend", {"none", "mean", "plane"})) {
-    surface.detrend = std::array{Detrend::none, Detrend::mean, Detrend::plane}[*choice];
+  if (const auto choice = table.choice("detrend", {"none", "mean", "plane", "quadratic"})) {
+    surface.detrend = std::array{Detrend::none, Detrend::mean, Detrend::plane, Detrend::quadratic}[*choice];
   }
   return surface;
 }

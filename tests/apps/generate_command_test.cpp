@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 
 #include "run_program.hpp"
 
@@ -69,4 +71,162 @@ TEST_CASE("A converted surface has the same statistics", "[convert]") {
   CHECK(after["rms_height"].get<double>() ==
         Approx(before["rms_height"].get<double>()).epsilon(1e-12));
   check_refused(test.run("convert rough.h5 rough.npy"), "rough.npy");
+}
+
+TEST_CASE("exact-rms has exactly the rms height or slope asked", "[generate]") {
+  const ProgramTest test;
+  const auto height = test.run(recipe + "--method exact-rms --json").json();
+  CHECK(height["realised"]["rms_height"].get<double>() == Approx(1e-8).epsilon(1e-12));
+  // This cell holds few of the long waves: the modes alone would be off.
+  CHECK(std::abs(height["lattice"]["rms_height"].get<double>() / 1e-8 - 1) > 1e-3);
+  const auto slope =
+      test.run(
+              "generate --points 64 --size-x 4um --hurst 0.8 --rolloff 2um --short-cutoff 0.5um "
+              "--rms-slope 0.1 --method exact-rms --json")
+          .json();
+  CHECK(slope["realised"]["rms_slope"].get<double>() == Approx(0.1).epsilon(1e-12));
+}
+
+TEST_CASE("A spectrum from a table is the spectrum that wrote it, in any convention",
+          "[generate]") {
+  const ProgramTest test;
+  // C = 1e-30 m⁴ from 2 to 16 waves on a cell of 1 µm.
+  const double q = 2 * std::numbers::pi / 1e-6;
+  const auto line = [](double a, double b) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.17g %.17g\n", a, b);
+    return std::string(text);
+  };
+  const double turn = std::pow(2 * std::numbers::pi, 2);
+  test.write("own.txt", "q C\n" + line(2 * q, 1e-30) + line(16 * q, 1e-30));
+  test.write("theirs.txt", line(2 * q, turn * 1e-30) + line(16 * q, turn * 1e-30));
+  const std::string grid = "generate --points 64 --size-x 1um --method random-phase --json ";
+  const auto own = test.run(grid + "--psd-table own.txt").json();
+  const double exact = std::sqrt(1e-30 * std::numbers::pi * (256 - 4) * q * q);
+  CHECK(own["target"]["rms_height"].get<double>() == Approx(exact).epsilon(1e-9));
+  const auto theirs =
+      test.run(grid + "--psd-table theirs.txt --convention surface-topography").json();
+  CHECK(theirs["target"]["rms_height"].get<double>() == Approx(exact).epsilon(1e-9));
+  const auto scaled = test.run(grid + "--psd-table own.txt --rms-height 3nm").json();
+  CHECK(scaled["target"]["rms_height"].get<double>() == Approx(3e-9).epsilon(1e-9));
+  check_refused(test.run(grid + "--psd-table own.txt --hurst 0.5"), "--hurst");
+}
+
+TEST_CASE("A stretched surface has a lay of Peklenik's number", "[generate]") {
+  const ProgramTest test;
+  const auto made =
+      test.run(
+              "generate --points 256 --size-x 1mm --correlation gaussian --correlation-length 40um "
+              "--stretch-along 2 --stretch-across 0.5 --lay-angle 90deg --rms-height 1um "
+              "--method random-phase -o lay.h5 --json")
+          .json();
+  CHECK(made["anisotropy"]["peklenik"] == 4);
+  CHECK(made["anisotropy"]["correlation_length_along"].get<double>() == Approx(80e-6));
+  const auto seen = test.run("statistics lay.h5 --json").json();
+  // The lay runs along y, the waves across it.
+  CHECK(seen["areal"]["Str"].get<double>() == Approx(0.25).epsilon(0.05));
+  const double direction = seen["areal"]["Std"];
+  CHECK(std::min(direction, std::numbers::pi - direction) < 0.02);
+}
+
+TEST_CASE("Heights have the skewness and kurtosis asked, in the order of the random surface",
+          "[generate]") {
+  const ProgramTest test;
+  const auto johnson = test.run(recipe + "--skewness -0.8 --kurtosis 4.5 --json");
+  REQUIRE(johnson.status == 0);
+  const auto made = johnson.json();
+  CHECK(made["method"] == "non-gaussian");
+  CHECK(made["distribution"]["converged"] == true);
+  // 3072 points cut the tails.
+  CHECK(made["realised"]["skewness"].get<double>() == Approx(-0.8).margin(0.05));
+  CHECK(made["realised"]["kurtosis"].get<double>() == Approx(4.5).margin(0.3));
+  const auto weibull = test.run(recipe + "--weibull 1.5 -o w.h5 --json").json();
+  // Γ(1 + 3/k) … of Weibull's distribution of shape 1.5.
+  CHECK(weibull["realised"]["skewness"].get<double>() == Approx(1.072).margin(0.05));
+  const auto copied = test.run(recipe + "--heights-from w.h5 --seed 9 --json").json();
+  CHECK(copied["realised"]["skewness"].get<double>() ==
+        Approx(weibull["realised"]["skewness"].get<double>()).epsilon(0.01));
+  check_refused(test.run(recipe + "--skewness 2 --kurtosis 3"), "kurtosis");
+  check_refused(test.run(recipe + "--skewness 2"), "--kurtosis");
+}
+
+TEST_CASE("Shapes stand off the grid unless told otherwise", "[generate]") {
+  const ProgramTest test;
+  const auto ball = test.run(
+      "generate --shape paraboloid --radius 1mm --points 32 --size-x 32um -o p.npy --json");
+  REQUIRE(ball.status == 0);
+  CHECK(ball.json()["shape"] == "paraboloid");
+  // m4 of a paraboloid is 1/R² along either axis.
+  CHECK(ball.json()["realised"]["moment4"].get<double>() == Approx(1e6).epsilon(1e-6));
+  const std::string scan = " --size-x 32um --size-y 32um --detrend none --json";
+  const auto off = test.run("statistics p.npy" + scan).json();
+  // The nearest point is (0.31, 0.17) of a cell away: −(0.31² + 0.17²) dx²/(2R).
+  const double highest = off["bearing"]["height"][0];
+  CHECK(highest == Approx(-(0.31 * 0.31 + 0.17 * 0.17) * 1e-12 / 2e-3).epsilon(1e-6));
+  REQUIRE(test.run("generate --shape paraboloid --radius 1mm --points 32 --size-x 32um "
+                   "--center middle -o m.npy")
+              .status == 0);
+  CHECK(std::abs(test.run("statistics m.npy" + scan).json()["bearing"]["height"][0].get<double>()) <
+        1e-20);
+  check_refused(test.run("generate --shape cone --points 32 --size-x 1um"), "--angle");
+  check_refused(
+      test.run("generate --shape cone --angle 10deg --radius 1um --points 32 --size-x 1um"),
+      "--radius");
+  for (const char* shape :
+       {"sphere --radius 1um", "cylinder --radius 1um --depth 1um", "ridge --radius 1um",
+        "rounded-cylinder --radius 1um --edge-radius 1um", "wedge --angle 0.1",
+        "elliptic-paraboloid --radius-x 1um --radius-y 2um",
+        "ellipsoid --semi-x 1um --semi-y 2um --semi-z 1um",
+        "pyramids --count-x 2 --count-y 3 --angle 20deg",
+        "sinusoid --amplitude 1nm --count-x 1 --count-y 2"}) {
+    INFO(shape);
+    CHECK(test.run(std::string("generate --points 32 --size-x 4um --shape ") + shape).status == 0);
+  }
+}
+
+TEST_CASE("A crop is a part of its surface, and a composite the sum of two", "[generate]") {
+  const ProgramTest test;
+  REQUIRE(test.run(recipe + "--seed 1 -o one.npy").status == 0);
+  const auto crop =
+      test.run(recipe + "--seed 1 --crop 32,16 --crop-from 5,7 -o part.h5 --json").json();
+  CHECK(crop["nx"] == 32);
+  CHECK(crop["size_y"].get<double>() == Approx(1e-6));
+  CHECK(crop["periodic"] == false);
+  const auto sum = test.run(recipe + "--seed 1 --composite one.npy --json").json();
+  const auto single = test.run(recipe + "--seed 1 --json").json();
+  CHECK(sum["realised"]["rms_height"].get<double>() ==
+        Approx(2 * single["realised"]["rms_height"].get<double>()).epsilon(1e-12));
+}
+
+TEST_CASE("A profile is made from its own spectrum", "[generate]") {
+  const ProgramTest test;
+  const auto made = test.run(
+      "generate --profile --points 1024 --size-x 1mm --hurst 0.6 --rolloff 0.2mm --short-cutoff "
+      "10um --rms-height 1um --method random-phase -o line.csv --json");
+  REQUIRE(made.status == 0);
+  const auto answer = made.json();
+  CHECK(answer["realised"]["rms_height"].get<double>() ==
+        Approx(answer["lattice"]["rms_height"].get<double>()).epsilon(1e-10));
+  CHECK(answer["realised"]["rms_slope"].get<double>() ==
+        Approx(answer["lattice"]["rms_slope"].get<double>()).epsilon(1e-10));
+  CHECK(test.read("line.profile.csv").find("x,heights") != std::string::npos);
+  check_refused(test.run("generate --profile --points 64 --size-x 1mm --hurst 0.6 --rolloff 1mm "
+                         "--short-cutoff 0.1mm --rms-height 1um --stretch-along 2"),
+                "--profile");
+}
+
+TEST_CASE("A surface that the grid cannot carry is refused, one that it carries badly is warned of",
+          "[generate]") {
+  const ProgramTest test;
+  const std::string grid = "generate --points 64 --size-x 64um --hurst 0.8 --rms-height 1um ";
+  check_refused(test.run(grid + "--rolloff 8um --short-cutoff 1.9um"), "short");
+  const auto few = test.run(grid + "--rolloff 8um --short-cutoff 4um");
+  CHECK(few.status == 0);
+  CHECK(few.err.find("warning: the shortest wavelength has 4 cells") != std::string::npos);
+  const auto long_waves = test.run(grid + "--rolloff 32um --short-cutoff 8um");
+  CHECK(long_waves.err.find("scatters") != std::string::npos);
+  CHECK(few.err.find("memory: ") != std::string::npos);
+  check_refused(test.run("generate --points 1000000 --size-x 1 --hurst 0.8 --rms-height 1um "
+                         "--rolloff 0.1 --short-cutoff 1e-4"),
+                "memory");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <salebra/base/progress.hpp>
 #include <salebra/generators/height_distribution.hpp>
@@ -34,9 +35,12 @@ struct NonGaussianSurface {
 /// mode amplitudes by those of the spectrum with the same phases. It starts from random_phase of the seed, whose mode powers are the
 /// target, and has the rms height of that surface. Same bits for every thread count; since ranks depend on all points, a
 /// finer grid is another surface. The grid cuts the tails: N points reach the quantiles 1/(2N) and 1 − 1/(2N).
-/// Errors as random_phase. Cost: two real FFTs and a sort of all points for an iteration; memory about five times the heights.
+/// Errors as random_phase, of the memory that non_gaussian_memory says. Cost: two real FFTs and a sort of all points for an iteration.
 NonGaussianSurface non_gaussian(const Grid2D& grid, const Spectrum& spectrum,
                                 const HeightDistribution& distribution, std::uint64_t seed,
                                 const NonGaussianOptions& options = {});
+
+/// Peak memory of non_gaussian on this grid, bytes: six and a half times the heights.
+std::size_t non_gaussian_memory(const Grid2D& grid);
 
 }  // namespace salebra

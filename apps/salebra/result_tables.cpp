@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "result_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/base/quantity.hpp>
+#include <salebra/base/version.hpp>
+#include <salebra/io/text_file.hpp>
+
+#include "answer_file.hpp"
+#include "text.hpp"
+
+namespace salebra::cli {
+namespace {
+
+enum class Kind { hdf5, json, csv };
+
+Kind kind_of(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  if (extension == ".h5" || extension == ".hdf5") return Kind::hdf5;
+  if (extension == ".json") return Kind::json;
+  require(extension == ".csv", "--output", file.string(),
+          "has no extension of a table; use .h5, .json or .csv");
+  return Kind::csv;
+}
+
+/// scan.csv and "psd" make scan.psd.csv.
+std::filesystem::path beside(std::filesystem::path file, const std::string& table) {
+  return file.replace_extension(table + ".csv");
+}
+
+void append_lines(std::string& text, const Json& object, const std::string& path) {
+  for (const auto& [name, value] : object.items()) {
+    const std::string full = path.empty() ? name : path + "." + name;
+    const Quantity quantity = find_quantity(name);
+    if (value.is_object())
+      append_lines(text, value, full);
+    else if (!value.is_array())
+      text += fmt::format("{},{},{},\"{}\"\n", full, value.is_null() ? "nan" : value.dump(),
+                          value.is_number_float() ? unit_of(name) : "",
+                          quantity.long_name);
+  }
+}
+
+std::string comment(const Session& session, const ResultTable& table) {
+  std::string text = fmt::format("# {}, salebra {}\n# {}\n", table.name, version(),
+                                 session.provenance().command_line);
+  if (!table.note.empty()) text += "# " + table.note + "\n";
+  for (const ResultColumn& column : table.columns)
+    text += fmt::format("# {} in {}: {}\n", column.name, column.units, column.long_name);
+  return text;
+}
+
+std::string to_csv(const Session& session, const ResultTable& table) {
+  std::string text = comment(session, table);
+  for (std::size_t k = 0; k < table.columns.size(); ++k)
+    text += (k > 0 ? "," : "") + table.columns[k].name;
+  text += '\n';
+  for (std::size_t row = 0; row < table.columns.front().values.size(); ++row) {
+    for (std::size_t k = 0; k < table.columns.size(); ++k)
+      text += fmt::format("{}{}", k > 0 ? "," : "", table.columns[k].values[row]);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+void require_tables(const Session& session, const std::vector<std::string>& tables) {
+  if (!session.has_output()) return;
+  if (kind_of(session.output()) != Kind::csv) return;
+  for (const std::string& table : tables)
+    require_output(beside(session.output(), table), session.write_options());
+}
+
+void write_tables(const Session& session, const std::string& group, const Json& answer,
+                  const std::vector<ResultTable>& tables) {
+  if (!session.has_output()) return;
+  const std::filesystem::path file = session.output();
+  switch (kind_of(file)) {
+    case Kind::hdf5: {
+      ResultFile results(file, session.provenance(), session.write_options());
+      write_answer(results, group, answer);
+      for (const ResultTable& table : tables) {
+        ResultGroup place = results.group(table.name);
+        const ResultColumn& first = table.columns.front();
+        place.coordinate(first.name, first.values, first.units, first.long_name);
+        for (std::size_t k = 1; k < table.columns.size(); ++k) {
+          const ResultColumn& column = table.columns[k];
+          place.dataset(column.name, column.values, {first.name}, column.units, column.long_name);
+        }
+        if (!table.note.empty()) place.attribute("note", table.note);
+      }
+      results.commit();
+      break;
+    }
+    case Kind::json:
+      write_text_file(
+          file,
+          with_tables(answer, tables).dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+          session.write_options());
+      break;
+    case Kind::csv: {
+      std::string text = "name,value,unit,meaning\n";
+      append_lines(text, answer, "");
+      write_text_file(file, text, session.write_options());
+      for (const ResultTable& table : tables)
+        write_text_file(beside(file, table.name), to_csv(session, table), session.write_options());
+      break;
+    }
+  }
+}
+
+Json with_tables(Json answer, const std::vector<ResultTable>& tables) {
+  for (const ResultTable& table : tables) {
+    Json object, units;
+    for (const ResultColumn& column : table.columns) {
+      object[column.name] = column.values;
+      units[column.name] = column.units;
+    }
+    object["units"] = units;
+    if (!table.note.empty()) object["note"] = table.note;
+    answer[table.name] = object;
+  }
+  return answer;
+}
+
+std::string to_text(const ResultTable& table) {
+  std::vector<std::vector<std::string>> rows(table.columns.front().values.size() + 1);
+  for (const ResultColumn& column : table.columns) {
+    rows.front().push_back(column.units == "1" ? column.name
+                                               : fmt::format("{} [{}]", column.name, column.units));
+    for (std::size_t k = 0; k < column.values.size(); ++k)
+      rows[k + 1].push_back(fmt::format("{:.5g}", column.values[k]));
+  }
+  return "\n" + table.name + (table.note.empty() ? "" : ": " + table.note) + "\n" + to_table(rows);
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "session.hpp"
+
+namespace salebra::cli {
+
+/// A column of numbers with what it takes to read it.
+struct ResultColumn {
+  std::string name;       ///< "structure"
+  std::string units;      ///< SI; "1" for a pure number
+  std::string long_name;  ///< "mean square difference of heights"
+  std::vector<double> values;
+};
+
+/// Columns of one length, the first of which is the coordinate.
+struct ResultTable {
+  std::string name;
+  std::vector<ResultColumn> columns;
+  std::string note = {};  ///< such as a normalisation; empty: none
+};
+
+/// An answer and tables, as --output asks for them by its extension:
+///   .h5 .hdf5   a group `group` for the answer and one for each table, its first column a dimension scale
+///   .json       the answer with an object for each table, as --json prints it
+///   .csv        the answer as lines name,value,unit,meaning, and beside it FILE.<table>.csv for each table
+/// Throws InvalidInput for another extension, and as the writers do.
+void write_tables(const Session& session, const std::string& group, const Json& answer,
+                  const std::vector<ResultTable>& tables);
+/// Throws what write_tables would throw at its start.
+void require_tables(const Session& session, const std::vector<std::string>& tables);
+
+/// The answer with an object for each table: {"x": […], "y": […], "units": {…}, "note": …}.
+Json with_tables(Json answer, const std::vector<ResultTable>& tables);
+
+/// For people: title with note, then columns headed "name [unit]".
+std::string to_text(const ResultTable& table);
+
+}  // namespace salebra::cli

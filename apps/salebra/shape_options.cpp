@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shape_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <salebra/base/error.hpp>
+#include <salebra/generators/shapes.hpp>
+#include <vector>
+
+#include "options.hpp"
+
+namespace salebra::cli {
+namespace {
+
+/// The numbers that follow a shape's name, in the order of its maker's arguments.
+struct Shape {
+  std::vector<std::string> options;
+  std::function<Surface(const Grid2D&, const std::vector<double>&, const PlanePoint&)> make;
+};
+
+Index whole(double value, const char* option) {
+  require(value == std::floor(value) && value >= 0 && value < 1e6, option, value,
+          "must be a whole number >= 0");
+  return static_cast<Index>(value);
+}
+
+/// Axes stand at the point; repeated shapes are moved by it.
+Shape shape_named(const std::string& name) {
+  using Values = std::vector<double>;
+  if (name == "sphere")
+    return {{"--radius"},
+            [](auto& grid, const Values& v, auto& at) { return sphere_surface(grid, v[0], at); }};
+  if (name == "paraboloid")
+    return {{"--radius"}, [](auto& grid, const Values& v, auto& at) {
+              return paraboloid_surface(grid, v[0], at);
+            }};
+  if (name == "elliptic-paraboloid")
+    return {{"--radius-x", "--radius-y"}, [](auto& grid, const Values& v, auto& at) {
+              return elliptic_paraboloid_surface(grid, v[0], v[1], at);
+            }};
+  if (name == "ellipsoid")
+    return {{"--semi-x", "--semi-y", "--semi-z"}, [](auto& grid, const Values& v, auto& at) {
+              return ellipsoid_surface(grid, v[0], v[1], v[2], at);
+            }};
+  if (name == "cone")
+    return {{"--angle"},
+            [](auto& grid, const Values& v, auto& at) { return cone_surface(grid, v[0], at); }};
+  if (name == "wedge")
+    return {{"--angle"},
+            [](auto& grid, const Values& v, auto& at) { return wedge_surface(grid, v[0], at); }};
+  if (name == "ridge")
+    return {{"--radius"},
+            [](auto& grid, const Values& v, auto& at) { return ridge_surface(grid, v[0], at); }};
+  if (name == "cylinder")
+    return {{"--radius", "--depth"}, [](auto& grid, const Values& v, auto& at) {
+              return flat_punch_surface(grid, v[0], v[1], at);
+            }};
+  if (name == "rounded-cylinder")
+    return {{"--radius", "--edge-radius"}, [](auto& grid, const Values& v, auto& at) {
+              return rounded_punch_surface(grid, v[0], v[1], at);
+            }};
+  if (name == "pyramids")
+    return {{"--count-x", "--count-y", "--angle"}, [](auto& grid, const Values& v, auto& at) {
+              return pyramids_surface(grid, whole(v[0], "--count-x"), whole(v[1], "--count-y"),
+                                      v[2], at);
+            }};
+  return {{"--amplitude", "--count-x", "--count-y"}, [](auto& grid, const Values& v, auto& at) {
+            return sinusoid_surface(grid, v[0], whole(v[1], "--count-x"), whole(v[2], "--count-y"),
+                                    at);
+          }};
+}
+
+}  // namespace
+
+void ShapeOptions::add_to(CLI::App& app) {
+  const std::string group = "Shape, in place of a spectrum";
+  add_choice(app, "--shape", shape,
+             {"sphere", "paraboloid", "elliptic-paraboloid", "ellipsoid", "cone", "wedge", "ridge",
+              "cylinder", "rounded-cylinder", "pyramids", "sinusoid"},
+             "shape")
+      ->group(group);
+  const auto length = [&](const char* name, std::optional<double>& value, const char* help) {
+    add_quantity(app, name, value, Dimension::length, help)->group(group);
+  };
+  length("--radius", radius, "sphere, paraboloid, ridge, cylinder, rounded-cylinder");
+  length("--radius-x", radius_x, "elliptic-paraboloid: of curvature along x");
+  length("--radius-y", radius_y, "elliptic-paraboloid: of curvature along y");
+  length("--semi-x", semi_x, "ellipsoid: semi-axis along x");
+  length("--semi-y", semi_y, "ellipsoid: semi-axis along y");
+  length("--semi-z", semi_z, "ellipsoid: semi-axis out of the surface");
+  length("--depth", depth, "cylinder: from its face to the ground");
+  length("--edge-radius", edge_radius, "rounded-cylinder: of curvature outside the flat face");
+  length("--amplitude", amplitude, "sinusoid");
+  length("--center-x", center_x, "of the axis, or shift of pyramids and sinusoid");
+  length("--center-y", center_y, "as --center-x");
+  add_quantity(app, "--angle", angle, Dimension::angle,
+               "cone, wedge, pyramids: of the flank to the plane")
+      ->group(group);
+  add_quantity(app, "--count-x", count_x, Dimension::dimensionless,
+               "pyramids, sinusoid: how many along x")
+      ->group(group);
+  add_quantity(app, "--count-y", count_y, Dimension::dimensionless, "the same along y")
+      ->group(group);
+  add_choice(app, "--center", center, {"off-grid", "middle"},
+             "default off-grid: (0.31, 0.17) of a cell off the middle, which makes the contact "
+             "area grow smoothly")
+      ->group(group);
+}
+
+Surface ShapeOptions::surface(const Grid2D& grid) const {
+  const Shape named = shape_named(shape);
+  const std::vector<std::pair<std::string, const std::optional<double>*>> known{
+      {"--radius", &radius},       {"--radius-x", &radius_x}, {"--radius-y", &radius_y},
+      {"--semi-x", &semi_x},       {"--semi-y", &semi_y},     {"--semi-z", &semi_z},
+      {"--angle", &angle},         {"--depth", &depth},       {"--edge-radius", &edge_radius},
+      {"--amplitude", &amplitude}, {"--count-x", &count_x},   {"--count-y", &count_y}};
+  std::vector<double> values;
+  for (const std::string& option : named.options) {
+    const auto found = std::ranges::find(known, option, [](auto& entry) { return entry.first; });
+    values.push_back(required(*found->second, option, "--shape " + shape + " needs it"));
+  }
+  for (const auto& [option, value] : known)
+    require(!*value || std::ranges::find(named.options, option) != named.options.end(), option,
+            "given,", "but --shape " + shape + " has none; leave it out");
+  const bool repeated = shape == "pyramids" || shape == "sinusoid";
+  const PlanePoint off_grid = off_grid_center(grid);
+  const PlanePoint middle{grid.lx / 2, grid.ly / 2};
+  PlanePoint at = center == "middle" ? middle : off_grid;
+  if (repeated) at = {at.x - middle.x, at.y - middle.y};
+  return named.make(grid, values, {center_x.value_or(at.x), center_y.value_or(at.y)});
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "spectrum_options.hpp"
+
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/generators/anisotropic_spectrum.hpp>
+#include <salebra/generators/radial_spectrum.hpp>
+#include <salebra/io/number_table.hpp>
+#include <utility>
+
+#include "options.hpp"
+
+namespace salebra::cli {
+namespace {
+
+/// Options that a kind of spectrum has no use for must not be given.
+void require_absent(const std::optional<double>& value, std::string_view option,
+                    const std::string& kind) {
+  require(!value, option, "given,", "but " + kind + " has none; leave it out");
+}
+
+}  // namespace
+
+void SpectrumOptions::add_to(CLI::App& app) {
+  const std::string group = "Spectrum";
+  add_quantity(app, "--hurst", hurst, Dimension::dimensionless,
+               "self-affine: Hurst exponent, 0 < H <= 1")
+      ->group(group);
+  add_quantity(app, "--long-cutoff", long_cutoff, Dimension::length,
+               "self-affine: longest wavelength; default: the cell")
+      ->group(group);
+  add_quantity(app, "--rolloff", rolloff, Dimension::length,
+               "self-affine: wavelength where the plateau ends; default: --long-cutoff")
+      ->group(group);
+  add_quantity(app, "--short-cutoff", short_cutoff, Dimension::length,
+               "shortest wavelength, at least two cells")
+      ->group(group);
+  add_quantity(app, "--rms-height", rms_height, Dimension::length,
+               "of the spectrum; or --rms-slope")
+      ->group(group);
+  add_quantity(app, "--rms-slope", rms_slope, Dimension::dimensionless,
+               "of the spectrum, sqrt(<|grad h|^2>)")
+      ->group(group);
+  add_choice(app, "--correlation", correlation, {"gaussian", "exponential"},
+             "in place of --hurst, with --correlation-length and --rms-height")
+      ->group(group);
+  add_quantity(app, "--correlation-length", correlation_length, Dimension::length,
+               "where the correlation has fallen by e")
+      ->group(group);
+  app.add_option("--psd-table", table,
+                 "in place of --hurst: file with two columns, wave number in rad/m and density; "
+                 "--rms-height scales it")
+      ->type_name("FILE")
+      ->group(group);
+  add_choice(app, "--convention", convention, {"salebra", "surface-topography", "gwyddion"},
+             "of --psd-table; default salebra, rms_height^2 = integral of C d^2q")
+      ->group(group);
+  add_quantity(app, "--stretch-along", stretch_along, Dimension::dimensionless,
+               "factor on the correlation length along the lay; default 1")
+      ->group(group);
+  add_quantity(app, "--stretch-across", stretch_across, Dimension::dimensionless,
+               "the same across the lay; default 1")
+      ->group(group);
+  add_quantity(app, "--lay-angle", lay_angle, Dimension::angle,
+               "from the x axis to the lay; default 0")
+      ->group(group);
+}
+
+SelfAffineParameters SpectrumOptions::self_affine() const {
+  return {.hurst = required(hurst, "--hurst",
+                            "a spectrum is needed; give it, --correlation, --psd-table or --shape"),
+          .long_cutoff = long_cutoff,
+          .rolloff = rolloff,
+          .short_cutoff =
+              required(short_cutoff, "--short-cutoff", "a self-affine spectrum needs its end"),
+          .rms_height = rms_height,
+          .rms_slope = rms_slope};
+}
+
+std::shared_ptr<const IsotropicSpectrum> SpectrumOptions::tabulated() const {
+  auto columns = read_number_table(table, 2);
+  for (std::size_t k = 0; k < columns[1].size(); ++k) {
+    constexpr double turn = 2 * std::numbers::pi;
+    if (convention == "surface-topography") columns[1][k] /= turn * turn;
+    if (convention == "gwyddion") columns[1][k] /= turn * columns[0][k];
+  }
+  TabulatedSpectrum spectrum(columns[0], columns[1]);
+  if (rms_height) {
+    require_positive(*rms_height, "--rms-height");
+    const double factor = *rms_height / spectrum.moments().rms_height();
+    for (double& density : columns[1]) density *= factor * factor;
+    spectrum = TabulatedSpectrum(columns[0], columns[1]);
+  }
+  return std::make_shared<TabulatedSpectrum>(std::move(spectrum));
+}
+
+std::shared_ptr<const IsotropicSpectrum> SpectrumOptions::isotropic() const {
+  const std::string kind = !table.empty()         ? "--psd-table"
+                           : !correlation.empty() ? "--correlation " + correlation
+                                                  : "--hurst";
+  if (kind == "--hurst") {
+    require_absent(correlation_length, "--correlation-length", "a self-affine spectrum");
+    return std::make_shared<SelfAffineSpectrum>(self_affine());
+  }
+  require(table.empty() || correlation.empty(), "--correlation", "given",
+          "beside --psd-table; give one of them");
+  for (const auto& [value, option] :
+       {std::pair{&hurst, "--hurst"}, std::pair{&long_cutoff, "--long-cutoff"},
+        std::pair{&rolloff, "--rolloff"}, std::pair{&rms_slope, "--rms-slope"}})
+    require_absent(*value, option, kind);
+  if (!table.empty()) {
+    require_absent(correlation_length, "--correlation-length", kind);
+    require_absent(short_cutoff, "--short-cutoff", kind);
+    return tabulated();
+  }
+  const double height = required(rms_height, "--rms-height", kind + " needs it");
+  const double length = required(correlation_length, "--correlation-length", kind + " needs it");
+  if (correlation == "gaussian") {
+    require_absent(short_cutoff, "--short-cutoff", kind);
+    return std::make_shared<FunctionSpectrum>(gaussian_correlation_spectrum(height, length));
+  }
+  return std::make_shared<FunctionSpectrum>(exponential_correlation_spectrum(
+      height, length, required(short_cutoff, "--short-cutoff", kind + " needs it")));
+}
+
+std::shared_ptr<const Spectrum> SpectrumOptions::spectrum() const {
+  if (!stretch_along && !stretch_across) {
+    require(!lay_angle, "--lay-angle", "given", "without --stretch-along or --stretch-across");
+    return isotropic();
+  }
+  return std::make_shared<AnisotropicSpectrum>(isotropic(),
+                                               Anisotropy{.along = stretch_along.value_or(1),
+                                                          .across = stretch_across.value_or(1),
+                                                          .angle = lay_angle.value_or(0)});
+}
+
+SelfAffineProfileSpectrum SpectrumOptions::profile_spectrum() const {
+  require(table.empty() && correlation.empty(), "--profile", "given",
+          "with a spectrum of surfaces; profiles are self-affine, give --hurst");
+  require(!stretch_along && !stretch_across && !lay_angle, "--profile", "given",
+          "with a lay; a profile has none");
+  return SelfAffineProfileSpectrum(self_affine());
+}
+
+Json SpectrumOptions::anisotropy() const {
+  if (!stretch_along && !stretch_across) return nullptr;
+  const Anisotropy stretch{.along = stretch_along.value_or(1),
+                           .across = stretch_across.value_or(1),
+                           .angle = lay_angle.value_or(0)};
+  Json object{{"stretch_along", stretch.along},
+              {"stretch_across", stretch.across},
+              {"lay_angle", stretch.angle},
+              {"peklenik", stretch.peklenik()}};
+  if (correlation_length) {
+    object["correlation_length_along"] = stretch.along * *correlation_length;
+    object["correlation_length_across"] = stretch.across * *correlation_length;
+  }
+  return object;
+}
+
+}  // namespace salebra::cli

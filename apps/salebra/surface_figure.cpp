@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface_figure.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <salebra/surface/bearing.hpp>
+#include <salebra/surface/moments.hpp>
+
+namespace salebra::cli {
+namespace {
+
+PlotPanel height_map(const Surface& surface) {
+  const Grid2D& grid = surface.grid;
+  PlotPanel panel;
+  panel.title = "heights";
+  panel.x = {.label = "x", .unit = "m"};
+  panel.y = {.label = "y", .unit = "m"};
+  panel.equal_scales = true;
+  PlotImage image;
+  for (Index ix = 0; ix < grid.nx; ++ix)
+    image.x.push_back((static_cast<double>(ix) + 0.5) * grid.dx());
+  for (Index iy = 0; iy < grid.ny; ++iy)
+    image.y.push_back((static_cast<double>(iy) + 0.5) * grid.dy());
+  image.values = surface.heights;
+  image.scale = {.label = "height", .unit = "m"};
+  panel.image = std::move(image);
+  return panel;
+}
+
+PlotPanel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hurst) {
+  const RadialSpectrum radial = radial_spectrum(spectrum, 6);
+  PlotPanel panel;
+  panel.title = "power spectral density";
+  panel.x = {.label = "wave number q", .unit = "rad/m", .logarithmic = true};
+  panel.y = {.label = "C(q)", .unit = "m^4", .logarithmic = true};
+  panel.legend = PlotLegend::bottom_left;
+  PlotCurve measured{.name = "radial mean", .style = PlotStyle::line_and_points};
+  double strongest = 0;
+  for (const double density : radial.density) strongest = std::max(strongest, density);
+  for (std::size_t k = 0; k < radial.wavenumber.size(); ++k) {
+    // Where a spectrum is cut off, rounding would take the axis down by thirty decades.
+    if (!(radial.density[k] > 1e-20 * strongest)) continue;
+    measured.x.push_back(radial.wavenumber[k]);
+    measured.y.push_back(radial.density[k]);
+  }
+  panel.curves.push_back(std::move(measured));
+  if (hurst.found()) {
+    // Through the geometric middle of the fitted range, where the law and the mean cross.
+    double level = 0, weight = 0;
+    for (std::size_t k = 0; k < radial.wavenumber.size(); ++k) {
+      const double q = radial.wavenumber[k];
+      if (q < hurst.wavenumber_min || q > hurst.wavenumber_max) continue;
+      const double modes = static_cast<double>(radial.modes[k]);
+      level += modes * radial.density[k] * std::pow(q, 2 * (1 + hurst.value));
+      weight += modes;
+    }
+    PlotCurve law{
+        .name = fmt::format("H = {:.2f} ({:.2f} … {:.2f})", hurst.value, hurst.low, hurst.high),
+        .style = PlotStyle::dashed};
+    for (const double q : {hurst.wavenumber_min, hurst.wavenumber_max}) {
+      law.x.push_back(q);
+      law.y.push_back(level / weight * std::pow(q, -2 * (1 + hurst.value)));
+    }
+    if (weight > 0) panel.curves.push_back(std::move(law));
+  }
+  return panel;
+}
+
+PlotPanel distribution_panel(const Surface& surface) {
+  const HeightStatistics heights = height_statistics(surface);
+  const HeightHistogram histogram = height_histogram(BearingCurve(surface));
+  PlotPanel panel;
+  panel.title = fmt::format("skewness {:.2f}, kurtosis {:.2f}", heights.skewness, heights.kurtosis);
+  panel.x = {.label = "height", .unit = "m"};
+  panel.y = {.label = "density", .unit = "1/m"};
+  panel.curves.push_back({.name = "heights",
+                          .x = histogram.height,
+                          .y = histogram.density,
+                          .style = PlotStyle::line_and_points});
+  PlotCurve gaussian{.name = "Gaussian", .style = PlotStyle::dashed};
+  constexpr int points = 121;
+  for (int k = 0; k < points; ++k) {
+    const double z = -4 + 8.0 * k / (points - 1);
+    gaussian.x.push_back(heights.mean + z * heights.rms_height);
+    gaussian.y.push_back(std::exp(-z * z / 2) /
+                         (std::sqrt(2 * std::numbers::pi) * heights.rms_height));
+  }
+  panel.curves.push_back(std::move(gaussian));
+  return panel;
+}
+
+}  // namespace
+
+Figure surface_figure(const Surface& surface, const PowerSpectrum* spectrum,
+                      const HurstEstimate& hurst) {
+  Figure figure;
+  figure.panels.push_back(height_map(surface));
+  if (spectrum != nullptr) figure.panels.push_back(spectrum_panel(*spectrum, hurst));
+  if (height_statistics(surface).rms_height > 0)
+    figure.panels.push_back(distribution_panel(surface));
+  figure.columns = static_cast<int>(figure.panels.size());
+  return figure;
+}
+
+Figure surface_figure(const Surface& surface) {
+  if (surface.undefined_points() > 0) return surface_figure(surface, nullptr, {});
+  const PowerSpectrum spectrum = power_spectrum(surface);
+  const HurstEstimate hurst = estimate_hurst(spectrum);
+  const bool flat = !(spectrum.density.maxCoeff() > 0);
+  return surface_figure(surface, flat ? nullptr : &spectrum, hurst);
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <salebra/generators/filtered_noise.hpp>
+#include <salebra/generators/random_phase.hpp>
+#include <salebra/surface/self_affine_fit.hpp>
+
+#include "test_surfaces.hpp"
+
+using namespace salebra;
+
+TEST_CASE("The 95 % intervals of H and of the roll-off hold the truth for 90 to 99 of 100 surfaces",
+          "[self_affine]") {
+  constexpr double hurst = 0.7, rolloff = 0.25, short_cutoff = 3.0 / 128;
+  const SelfAffineSpectrum target(
+      {.hurst = hurst, .rolloff = rolloff, .short_cutoff = short_cutoff, .rms_height = 1});
+  int found = 0, covered = 0, found_rolloff = 0, covered_rolloff = 0, ended = 0;
+  constexpr int surfaces = 200;
+  for (int seed = 0; seed < surfaces; ++seed) {
+    const SelfAffineFit fit = fit_self_affine(
+        power_spectrum(filtered_noise({128, 128, 1, 1}, target, static_cast<std::uint64_t>(seed))));
+    if (fit.hurst.found()) {
+      ++found;
+      covered += fit.hurst.low <= hurst && hurst <= fit.hurst.high;
+    }
+    if (fit.rolloff.found()) {
+      ++found_rolloff;
+      covered_rolloff += fit.rolloff.low <= rolloff && rolloff <= fit.rolloff.high;
+    }
+    // No noise and no window: the spectrum ends between two modes.
+    ended += fit.short_cutoff.low <= short_cutoff * 1.0001 &&
+             short_cutoff <= fit.short_cutoff.high * 1.0001;
+  }
+  INFO("H: " << covered << " of " << found << ", roll-off: " << covered_rolloff << " of "
+             << found_rolloff << ", end: " << ended);
+  CHECK(found > 0.95 * surfaces);
+  CHECK(found_rolloff > 0.95 * surfaces);
+  CHECK(covered >= 0.90 * found);
+  CHECK(covered <= 0.99 * found);
+  CHECK(covered_rolloff >= 0.90 * found_rolloff);
+  CHECK(covered_rolloff <= 0.99 * found_rolloff);
+  CHECK(ended >= 0.99 * found);
+}
+
+TEST_CASE("Fixed amplitudes give the cut-offs of the spectrum itself", "[self_affine]") {
+  const SelfAffineSpectrum target(
+      {.hurst = 0.5, .rolloff = 0.1, .short_cutoff = 4.0 / 256, .rms_height = 1});
+  const SelfAffineFit fit =
+      fit_self_affine(power_spectrum(random_phase({256, 256, 1, 1}, target, 1)));
+  // Rings of 1/64 in ln q, of which one holds the kink.
+  CHECK(fit.rolloff.value == Approx(0.1).epsilon(0.01));
+  CHECK(fit.short_cutoff.value == Approx(4.0 / 256).epsilon(0.01));
+}
+
+TEST_CASE("A law without a plateau has no roll-off, and white heights no cut-off",
+          "[self_affine]") {
+  const SelfAffineSpectrum law(
+      {.hurst = 0.8, .rolloff = 1, .short_cutoff = 2.0 / 128, .rms_height = 1});
+  const SelfAffineFit fit =
+      fit_self_affine(power_spectrum(filtered_noise({128, 128, 1, 1}, law, 3)));
+  CHECK(fit.hurst.found());
+  CHECK_FALSE(fit.rolloff.found());
+  const SelfAffineFit none = fit_self_affine(power_spectrum(white({64, 64, 1, 1}, true)));
+  CHECK_FALSE(none.rolloff.found());
+  CHECK_FALSE(none.short_cutoff.found());
+}
