@@ -339,8 +339,17 @@ TEST_CASE("Eq (17): shear stress of a uniform line load is Mindlin's stuck disc,
     CHECK(line_load_stress([](double) { return 0.0; }, load, edge, r).value ==
           Approx(load / (pi * std::sqrt(edge * edge - r * r))).epsilon(1e-9));
   }
+  // A load that falls to 0 at the edge: Hertz's pressure (2E*/πR)√(a² − r²) from q = E*(δ − x²/R).
+  const double radius = 1e-2;
+  for (const double part : {0.0, 0.5, 0.99}) {
+    const double r = part * edge;
+    const auto slope = [&](double x) { return -2 * contact_modulus * x / radius; };
+    CHECK(
+        line_load_stress(slope, 0, edge, r).value ==
+        Approx(2 * contact_modulus / (pi * radius) * std::sqrt(edge * edge - r * r)).epsilon(1e-9));
+  }
   // A paraboloid in motion: ∫2πrτ dr against the engine's F_x, while the contact grows.
-  const IndenterLaw law(paraboloid_profile(1e-2), material);
+  const IndenterLaw law(paraboloid_profile(radius), material);
   const double indentation = 1e-6, angle = -0.8;
   EqualFrequency motion = equal;
   motion.phase = pi / 2;
