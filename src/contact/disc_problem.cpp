@@ -32,6 +32,14 @@ bool DiscProblem::at_limit(const std::vector<double>& tractions, std::size_t poi
   return length(tractions, point) >= (1 - round_off) * limits_[point];
 }
 
+bool DiscProblem::slips(const std::vector<double>& tractions, const std::vector<double>& gradient,
+                        std::size_t point) const {
+  double square = 0;
+  for (std::size_t i = point; i < tractions.size(); i += count())
+    square += std::pow(tractions[i] - cell_stiffness_ * gradient[i], 2);
+  return std::sqrt(square) > limits_[point];
+}
+
 void DiscProblem::project(std::vector<double>& tractions) const {
   for (std::size_t k = 0; k < count(); ++k) {
     const double size = length(tractions, k);
@@ -222,7 +230,8 @@ PartialSlipReport DiscProblem::solve(double tolerance, int max_iterations, const
     ++report.steps;
     if (!moved) break;  // round-off has used up the energy's accuracy
   }
-  for (std::size_t k = 0; k < count(); ++k) report.slipping += at_limit(iterate.tractions, k);
+  for (std::size_t k = 0; k < count(); ++k)
+    report.slipping += slips(iterate.tractions, iterate.gradient, k);
   report.fft_count = system_.response().fft_count() - first_fft;
   tractions = std::move(iterate.tractions);
   gradient = std::move(iterate.gradient);

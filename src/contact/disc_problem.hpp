@@ -21,8 +21,10 @@ class DiscProblem {
   PartialSlipReport solve(double tolerance, int max_iterations, const Progress& progress,
                           std::vector<double>& tractions, std::vector<double>& gradient);
 
-  /// Whether a point is at its limit.
-  bool at_limit(const std::vector<double>& tractions, std::size_t point) const;
+  /// Whether a point slips: |τ − κg| exceeds its limit. (|τ| itself may be short of a limit that has grown by less than the
+  /// tolerance since the guess.)
+  bool slips(const std::vector<double>& tractions, const std::vector<double>& gradient,
+             std::size_t point) const;
 
   /// Takes only projected gradient steps, which is slow and always converges: the Newton steps' fallback, for tests of it.
   void use_gradient_steps_only() { newton_ = false; }
@@ -42,6 +44,7 @@ class DiscProblem {
   std::size_t count() const { return limits_.size(); }
   std::size_t components() const { return targets_.size() / limits_.size(); }
   double length(const std::vector<double>& vector, std::size_t point) const;
+  bool at_limit(const std::vector<double>& tractions, std::size_t point) const;
   void project(std::vector<double>& tractions) const;
   void evaluate(Iterate& iterate);
   double residual(const Iterate& iterate) const;

@@ -56,7 +56,7 @@ PartialSlipReport PartialSlipSolver::solve(const Field& limit, const TangentialF
                            tractions, gradient);
     report.residual /= scale;
     for (std::size_t k = 0; k < points.cell.size(); ++k)
-      if (!problem.at_limit(tractions, k))
+      if (!problem.slips(tractions, gradient, k))
         for (std::size_t i = k; i < gradient.size(); i += points.cell.size()) gradient[i] = 0;
     for (double& value : gradient) value = -value;
   }

@@ -16,7 +16,7 @@ struct PartialSlipReport {
   /// rms over the contact set of the projected gradient |τ − P(τ − κg)|/κ, in units of the scale: g = Kτ − v, P the projection on
   /// the discs, κ the stiffness of a cell. It is the displacement error where a cell sticks, and 0 only at the solution.
   double residual = 0;
-  Index slipping = 0;  ///< cells with |τ| = limit
+  Index slipping = 0;  ///< cells that slip
   bool converged = false;
   bool interrupted = false;  ///< the progress callback said stop
 };
@@ -43,7 +43,7 @@ class PartialSlipSolver {
   /// displacement  v on the contact set, m; its values elsewhere are not read
   /// scale         > 0, m: the displacement that the tolerance refers to
   /// traction      holds a first guess (an empty field: none) and is overwritten, 0 off the contact
-  /// slip          is overwritten: v − Kτ in cells at their limit, m, 0 in the others
+  /// slip          is overwritten: v − Kτ in cells that slip, m, 0 in the others
   /// Throws InvalidInput if every cell of a periodic grid is in contact: it has no finite stiffness.
   /// Cost: 4 to 8 Newton steps, 30 to 80 pairs of vector fields; a handful where nothing begins to slip.
   PartialSlipReport solve(const Field& limit, const TangentialField& displacement, double scale,
