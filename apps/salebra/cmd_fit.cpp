@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <memory>
 #include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
 #include <salebra/contact/fit.hpp>
 #include <salebra/io/force_curve_file.hpp>
 
 #include "answer_file.hpp"
 #include "options.hpp"
 #include "program.hpp"
+#include "text.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -15,6 +19,26 @@ struct FitArguments {
   std::string curve;
   std::vector<double> window;
 };
+
+std::string length(double value) { return format_quantity(value, Dimension::length, 3); }
+
+/// What the numbers mean for a user who does not know the test.
+std::string in_words(const ExponentialTest& test, const WindowSensitivity& parts) {
+  const double change = test.decay_length_farthest / test.decay_length_closest - 1;
+  return fmt::format(
+      "{} Over the window l changes from {} (closest) to {} (farthest), by {:+.0f} %{}.\n"
+      "Fits to parts of the window, of at least half its samples, give l from {} to {}.\n",
+      test.refuted()
+          ? fmt::format("F ~ exp(-gap/l) does not hold here: ln F bends, and scatter would make "
+                        "such a bend with a probability of {:.2g} only.",
+                        test.significance)
+          : fmt::format("F ~ exp(-gap/l) is not refuted: scatter alone would bend ln F so far with "
+                        "a probability of {:.2g}.",
+                        test.significance),
+      length(test.decay_length_closest), length(test.decay_length_farthest), 100 * change,
+      test.refuted() ? "; F'' = F/l^2 is off by about twice as much at its ends" : "",
+      length(parts.decay_length_min), length(parts.decay_length_max));
+}
 
 void run(const FitArguments& arguments, Session& session) {
   const ForceCurve curve = read_force_curve(arguments.curve);
@@ -25,18 +49,34 @@ void run(const FitArguments& arguments, Session& session) {
     window = PressureWindow{arguments.window[0], arguments.window[1], 0};
   }
   const ExponentialFit fit = fit_exponential(curve, window);
-  const Json answer{{"decay_length", fit.decay_length},
-                    {"decay_length_low", fit.decay_length_low},
-                    {"decay_length_high", fit.decay_length_high},
-                    {"reference_pressure", fit.reference_pressure},
-                    {"r_squared", fit.r_squared},
-                    {"window",
-                     {{"pressure_min", fit.window.pressure_min},
-                      {"pressure_max", fit.window.pressure_max},
-                      {"points", fit.window.points}}},
-                    {"decay_length_over_rms_height", fit.decay_length_over_rms_height}};
+  Json answer{{"decay_length", fit.decay_length},
+              {"decay_length_low", fit.decay_length_low},
+              {"decay_length_high", fit.decay_length_high},
+              {"reference_pressure", fit.reference_pressure},
+              {"r_squared", fit.r_squared},
+              {"window",
+               {{"pressure_min", fit.window.pressure_min},
+                {"pressure_max", fit.window.pressure_max},
+                {"points", fit.window.points}}},
+              {"decay_length_over_rms_height", fit.decay_length_over_rms_height}};
+  const WindowSensitivity parts = window_sensitivity(curve, window);
+  answer["window_sensitivity"] = {{"decay_length_min", parts.decay_length_min},
+                                  {"decay_length_max", parts.decay_length_max}};
+  std::string verdict = "Four samples in the window would be needed to test the law.\n";
+  if (fit.window.points >= 4) {
+    const ExponentialTest test = test_exponential(curve, window);
+    answer["test"] = {{"significance", test.significance},
+                      {"refuted", test.refuted()},
+                      {"decay_length_closest", test.decay_length_closest},
+                      {"decay_length_farthest", test.decay_length_farthest}};
+    verdict = in_words(test, parts);
+  }
   write_answer(session, "fit", answer);
-  session.answer(answer);
+  // Too long for the answer in words, and not a part of the fit.
+  Json complete = answer;
+  const LocalDecayLength local = local_decay_length(curve);
+  complete["local"] = {{"mean_gap", local.mean_gap}, {"decay_length", local.decay_length}};
+  session.answer(complete, to_text(answer) + "\n" + verdict);
 }
 
 }  // namespace

@@ -76,7 +76,14 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
   std::exception_ptr failure;
   SweepOptions inner = options;
   if (options.contact.on_progress)
-    inner.contact.on_progress = [&](const ProgressReport&) { return !stop.load(); };
+    inner.contact.on_progress = [&](const ProgressReport& report) {
+      // Only the calling thread may talk to its caller.
+      if (omp_get_thread_num() == 0 &&
+          !options.contact.on_progress(
+              {"sweep", double(finished) / loads, finished, report.residual}))
+        stop = true;
+      return !stop.load();
+    };
 
     // The highest loads take longest and go first.
 #pragma omp parallel for schedule(dynamic, 1) num_threads(concurrent) if (concurrent > 1)
@@ -87,9 +94,12 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
       const auto state =
           press_to_pressure(surface, material.contact_modulus, pressures[k], inner.contact);
       if (!state.interrupted) {
-        samples[k] = sample_of(state, surface, material, inner);
+        const ForceSample sample = sample_of(state, surface, material, inner);
+        // A stiffness solve that was stopped half-way is not a load that failed.
+        if (stop && !sample.converged) continue;
+        samples[k] = sample;
+        if (options.on_state && state.converged) options.on_state(k, state);
         const int done = ++finished;
-        // Only the calling thread may talk to its caller.
         if (omp_get_thread_num() == 0 && options.contact.on_progress &&
             !options.contact.on_progress({"sweep", double(done) / loads, done, state.residual}))
           stop = true;

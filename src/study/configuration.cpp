@@ -68,14 +68,62 @@ std::vector<std::uint64_t> read_seeds(TomlTable& table) {
   return seeds;
 }
 
-GeneratedSurfaces read_generated(TomlTable& table) {
+ParameterLists read_lists(TomlTable& table) {
+  ParameterLists lists;
+  lists.hurst = table.values("hurst", Dimension::dimensionless);
+  lists.rolloff = table.values("rolloff", Dimension::length);
+  lists.short_cutoff = table.values("short_cutoff", Dimension::length);
+  lists.size_x = table.values("size_x", Dimension::length);
+  for (const auto count : table.integers("points")) {
+    table.check(count >= 2 && count <= 65536, "points",
+                fmt::format("{} must be from 2 to 65536", count));
+    lists.points.push_back(count);
+  }
+  for (const auto& [key, values] : {std::pair{"hurst", &lists.hurst},
+                                    {"rolloff", &lists.rolloff},
+                                    {"short_cutoff", &lists.short_cutoff},
+                                    {"size_x", &lists.size_x}}) {
+    for (const double value : *values) check_positive(table, key, value);
+  }
+  return lists;
+}
+
+void read_ensemble(TomlTable& table, StudyConfiguration& configuration) {
+  configuration.ensemble = read_lists(table);
+  if (const auto precision = table.quantity("precision", Dimension::dimensionless)) {
+    table.check(*precision > 0 && *precision < 1, "precision",
+                fmt::format("{} must be between 0 and 1, such as \"2%\"", *precision));
+    configuration.precision = *precision;
+  }
+  if (const auto least = table.integers("least_realisations"); !least.empty()) {
+    table.check(least.size() == 1 && least[0] >= 2 && least[0] <= 100000, "least_realisations",
+                "must be one whole number from 2 to 100000");
+    configuration.least_realisations = int(least[0]);
+  }
+  table.require_no_other_keys();
+}
+
+/// A parameter that the ensemble varies need not stand here, and may not.
+double required_unless(TomlTable& table, const char* key, Dimension dimension,
+                       const std::vector<double>& list) {
+  if (list.empty()) return table.required_quantity(key, dimension);
+  table.check(!table.has(key), key, "is varied by [ensemble]; give it in one place");
+  return list.front();
+}
+
+GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists) {
   GeneratedSurfaces surfaces;
   surfaces.grid = read_grid(table);
   SelfAffineParameters& spectrum = surfaces.spectrum;
-  spectrum.hurst = table.required_quantity("hurst", Dimension::dimensionless);
+  spectrum.hurst = required_unless(table, "hurst", Dimension::dimensionless, lists.hurst);
   spectrum.long_cutoff = table.quantity("long_cutoff", Dimension::length);
-  spectrum.rolloff = table.quantity("rolloff", Dimension::length);
-  spectrum.short_cutoff = table.required_quantity("short_cutoff", Dimension::length);
+  if (lists.rolloff.empty()) {
+    spectrum.rolloff = table.quantity("rolloff", Dimension::length);
+  } else {
+    spectrum.rolloff = required_unless(table, "rolloff", Dimension::length, lists.rolloff);
+  }
+  spectrum.short_cutoff =
+      required_unless(table, "short_cutoff", Dimension::length, lists.short_cutoff);
   spectrum.rms_height = table.quantity("rms_height", Dimension::length);
   spectrum.rms_slope = table.quantity("rms_slope", Dimension::dimensionless);
   if (const auto method = table.choice("method", {"filtered-noise", "random-phase"})) {
@@ -83,7 +131,11 @@ GeneratedSurfaces read_generated(TomlTable& table) {
         *method == 0 ? GenerationMethod::filtered_noise : GenerationMethod::random_phase;
   }
   surfaces.seeds = read_seeds(table);
-  table.located([&] { SelfAffineSpectrum(spectrum).require_carried_by(surfaces.grid); });
+  // Sizes and points of the ensemble take the place of these: each combination is looked at later.
+  table.located([&] {
+    const SelfAffineSpectrum checked(spectrum);
+    if (lists.size_x.empty() && lists.points.empty()) checked.require_carried_by(surfaces.grid);
+  });
   return surfaces;
 }
 
@@ -97,7 +149,8 @@ MeasuredSurface read_measured(TomlTable& table, const std::filesystem::path& fol
   }
   surface.height_unit = table.text("height_unit").value_or("");
   if (const auto choice = table.choice("detrend", {"none", "mean", "plane", "quadratic"})) {
-    surface.detrend = std::array{Detrend::none, Detrend::mean, Detrend::plane, Detrend::quadratic}[*choice];
+    surface.detrend =
+        std::array{Detrend::none, Detrend::mean, Detrend::plane, Detrend::quadratic}[*choice];
   }
   return surface;
 }
@@ -216,19 +269,23 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
   }
   TomlTable root(name, "", document, 1);
   // A misspelt table must not be told as a missing one.
-  for (const char* table : {"surface", "material", "contact", "fit", "damping"}) root.table(table);
+  for (const char* table : {"surface", "ensemble", "material", "contact", "fit", "damping"})
+    root.table(table);
   root.require_no_other_keys();
   StudyConfiguration configuration;
   configuration.text = text;
   configuration.surfaces = MeasuredSurface{};
+  auto ensemble = root.table("ensemble");
+  if (ensemble) read_ensemble(*ensemble, configuration);
   if (auto surface = root.table("surface")) {
     if (surface->has("file")) {
       configuration.surfaces = read_measured(*surface, folder);
     } else {
-      configuration.surfaces = read_generated(*surface);
+      configuration.surfaces = read_generated(*surface, configuration.ensemble);
     }
     surface->require_no_other_keys();
   }
+  if (ensemble) ensemble->located([&] { grid_points(configuration); });
   configuration.material = read_material(root.required_table("material"));
   read_contact(root.required_table("contact"), configuration);
   if (auto fit = root.table("fit")) read_fit(*fit, configuration);

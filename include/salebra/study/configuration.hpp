@@ -35,6 +35,19 @@ struct MeasuredSurface {
   std::string height_unit;               ///< such as "nm", for files that do not name one; empty: m
 };
 
+/// Parameters that take several values each; an empty list leaves the value of the surface table.
+struct ParameterLists {
+  std::vector<double> hurst;
+  std::vector<double> rolloff, short_cutoff;  ///< wavelengths, m
+  std::vector<double> size_x;  ///< m; cells keep their size, so that the number of points follows
+  std::vector<Index> points;   ///< along x; the surface keeps its size, so that cells follow
+
+  bool empty() const {
+    return hurst.empty() && rolloff.empty() && short_cutoff.empty() && size_x.empty() &&
+           points.empty();
+  }
+};
+
 /// Everything that decides the result of a study.
 struct StudyConfiguration {
   std::variant<GeneratedSurfaces, MeasuredSurface> surfaces;
@@ -47,7 +60,11 @@ struct StudyConfiguration {
   /// only the latter.
   bool stick = true;
   std::optional<PressureWindow>
-      window;  ///< of the exponential fit; empty: 1 … 2.5 h_rms in mean gap
+      window;                  ///< of the exponential fit; empty: 1 … 2.5 h_rms in mean gap
+  ParameterLists ensemble;     ///< for generated surfaces only
+  double precision = 0;        ///< relative, at which an ensemble is large enough; 0: use all seeds
+  int least_realisations = 8;  ///< >= 2, before the precision is looked at
+  bool all_models = false;     ///< also Monte Carlo and interacting summits and Persson's theory
   Oscillation motion;
   DampingOptions damping;
   std::string text;  ///< the file as it was read, for provenance
@@ -61,6 +78,13 @@ StudyConfiguration read_study_configuration(const std::filesystem::path& file);
 /// The same from text; `name` stands for the file in errors, relative paths are taken from `folder`.
 StudyConfiguration parse_study_configuration(const std::string& text, const std::string& name,
                                              const std::filesystem::path& folder = ".");
+
+/// The configurations of all combinations of the ensemble's lists, the last parameter (points) changing fastest, their own lists
+/// empty; the configuration itself where it has none. Throws InvalidInput for a combination that no grid can carry.
+std::vector<StudyConfiguration> grid_points(const StudyConfiguration& configuration);
+
+/// "H = 0.5, roll-off 1.25 µm, …": the parameters that the ensemble's lists vary, as this point has them; empty without lists.
+std::string describe_point(const ParameterLists& varied, const StudyConfiguration& point);
 
 /// `file` in place of the surfaces of the configuration, which keeps everything else.
 StudyConfiguration with_surface(StudyConfiguration configuration, MeasuredSurface surface);

@@ -1,92 +1,94 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
+#include <functional>
 #include <salebra/base/progress.hpp>
-#include <salebra/base/spectral_moments.hpp>
-#include <salebra/contact/fit.hpp>
-#include <salebra/contact/force_curve.hpp>
-#include <salebra/contact/greenwood_williamson.hpp>
 #include <salebra/study/configuration.hpp>
-#include <salebra/surface/moments.hpp>
-#include <salebra/surface/summits.hpp>
+#include <salebra/study/estimate.hpp>
+#include <salebra/study/parts.hpp>
+#include <salebra/study/realisation.hpp>
 #include <string>
 #include <vector>
 
 namespace salebra {
 
-/// A mean with its 95 % interval; NaN limits where there is none to be had.
-struct EnsembleMean {
-  double mean = ForceSample::unknown;
-  double low = ForceSample::unknown;
-  double high = ForceSample::unknown;
+/// Why a result may be off for other reasons than chance.
+struct StudyFlag {
+  std::string name;  ///< "finite_size", "discretisation" or "few_spots"
+  std::string text;  ///< a sentence for the user
 };
 
-/// Mean and Student-t 95 % interval of the mean, over the values that are not NaN; no limits for fewer than two.
-EnsembleMean student_mean(const std::vector<double>& values);
-
-/// What one contact model says about one surface.
-struct ModelResult {
-  ForceCurve curve;
-  ExponentialFit fit;
-  ExponentialTest
-      test;  ///< how far the law bends over the window of the fit; all zero for fewer than four points
-  LocalDecayLength local;
-};
-
-/// Damping at one pressure of the sweep, by the two routes that a user must see side by side.
-struct DampingPoint {
-  double pressure = 0;  ///< Pa
-  double force = 0;     ///< F = pA0, N
-  /// Eq. (16), or (12) with F'' = F/l², with the l fitted to the BEM curve.
-  double law_work = ForceSample::unknown;              ///< J
-  double law_damping_constant = ForceSample::unknown;  ///< N s/m
-  /// The theorem on the BEM curve itself at the amplitude given; NaN where the motion leaves the curve.
-  double curve_work = ForceSample::unknown;              ///< J
-  double curve_damping_constant = ForceSample::unknown;  ///< N s/m
-
-  double deviation() const { return law_work / curve_work - 1; }
-};
-
-/// Everything computed for one surface.
-struct Realisation {
-  std::uint64_t seed = 0;  ///< 0 for a measured surface
-  HeightStatistics heights;
-  SpectralMoments moments;
-  SummitStatistics summits;
-  SummitEnsemble ensemble;  ///< of the Greenwood–Williamson theory, from the moments
-  ModelResult bem, gw_moments, gw_deterministic;
-  std::vector<DampingPoint> damping;
-};
-
+/// The ensemble at one point of the parameter grid.
 struct StudyResult {
-  StudyConfiguration configuration;
+  StudyConfiguration configuration;  ///< of this point: its ensemble lists are empty
   Grid2D grid;
   double contact_scale = 0;  ///< E*h'_rms, Pa: the unit of relative pressures
   std::vector<double> pressures;
   std::vector<Realisation> realisations;
   std::vector<std::string> warnings;  ///< sentences for the user
-  bool interrupted = false;           ///< realisations holds those that were finished
+  std::vector<StudyFlag> flags;
+  bool interrupted = false;        ///< realisations holds those that were finished
+  bool precision_reached = false;  ///< fewer realisations than seeds were enough
+  Bootstrap bootstrap;             ///< makes all intervals below
 
+  std::span<const StudyModel> models() const { return models_of(configuration); }
+  /// Mean over the realisations of any number that belongs to one.
+  EnsembleMean mean(const std::function<double(const Realisation&)>& value) const;
   /// Over the realisations; with one only, the interval of its fit.
   EnsembleMean decay_length(ModelResult Realisation::*model) const;
   EnsembleMean decay_length_over_rms_height(ModelResult Realisation::*model) const;
+  EnsembleMean area_slope(ModelResult Realisation::*model) const;
   /// Of a quantity of each pressure, in the order of pressures.
-  std::vector<EnsembleMean> damping(double DampingPoint::*quantity) const;
-  std::vector<EnsembleMean> damping_deviation() const;
+  std::vector<EnsembleMean> curve(ModelResult Realisation::*model,
+                                  double ForceSample::*quantity) const;
+  std::vector<EnsembleMean> damping(double DampingPoint::*quantity,
+                                    ModelResult Realisation::*model = &Realisation::bem) const;
+  std::vector<EnsembleMean> damping_deviation(
+      ModelResult Realisation::*model = &Realisation::bem) const;
+  /// How far F ∝ exp(−ū/l) is from holding over the window of the fit: l at its far end over l at its close end, less 1, by the
+  /// parabola of test_exponential(). An interval without 0 refutes the law for this kind of surface.
+  EnsembleMean law_bend(ModelResult Realisation::*model) const;
+  /// A quantity of a model over that of the boundary elements on the same surface, at each pressure.
+  std::vector<EnsembleMean> over_bem(ModelResult Realisation::*model,
+                                     double ForceSample::*quantity) const;
+  /// A route to the damping of a model over the theorem on the boundary-element curve of the same surface, at each pressure.
+  std::vector<EnsembleMean> damping_over_bem(ModelResult Realisation::*model,
+                                             double DampingPoint::*quantity) const;
+  /// The mean of l/h_rms of the boundary elements over the first 2, 3, … realisations: how the mean converges.
+  std::vector<EnsembleMean> convergence() const;
   /// How the intervals came about: one line.
   std::string interval_method() const;
 };
 
-/// Surface → statistics → Greenwood–Williamson and boundary elements → exponential law → damping, for every surface of the
-/// configuration. A measured surface is treated as periodic after its plane is removed; the result carries a warning with
-/// the size of the step that this makes at the seam.
-/// throws  InvalidInput for a configuration that cannot be run, NotConverged where fewer than four contacts of a sweep converged
-/// cost    the BEM sweep, for each surface
-StudyResult run_study(const StudyConfiguration& configuration, const Progress& progress = {});
+/// What a run tells of each surface that it finished, from the thread that called it.
+struct RealisationReport {
+  std::size_t point = 0, points = 1;     ///< of the parameter grid
+  std::size_t finished = 0, wanted = 0;  ///< surfaces, over all points
+  std::uint64_t seed = 0;
+  double seconds = 0;     ///< that it took; 0 where it was on the disk already
+  bool restored = false;  ///< read, not computed
+};
 
-/// The result in words and tables, for a terminal: decay lengths by each model, Eq. (16) beside the result from the curve with
-/// the deviation, damping constants over force.
-std::string summary(const StudyResult& result);
+struct StudyRun {
+  Progress on_progress = {};  ///< of the whole run
+  std::function<void(const RealisationReport&)> on_realisation = {};
+  /// Realisations that it holds are not computed again; each that is computed is on the disk before its thread begins another.
+  StudyParts* parts = nullptr;
+};
+
+/// The ensembles of every point of the configuration's parameter grid, in the order of grid_points(): every surface through
+/// analyse_realisation(), in parallel over surfaces. With a precision, a point ends at the first M >= least_realisations surfaces (in
+/// the order of the seeds) for which the 95 % intervals of l/h_rms and of κ of the boundary elements are narrower than ±precision of
+/// their means. The result has the same bits for every thread count. A point that was not begun when the run was stopped is left out.
+/// A measured surface is treated as periodic after its plane is removed; the result carries a warning with
+/// the size of the step that this makes at the seam.
+/// throws  InvalidInput for a configuration that cannot be run, and for parts none of which belongs to it; NotConverged where fewer
+///         than four contacts of a sweep converged; IoError where a part cannot be written
+/// cost    the BEM sweep, for each surface; with all models, about as much again for the interacting summits
+std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
+                                       const StudyRun& run = {});
+
+/// run_ensembles() of a configuration with one point. Throws InvalidInput where it has more.
+StudyResult run_study(const StudyConfiguration& configuration, const Progress& progress = {});
 
 }  // namespace salebra

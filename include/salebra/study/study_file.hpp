@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <salebra/io/output.hpp>
 #include <salebra/io/provenance.hpp>
@@ -9,22 +8,22 @@
 
 namespace salebra {
 
-/// The models of a study under the names that files and JSON have for them.
-struct StudyModel {
-  const char* name;
-  ModelResult Realisation::*result;
-};
-inline constexpr std::array study_models{
-    StudyModel{"bem", &Realisation::bem}, StudyModel{"gw_moments", &Realisation::gw_moments},
-    StudyModel{"gw_deterministic", &Realisation::gw_deterministic}};
-
 /// One HDF5 file, each group of which xarray opens as it is (realisation: one per surface):
-///   surface   statistics (realisation)
-///   curve     every quantity of ForceSample (model, realisation, pressure); local_decay_length (model, realisation, midpoint)
-///   fit       decay length, its limits, … (model, realisation); ensemble means with limits (model)
-///   damping   Eq. (16) as law_…, the result from the BEM curve as curve_… (realisation, pressure), deviation and ensemble
-///             means with limits (pressure)
-/// The configuration's text goes into the provenance. Throws as ResultFile does.
+///   surface      statistics (realisation)
+///   curve        every quantity of ForceSample (model, realisation, pressure), ensemble means with limits (model, pressure)
+///   local        local decay length (model, realisation, midpoint)
+///   fit          decay length, its limits, area slope, … (model, realisation); ensemble means with limits (model)
+///   damping      law_…: Eq. (16); small_…: Eq. (15) with F'' of the curve; curve_…: the theorem on the curve
+///                (model, realisation, pressure), deviation and ensemble means with limits (model, pressure)
+///   spots        patches of contact of the boundary elements (realisation, pressure), by size (…, least_cells)
+///   comparison   each model over the boundary elements on the same surfaces, means with limits (model, pressure)
+///   convergence  mean l/h_rms over the first surfaces, with limits (surfaces)
+/// Several points of a parameter grid: these groups under points/0, points/1, …, and `ensemble`, which has their parameters and
+/// main results (point). The configuration's text goes into the provenance. Throws as ResultFile does, and for no results.
+void write_ensembles(const std::filesystem::path& file, const std::vector<StudyResult>& results,
+                     Provenance provenance = {}, const WriteOptions& options = {});
+
+/// The same for one point.
 void write_study(const std::filesystem::path& file, const StudyResult& result,
                  Provenance provenance = {}, const WriteOptions& options = {});
 

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "study_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
+#include <salebra/study/study_file.hpp>
+
+#include "text.hpp"
+
+namespace salebra::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::string duration(double seconds) {
+  const auto whole = std::llround(std::max(seconds, 0.0));
+  if (whole >= 3600) return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+  if (whole >= 60) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} s", whole);
+}
+
+/// Rate and remaining time of a study, judged by what was computed in this run.
+class Pace {
+ public:
+  void restored() { ++restored_; }
+  /// ", 4.1/min, 2 min 05 s left"; empty while there is nothing to judge by.
+  std::string at(double fraction, std::size_t finished, std::size_t wanted) {
+    const double begun = double(restored_) / double(wanted);
+    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+    if (elapsed < 1 || fraction <= begun) return "";
+    std::string text;
+    if (finished > restored_)
+      text = fmt::format(", {:.3g}/min", 60 * double(finished - restored_) / elapsed);
+    return text + ", " + duration(elapsed * (1 - fraction) / (fraction - begun)) + " left";
+  }
+
+ private:
+  Clock::time_point start_ = Clock::now();
+  std::size_t restored_ = 0;
+};
+
+}  // namespace
+
+void StudyArguments::add_to(CLI::App& command) {
+  command
+      .add_option("CONFIG", configuration,
+                  "study file (TOML); options take the place of what it says")
+      ->type_name("FILE");
+  surface.add_to(command, false, "--surface");
+  material.add_to(command);
+  motion.add_to(command);
+  add_values(command, "--pressures", pressures, Dimension::pressure,
+             "loads of the boundary elements, such as 1MPa:1GPa:16");
+  add_quantity(command, "--precision", precision, Dimension::dimensionless,
+               "stop where the means of l and of the area slope are known so well, such as 2%");
+  command.add_flag(
+      "--no-stick", no_stick,
+      "K_t = (G*/E*)K in place of a stick solve on each contact: faster, exact at nu = 0");
+  command.add_flag("--resume", resume,
+                   "go on with what an interrupted run has left beside the output file");
+}
+
+StudyConfiguration StudyArguments::study() const {
+  const bool from_file = !configuration.empty();
+  if (!from_file && !surface.given())
+    throw InvalidInput("CONFIG: none; give a study file, or --surface with material and motion");
+  StudyConfiguration study;
+  if (from_file) {
+    study = read_study_configuration(configuration);
+  } else {
+    study.pressures = parse_values("5e-4:0.2:16", Dimension::dimensionless, "pressures");
+    study.relative_pressures = true;
+  }
+  if (surface.given()) {
+    study = with_surface(std::move(study), {surface.file, surface.size_x, surface.size_y,
+                                            surface.detrend_method(), surface.height_unit});
+  }
+  if (!from_file || material.given()) study.material = material.material_with_tangential_modulus();
+  if (!from_file || motion.given()) {
+    const auto motions = motion.motions();
+    require(motions.size() == 1, motion.varied().first, motions.size(),
+            "values; a study has one motion");
+    study.motion = motions.front();
+  }
+  if (!pressures.empty()) {
+    study.pressures = pressures;
+    study.relative_pressures = false;
+  }
+  if (precision) {
+    require(*precision > 0 && *precision < 1, "--precision", *precision,
+            "must be between 0 and 1, such as 2%");
+    study.precision = *precision;
+  }
+  if (no_stick) study.stick = false;
+  return study;
+}
+
+std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, bool resume,
+                                      Session& session) {
+  if (resume) {
+    require(session.has_output(), "--resume", "needs", "the --output of the run to go on with");
+  }
+  std::unique_ptr<StudyParts> parts;
+  if (session.has_output())
+    parts = std::make_unique<StudyParts>(session.output().string() + ".parts", resume);
+
+  Pace pace;
+  RealisationReport last;
+  StudyRun run;
+  run.parts = parts.get();
+  const bool bar = isatty(STDERR_FILENO) != 0;
+  run.on_realisation = [&](const RealisationReport& report) {
+    last = report;
+    if (report.restored) pace.restored();
+    if (bar || report.restored) return;
+    const double fraction = double(report.finished) / double(report.wanted);
+    session.note(fmt::format(
+        "study: surface {} of {} (seed {}{}) in {:.1f} s{}", report.finished, report.wanted,
+        report.seed,
+        report.points > 1 ? fmt::format(", point {} of {}", report.point + 1, report.points) : "",
+        report.seconds, pace.at(fraction, report.finished, report.wanted)));
+  };
+  const Progress progress = session.progress();
+  run.on_progress = [&](const ProgressReport& report) {
+    const std::string stage =
+        std::string(report.stage) +
+        pace.at(report.fraction, std::size_t(report.step), std::max(last.wanted, std::size_t{1}));
+    ProgressReport timed = report;
+    timed.stage = stage;
+    return progress(timed);
+  };
+  std::vector<StudyResult> results = run_ensembles(configuration, run);
+  if (parts && parts->damaged() > 0) {
+    session.warn(
+        fmt::format("{} damaged files of {} were thrown away, their surfaces computed again",
+                    parts->damaged(), parts->folder().string()));
+  }
+  std::size_t finished = 0;
+  for (const StudyResult& result : results) {
+    finished += result.realisations.size();
+    for (const std::string& warning : result.warnings) session.warn(warning);
+  }
+  const bool interrupted = results.size() < grid_points(configuration).size() ||
+                           std::ranges::any_of(results, &StudyResult::interrupted);
+  if (interrupted && parts && parts->count() > 0) {
+    throw Interrupted(fmt::format(
+        "study: interrupted; {} finished surfaces are kept in {}; go on with the same command and "
+        "--resume",
+        parts->count(), parts->folder().string()));
+  }
+  if (finished == 0) throw Interrupted("study: interrupted before the first surface was finished");
+  if (parts) {
+    write_ensembles(session.output(), results, session.provenance(), session.write_options());
+    parts->discard();
+  } else {
+    session.note("no file was written; add --output FILE to keep the results");
+  }
+  return results;
+}
+
+Json to_json(const EnsembleMean& estimate) {
+  return {{"mean", estimate.mean}, {"low", estimate.low}, {"high", estimate.high}};
+}
+
+Json to_json(const std::vector<EnsembleMean>& estimates, double scale) {
+  Json mean = Json::array(), low = Json::array(), high = Json::array();
+  for (const EnsembleMean& estimate : estimates) {
+    mean.push_back(scale * estimate.mean);
+    low.push_back(scale * estimate.low);
+    high.push_back(scale * estimate.high);
+  }
+  return {{"mean", mean}, {"low", low}, {"high", high}};
+}
+
+std::string interval(const EnsembleMean& estimate, Dimension dimension, int digits) {
+  if (std::isnan(estimate.low)) return "";
+  return fmt::format("{} … {}", format_quantity(estimate.low, dimension, digits),
+                     format_quantity(estimate.high, dimension, digits));
+}
+
+std::string describe_motion(const Oscillation& motion) {
+  const auto frequency = [](double omega) {
+    return format_quantity(omega / (2 * std::numbers::pi), Dimension::frequency);
+  };
+  if (const auto* drag = std::get_if<Drag>(&motion)) {
+    return fmt::format("drag at {}, normal oscillation of {} at {}",
+                       format_quantity(drag->drag_velocity, Dimension::velocity),
+                       format_quantity(drag->normal_amplitude, Dimension::length),
+                       frequency(drag->angular_frequency));
+  }
+  const auto& equal = std::get<EqualFrequency>(motion);
+  return fmt::format("equal frequencies, normal {}, tangential {}, phase {}, {}",
+                     format_quantity(equal.normal_amplitude, Dimension::length),
+                     format_quantity(equal.tangential_amplitude, Dimension::length),
+                     format_quantity(equal.phase, Dimension::angle),
+                     frequency(equal.angular_frequency));
+}
+
+std::string heading(const StudyResult& result) {
+  const Grid2D& grid = result.grid;
+  const Material& material = result.configuration.material;
+  const auto count = result.realisations.size();
+  return fmt::format(
+      "surface     {} x {} points, {} x {}, {}\nrms height  {}\nrms slope   {}\nE*, G*      {}, "
+      "{}\n\n",
+      grid.nx, grid.ny, format_quantity(grid.lx, Dimension::length),
+      format_quantity(grid.ly, Dimension::length),
+      count == 1 ? "1 surface" : fmt::format("{} surfaces", count),
+      format_quantity(result.mean([](const auto& r) { return r.heights.rms_height; }).mean,
+                      Dimension::length),
+      format_quantity(result.mean([](const auto& r) { return r.moments.rms_slope(); }).mean,
+                      Dimension::dimensionless),
+      format_quantity(material.contact_modulus, Dimension::pressure),
+      format_quantity(material.tangential_modulus, Dimension::pressure));
+}
+
+std::string law_verdict(const StudyResult& result) {
+  const EnsembleMean closest = result.mean(
+      [](const Realisation& r) { return r.bem.test.decay_length_closest / r.heights.rms_height; });
+  if (!(closest.mean > 0)) return "";
+  const EnsembleMean farthest = result.mean(
+      [](const Realisation& r) { return r.bem.test.decay_length_farthest / r.heights.rms_height; });
+  std::string text = fmt::format(
+      "  Over the fitted window the local l of boundary elements runs from {:.2f} h_rms (closest) "
+      "to {:.2f} h_rms (farthest).\n",
+      closest.mean, farthest.mean);
+  const EnsembleMean bend = result.law_bend(&Realisation::bem);
+  if (result.realisations.size() > 1) {
+    const bool refuted = bend.low > 0 || bend.high < 0;
+    text += fmt::format(
+        "  That is a change of {:+.0f} % ({:+.0f} to {:+.0f} % at 95 %): {}\n", 100 * bend.mean,
+        100 * bend.low, 100 * bend.high,
+        refuted
+            ? "F ~ exp(-gap/l) does not hold here, chance does not explain the bend; F'' = F/l^2 "
+              "is an approximation."
+            : "chance may explain the bend; these surfaces do not refute F ~ exp(-gap/l).");
+  } else {
+    const ExponentialTest& test = result.realisations.front().bem.test;
+    text += fmt::format(
+        "  {} (p = {:.2g}).\n",
+        test.refuted() ? "F ~ exp(-gap/l) does not hold for this surface: the bend stands out of "
+                         "the scatter about it"
+                       : "The bend does not stand out of the scatter about it: F ~ exp(-gap/l) is "
+                         "not refuted",
+        test.significance);
+  }
+  const auto range = [&](double WindowSensitivity::*limit) {
+    return result
+        .mean([&](const Realisation& r) { return r.bem.sensitivity.*limit / r.heights.rms_height; })
+        .mean;
+  };
+  return text + fmt::format("  Fits to parts of the window give l from {:.2f} to {:.2f} h_rms.\n",
+                            range(&WindowSensitivity::decay_length_min),
+                            range(&WindowSensitivity::decay_length_max));
+}
+
+std::string ensemble_remarks(const StudyResult& result) {
+  std::string text;
+  const std::vector<EnsembleMean> means = result.convergence();
+  if (means.size() >= 3) {
+    text += "l/h_rms of boundary elements over the first surfaces\n";
+    std::vector<std::vector<std::string>> rows{{"surfaces", "mean", "95 % interval"}};
+    for (std::size_t count = 2; count <= means.size() + 1; count *= 2) {
+      const bool last = 2 * count > means.size() + 1;
+      const std::size_t shown = last ? means.size() + 1 : count;
+      if (last && shown != count) {
+        rows.push_back({fmt::format("{}", count), fmt::format("{:.4f}", means[count - 2].mean),
+                        interval(means[count - 2], Dimension::dimensionless)});
+      }
+      rows.push_back({fmt::format("{}", shown), fmt::format("{:.4f}", means[shown - 2].mean),
+                      interval(means[shown - 2], Dimension::dimensionless)});
+    }
+    text += to_table(rows) + "\n";
+  }
+  if (result.precision_reached)
+    text += fmt::format("{} surfaces were enough for a precision of {:.2g} %.\n",
+                        result.realisations.size(), 100 * result.configuration.precision);
+  for (const StudyFlag& flag : result.flags) text += "Mind: " + flag.text + ".\n";
+  return text;
+}
+
+Json flags_json(const StudyResult& result) {
+  Json flags = Json::object();
+  for (const StudyFlag& flag : result.flags) flags[flag.name] = flag.text;
+  return flags;
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <salebra/study/study.hpp>
+#include <string>
+#include <vector>
+
+#include "options.hpp"
+#include "session.hpp"
+
+/// What `study` and `compare` have in common.
+namespace salebra::cli {
+
+struct StudyArguments {
+  std::string configuration;
+  SurfaceOptions surface;
+  MaterialOptions material;
+  MotionOptions motion;
+  std::vector<double> pressures;
+  std::optional<double> precision;
+  bool no_stick = false;
+  bool resume = false;
+
+  void add_to(CLI::App& command);
+  /// The study file, or what a measured surface needs without one, with the options in place of what either says.
+  StudyConfiguration study() const;
+};
+
+/// Runs the ensembles with progress, keeps finished surfaces beside the session's output as it goes, and writes the result there. Without
+/// an output nothing is kept. Returns at least one finished surface; what stopped the run before its end throws Interrupted, which says
+/// how to go on, after the surfaces that were finished have been answered where they are not kept.
+std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, bool resume,
+                                      Session& session);
+
+Json to_json(const EnsembleMean& estimate);
+/// Arrays mean, low and high.
+Json to_json(const std::vector<EnsembleMean>& estimates, double scale = 1);
+/// "low … high"; empty where there is no interval.
+std::string interval(const EnsembleMean& estimate, Dimension dimension, int digits = 4);
+std::string describe_motion(const Oscillation& motion);
+/// Size, roughness and moduli of the surfaces.
+std::string heading(const StudyResult& result);
+/// Whether the exponential law holds, in a sentence.
+std::string law_verdict(const StudyResult& result);
+/// How the mean of l/h_rms settled, and what else may be wrong with the ensemble.
+std::string ensemble_remarks(const StudyResult& result);
+Json flags_json(const StudyResult& result);
+
+}  // namespace salebra::cli

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/base/random.hpp>
+#include <salebra/study/estimate.hpp>
+
+namespace salebra {
+namespace {
+
+// Generators, Monte Carlo ensembles and resampling share seeds but no stream.
+constexpr std::uint32_t bootstrap_stream = 0xb0075;
+
+std::vector<double> known(const std::vector<double>& values) {
+  std::vector<double> kept;
+  std::ranges::copy_if(values, std::back_inserter(kept),
+                       [](double value) { return !std::isnan(value); });
+  return kept;
+}
+
+struct Moments {
+  double mean = 0;
+  double deviation = 0;  ///< of a single value, divisor n − 1
+};
+
+Moments moments_of(const std::vector<double>& values) {
+  Moments result;
+  for (const double value : values) result.mean += value;
+  result.mean /= double(values.size());
+  double squares = 0;
+  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
+  result.deviation = std::sqrt(squares / (double(values.size()) - 1));
+  return result;
+}
+
+/// Linear between order statistics; sorts no more than it has to.
+double quantile(std::vector<double>& values, double probability) {
+  const double place = probability * (double(values.size()) - 1);
+  const auto below = static_cast<std::ptrdiff_t>(place);
+  std::nth_element(values.begin(), values.begin() + below, values.end());
+  const double low = values[std::size_t(below)];
+  const double high = below + 1 < std::ptrdiff_t(values.size())
+                          ? *std::min_element(values.begin() + below + 1, values.end())
+                          : low;
+  return low + (place - double(below)) * (high - low);
+}
+
+}  // namespace
+
+double EnsembleMean::relative_precision() const { return (high - low) / 2 / std::abs(mean); }
+
+EnsembleMean student_mean(const std::vector<double>& values) {
+  const std::vector<double> kept = known(values);
+  EnsembleMean estimate;
+  if (kept.empty()) return estimate;
+  const Moments moments = moments_of(kept);
+  estimate.mean = moments.mean;
+  if (kept.size() < 2) return estimate;
+  const double count = double(kept.size());
+  const double half = gsl_cdf_tdist_Pinv(0.975, count - 1) * moments.deviation / std::sqrt(count);
+  estimate.low = estimate.mean - half;
+  estimate.high = estimate.mean + half;
+  return estimate;
+}
+
+Bootstrap::Bootstrap(int resamples, std::uint64_t seed) : resamples_(resamples), seed_(seed) {
+  require(resamples >= 200, "resamples", resamples,
+          "is too few for a quantile of 2.5 %; use at least 200");
+}
+
+const Bootstrap::Draws& Bootstrap::draws(std::size_t count) const {
+  const auto found = std::ranges::find(cache_, count, &Draws::count);
+  if (found != cache_.end()) return *found;
+  Draws fresh;
+  fresh.count = count;
+  fresh.places.reserve(std::size_t(resamples_) * count);
+  for (int resample = 0; resample < resamples_; ++resample) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const double uniform = uniform_pair(seed_, resample, std::int32_t(k), bootstrap_stream).first;
+      fresh.places.push_back(std::uint32_t(uniform * double(count)));
+    }
+  }
+  return cache_.emplace_back(std::move(fresh));
+}
+
+EnsembleMean Bootstrap::mean(const std::vector<double>& values) const {
+  const std::vector<double> kept = known(values);
+  if (kept.size() < std::size_t(least_bootstrap_count)) return student_mean(kept);
+  const Moments sample = moments_of(kept);
+  EnsembleMean estimate{sample.mean, sample.mean, sample.mean};
+  // Equal up to round-off: there is no scatter to resample.
+  if (sample.deviation <= 1e-14 * std::abs(sample.mean)) return estimate;
+  const std::vector<std::uint32_t>& places = draws(kept.size()).places;
+  std::vector<double> statistics(static_cast<std::size_t>(resamples_));
+  std::vector<double> resample(kept.size());
+  auto place = places.begin();
+  for (double& statistic : statistics) {
+    for (double& value : resample) value = kept[*place++];
+    const Moments drawn = moments_of(resample);
+    const double shift = drawn.mean - sample.mean;
+    // A resample of one value over and over knows no scatter; it belongs to the tail on its side.
+    // √n stands on both sides and is left out.
+    statistic = shift / std::max(drawn.deviation, 1e-12 * sample.deviation);
+  }
+  estimate.low = sample.mean - quantile(statistics, 0.975) * sample.deviation;
+  estimate.high = sample.mean - quantile(statistics, 0.025) * sample.deviation;
+  return estimate;
+}
+
+}  // namespace salebra

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
+#include <salebra/study/configuration.hpp>
+
+namespace salebra {
+namespace {
+
+/// `configurations` once for each value, with the change made; as they are for no values.
+template <class Value, class Change>
+void vary(std::vector<StudyConfiguration>& configurations, const std::vector<Value>& values,
+          Change change) {
+  if (values.empty()) return;
+  std::vector<StudyConfiguration> varied;
+  for (const StudyConfiguration& configuration : configurations)
+    for (const Value& value : values) {
+      varied.push_back(configuration);
+      change(std::get<GeneratedSurfaces>(varied.back().surfaces), value);
+    }
+  configurations = std::move(varied);
+}
+
+Index scaled(Index count, double factor, double size) {
+  const double wanted = double(count) * factor;
+  const auto whole = Index(std::llround(wanted));
+  require(whole >= 2 && std::abs(wanted - double(whole)) < 1e-6 * wanted, "size_x", size,
+          fmt::format("m would need {} points for cells of the same size; use a size that takes "
+                      "whole numbers",
+                      wanted));
+  return whole;
+}
+
+}  // namespace
+
+std::vector<StudyConfiguration> grid_points(const StudyConfiguration& configuration) {
+  const ParameterLists lists = configuration.ensemble;
+  std::vector<StudyConfiguration> points{configuration};
+  points.front().ensemble = {};
+  if (lists.empty()) return points;
+  require(std::holds_alternative<GeneratedSurfaces>(configuration.surfaces), "ensemble",
+          "parameters", "belong to generated surfaces; a measured one is what it is");
+  vary(points, lists.hurst, [](GeneratedSurfaces& s, double value) { s.spectrum.hurst = value; });
+  vary(points, lists.rolloff,
+       [](GeneratedSurfaces& s, double value) { s.spectrum.rolloff = value; });
+  vary(points, lists.short_cutoff,
+       [](GeneratedSurfaces& s, double value) { s.spectrum.short_cutoff = value; });
+  vary(points, lists.size_x, [](GeneratedSurfaces& s, double value) {
+    const double factor = value / s.grid.lx;
+    s.grid = {scaled(s.grid.nx, factor, value), scaled(s.grid.ny, factor, value), value,
+              s.grid.ly * factor};
+  });
+  vary(points, lists.points, [](GeneratedSurfaces& s, Index value) {
+    s.grid.ny = scaled(s.grid.ny, double(value) / double(s.grid.nx), s.grid.lx);
+    s.grid.nx = value;
+  });
+  for (const StudyConfiguration& point : points) {
+    const auto& surfaces = std::get<GeneratedSurfaces>(point.surfaces);
+    SelfAffineSpectrum(surfaces.spectrum).require_carried_by(surfaces.grid);
+  }
+  return points;
+}
+
+std::string describe_point(const ParameterLists& varied, const StudyConfiguration& point) {
+  if (varied.empty()) return "";
+  const auto& surfaces = std::get<GeneratedSurfaces>(point.surfaces);
+  const auto length = [](double value) { return format_quantity(value, Dimension::length); };
+  std::vector<std::string> parts;
+  if (!varied.hurst.empty()) parts.push_back(fmt::format("H = {}", surfaces.spectrum.hurst));
+  if (!varied.rolloff.empty()) parts.push_back("roll-off " + length(*surfaces.spectrum.rolloff));
+  if (!varied.short_cutoff.empty())
+    parts.push_back("cut-off " + length(surfaces.spectrum.short_cutoff));
+  if (!varied.size_x.empty()) parts.push_back("size " + length(surfaces.grid.lx));
+  if (!varied.points.empty() || !varied.size_x.empty())
+    parts.push_back(fmt::format("{} x {} points", surfaces.grid.nx, surfaces.grid.ny));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+}  // namespace salebra

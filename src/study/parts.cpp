@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <atomic>
+#include <fstream>
+#include <salebra/base/error.hpp>
+#include <salebra/study/parts.hpp>
+#include <sstream>
+
+#include "io/atomic_file.hpp"
+#include "realisation_record.hpp"
+#include "study_lock.hpp"
+
+namespace salebra {
+namespace {
+
+constexpr const char* suffix = ".realisation";
+
+bool is_realisation(const std::filesystem::path& file) {
+  return file.extension() == suffix && file.filename().string().front() != '.';
+}
+
+std::filesystem::path created(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directory(folder, error);
+  if (!std::filesystem::is_directory(folder))
+    throw IoError(folder.string() + ": cannot be created; check permissions and space");
+  return folder;
+}
+
+}  // namespace
+
+struct StudyParts::State {
+  explicit State(const std::filesystem::path& where)
+      : folder(created(where)), lock(std::make_unique<detail::StudyLock>(folder / "lock")) {}
+
+  std::filesystem::path file(std::uint64_t key) const {
+    return folder / fmt::format("{:016x}{}", key, suffix);
+  }
+
+  std::filesystem::path folder;
+  std::unique_ptr<detail::StudyLock> lock;
+  std::atomic<int> damaged = 0;
+};
+
+StudyParts::StudyParts(const std::filesystem::path& folder, bool resume)
+    : state_(std::make_unique<State>(folder)) {
+  // What a killed writer left half-way; the lock says that no other is at work.
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".part") std::filesystem::remove(entry.path());
+  if (!resume && count() > 0) {
+    throw InvalidInput(fmt::format(
+        "{}: holds {} finished surfaces of an earlier run; go on with them (--resume), or "
+        "remove the folder to begin anew",
+        folder.string(), count()));
+  }
+}
+
+StudyParts::~StudyParts() {
+  state_->lock.reset();
+  std::error_code ignored;
+  std::filesystem::remove(state_->folder, ignored);  // only an empty one
+}
+
+const std::filesystem::path& StudyParts::folder() const { return state_->folder; }
+
+std::size_t StudyParts::count() const {
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(state_->folder))
+    if (is_realisation(entry.path())) ++files;
+  return files;
+}
+
+std::uint64_t StudyParts::key(const StudyConfiguration& point, std::uint64_t seed) {
+  return detail::realisation_key(point, seed);
+}
+
+bool StudyParts::holds(std::uint64_t key) const {
+  return std::filesystem::exists(state_->file(key));
+}
+
+std::optional<Realisation> StudyParts::read(std::uint64_t key) {
+  const std::filesystem::path file = state_->file(key);
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return {};
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  try {
+    return detail::decode(bytes.str(), key);
+  } catch (const InvalidInput&) {
+    ++state_->damaged;
+    std::filesystem::remove(file);
+    return {};
+  }
+}
+
+void StudyParts::write(std::uint64_t key, const Realisation& realisation) {
+  if (!state_->lock->held())
+    throw Interrupted(state_->folder.string() + ": another process took the study over");
+  try {
+    detail::AtomicFile file(state_->file(key), {.overwrite = true});
+    file.write(detail::encode(realisation, key));
+    file.commit();
+  } catch (const IoError& error) {
+    throw IoError(
+        fmt::format("{}; the surfaces finished before are kept: make room and go on with "
+                    "--resume",
+                    error.what()));
+  }
+}
+
+int StudyParts::damaged() const { return state_->damaged; }
+
+void StudyParts::discard() {
+  for (const auto& entry : std::filesystem::directory_iterator(state_->folder))
+    if (is_realisation(entry.path())) std::filesystem::remove(entry.path());
+}
+
+}  // namespace salebra

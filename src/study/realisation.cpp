@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/asperity_sampling.hpp>
+#include <salebra/contact/contact_spots.hpp>
+#include <salebra/contact/interacting_summits.hpp>
+#include <salebra/contact/law.hpp>
+#include <salebra/contact/sweep.hpp>
+#include <salebra/contact/theories.hpp>
+#include <salebra/damping/dissipation.hpp>
+#include <salebra/generators/filtered_noise.hpp>
+#include <salebra/generators/random_phase.hpp>
+#include <salebra/io/read_surface.hpp>
+#include <salebra/study/realisation.hpp>
+#include <salebra/surface/spectrum.hpp>
+
+namespace salebra {
+namespace {
+
+Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed) {
+  const SelfAffineSpectrum spectrum(recipe.spectrum);
+  return recipe.method == GenerationMethod::random_phase
+             ? random_phase(recipe.grid, spectrum, seed)
+             : filtered_noise(recipe.grid, spectrum, seed);
+}
+
+Surface read(const MeasuredSurface& recipe) {
+  require(!recipe.file.empty(), "surface", "none", "is given; add [surface] or name a file");
+  ReadOptions options;
+  options.size_x = recipe.size_x;
+  options.size_y = recipe.size_y;
+  options.height_unit = recipe.height_unit;
+  Surface surface = read_surface(recipe.file, options);
+  surface.require_complete("a study");
+  const Detrend trend = recipe.detrend.value_or(customary_detrend(surface));
+  return detrended(std::move(surface), trend);
+}
+
+/// Root mean square of the steps between opposite edges, which a periodic continuation turns into cliffs.
+double seam_step(const Surface& surface) {
+  const Field& h = surface.heights;
+  const double along_x = (h.row(0) - h.row(h.rows() - 1)).square().mean();
+  const double along_y = (h.col(0) - h.col(h.cols() - 1)).square().mean();
+  return std::sqrt((along_x + along_y) / 2);
+}
+
+// Below, single contacts of a few cells decide; above, the law is no longer linear.
+constexpr double area_slope_from = 0.002, area_slope_to = 0.05;
+
+/// κ of A/A0 = κ p/(E*h') over the loads for which that is a law.
+double area_slope(const std::vector<double>& pressures, const std::vector<double>& areas,
+                  double scale) {
+  double product = 0, square = 0;
+  for (std::size_t i = 0; i < pressures.size(); ++i) {
+    const double load = pressures[i] / scale;
+    if (!(load >= area_slope_from && load <= area_slope_to) || std::isnan(areas[i])) continue;
+    product += load * areas[i];
+    square += load * load;
+  }
+  return product / square;
+}
+
+std::vector<DampingPoint> damping_curve(const ModelResult& model,
+                                        const StudyConfiguration& configuration) {
+  const double modulus_ratio = configuration.material.modulus_ratio();
+  const TabulatedLaw curve_law(model.curve, modulus_ratio);
+  const ExponentialLaw fitted_law(1, model.fit.decay_length, modulus_ratio);
+  DampingOptions small = configuration.damping;
+  small.amplitude = Amplitude::small;
+  std::vector<DampingPoint> points;
+  for (const ForceSample& sample : model.curve.samples) {
+    DampingPoint point;
+    point.pressure = sample.pressure;
+    point.force = sample.force;
+    points.push_back(point);
+    if (!sample.converged || !(sample.force > 0)) continue;
+    const AtForce position{sample.force};
+    const auto by_law = relaxation_damping(fitted_law, position, configuration.motion, small);
+    point.law_work = by_law.work_per_cycle;
+    point.law_damping_constant = by_law.damping_constant;
+    try {
+      const auto by_curvature =
+          relaxation_damping(curve_law, position, configuration.motion, small);
+      point.small_work = by_curvature.work_per_cycle;
+      point.small_damping_constant = by_curvature.damping_constant;
+      const auto by_curve =
+          relaxation_damping(curve_law, position, configuration.motion, configuration.damping);
+      if (by_curve.converged) {
+        point.curve_work = by_curve.work_per_cycle;
+        point.curve_damping_constant = by_curve.damping_constant;
+      }
+    } catch (const InvalidInput&) {
+      // Near its ends the curve does not cover the whole cycle: no value there.
+    }
+    points.back() = point;
+  }
+  return points;
+}
+
+ModelResult fitted(ForceCurve curve, const StudyConfiguration& configuration, double scale) {
+  ModelResult result;
+  result.fit = fit_exponential(curve, configuration.window);
+  if (result.fit.window.points >= 4) result.test = test_exponential(curve, configuration.window);
+  result.sensitivity = window_sensitivity(curve, configuration.window);
+  result.local = local_decay_length(curve);
+  result.area_slope = area_slope(curve.column(&ForceSample::pressure),
+                                 curve.column(&ForceSample::contact_area_fraction), scale);
+  result.curve = std::move(curve);
+  result.damping = damping_curve(result, configuration);
+  return result;
+}
+
+/// The same for a model that may have nothing to say at these loads: then its fit and its damping are unknown.
+ModelResult fitted_if_possible(const ForceCurve& curve, const StudyConfiguration& configuration,
+                               double scale) {
+  try {
+    return fitted(curve, configuration, scale);
+  } catch (const InvalidInput&) {
+    ModelResult result;
+    constexpr double unknown = ForceSample::unknown;
+    result.fit = {unknown, unknown, unknown, unknown, unknown, {unknown, unknown, 0}, unknown};
+    result.sensitivity = {unknown, unknown, 0};
+    result.curve = curve;
+    for (const ForceSample& sample : curve.samples)
+      result.damping.push_back({.pressure = sample.pressure, .force = sample.force});
+    return result;
+  }
+}
+
+/// Own summits that press each other down; loads for which no state was found are marked.
+ForceCurve interacting_curve(const SummitList& summits, const Surface& surface,
+                             const Realisation& realisation, const Material& material,
+                             const std::vector<double>& pressures, const Progress& progress) {
+  const InteractingSummits model(summits.summits, material, surface.grid, realisation.heights.mean,
+                                 realisation.heights.rms_height);
+  ForceCurve curve;
+  for (std::size_t i = 0; i < pressures.size(); ++i) {
+    if (progress && !progress({.stage = "interacting summits",
+                               .fraction = double(i) / double(pressures.size())}))
+      throw Interrupted("study: interrupted");
+    try {
+      ForceCurve one = curve_at_pressures(model, {pressures[i]});
+      if (curve.samples.empty()) {
+        curve = std::move(one);
+      } else {
+        curve.samples.push_back(one.samples.front());
+      }
+    } catch (const NotConverged&) {
+      ForceSample lost;
+      lost.pressure = pressures[i];
+      lost.force = pressures[i] * surface.grid.area();
+      lost.converged = false;
+      curve.samples.push_back(lost);
+    }
+  }
+  curve.nominal_area = surface.grid.area();
+  curve.rms_height = realisation.heights.rms_height;
+  return curve;
+}
+
+/// The modes that the surface has, ring by ring.
+std::vector<RoughnessShell> shells_of(const Surface& surface) {
+  const PowerSpectrum spectrum = power_spectrum(surface);
+  const RadialSpectrum rings = radial_spectrum(spectrum, 16);
+  std::vector<RoughnessShell> shells;
+  for (std::size_t i = 0; i < rings.wavenumber.size(); ++i) {
+    const double power = double(rings.modes[i]) * rings.density[i] * spectrum.cell();
+    if (power > 0) shells.push_back({rings.wavenumber[i], power});
+  }
+  return shells;
+}
+
+SpotStatistics spot_statistics(const ContactSpots& contact, const Grid2D& grid) {
+  SpotStatistics statistics;
+  statistics.count = double(contact.spots.size());
+  statistics.corrected_area_fraction = contact.corrected_area_fraction;
+  statistics.largest_area = contact.spots.empty() ? 0 : contact.spots.front().area;
+  statistics.mean_area = contact.spots.empty() ? 0
+                                               : contact.contact_area_fraction * grid.area() /
+                                                     double(contact.spots.size());
+  statistics.sizes.assign(std::size_t(std::bit_width(std::uint64_t(grid.points()))), 0.0);
+  for (const ContactSpot& spot : contact.spots) {
+    const auto cells = std::uint64_t(std::llround(spot.area / grid.cell_area()));
+    statistics.sizes[std::size_t(std::bit_width(cells) - 1)] += 1;
+  }
+  return statistics;
+}
+
+/// Monte Carlo, interacting summits and Persson's theory.
+void add_other_models(Realisation& realisation, const Surface& surface, const SummitList& summits,
+                      const StudyConfiguration& configuration, double scale,
+                      const std::vector<double>& pressures, const Progress& progress) {
+  const Material& material = configuration.material;
+  const double area = surface.grid.area();
+  const SummitEnsemble& ensemble = realisation.ensemble;
+  const int count = std::max(1, int(std::lround(ensemble.density * area)));
+  const DeterministicSummits drawn(draw_summits(ensemble, count, std::sqrt(area), realisation.seed),
+                                   material, area, -ensemble.mean_height,
+                                   realisation.heights.rms_height);
+  realisation.gw_monte_carlo =
+      fitted_if_possible(curve_at_pressures(drawn, pressures), configuration, scale);
+
+  const PerssonTheory theory(shells_of(surface), material.contact_modulus);
+  ForceCurve persson = persson_curve(theory, material, area, pressures);
+  persson.rms_height = realisation.heights.rms_height;
+  realisation.persson = fitted_if_possible(persson, configuration, scale);
+  realisation.persson_decay_length = theory.asymptote().decay_length;
+
+  realisation.gw_interacting = fitted_if_possible(
+      interacting_curve(summits, surface, realisation, material, pressures, progress),
+      configuration, scale);
+}
+
+}  // namespace
+
+bool stick_solves(const StudyConfiguration& configuration) {
+  return configuration.stick && std::isfinite(configuration.material.cerruti_isotropic);
+}
+
+std::span<const StudyModel> models_of(const StudyConfiguration& configuration) {
+  return std::span(study_models).first(configuration.all_models ? study_models.size() : 3);
+}
+
+Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed) {
+  if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces))
+    return generate(*recipe, seed);
+  return read(std::get<MeasuredSurface>(configuration.surfaces));
+}
+
+double contact_scale(const StudyConfiguration& configuration) {
+  double slope = 0;
+  if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces)) {
+    slope = SelfAffineSpectrum(recipe->spectrum).lattice_moments(recipe->grid).rms_slope();
+  } else {
+    slope = surface_moments(study_surface(configuration, 0)).rms_slope();
+  }
+  return configuration.material.contact_modulus * slope;
+}
+
+std::vector<double> study_pressures(const StudyConfiguration& configuration) {
+  std::vector<double> pressures = configuration.pressures;
+  if (configuration.relative_pressures) {
+    const double scale = contact_scale(configuration);
+    for (double& pressure : pressures) pressure *= scale;
+  }
+  return pressures;
+}
+
+Realisation analyse_realisation(const StudyConfiguration& configuration, std::uint64_t seed,
+                                const std::vector<double>& pressures, const Progress& progress) {
+  const Surface surface = study_surface(configuration, seed);
+  Realisation realisation;
+  realisation.seed = seed;
+  realisation.grid = surface.grid;
+  realisation.heights = height_statistics(surface);
+  realisation.periodic = surface.periodic;
+  if (!surface.periodic)
+    realisation.seam_step = seam_step(surface) / realisation.heights.rms_height;
+  realisation.moments = surface_moments(surface);
+  const SummitList summits = find_summits(surface);
+  realisation.summits = summit_statistics(summits);
+  const Material& material = configuration.material;
+  const SpectralMoments& moments = realisation.moments;
+  const double scale = material.contact_modulus * moments.rms_slope();
+
+  realisation.ensemble = summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
+  realisation.ensemble.rms_height = realisation.heights.rms_height;
+  const StatisticalSummits statistical(realisation.ensemble, material, surface.grid.area());
+  realisation.gw_moments = fitted(curve_at_pressures(statistical, pressures), configuration, scale);
+  const DeterministicSummits deterministic(summits.summits, material, summits.searched_area,
+                                           realisation.heights.mean,
+                                           realisation.heights.rms_height);
+  realisation.gw_deterministic =
+      fitted(curve_at_pressures(deterministic, pressures), configuration, scale);
+
+  bool stopped = false;
+  const double others = configuration.all_models ? 0.5 : 0.0;
+  const auto part = [&](double begin, double share) -> Progress {
+    return [&, begin, share](const ProgressReport& report) {
+      stopped = stopped || (progress && !progress({.stage = "realisation",
+                                                   .fraction = begin + share * report.fraction}));
+      return !stopped;
+    };
+  };
+  if (configuration.all_models)
+    add_other_models(realisation, surface, summits, configuration, scale, pressures,
+                     part(0, others));
+
+  SweepOptions sweep;
+  sweep.contact.tolerance = configuration.tolerance;
+  sweep.contact.on_progress = part(others, 1 - others);
+  sweep.stick = stick_solves(configuration);
+  realisation.spots.resize(pressures.size());
+  sweep.on_state = [&](std::size_t k, const NormalContactState& state) {
+    realisation.spots[k] =
+        spot_statistics(contact_spots(state.pressure, surface.grid), surface.grid);
+  };
+  ForceCurve curve = sweep_pressures(surface, material, pressures, sweep);
+  if (stopped) throw Interrupted("study: interrupted");
+  const auto converged = std::ranges::count_if(curve.samples, &ForceSample::converged);
+  if (converged < 4) {
+    throw NotConverged(
+        fmt::format("contact: only {} of {} pressures converged to {}; allow a larger tolerance",
+                    converged, pressures.size(), configuration.tolerance));
+  }
+  realisation.bem = fitted(std::move(curve), configuration, scale);
+  std::vector<double> corrected;
+  for (const SpotStatistics& spots : realisation.spots)
+    corrected.push_back(spots.corrected_area_fraction);
+  realisation.corrected_area_slope = area_slope(pressures, corrected, scale);
+  return realisation;
+}
+
+}  // namespace salebra

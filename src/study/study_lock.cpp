@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "study_lock.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <salebra/base/error.hpp>
+#include <sstream>
+#include <vector>
+
+namespace salebra::detail {
+namespace {
+
+std::optional<std::string> read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return {};
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::string first_line(const std::filesystem::path& file) {
+  const std::string text = read_text(file).value_or("");
+  return text.substr(0, text.find('\n'));
+}
+
+/// Where a process number means the same process: one boot of one host, in one namespace.
+std::string process_space() {
+  char host[256] = "unknown";
+  gethostname(host, sizeof host - 1);
+  std::error_code ignored;
+  const auto space = std::filesystem::read_symlink("/proc/self/ns/pid", ignored);
+  return fmt::format("{} {} {}", host, first_line("/proc/sys/kernel/random/boot_id"),
+                     space.string());
+}
+
+/// In ticks since boot, which tells a process from a later one of the same number; "" where it is not known.
+std::string start_time(pid_t process) {
+  const std::string text = first_line(fmt::format("/proc/{}/stat", process));
+  const auto name_end = text.rfind(')');
+  if (name_end == std::string::npos) return "";
+  std::istringstream words(text.substr(name_end + 1));
+  std::string word;
+  for (int field = 3; field <= 22; ++field) words >> word;
+  return word;
+}
+
+struct Owner {
+  std::string space, started;
+  pid_t process = 0;
+};
+
+/// Lines: process space, process, start time, and a word that no other lock has.
+Owner parse(const std::string& identity) {
+  std::istringstream lines(identity);
+  Owner owner;
+  std::string process;
+  std::getline(lines, owner.space);
+  std::getline(lines, process);
+  std::getline(lines, owner.started);
+  owner.process = static_cast<pid_t>(std::atol(process.c_str()));
+  return owner;
+}
+
+bool is_gone(const Owner& owner) {
+  if (owner.process <= 0 || owner.space != process_space()) return false;
+  if (kill(owner.process, 0) != 0 && errno == ESRCH) return true;
+  const std::string started = start_time(owner.process);
+  return !started.empty() && !owner.started.empty() && started != owner.started;
+}
+
+double modified(const struct stat& status) {
+  return double(status.st_mtim.tv_sec) + 1e-9 * double(status.st_mtim.tv_nsec);
+}
+
+[[noreturn]] void fail(const std::filesystem::path& file, int error) {
+  throw IoError(fmt::format("{}: cannot be created ({}); check permissions and space",
+                            file.string(), std::strerror(error)));
+}
+
+}  // namespace
+
+StudyLock::StudyLock(std::filesystem::path file, std::chrono::milliseconds stale_after)
+    : file_(std::move(file)), stale_after_(stale_after) {
+  const auto moment = std::chrono::steady_clock::now().time_since_epoch().count();
+  identity_ = fmt::format("{}\n{}\n{}\n{:x}-{:x}\n", process_space(), getpid(),
+                          start_time(getpid()), moment, reinterpret_cast<std::uintptr_t>(this));
+  // Each failed attempt saw a lock vanish or be taken over: not many in a row.
+  for (int attempt = 0; attempt < 20 && !held_; ++attempt) held_ = try_link();
+  if (!held_)
+    throw InvalidInput(
+        fmt::format("{}: is taken over and over again; are several processes "
+                    "started on one study?",
+                    file_.string()));
+  thread_ = std::thread([this] { keep_fresh(); });
+}
+
+bool StudyLock::try_link() {
+  const std::string word = fmt::format("{}-{:x}", getpid(), reinterpret_cast<std::uintptr_t>(this));
+  const std::filesystem::path own = file_.string() + "." + word;
+  const int descriptor = open(own.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail(own, errno);
+  const ssize_t written = write(descriptor, identity_.data(), identity_.size());
+  const int write_error = errno;
+  close(descriptor);
+  if (written != ssize_t(identity_.size())) {
+    unlink(own.c_str());
+    fail(own, write_error);
+  }
+  const bool linked = link(own.c_str(), file_.c_str()) == 0;
+  const int link_error = errno;
+  struct stat fresh = {}, present = {};
+  stat(own.c_str(), &fresh);
+  unlink(own.c_str());
+  // NFS may answer a link that was made with an error; the count of links tells.
+  if (linked || fresh.st_nlink == 2) return true;
+  if (link_error != EEXIST) fail(file_, link_error);
+
+  const auto found = read_text(file_);
+  if (!found || stat(file_.c_str(), &present) != 0) return false;  // it has just gone
+  const Owner owner = parse(*found);
+  const double age = modified(fresh) - modified(present);
+  const bool stale = is_gone(owner) || age > double(stale_after_.count()) / 1000;
+  if (!stale)
+    throw InvalidInput(fmt::format(
+        "{}: in use by process {} on {}, alive {:.0f} s ago; wait for it to end, or end it",
+        file_.parent_path().string(), owner.process, owner.space.substr(0, owner.space.find(' ')),
+        std::max(age, 0.0)));
+  // Of several that come to this conclusion one renames the file that all have read; who gets another puts it back.
+  const std::filesystem::path aside = file_.string() + ".stale." + word;
+  if (rename(file_.c_str(), aside.c_str()) != 0) return false;
+  if (read_text(aside) != found && link(aside.c_str(), file_.c_str()) != 0) {
+    // A third one was faster: the owner that was put aside notices that its name is gone.
+  }
+  unlink(aside.c_str());
+  return false;
+}
+
+void StudyLock::keep_fresh() {
+  std::unique_lock lock(guard_);
+  while (!wake_.wait_for(lock, stale_after_ / 6, [&] { return ending_; })) {
+    if (read_text(file_) != identity_) {
+      held_ = false;
+      return;
+    }
+    utimensat(AT_FDCWD, file_.c_str(), nullptr, 0);
+  }
+}
+
+StudyLock::~StudyLock() {
+  {
+    const std::scoped_lock lock(guard_);
+    ending_ = true;
+  }
+  wake_.notify_all();
+  if (thread_.joinable()) thread_.join();
+  if (held_ && read_text(file_) == identity_) unlink(file_.c_str());
+}
+
+}  // namespace salebra::detail

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace salebra::detail {
+
+/// A lock file that lives as long as the object. It is made by link(), which is atomic on NFS too, and says who holds it: host and boot,
+/// process and the time of its start. A thread touches it every sixth of `stale_after`; who finds it untouched for longer, by the file
+/// system's own clock, or finds its process on this very host gone, takes it over. Should two do so at once, the one whose name is not in
+/// the file notices at the next touch: held() is then false.
+class StudyLock {
+ public:
+  /// Throws InvalidInput where someone else holds it, IoError where the file cannot be made.
+  explicit StudyLock(std::filesystem::path file,
+                     std::chrono::milliseconds stale_after = std::chrono::seconds(60));
+  ~StudyLock();
+  StudyLock(const StudyLock&) = delete;
+  StudyLock& operator=(const StudyLock&) = delete;
+
+  bool held() const { return held_; }
+
+ private:
+  bool try_link();
+  void keep_fresh();
+
+  std::filesystem::path file_;
+  std::chrono::milliseconds stale_after_;
+  std::string identity_;
+  std::atomic<bool> held_ = false;
+  bool ending_ = false;
+  std::mutex guard_;
+  std::condition_variable wake_;
+  std::thread thread_;
+};
+
+}  // namespace salebra::detail

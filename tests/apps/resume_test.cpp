@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <salebra/base/random.hpp>
+#include <salebra/io/result_file.hpp>
+#include <thread>
+
+#include "run_program.hpp"
+
+using namespace salebra;
+using Catch::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string study = R"([surface]
+points = 64
+size_x = "4um"
+rolloff = "1um"
+short_cutoff = "0.5um"
+rms_height = "10nm"
+seed_count = 16
+[ensemble]
+hurst = [0.5, 0.8]
+[material]
+contact_modulus = "10GPa"
+poisson = 0.3
+[contact]
+relative_pressures = "1e-3:0.2:10"
+tolerance = 1e-8
+tangential_stiffness = "proportional"
+[damping]
+normal_amplitude = "0.1nm"
+drag_velocity = "1mm/s"
+frequency = "20kHz"
+)";
+
+std::size_t parts_in(const fs::path& folder) {
+  std::size_t count = 0;
+  std::error_code gone;
+  for (fs::directory_iterator entry(folder, gone), end; !gone && entry != end;
+       entry.increment(gone))
+    count += entry->path().extension() == ".realisation";
+  return count;
+}
+
+/// Starts the program and kills it a while after its next part has appeared, or without waiting for one. False: it ended before.
+bool run_and_kill(const ProgramTest& test, bool after_a_part, std::chrono::microseconds delay) {
+  const fs::path parts = test.folder() / "result.h5.parts";
+  const std::size_t before = parts_in(parts);
+  const pid_t child = fork();
+  if (child == 0) {
+    const int silence = open("/dev/null", O_WRONLY);
+    dup2(silence, 1);
+    dup2(silence, 2);
+    if (chdir(test.folder().c_str()) != 0) _exit(99);
+    execl(SALEBRA_PROGRAM, "salebra", "study", "study.toml", "-o", "result.h5", "--resume",
+          nullptr);
+    _exit(99);
+  }
+  int status = 0;
+  while (after_a_part && parts_in(parts) <= before) {
+    if (waitpid(child, &status, WNOHANG) == child) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  std::this_thread::sleep_for(delay);
+  kill(child, SIGKILL);
+  waitpid(child, &status, 0);
+  return WIFSIGNALED(status);
+}
+
+/// Every dataset of both files, bit by bit.
+int compare_groups(const ResultReader& a, const ResultReader& b, const std::string& path) {
+  int compared = 0;
+  CHECK(a.groups(path) == b.groups(path));
+  CHECK(a.datasets(path) == b.datasets(path));
+  for (const std::string& name : a.datasets(path)) {
+    const std::string where = path + "/" + name;
+    INFO(where);
+    if (name == "model") {
+      CHECK(a.labels(where) == b.labels(where));
+    } else {
+      const auto left = a.numbers(where), right = b.numbers(where);
+      REQUIRE(left.size() == right.size());
+      CHECK(std::memcmp(left.data(), right.data(), left.size() * sizeof(double)) == 0);
+    }
+    ++compared;
+  }
+  for (const std::string& name : a.groups(path))
+    compared += compare_groups(a, b, path == "/" ? name : path + "/" + name);
+  return compared;
+}
+
+}  // namespace
+
+TEST_CASE("A study killed at twenty random moments ends as if nothing had happened", "[resume]") {
+  const ProgramTest test;
+  test.write("study.toml", study);
+  int killed = 0;
+  for (int moment = 0; moment < 20; ++moment) {
+    const RandomPair chance = uniform_pair(20, moment, 0);
+    killed += run_and_kill(test, chance.first < 0.7,
+                           std::chrono::microseconds(int(60000 * chance.second)));
+    if (fs::exists(test.folder() / "result.h5")) break;
+  }
+  // All twenty unless the machine is so fast that it finished between them.
+  CHECK(killed >= 10);
+  const std::size_t kept = parts_in(test.folder() / "result.h5.parts");
+  CHECK(kept >= 5);
+  // A bit that turned on the disk, and a file cut short, cost their surfaces only.
+  int spoilt = 0;
+  for (const auto& entry : fs::directory_iterator(test.folder() / "result.h5.parts")) {
+    if (entry.path().extension() != ".realisation" || spoilt == 2) continue;
+    if (++spoilt == 1) {
+      std::fstream file(entry.path(), std::ios::binary | std::ios::in | std::ios::out);
+      file.seekp(1000);
+      file.put('\x55');
+    } else {
+      fs::resize_file(entry.path(), 100);
+    }
+  }
+  if (!fs::exists(test.folder() / "result.h5")) {
+    const auto resumed = test.run("study study.toml -o result.h5 --resume --json");
+    INFO(resumed.err);
+    REQUIRE(resumed.status == 0);
+    CHECK_THAT(resumed.err, Contains("2 damaged files of result.h5.parts"));
+  }
+  const auto whole = test.run("study study.toml -o whole.h5 --json --threads 1");
+  REQUIRE(whole.status == 0);
+  CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5", "whole.h5"});
+  const int compared = compare_groups(ResultReader(test.folder() / "result.h5"),
+                                      ResultReader(test.folder() / "whole.h5"), "/");
+  CHECK(compared > 200);
+}
+
+TEST_CASE("A study that cannot write its next surface keeps the others", "[resume]") {
+  const ProgramTest test;
+  test.write("study.toml", study);
+  // No file may grow beyond 8 blocks, which no realisation does without.
+  const auto full = test.run("study study.toml -o result.h5", "ulimit -f 8;");
+  CHECK(full.status == 1);
+  CHECK_THAT(full.err, Contains("--resume"));
+  CHECK(test.files() == std::set<std::string>{"study.toml"});
+}

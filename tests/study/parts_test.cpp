@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <salebra/base/error.hpp>
+#include <salebra/study/parts.hpp>
+#include <salebra/study/study.hpp>
+
+#include "small_study.hpp"
+
+using namespace salebra;
+using Catch::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder name that is free, and is free again afterwards.
+struct Scratch {
+  fs::path folder =
+      fs::temp_directory_path() / ("salebra-parts-" + std::to_string(getpid()) + ".parts");
+  Scratch() { fs::remove_all(folder); }
+  ~Scratch() { fs::remove_all(folder); }
+};
+
+Realisation some_realisation() {
+  Realisation realisation;
+  realisation.seed = 7;
+  realisation.grid = {4, 6, 1, 1.5};
+  realisation.bem.curve.model = "bem";
+  realisation.bem.curve.samples = {{.force = 1. / 3, .converged = false}, {.mean_gap = -0.0}};
+  realisation.spots.resize(2);
+  realisation.spots[1].sizes = {1, 2, 3};
+  realisation.gw_moments.damping.push_back({.pressure = 5e-324});
+  return realisation;
+}
+
+fs::path only_part(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".realisation") return entry.path();
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("A realisation comes back from the disk with every bit", "[parts]") {
+  const Scratch scratch;
+  {
+    StudyParts parts(scratch.folder, false);
+    parts.write(42, some_realisation());
+    CHECK(parts.holds(42));
+    CHECK_FALSE(parts.read(43));
+  }
+  StudyParts parts(scratch.folder, true);
+  CHECK(parts.count() == 1);
+  const auto found = parts.read(42);
+  REQUIRE(found);
+  CHECK(found->seed == 7);
+  CHECK(found->grid == Grid2D{4, 6, 1, 1.5});
+  CHECK(found->bem.curve.model == "bem");
+  REQUIRE(found->bem.curve.samples.size() == 2);
+  CHECK(found->bem.curve.samples[0].force == 1. / 3);
+  CHECK_FALSE(found->bem.curve.samples[0].converged);
+  CHECK(std::signbit(found->bem.curve.samples[1].mean_gap));
+  CHECK(std::isnan(found->bem.curve.samples[1].force));
+  CHECK(found->spots[1].sizes == std::vector<double>{1, 2, 3});
+  CHECK(found->gw_moments.damping[0].pressure == 5e-324);
+  parts.discard();
+  CHECK(parts.count() == 0);
+}
+
+TEST_CASE("A damaged part is found out wherever a bit of it has changed", "[parts]") {
+  const Scratch scratch;
+  StudyParts parts(scratch.folder, false);
+  parts.write(42, some_realisation());
+  const fs::path file = only_part(scratch.folder);
+  const auto size = fs::file_size(file);
+  std::ifstream stream(file, std::ios::binary);
+  const std::string good((std::istreambuf_iterator<char>(stream)), {});
+  int lost = 0;
+  const auto put = [&](const std::string& bytes) {
+    std::ofstream(file, std::ios::binary) << bytes;
+    CHECK_FALSE(parts.read(42));
+    CHECK_FALSE(fs::exists(file));
+    CHECK(parts.damaged() == ++lost);
+  };
+  for (std::size_t place = 0; place < size; place += 37) {
+    std::string bad = good;
+    bad[place] = static_cast<char>(bad[place] ^ 1);
+    put(bad);
+  }
+  put(good.substr(0, size - 1));
+  put(good + "x");
+  put("");
+  std::ofstream(file, std::ios::binary) << good;
+  CHECK(parts.read(42));
+  // The right file under another key is another realisation.
+  fs::rename(file, scratch.folder / "000000000000002b.realisation");
+  CHECK_FALSE(parts.read(43));
+}
+
+TEST_CASE("The key of a realisation changes with what decides it, and with nothing else",
+          "[parts]") {
+  const StudyConfiguration study = small_study();
+  const auto key = StudyParts::key(study, 1);
+  CHECK(StudyParts::key(study, 2) != key);
+  StudyConfiguration other = study;
+  other.tolerance = 1e-9;
+  CHECK(StudyParts::key(other, 1) != key);
+  other = study;
+  other.all_models = true;
+  CHECK(StudyParts::key(other, 1) != key);
+  other = study;
+  std::get<Drag>(other.motion).drag_velocity *= 2;
+  CHECK(StudyParts::key(other, 1) != key);
+  other = study;
+  std::get<GeneratedSurfaces>(other.surfaces).spectrum.hurst = 0.7;
+  CHECK(StudyParts::key(other, 1) != key);
+  other = study;
+  other.text += "# a comment";
+  other.precision = 0.01;
+  std::get<GeneratedSurfaces>(other.surfaces).seeds.push_back(9);
+  CHECK(StudyParts::key(other, 1) == key);
+}
+
+TEST_CASE("Parts of a study are not begun anew by accident, nor shared by two", "[parts]") {
+  const Scratch scratch;
+  {
+    StudyParts parts(scratch.folder, false);
+    CHECK_THROWS_WITH(StudyParts(scratch.folder, true), Contains("in use by process"));
+    parts.write(1, some_realisation());
+  }
+  CHECK_THROWS_WITH(StudyParts(scratch.folder, false), Contains("--resume"));
+  CHECK(StudyParts(scratch.folder, true).count() == 1);
+  StudyParts(scratch.folder, true).discard();
+  CHECK_FALSE(fs::exists(scratch.folder));
+}
+
+TEST_CASE("The lock of a dead process is taken over at once", "[parts]") {
+  const Scratch scratch;
+  const pid_t child = fork();
+  if (child == 0) {
+    new StudyParts(scratch.folder, false);  // never unlocked: as if it had been killed
+    _exit(0);
+  }
+  waitpid(child, nullptr, 0);
+  REQUIRE(fs::exists(scratch.folder / "lock"));
+  CHECK_NOTHROW(StudyParts(scratch.folder, false));
+}
+
+TEST_CASE("The lock of another host holds as long as it is touched", "[parts]") {
+  const Scratch scratch;
+  fs::create_directory(scratch.folder);
+  const fs::path lock = scratch.folder / "lock";
+  std::ofstream(lock) << "elsewhere boot space\n1\n2\nword\n";
+  CHECK_THROWS_WITH(StudyParts(scratch.folder, false),
+                    Contains("in use by process 1 on elsewhere"));
+  fs::last_write_time(lock, fs::file_time_type::clock::now() - std::chrono::minutes(5));
+  CHECK_NOTHROW(StudyParts(scratch.folder, false));
+}
+
+TEST_CASE("A study goes on with its parts and ends with the same bits", "[parts]") {
+  const Scratch scratch;
+  StudyConfiguration study = small_study();
+  study.stick = false;
+  const StudyResult whole = run_study(study);
+  {
+    StudyParts parts(scratch.folder, false);
+    const auto cut = run_ensembles(
+        study, {.on_progress = [](const ProgressReport& report) { return report.step < 1; },
+                .on_realisation = {},
+                .parts = &parts});
+    REQUIRE(parts.count() >= 1);
+    CHECK((cut.empty() || cut.front().interrupted || parts.count() == 3));
+  }
+  StudyParts parts(scratch.folder, true);
+  const std::size_t before = parts.count();
+  std::size_t restored = 0;
+  const auto resumed = run_ensembles(
+      study,
+      {.on_progress = {},
+       .on_realisation = [&](const RealisationReport& report) { restored += report.restored; },
+       .parts = &parts});
+  CHECK(restored == before);
+  REQUIRE(resumed.front().realisations.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i)
+    CHECK(resumed.front().realisations[i].bem.damping[5].curve_work ==
+          whole.realisations[i].bem.damping[5].curve_work);
+  // Other settings are other surfaces: nothing here is theirs.
+  study.tolerance = 1e-9;
+  CHECK_THROWS_WITH(
+      run_ensembles(study, {.on_progress = {}, .on_realisation = {}, .parts = &parts}),
+      Contains("none of its 3 surfaces"));
+}
