@@ -32,7 +32,8 @@ class ActiveSetCg {
 
   // Σq with Gq = 1 on the cells where 0 < p < bound and q = 0 elsewhere: the load that a unit of rigid approach adds.
   // `pressure`, where given, receives q.
-  double punch_load(const double* p, double bound, Field* pressure = nullptr);
+  PunchOutcome punch_load(const double* p, double bound, const PunchLimits& limits,
+                          Field* pressure = nullptr);
 
  private:
   // The state of one call of solve().

@@ -23,6 +23,23 @@ struct ContactTarget {
   bool load_given() const { return kind == Kind::mean_pressure; }
 };
 
+struct PunchLimits {
+  // Stop when the load grew by less than this part of itself in two iterations running. The load is a maximum over q: its error is
+  // the square of the error of q.
+  double relative_gain = 1e-11;
+  int max_iterations = 1000;
+  std::function<bool(int iteration)> keep_going = {};
+};
+
+struct PunchOutcome {
+  double load = 0;
+  double residual = 0;  // rms of 1 − Gq over the punch
+  int iterations = 0;
+  int fft_count = 0;
+  bool converged = false;
+  bool interrupted = false;
+};
+
 struct ActiveSetLimits {
   double tolerance = 1e-10;  // of e_c
   int max_iterations = 1000;

@@ -1,28 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal.hpp>
+#include <salebra/contact/stick.hpp>
 
 #include "active_set_cg.hpp"
+#include "surface_response.hpp"
+#include "tangential_workspace.hpp"
 
 namespace salebra {
 namespace detail {
 namespace {
 
 // The load is a maximum over q, so its error is the square of the error of q: a loose solve is enough for a sharp load.
-constexpr double relative_gain = 1e-11;
 constexpr int gains_in_a_row = 2;
-constexpr int most_iterations = 2000;
 
 }  // namespace
 
 // CG as in solve(), on a set of cells that does not change: minimises ½q·Gq − Σq. The load is then taken from
 // 2Σq − q·Gq in double precision, whose error is quadratic in that of q.
 template <class Real>
-double ActiveSetCg<Real>::punch_load(const double* p, double bound, Field* pressure) {
+PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const PunchLimits& limits,
+                                           Field* pressure) {
+  PunchOutcome outcome;
   reset();
   const auto in_set = [bound](double x) { return x > 0 && x < bound; };
   for_rows([&](Index begin, Index end) {
@@ -53,52 +57,120 @@ double ActiveSetCg<Real>::punch_load(const double* p, double bound, Field* press
       tiles * tile_width);
   double curvature = 1, gained = 0;
   int small_gains = 0;
-  for (int iteration = 0; iteration < most_iterations && small_gains < gains_in_a_row;
-       ++iteration) {
+  while (small_gains < gains_in_a_row && outcome.iterations < limits.max_iterations) {
+    if (limits.keep_going && !limits.keep_going(outcome.iterations)) {
+      outcome.interrupted = true;
+      break;
+    }
     frame_residual();
     double zw = 0, descent = 0, tw = 0;
     for (const auto& part : over(PreconditionSums{}, [&](Index begin, Index end) {
            return kernels_.precondition(a, begin, end);
          }))
       zw += part.zw;
-    const double beta = iteration > 0 ? -zw / curvature : 0;
+    const double beta = outcome.iterations > 0 ? -zw / curvature : 0;
     for (const double part : over(0.0, [&](Index begin, Index end) {
            return kernels_.direct(a, begin, end, 0, beta, 0);
          }))
       descent += part;
     compliance_.apply(t_.get(), w_.get());
+    ++outcome.fft_count;
     for (const auto& part : over(CurvatureSums{}, [&](Index begin, Index end) {
            return kernels_.curvature(a, begin, end);
          }))
       tw += part.tw;
-    if (!(tw > 0)) break;
+    if (!(tw > 0)) {
+      // Nothing is left to gain, as after one step on a single cell; or the numbers are none.
+      if (tw == 0) small_gains = gains_in_a_row;
+      break;
+    }
     curvature = tw;
     over(StepSums{},
          [&](Index begin, Index end) { return kernels_.step(a, begin, end, descent / tw, 0); });
     const double gain = descent * descent / tw;
     gained += gain;
-    small_gains = gain < relative_gain * gained ? small_gains + 1 : 0;
-    if (iteration + 1 == most_iterations && small_gains < gains_in_a_row)
-      return std::numeric_limits<double>::quiet_NaN();
+    small_gains = gain < limits.relative_gain * gained ? small_gains + 1 : 0;
+    ++outcome.iterations;
   }
+  outcome.converged = small_gains == gains_in_a_row;
   Field q = Field::Zero(grid_.nx, grid_.ny), image(grid_.nx, grid_.ny);
   for (std::size_t k = 0; k < tiles_.size(); ++k)
     std::copy_n(p_ + k * tile_width, std::min<Index>(tile_width, grid_.ny - tiles_[k].column),
                 q.data() + tiles_[k].row * grid_.ny + tiles_[k].column);
   if (pressure) *pressure = q;
   exact_compliance().apply(q.data(), image.data());
-  return sum_rows([&](Index begin, Index end) {
-    double part = 0;
-    for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k)
-      part += q.data()[k] * (2 - image.data()[k]);
-    return part;
-  });
+  ++outcome.fft_count;
+  struct Sums {
+    double load = 0, misfit = 0, cells = 0;
+  };
+  Sums total;
+  for (const Sums& part : over_rows<Sums>([&](Index begin, Index end) {
+         Sums sums;
+         for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) {
+           const double q_k = q.data()[k], image_k = image.data()[k];
+           sums.load += q_k * (2 - image_k);
+           if (!in_set(p[k])) continue;
+           sums.misfit += (1 - image_k) * (1 - image_k);
+           sums.cells += 1;
+         }
+         return sums;
+       })) {
+    total.load += part.load;
+    total.misfit += part.misfit;
+    total.cells += part.cells;
+  }
+  outcome.load = total.load;
+  outcome.residual = std::sqrt(total.misfit / total.cells);
+  return outcome;
 }
 
-template double ActiveSetCg<float>::punch_load(const double*, double, Field*);
-template double ActiveSetCg<double>::punch_load(const double*, double, Field*);
+template PunchOutcome ActiveSetCg<float>::punch_load(const double*, double, const PunchLimits&,
+                                                     Field*);
+template PunchOutcome ActiveSetCg<double>::punch_load(const double*, double, const PunchLimits&,
+                                                      Field*);
 
 }  // namespace detail
+
+namespace {
+
+// The cells where 0 < p < bound pressed in as one piece. Alone on a half-space, they need no more of the grid than they span.
+PunchStiffness press_punch(const Field& p, double bound, const Grid2D& grid, double contact_modulus,
+                           Boundary boundary, Precision precision,
+                           const detail::PunchLimits& limits, Field* punch_pressure) {
+  const double cell = std::sqrt(grid.cell_area());
+  const bool alone = boundary == Boundary::free;
+  const auto window = alone ? detail::bounding_window(ContactSet(p > 0 && p < bound))
+                            : detail::CellWindow{0, 0, grid.nx, grid.ny};
+  Field spanned;
+  if (alone) spanned = p.block(window.x0, window.y0, window.nx, window.ny);
+  const Grid2D scaled{window.nx, window.ny, static_cast<double>(window.nx) * grid.dx() / cell,
+                      static_cast<double>(window.ny) * grid.dy() / cell};
+  Field q;
+  const auto press = [&]<class Real>(Real) {
+    return detail::ActiveSetCg<Real>(scaled, 1, boundary, {}, 0)
+        .punch_load((alone ? spanned : p).data(), bound, limits, punch_pressure ? &q : nullptr);
+  };
+  const detail::PunchOutcome outcome = precision == Precision::mixed ? press(0.0f) : press(0.0);
+  if (punch_pressure) {
+    *punch_pressure = Field::Zero(grid.nx, grid.ny);
+    punch_pressure->block(window.x0, window.y0, window.nx, window.ny) =
+        q * (contact_modulus / cell);
+  }
+  // With lengths in cells and E* = 1, Σq counts forces in E*·(cell size)² for an approach of one cell size.
+  return {.normal_stiffness = outcome.load * contact_modulus * cell,
+          .iterations = outcome.iterations,
+          .fft_count = outcome.fft_count,
+          .residual = outcome.residual,
+          .converged = outcome.converged,
+          .interrupted = outcome.interrupted};
+}
+
+std::function<bool(int)> keep_going(const Progress& progress) {
+  if (!progress) return {};
+  return [&progress](int iteration) { return progress({"stiffness", 0, iteration, 0}); };
+}
+
+}  // namespace
 
 double normal_stiffness(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
                         const NormalContactOptions& options, Field* punch_pressure) {
@@ -111,17 +183,32 @@ double normal_stiffness(const NormalContactState& state, const Grid2D& grid, dou
   if (options.boundary == Boundary::periodic && elastic.all())
     return std::numeric_limits<double>::infinity();
   if (!elastic.any()) return 0;
-  const double cell = std::sqrt(grid.cell_area());
-  const Grid2D scaled{grid.nx, grid.ny, grid.lx / cell, grid.ly / cell};
-  const auto load = [&]<class Real>(Real) {
-    return detail::ActiveSetCg<Real>(scaled, 1, options.boundary, {}, 0)
-        .punch_load(state.pressure.data(), options.hardness, punch_pressure);
-  };
-  // With lengths in cells and E* = 1, Σq counts forces in E*·(cell size)² for an approach of one cell size.
-  const double stiffness =
-      (options.precision == Precision::mixed ? load(0.0f) : load(0.0)) * contact_modulus * cell;
-  if (punch_pressure) *punch_pressure *= contact_modulus / cell;
-  return stiffness;
+  const PunchStiffness punch = press_punch(
+      state.pressure, options.hardness, grid, contact_modulus, options.boundary, options.precision,
+      {.max_iterations = options.max_iterations, .keep_going = keep_going(options.on_progress)},
+      punch_pressure);
+  return punch.converged ? punch.normal_stiffness : std::numeric_limits<double>::quiet_NaN();
+}
+
+PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
+                               double contact_modulus, const StickOptions& options,
+                               Field* pressure) {
+  grid.validate();
+  require_positive(contact_modulus, "contact_modulus");
+  detail::require_valid(options);
+  detail::require_contact(contact, grid, options.boundary);
+  if (!contact.any()) {
+    if (pressure) *pressure = Field::Zero(grid.nx, grid.ny);
+    return {.converged = true};
+  }
+  // K is a minimum: its relative error is of the order of the square of the displacement's.
+  const double gain = std::clamp(options.tolerance * options.tolerance, 1e-14, 1e-4);
+  return press_punch(contact.cast<double>(), std::numeric_limits<double>::infinity(), grid,
+                     contact_modulus, options.boundary, Precision::mixed,
+                     {.relative_gain = gain,
+                      .max_iterations = options.max_iterations,
+                      .keep_going = keep_going(options.on_progress)},
+                     pressure);
 }
 
 }  // namespace salebra

@@ -148,29 +148,4 @@ StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
   return stiffness;
 }
 
-PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
-                               double contact_modulus, const StickOptions& options,
-                               Field* pressure) {
-  grid.validate();
-  detail::require_valid(options);
-  detail::require_contact(contact, grid, options.boundary);
-  detail::ContactSystem system(grid, Material::of_contact_modulus(contact_modulus),
-                               options.boundary, detail::Traction::normal,
-                               detail::loading_window(contact, grid, options.boundary));
-  const detail::PointList points = system.points(contact);
-  const UnitMotion press = move_by_one(system, points, 0, options);
-  if (pressure) {
-    *pressure = Field::Zero(grid.nx, grid.ny);
-    for (std::size_t k = 0; k < points.cell.size(); ++k)
-      pressure->data()[points.cell[k]] = press.tractions[k];
-  }
-  return {
-      .normal_stiffness =
-          (sum_of(press.tractions, 0, points.size()) + correction(press, press)) * grid.cell_area(),
-      .iterations = press.report.iterations,
-      .fft_count = press.report.fft_count,
-      .residual = press.report.residual,
-      .converged = press.report.converged};
-}
-
 }  // namespace salebra

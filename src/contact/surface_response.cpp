@@ -15,14 +15,6 @@ Grid2D grid_of(const CellWindow& window, const Grid2D& grid) {
           static_cast<double>(window.ny) * grid.dy()};
 }
 
-Convolution2D<double> compliance_of(const Grid2D& grid, const Material& material, Boundary boundary,
-                                    Traction traction, const CellWindow& window) {
-  const Grid2D cells = grid_of(window, grid);
-  return traction == Traction::normal
-             ? normal_compliance<double>(cells, material.contact_modulus, boundary)
-             : tangential_compliance<double>(cells, material, boundary);
-}
-
 // Below this many points a team of threads costs more than it saves.
 constexpr Index worth_threads = 1 << 14;
 
@@ -74,9 +66,8 @@ SurfaceResponse::SurfaceResponse(const Grid2D& grid, const Material& material, B
                                  Traction traction, const CellWindow& window)
     : window_(window),
       traction_(traction),
-      compliance_(compliance_of(grid, material, boundary, traction, window)) {
-  const std::size_t components = traction == Traction::normal ? 1 : 2;
-  for (std::size_t c = 0; c < components; ++c) {
+      compliance_(tangential_compliance<double>(grid_of(window, grid), material, boundary)) {
+  for (std::size_t c = 0; c < 2; ++c) {
     loads_[c].assign(size_of(window.nx * window.ny), 0);
     values_[c] = loads_[c];
   }
@@ -90,16 +81,13 @@ void SurfaceResponse::apply(const PointList& loaded, const double* tractions, co
   for (std::size_t c = 0; c < count; ++c)
     for (std::size_t k = 0; k < loads; ++k)
       loads_[first + c][size_of(loaded.windowed[k])] = tractions[c * loads + k];
-  if (traction_ == Traction::normal)
-    compliance_.apply(loads_[0].data(), values_[0].data());
-  else
-    compliance_.apply({loads_[0].data(), loads_[1].data()}, {values_[0].data(), values_[1].data()});
+  compliance_.apply({loads_[0].data(), loads_[1].data()}, {values_[0].data(), values_[1].data()});
   for (std::size_t c = 0; c < count; ++c) {
     for (const Index at : loaded.windowed) loads_[first + c][size_of(at)] = 0;
     for (std::size_t k = 0; k < reads; ++k)
       displacements[c * reads + k] = values_[first + c][size_of(read.windowed[k])];
   }
-  fft_count_ += traction_ == Traction::normal ? 1 : 2;
+  fft_count_ += 2;
 }
 
 StencilPreconditioner::StencilPreconditioner(const Grid2D& grid, Boundary boundary,

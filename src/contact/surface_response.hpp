@@ -36,9 +36,9 @@ struct PointList {
   Index size() const { return static_cast<Index>(cell.size()); }
 };
 
-/// Which displacements of which tractions: pressures, shear along one axis with the other component of traction absent and the other
-/// component of displacement not asked for, or both components.
-enum class Traction { normal, along_x, along_y, tangential };
+/// Which displacements of which tractions: shear along one axis with the other component of traction absent and the other component of
+/// displacement not asked for, or both components.
+enum class Traction { along_x, along_y, tangential };
 
 /// Displacements of the surface of a half-space under tractions in cells, on a window: the whole grid where periodic, any rectangle
 /// where free. A component of a vector of points is contiguous.
@@ -60,8 +60,7 @@ class SurfaceResponse {
   CellWindow window_;
   Traction traction_;
   Convolution2D<double> compliance_;
-  std::array<std::vector<double>, 2> loads_,
-      values_;  ///< the second where the compliance has two components
+  std::array<std::vector<double>, 2> loads_, values_;
   int fft_count_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal.hpp>
+#include <salebra/contact/stick.hpp>
 
 #include "independent_residual.hpp"
 #include "rough_surface.hpp"
@@ -236,6 +237,30 @@ TEST_CASE("The punch stiffness is the derivative of the force by the mean gap", 
       normal_stiffness(middle, surface.grid, contact_modulus, tight(1e-12, precision));
   // While no cell enters or leaves, F(ū) is linear; the forces carry the error of e_c over a step of 2e-7.
   CHECK(stiffness == Approx((closer.force - apart.force) / (2 * step)).epsilon(1e-4));
+}
+
+TEST_CASE("A punch solve that does not come to its end has no stiffness", "[normal]") {
+  const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
+  const Surface surface = rough_surface({96, 128, 1e-3, 1e-3});
+  auto options = tight(1e-10, Precision::mixed);
+  options.boundary = boundary;
+  const auto state = press_to_pressure(surface, contact_modulus, 4e6, options);
+  const double stiffness = normal_stiffness(state, surface.grid, contact_modulus, options);
+  // The set alone says the same, in the digits that its tolerance asks for.
+  const auto punch =
+      punch_stiffness(contact_set(state), surface.grid, contact_modulus, {.boundary = boundary});
+  CHECK(punch.converged);
+  CHECK(punch.residual < 1e-4);
+  CHECK(punch.normal_stiffness == Approx(stiffness).epsilon(1e-10));
+  options.max_iterations = 3;
+  CHECK(std::isnan(normal_stiffness(state, surface.grid, contact_modulus, options)));
+  options.max_iterations = 1000;
+  options.on_progress = [](const ProgressReport& report) { return report.step < 3; };
+  CHECK(std::isnan(normal_stiffness(state, surface.grid, contact_modulus, options)));
+  const auto limited = punch_stiffness(contact_set(state), surface.grid, contact_modulus,
+                                       {.max_iterations = 3, .boundary = boundary});
+  CHECK_FALSE(limited.converged);
+  CHECK(limited.iterations == 3);
 }
 
 TEST_CASE("Plane and single-cell surfaces, and targets that no contact meets", "[normal]") {

@@ -67,7 +67,8 @@ NormalContactState press_to_indentation(const Surface& surface, double contact_m
 
 /// Normal stiffness K = dF/dδ of the contact set {0 < p < hardness} of a state, by one linear solve with the set held: N/m.
 /// punch_pressure, where given, receives dp/dδ of the cells, Pa/m (left alone where K is not found by a solve).
-/// +infinity for a periodic cell in full contact, NaN where the solve did not converge. Cost: one transform pair an iteration, about as many as the contact took.
+/// +infinity for a periodic cell in full contact, NaN where the solve did not converge within max_iterations or was interrupted.
+/// Cost: one transform pair an iteration, about as many as the contact took.
 double normal_stiffness(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
                         const NormalContactOptions& options = {}, Field* punch_pressure = nullptr);
 

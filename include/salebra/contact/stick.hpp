@@ -95,15 +95,19 @@ StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options = {},
                                bool along_x_only = false, const Field& guess = {});
 
-/// Normal stiffness K = dF/dδ of a contact set by the same solve with the normal kernel: a flat punch of that shape.
+/// Normal stiffness K = dF/dδ of a contact set: a flat punch of that shape. normal_stiffness() is the same for a state's elastic cells.
 struct PunchStiffness {
   double normal_stiffness = 0;  ///< N/m
   int iterations = 0;
   int fft_count = 0;
-  double residual = 0;
-  bool converged = false;
+  double residual =
+      0;  ///< rms error of the displacement over the set, relative; that of K is of the order of its square
+  bool converged = false;    ///< K settled to the square of the tolerance, or to 1e-14
+  bool interrupted = false;  ///< the progress callback said stop
 };
 /// pressure, where given, receives that of a unit approach, Pa/m.
+/// Throws InvalidInput if every cell of a periodic grid is in contact. Cost: one transform pair an iteration, in float, and one in
+/// double. Of the options, hold_lateral has no meaning here.
 PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
                                double contact_modulus, const StickOptions& options = {},
                                Field* pressure = nullptr);
