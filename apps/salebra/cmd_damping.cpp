@@ -100,8 +100,7 @@ void follow_motion(const DampingArguments& arguments, const ContactLaw& law, con
           "does not go with --force-amplitude; give --normal-amplitude");
   const DampingResult full_stick = damping_of(law, one.position, one.motion, options);
   const SampledMotion path = sampled(one.motion, full_stick.indentation, arguments.follow.steps);
-  const TrajectoryDamping loss =
-      trajectory_damping(law, path, {.friction = arguments.follow.coefficient()});
+  const TrajectoryDamping loss = follow(law, one.motion, path, arguments.follow.coefficient());
   Json object;
   add_losses(object, loss);
   object["full_stick_work"] = full_stick.work_per_cycle;

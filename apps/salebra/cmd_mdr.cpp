@@ -133,7 +133,7 @@ void run(const MdrArguments& arguments, Session& session) {
   const bool mapped = !arguments.stress_map.empty() || !arguments.friction_map.empty();
   if (followed || (session.has_plot() && !mapped)) {
     path = sampled(motion, result.indentation, arguments.follow.steps);
-    loss = trajectory_damping(law, path, {.friction = arguments.follow.coefficient()});
+    loss = follow(law, motion, path, arguments.follow.coefficient());
   }
   if (followed) {
     add_losses(object, loss);

@@ -42,6 +42,15 @@ SampledMotion sampled(const Motion& motion, double mean_indentation, int steps) 
   return std::visit([&](const auto& m) { return sample(m, mean_indentation, steps); }, motion);
 }
 
+TrajectoryDamping follow(const ContactLaw& law, const Motion& motion, const SampledMotion& path,
+                         double friction) {
+  TrajectoryDamping loss = trajectory_damping(law, path, {.friction = friction});
+  const auto* equal = std::get_if<EqualFrequency>(&motion);
+  if (equal != nullptr && !(equal->angular_frequency > 0))
+    loss.power = loss.damping_constant = std::numeric_limits<double>::quiet_NaN();
+  return loss;
+}
+
 std::string deviation_text(double deviation) {
   return std::abs(deviation) < 1e-4 ? "less than 0.01 %"
                                     : fmt::format("{:+.2g} %", 100 * deviation);

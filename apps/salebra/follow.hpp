@@ -27,6 +27,10 @@ DampingResult damping_of(const ContactLaw& law, const Position& position, const 
 /// One period, `steps` for each normal cycle. Throws InvalidInput where there is none.
 SampledMotion sampled(const Motion& motion, double mean_indentation, int steps);
 
+/// The loss along a sampled motion; power and damping constant are NaN where its frequency is not known.
+TrajectoryDamping follow(const ContactLaw& law, const Motion& motion, const SampledMotion& path,
+                         double friction);
+
 /// "+20 %", with two digits; "less than 0.01 %" where the closed form is as good as exact.
 std::string deviation_text(double deviation);
 

@@ -37,6 +37,7 @@ TEST_CASE("mdr gives Hertz's contact and its losses at any amplitude", "[mdr]") 
   CHECK(rough["work_per_cycle"].get<double>() ==
         Approx(loss["work_per_cycle"].get<double>()).epsilon(1e-4));
   CHECK(rough["full_stick_work"] == loss["work_per_cycle"]);
+  CHECK(rough["power"].is_null());
 }
 
 TEST_CASE("mdr reads profiles and trajectories from files", "[mdr]") {
