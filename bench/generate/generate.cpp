@@ -7,18 +7,19 @@
 // shortest wall times of each, since a neighbour on the second core makes any other figure its own. With repeats = 0 one
 // surface is made and nothing else: its wall time and peak memory, for grids of which the machine holds only one.
 #include <fftw3.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <complex>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
 #include <limits>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/random.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/random_phase.hpp>
+#include <string>
 #include <vector>
 
 namespace {
@@ -49,10 +50,12 @@ class Stopwatch {
   std::vector<double> seconds_;
 };
 
+/// Of this program alone: getrusage counts what the process that started it held.
 double peak_memory() {
-  rusage usage;
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return 1024 * std::atof(line.c_str() + 6);
+  return 0;
 }
 
 }  // namespace
