@@ -84,11 +84,11 @@ void add_border(Figure& figure, const std::vector<double>& omega,
   for (const double value : omega) border.x.push_back(value / (2 * std::numbers::pi));
   const bool any = std::ranges::any_of(least, [](double value) { return std::isfinite(value); });
   if (!any) return;
-  figure.panels.push_back(
-      {.title = "Least amplitude that stabilises",
-       .x = {.label = "frequency ω / 2π", .unit = "Hz", .logarithmic = spans_decades(border.x)},
-       .y = {.label = "normal amplitude u_z", .unit = "m", .logarithmic = true},
-       .curves = {border}});
+  PlotPanel& panel = figure.panels.emplace_back();
+  panel.title = "Least amplitude that stabilises";
+  panel.x = {.label = "frequency ω / 2π", .unit = "Hz", .logarithmic = spans_decades(border.x)};
+  panel.y = {.label = "normal amplitude u_z", .unit = "m", .logarithmic = true};
+  panel.curves.push_back(border);
 }
 
 void run(const DamperArguments& arguments, Session& session) {

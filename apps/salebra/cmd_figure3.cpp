@@ -39,9 +39,9 @@ void run(const Figure3Arguments& arguments, Session& session) {
 
   std::vector<OscillationOutcome> outcomes;
   for (const std::string& shape : shapes) {
-    OscillationCase contact{.body = shape_body(shape, grid), .material = material};
-    contact.indentation = contact.body.indentation;
-    contact.motion = motion_of(arguments, contact.body.normal_amplitude);
+    const Body body = shape_body(shape, grid);
+    OscillationCase contact{body, material, motion_of(arguments, body.normal_amplitude),
+                            body.indentation};
     const Progress bar = session.progress();
     const Progress progress = [&](const ProgressReport& report) {
       ProgressReport whole = report;

@@ -39,8 +39,7 @@ void append_lines(std::string& text, const Json& object, const std::string& path
       append_lines(text, value, full);
     else if (!value.is_array())
       text += fmt::format("{},{},{},\"{}\"\n", full, value.is_null() ? "nan" : value.dump(),
-                          value.is_number_float() ? unit_of(name) : "",
-                          quantity.long_name);
+                          value.is_number_float() ? unit_of(name) : "", quantity.long_name);
   }
 }
 

@@ -44,8 +44,11 @@ void rehearse(const std::filesystem::path& file, const std::function<void()>& wo
   } while (ended < 0 && errno == EINTR);
   if (ended == child && WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
     refuse(file, "keeps the HDF5 library busy without end; it is damaged");
-  if (ended == child && WIFSIGNALED(status) && WTERMSIG(status) != SIGINT &&
-      WTERMSIG(status) != SIGTERM && WTERMSIG(status) != SIGHUP)
+  // These come from outside, SIGKILL from a system that is out of memory, and say nothing of the file.
+  const auto from_outside = [](int sign) {
+    return sign == SIGINT || sign == SIGTERM || sign == SIGHUP || sign == SIGKILL;
+  };
+  if (ended == child && WIFSIGNALED(status) && !from_outside(WTERMSIG(status)))
     refuse(file, "makes the HDF5 library crash; it is damaged");
 }
 
