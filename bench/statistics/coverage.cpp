@@ -26,6 +26,10 @@ class Tally {
     width_ += (high - low) / (2 * truth);
   }
   void print(const char* name) const {
+    if (found_ == 0) {
+      std::printf("  %-12s found   0\n", name);
+      return;
+    }
     const double mean = sum_ / found_;
     std::printf("  %-12s found %3d  covered %5.1f %%  bias %+.3f  scatter %.3f  half-width %.3f\n",
                 name, found_, 100.0 * covered_ / found_, mean,

@@ -205,7 +205,10 @@ HurstEstimate estimate_hurst(const PowerSpectrum& spectrum) {
   const double span = std::exp(greatest.x - least.x);
   if (freedom < 1 || span < least_span * (1 - 1e-9) || !(value > -0.25 && value < 1.5))
     return not_found;
-  const double error = std::sqrt(scatter / freedom * information.inverse()(1, 1)) / 2;
+  // A window makes neighbouring modes alike: rings that happen to scatter less than that are luck, not knowledge.
+  const double dispersion =
+      std::max(scatter / freedom, spectrum.windowed ? spectrum.correlated_modes : 0);
+  const double error = std::sqrt(dispersion * information.inverse()(1, 1)) / 2;
   const double half_width = gsl_cdf_tdist_Pinv(0.975, freedom) * error;
   Index all = 0;
   for (const Mode& mode : modes) all += static_cast<Index>(2 * mode.weight);
