@@ -17,22 +17,30 @@ struct ContactArguments {
   SurfaceOptions surface;
   MaterialOptions material;
   PositionOptions position;
-  std::string boundary = "periodic";
-  std::optional<double> tolerance;
+  std::string boundary = "periodic", precision = "mixed";
+  std::optional<double> tolerance, hardness;
+  std::string initial;
+  bool stiffness = false;
   int max_iterations = NormalContactOptions().max_iterations;
 };
 
-NormalContactState solve(const ContactArguments& arguments, const Surface& surface,
-                         Session& session) {
-  const double contact_modulus = arguments.material.material().contact_modulus;
+NormalContactOptions contact_options(const ContactArguments& arguments, Session& session) {
   NormalContactOptions options;
   options.boundary = arguments.boundary == "free" ? Boundary::free : Boundary::periodic;
+  options.precision = arguments.precision == "full" ? Precision::full : Precision::mixed;
   if (arguments.tolerance) options.tolerance = *arguments.tolerance;
+  if (arguments.hardness) options.hardness = *arguments.hardness;
   options.max_iterations = arguments.max_iterations;
   options.on_progress = session.progress();
-  const PositionOptions& position = arguments.position;
+  return options;
+}
+
+NormalContactState solve(const PositionOptions& position, const Surface& surface,
+                         double contact_modulus, const NormalContactOptions& options) {
   if (position.mean_gap)
     return press_to_mean_gap(surface, contact_modulus, *position.mean_gap, options);
+  if (position.indentation)
+    return press_to_indentation(surface, contact_modulus, *position.indentation, options);
   const double pressure =
       position.pressure ? *position.pressure : *position.force / surface.grid.area();
   return press_to_pressure(surface, contact_modulus, pressure, options);
@@ -63,31 +71,46 @@ void write_contact(const Session& session, const Grid2D& grid, const NormalConta
 
 void run(const ContactArguments& arguments, Session& session) {
   require(arguments.position.count() == 1, "--pressure", arguments.position.count(),
-          "positions are given; give exactly one of --pressure, --mean-gap, --force-newton");
+          "positions are given; give exactly one of --pressure, --mean-gap, --force-newton, "
+          "--indentation");
   if (arguments.position.force) require_positive(*arguments.position.force, "--force-newton");
   if (arguments.position.pressure) require_positive(*arguments.position.pressure, "--pressure");
   if (arguments.position.mean_gap) require_positive(*arguments.position.mean_gap, "--mean-gap");
+  if (arguments.position.indentation)
+    require_positive(*arguments.position.indentation, "--indentation");
+  if (arguments.hardness) require_positive(*arguments.hardness, "--hardness");
+  const double contact_modulus = arguments.material.material().contact_modulus;
+  NormalContactOptions options = contact_options(arguments, session);
   const Surface surface = arguments.surface.read();
+  Field initial;
+  if (!arguments.initial.empty()) {
+    initial = ResultReader(arguments.initial).field("contact/contact_pressure");
+    options.initial_pressure = &initial;
+  }
   const auto start = std::chrono::steady_clock::now();
-  const NormalContactState state = solve(arguments, surface, session);
+  const NormalContactState state = solve(arguments.position, surface, contact_modulus, options);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   if (state.interrupted) throw Interrupted("contact: interrupted; nothing was written");
 
   if (state.converged && session.has_output()) {
     write_contact(session, surface.grid, state);
   }
-  session.answer({{"pressure", state.mean_pressure},
-                  {"force", state.force},
-                  {"contact_area_fraction", state.contact_area_fraction},
-                  {"mean_gap", state.mean_gap},
-                  {"indentation", state.indentation},
-                  {"max_pressure", state.pressure.size() > 0 ? state.pressure.maxCoeff() : 0.0},
-                  {"elastic_energy", state.elastic_energy},
-                  {"iterations", state.iterations},
-                  {"fft_count", state.fft_count},
-                  {"residual", state.residual},
-                  {"converged", state.converged},
-                  {"seconds", elapsed.count()}});
+  Json answer{{"pressure", state.mean_pressure},
+              {"force", state.force},
+              {"contact_area_fraction", state.contact_area_fraction},
+              {"mean_gap", state.mean_gap},
+              {"indentation", state.indentation},
+              {"max_pressure", state.pressure.size() > 0 ? state.pressure.maxCoeff() : 0.0},
+              {"elastic_energy", state.elastic_energy},
+              {"iterations", state.iterations},
+              {"fft_count", state.fft_count},
+              {"residual", state.residual},
+              {"converged", state.converged},
+              {"seconds", elapsed.count()}};
+  if (arguments.stiffness && state.converged)
+    answer["normal_stiffness"] = normal_stiffness(state, surface.grid, contact_modulus, options);
+  if (interrupted()) throw Interrupted("contact: interrupted; the stiffness was not computed");
+  session.answer(answer);
   if (!state.converged) {
     throw NotConverged(
         fmt::format("contact: residual {:.3g} after {} iterations did not reach the tolerance; "
@@ -103,12 +126,25 @@ void add_contact_command(Program& program) {
   CLI::App& command = program.add_command(
       "contact", "press a surface against an elastic half-space by boundary elements",
       {"salebra contact rough.h5 --pressure 10MPa --contact-modulus 115GPa",
-       "salebra contact scan.txt --mean-gap 50nm --young 200GPa --poisson 0.3 -o contact.h5"},
+       "salebra contact scan.txt --boundary free --indentation 50nm --hardness 3GPa --young 200GPa "
+       "--poisson 0.3 -o "
+       "contact.h5"},
       [arguments](Session& session) { run(*arguments, session); });
   arguments->surface.add_to(command);
-  arguments->position.add_to(command, false);
+  arguments->position.add_to(command, true);
   arguments->material.add_to(command);
   add_choice(command, "--boundary", arguments->boundary, {"periodic", "free"}, "default periodic");
+  add_quantity(command, "--hardness", arguments->hardness, Dimension::pressure,
+               "largest pressure: cells saturate there and sink in; default none");
+  command.add_flag("--stiffness", arguments->stiffness,
+                   "K of the contact set too, as normal_stiffness in N/m; null in full contact of "
+                   "a periodic surface, where "
+                   "it is infinite");
+  command.add_option("--initial", arguments->initial,
+                     "result of this command to start from, of the same grid; saves iterations and "
+                     "changes no result");
+  add_choice(command, "--precision", arguments->precision, {"mixed", "full"},
+             "of the iterations; residuals are in double always; default mixed");
   command.add_option("--max-iterations", arguments->max_iterations, "on the finest grid")
       ->capture_default_str();
   add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,

@@ -62,9 +62,10 @@ void add_sweep_command(Program& program) {
   arguments->surface.add_to(command);
   add_values(command, "--pressures", arguments->pressures, Dimension::pressure, "nominal pressures")
       ->required();
-  command.add_flag(
-      "--stiffness", arguments->stiffness,
-      "also K by a linear solve on each contact, and K_t = (G*/E*)K where G* is known");
+  command.add_flag("--stiffness", arguments->stiffness,
+                   "also K by a linear solve on each contact, and K_t = (G*/E*)K where G* is "
+                   "known; null in full contact of a "
+                   "periodic surface, where both are infinite");
   command.add_flag("--stick", arguments->stick,
                    "with --stiffness: K_t by a stick solve on each contact");
   arguments->material.add_to(command);

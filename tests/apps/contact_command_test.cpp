@@ -67,6 +67,91 @@ TEST_CASE("The mean gap that a pressure gives leads back to the pressure", "[con
         Approx(by_pressure["mean_gap"].get<double>()).epsilon(1e-8));
 }
 
+TEST_CASE("An indentation leads to the pressure that gives it, periodic or free", "[contact]") {
+  const ProgramTest test;
+  make_rough(test);
+  const std::string boundary = GENERATE("periodic", "free");
+  const std::string press =
+      "contact rough.h5 --contact-modulus 10GPa --json --boundary " + boundary;
+  const auto loaded = test.run(press + " --pressure 20MPa").json();
+  const auto held =
+      test.run(fmt::format("{} --indentation {}", press, loaded["indentation"].get<double>()))
+          .json();
+  CHECK(held["indentation"].get<double>() ==
+        Approx(loaded["indentation"].get<double>()).epsilon(1e-12));
+  // Both to a residual of 1e-10, which is an energy.
+  CHECK(held["pressure"].get<double>() == Approx(2e7).epsilon(1e-6));
+  CHECK(held["contact_area_fraction"] == loaded["contact_area_fraction"]);
+  check_refused(test.run(press + " --pressure 20MPa --indentation 1nm"), "exactly one");
+  check_refused(test.run(press + " --indentation -1nm"), "--indentation");
+  if (boundary == "periodic")
+    check_refused(test.run(press + " --indentation 1um"), "full");
+  else
+    check_refused(test.run(press + " --mean-gap 1nm"), "boundary");
+}
+
+TEST_CASE("A hardness limits the pressure, and one that cannot carry the load is refused",
+          "[contact]") {
+  const ProgramTest test;
+  make_rough(test);
+  const std::string press = "contact rough.h5 --contact-modulus 10GPa --json --pressure 20MPa ";
+  const auto elastic = test.run(press).json();
+  const auto plastic = test.run(press + "--hardness 150MPa").json();
+  REQUIRE(elastic["max_pressure"] > 2e8);
+  CHECK(plastic["max_pressure"] == 1.5e8);
+  CHECK(plastic["pressure"].get<double>() == Approx(2e7).epsilon(1e-10));
+  CHECK(plastic["indentation"] > elastic["indentation"]);
+  check_refused(test.run(press + "--hardness 20MPa"), "hardness");
+  check_refused(test.run(press + "--hardness -1MPa"), "--hardness");
+}
+
+TEST_CASE("A contact starts from an earlier one, in the precision asked for", "[contact]") {
+  const ProgramTest test;
+  make_rough(test);
+  const std::string press = "contact rough.h5 --contact-modulus 10GPa --json --pressure 20MPa ";
+  const auto cold = test.run(press + "-o cold.h5").json();
+  const auto warm = test.run(press + "--initial cold.h5").json();
+  CHECK(warm["iterations"] < cold["iterations"]);
+  CHECK(warm["mean_gap"].get<double>() == Approx(cold["mean_gap"].get<double>()).epsilon(1e-6));
+  check_refused(test.run(press + "--initial rough.h5"), "contact_pressure");
+  check_refused(test.run(press + "--initial nothing.h5"), "nothing.h5");
+  const auto full = test.run(press + "--precision full --tolerance 1e-12").json();
+  CHECK(full["residual"] < 1e-12);
+  CHECK(full["fft_count"] != cold["fft_count"]);
+}
+
+TEST_CASE("The stiffness of full contact is infinite: valid JSON without a number", "[contact]") {
+  const ProgramTest test;
+  make_rough(test);
+  const std::string press = "contact rough.h5 --contact-modulus 10GPa --json --stiffness ";
+  const auto open = test.run(press + "--pressure 20MPa").json();
+  CHECK(open["normal_stiffness"] > 0);
+  const auto closed = test.run(press + "--pressure 100GPa");
+  CHECK(closed.status == 0);
+  CHECK(closed.json()["contact_area_fraction"] == 1);
+  CHECK(closed.json()["normal_stiffness"].is_null());
+  CHECK(closed.json().contains("normal_stiffness"));
+  const auto curve = test.run(
+                             "sweep rough.h5 --contact-modulus 10GPa --poisson 0.3 --json "
+                             "--stiffness --pressures 20MPa,100GPa")
+                         .json()["curve"];
+  CHECK(curve["normal_stiffness"][0] > 0);
+  CHECK(curve["normal_stiffness"][1].is_null());
+  CHECK(curve["tangential_stiffness"][1].is_null());
+  CHECK(curve["converged"][1] == true);
+}
+
+TEST_CASE("Heights that are no numbers and loads that press nothing are refused", "[contact]") {
+  const ProgramTest test;
+  make_rough(test);
+  test.write("holes.txt",
+             "# Width: 1 µm\n# Height: 1 µm\n# Value units: nm\n1 2 3\n4 nan 6\n7 8 1\n");
+  check_refused(test.run("contact holes.txt --contact-modulus 1GPa --pressure 1MPa"), "undefined");
+  for (const std::string pressure : {"0Pa", "-1MPa", "nan"})
+    check_refused(test.run("contact rough.h5 --contact-modulus 1GPa --pressure=" + pressure),
+                  "--pressure");
+}
+
 TEST_CASE("A contact that does not converge is not presented as a result", "[contact]") {
   const ProgramTest test;
   make_rough(test);
