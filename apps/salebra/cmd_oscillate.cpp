@@ -11,6 +11,7 @@
 #include <salebra/damping/dissipation.hpp>
 
 #include "cycle_recorder.hpp"
+#include "friction_run.hpp"
 #include "options.hpp"
 #include "oscillation_case.hpp"
 #include "program.hpp"
@@ -28,6 +29,7 @@ struct OscillateArguments {
   int steps = 64, levels = 0;
   std::optional<double> direction, relative_error, decay_length;
   RecordOptions record;
+  FrictionOptions friction;
 };
 
 constexpr double default_size = 1e-3;  // m
@@ -101,6 +103,15 @@ void check(const OscillateArguments& arguments, const Session& session) {
           "steps through no cycle: leave out --checkpoint and --fields");
   require(simulate || !session.has_plot(), "--method", arguments.method,
           "steps through no cycle: leave out --plot");
+  const FrictionOptions& friction = arguments.friction;
+  friction.check();
+  require(simulate || !friction.given(), "--method", arguments.method,
+          "steps through no cycle: leave out " + friction.name());
+  require(!friction.given() || (arguments.record.checkpoint.empty() &&
+                                arguments.record.fields.empty() && !session.has_plot()),
+          friction.name(), "given",
+          "beside --checkpoint, --fields or --plot, which know only the cycle without slip; "
+          "leave them out");
   require(!arguments.relative_error || arguments.levels == 0, "--levels", arguments.levels,
           "cannot stand beside --relative-error, which chooses them; give one");
 }
@@ -128,20 +139,29 @@ void add_exponential_law(Json& object, const OscillationOutcome& outcome, double
   object["ratio_exponential_finite"] = over(finite);
 }
 
-void finish(const OscillationOutcome& outcome, const OscillateArguments& arguments,
-            Session& session) {
+void finish(const OscillationOutcome& outcome, const std::optional<FrictionOutcome>& friction,
+            const OscillateArguments& arguments, Session& session) {
   if (session.has_output()) {
     ResultFile file(session.output(), session.provenance(), session.write_options());
     write_outcome(file, "", outcome);
+    if (friction) write_friction(file, *friction, outcome.run.body.surface.grid);
     file.commit();
   }
   if (session.has_plot())
     session.plot({.panels = {contact_panel(outcome, "contact"), work_panel(outcome, "work")}});
   Json object = to_json(outcome);
   if (arguments.decay_length) add_exponential_law(object, outcome, *arguments.decay_length);
+  const bool converged = outcome.converged() && (!friction || friction->converged());
+  if (friction) {
+    add_friction(object, *friction, outcome);
+    object["converged"] = converged;
+  }
   session.answer(object);
   if (!outcome.converged())
     throw NotConverged("oscillate: a contact or a stick solve did not reach its tolerance");
+  if (!converged)
+    throw NotConverged("oscillate: a contact or a solve with friction did not reach its tolerance");
+  if (friction) warn_of_friction(*friction, outcome, session);
   if (outcome.choice && !outcome.choice->reached)
     session.warn(
         fmt::format("the relative error asked for was not reached: {:.2g} is left at {} x {} cells "
@@ -161,6 +181,7 @@ void run(const OscillateArguments& arguments, Session& session) {
   contact.indentation =
       indentation_of(arguments, body, contact.material, {.boundary = body.boundary});
   contact.motion = motion_of(arguments.motion, body, contact.indentation);
+  arguments.friction.check(contact.motion, contact.indentation);
 
   OscillationRoutes routes;
   routes.levels.levels = arguments.levels;
@@ -187,10 +208,16 @@ void run(const OscillateArguments& arguments, Session& session) {
       throw Interrupted(arguments.record.checkpoint.empty()
                             ? "oscillate: interrupted; nothing was written"
                             : "oscillate: interrupted; the same command with --resume goes on");
-    finish(outcome, arguments, session);
+    std::optional<FrictionOutcome> friction;
+    if (arguments.friction.given()) {
+      const double coupling = arguments.friction.coupling(arguments.material, outcome.run.material);
+      friction =
+          run_with_friction(arguments.friction, outcome.run, routes.cycle, coupling, session);
+    }
+    finish(outcome, friction, arguments, session);
     recorder.done();
   } else {
-    finish(outcome, arguments, session);
+    finish(outcome, {}, arguments, session);
   }
 }
 
@@ -200,7 +227,7 @@ void add_oscillate_command(Program& program) {
   auto arguments = std::make_shared<OscillateArguments>();
   arguments->motion.mode = "equal-frequency";
   CLI::App& command = program.add_command(
-      "oscillate", "three-dimensional simulation of an oscillating contact without slip",
+      "oscillate", "three-dimensional simulation of an oscillating contact",
       {"salebra oscillate --shape pyramids --contact-modulus 1GPa --poisson 0.3 --phase 45deg "
        "--json",
        "salebra oscillate --surface rough.h5 --pressure 10MPa --contact-modulus 115GPa --poisson "
@@ -231,6 +258,7 @@ void add_oscillate_command(Program& program) {
   add_quantity(command, "--decay-length", arguments->decay_length, Dimension::length,
                "l of F = F0 exp(-gap/l), as `fit` finds it: compares with Eq. (16) too");
   arguments->record.add_to(command);
+  arguments->friction.add_to(command);
   arguments->material.add_to(command);
 }
 

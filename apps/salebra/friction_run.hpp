@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <salebra/damping/frictional_cycle.hpp>
+#include <salebra/io/result_file.hpp>
+
+#include "options.hpp"
+#include "oscillation_case.hpp"
+#include "session.hpp"
+
+/// What `oscillate` adds with --friction and --coupled: the same cycle with Coulomb's law, and with Dundurs' coupling.
+namespace salebra::cli {
+
+struct FrictionOptions {
+  std::optional<double> friction, dundurs;
+  bool coupled = false;
+  int max_periods = 6;
+
+  void add_to(CLI::App& app);
+  bool given() const { return friction || coupled; }
+  /// The option that was given, for messages.
+  std::string name() const { return friction ? "--friction" : "--coupled"; }
+  /// Before any work: that the options suit each other.
+  void check() const;
+  /// Before the cycles: that a coupled contact stays closed.
+  void check(const Oscillation& motion, double indentation) const;
+  /// β/(πE*), 1/Pa: --coupling, or what the material options say of the two bodies.
+  double coupling(const MaterialOptions& bodies, const Material& material) const;
+};
+
+struct FrictionOutcome {
+  std::optional<double> friction;  ///< none: infinite
+  double dundurs = 0;
+  FrictionalCycleResult cycle;
+  std::optional<FrictionalCycleResult> coupled;
+
+  bool converged() const { return cycle.converged && (!coupled || coupled->converged); }
+};
+
+/// The cycle of `run` once more, from first contact; steps, direction, boundary and lateral are those of `steps`. Throws
+/// Interrupted where a cycle was.
+FrictionOutcome run_with_friction(const FrictionOptions& options, const OscillationCase& run,
+                                  const CycleOptions& steps, double coupling, Session& session);
+
+/// The objects "friction" and, of a coupled cycle, "coupling". `stuck` has the cycle without slip.
+void add_friction(Json& object, const FrictionOutcome& outcome, const OscillationOutcome& stuck);
+/// Groups `friction` and `coupling`: the loop and, on x and y, where it is lost.
+void write_friction(ResultFile& file, const FrictionOutcome& outcome, const Grid2D& grid);
+/// What the numbers alone do not tell: that a loss is not steady yet, or that its two sums differ.
+void warn_of_friction(const FrictionOutcome& outcome, const OscillationOutcome& stuck,
+                      Session& session);
+
+}  // namespace salebra::cli
