@@ -6,6 +6,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/study/parts.hpp>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "io/atomic_file.hpp"
 #include "realisation_record.hpp"
@@ -28,6 +30,17 @@ std::filesystem::path created(const std::filesystem::path& folder) {
   return folder;
 }
 
+/// What a killed writer left half-way. Only for the holder of the lock, which says that no other is at work.
+void remove_abandoned(const std::filesystem::path& folder, const std::string& beginning) {
+  std::vector<std::filesystem::path> abandoned;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".part" &&
+        entry.path().filename().string().starts_with(beginning))
+      abandoned.push_back(entry.path());
+  std::error_code ignored;
+  for (const std::filesystem::path& file : abandoned) std::filesystem::remove(file, ignored);
+}
+
 }  // namespace
 
 struct StudyParts::State {
@@ -45,9 +58,10 @@ struct StudyParts::State {
 
 StudyParts::StudyParts(const std::filesystem::path& folder, bool resume)
     : state_(std::make_unique<State>(folder)) {
-  // What a killed writer left half-way; the lock says that no other is at work.
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".part") std::filesystem::remove(entry.path());
+  // The result beside the folder may have been cut off too.
+  const std::filesystem::path parent = folder.parent_path();
+  remove_abandoned(folder, ".");
+  remove_abandoned(parent.empty() ? "." : parent, "." + folder.stem().string() + ".");
   if (!resume && count() > 0) {
     throw InvalidInput(fmt::format(
         "{}: holds {} finished surfaces of an earlier run; go on with them (--resume), or "
