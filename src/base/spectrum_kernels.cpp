@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "spectrum_kernels.hpp"
 
-#include <type_traits>
+#include "vector_width.hpp"
 
 namespace salebra::detail {
 
@@ -20,28 +20,18 @@ SALEBRA_DECLARE_TABLES(avx512)
 namespace {
 
 template <class Real>
-SpectrumKernels<Real> choose(SpectrumKernels<float> (*single)(),
-                             SpectrumKernels<double> (*dual)()) {
-  if constexpr (std::is_same_v<Real, float>) {
-    return single();
-  } else {
-    return dual();
-  }
-}
-
-template <class Real>
 SpectrumKernels<Real> widest() {
 #ifdef SALEBRA_X86_KERNELS
-  // What the two files are compiled for, by the names that every compiler knows.
-  const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                        __builtin_cpu_supports("bmi2");
-  const bool has_avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                          __builtin_cpu_supports("avx512bw") &&
-                          __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512cd");
-  if (has_avx2 && has_avx512) return choose<Real>(avx512::spectrum_float, avx512::spectrum_double);
-  if (has_avx2) return choose<Real>(avx2::spectrum_float, avx2::spectrum_double);
+  switch (vector_width()) {
+    case VectorWidth::avx512:
+      return table_of<Real>(avx512::spectrum_float, avx512::spectrum_double);
+    case VectorWidth::avx2:
+      return table_of<Real>(avx2::spectrum_float, avx2::spectrum_double);
+    case VectorWidth::baseline:
+      break;
+  }
 #endif
-  return choose<Real>(baseline::spectrum_float, baseline::spectrum_double);
+  return table_of<Real>(baseline::spectrum_float, baseline::spectrum_double);
 }
 
 }  // namespace
