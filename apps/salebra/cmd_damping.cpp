@@ -107,11 +107,12 @@ void follow_motion(const DampingArguments& arguments, const ContactLaw& law, con
   object["curvature"] = full_stick.curvature;
   object["force"] = full_stick.force;
   object["indentation"] = full_stick.indentation;
-  session.plot(cycle_figure(path, loss));
-  write_answer(session, "damping", object);
+  if (loss.converged) {
+    session.plot(cycle_figure(path, loss));
+    write_answer(session, "damping", object);
+  }
   session.answer(object);
-  if (!loss.converged)
-    throw NotConverged("--friction: the losses of the last two periods still differ; give more");
+  require_steady(loss);
 }
 
 void tell_deviation(const DampingArguments& arguments, double ratio, Session& session) {

@@ -150,15 +150,15 @@ void run(const MdrArguments& arguments, Session& session) {
       std::isfinite(deviation))
     session.note(fmt::format(
         "the small-amplitude form is {:+.2g} % off the loss in full stick here", 100 * deviation));
-  if (session.has_plot() && !mapped) session.plot(cycle_figure(path, loss));
+  const bool steady = !followed || loss.converged;
+  if (session.has_plot() && !mapped && steady) session.plot(cycle_figure(path, loss));
   if (!arguments.stress_map.empty())
     write_stress_map(arguments, law, result.indentation,
                      equal ? Oscillation(*equal) : Oscillation(*drag), session);
   if (!arguments.friction_map.empty())
     write_friction_map(arguments, law, result.indentation, *equal, session);
   session.answer(object);
-  if (followed && !loss.converged)
-    throw NotConverged("mdr: the losses of the last two periods still differ; raise --friction");
+  if (followed) require_steady(loss);
 }
 
 }  // namespace

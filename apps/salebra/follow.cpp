@@ -66,6 +66,14 @@ void add_losses(Json& object, const TrajectoryDamping& loss) {
   object["loss_factor"] = loss.loss_factor;
 }
 
+void require_steady(const TrajectoryDamping& loss) {
+  if (!loss.converged)
+    throw NotConverged(fmt::format(
+        "--friction: the losses of the last two of {} periods still differ, because the drag is "
+        "too short for the whole contact to slide; drag faster, or leave it out for full stick",
+        loss.periods));
+}
+
 void follow_file(const FollowOptions& options, const ContactLaw& law, Session& session) {
   const auto columns = read_number_table(options.trajectory, 3);
   const SampledMotion path{columns[0], columns[1], columns[2]};
@@ -73,7 +81,7 @@ void follow_file(const FollowOptions& options, const ContactLaw& law, Session& s
   Json object;
   add_losses(object, loss);
   object["converged"] = loss.converged;
-  if (session.has_output()) {
+  if (loss.converged && session.has_output()) {
     ResultFile file(session.output(), session.provenance(), session.write_options());
     ResultGroup group = file.group("trajectory");
     group.coordinate("time", path.time, "s", "time");
@@ -83,11 +91,9 @@ void follow_file(const FollowOptions& options, const ContactLaw& law, Session& s
     group.dataset("dissipated", loss.dissipated, {"time"}, "J", "energy lost since the first time");
     file.commit();
   }
-  session.plot(cycle_figure(path, loss));
+  if (loss.converged) session.plot(cycle_figure(path, loss));
   session.answer(object);
-  if (!loss.converged)
-    throw NotConverged(
-        "--trajectory: the losses of the last two periods still differ; give more friction");
+  require_steady(loss);
 }
 
 }  // namespace salebra::cli

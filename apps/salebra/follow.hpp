@@ -37,8 +37,11 @@ std::string deviation_text(double deviation);
 /// Adds the JSON keys of a loss that was followed.
 void add_losses(Json& object, const TrajectoryDamping& loss);
 
+/// Throws NotConverged where the last two periods differ. To be called after the answer, of which no file may be left then.
+void require_steady(const TrajectoryDamping& loss);
+
 /// --trajectory: reads one period of (time, indentation, displacement), answers, writes --output and --plot.
-/// Throws NotConverged where the last periods differ.
+/// Throws NotConverged where the last periods differ, and leaves no file.
 void follow_file(const FollowOptions& options, const ContactLaw& law, Session& session);
 
 }  // namespace salebra::cli

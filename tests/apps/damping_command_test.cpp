@@ -242,3 +242,21 @@ TEST_CASE("Damping without what it needs is refused by name", "[damping]") {
   check_refused(test.run(law + "--poisson 0.7 --force-newton 1 " + drag), "poisson");
   check_refused(test.run(law + "--poisson 0.3 --force-newton 1kg " + drag), "--force-newton");
 }
+
+TEST_CASE("A loss that does not become steady leaves no file and exits with 1", "[damping]") {
+  // The drag of 0.5 nm a period is far too short, against μ = 100, for the springs that never open to slide at all.
+  const ProgramTest test;
+  const std::string motion =
+      "--poisson 0.3 --normal-amplitude 20nm --drag-velocity 10um/s --frequency 20kHz --steps 50 "
+      "--friction 100 ";
+  const auto law = test.run("damping --law exponential --force-newton 1 --decay-length 100nm " +
+                            motion + "-o loss.h5");
+  CHECK(law.status == 1);
+  CHECK_THAT(law.err, Catch::Contains("salebra: error: --friction: the losses of the last two of"));
+  const auto indenter =
+      test.run("mdr --profile cone --angle 10deg --indentation 1um --contact-modulus 1GPa " +
+               motion + "--plot loss.svg");
+  CHECK(indenter.status == 1);
+  CHECK_THAT(indenter.err, Catch::Contains("still differ"));
+  CHECK(test.files().empty());
+}
