@@ -4,8 +4,8 @@
 // usage: contact_profile [N [THREADS [LOAD...]]]          default: 2048 1 0.005 0.02 0.1
 //
 // LOAD is p/(E*·rms slope) on a self-affine surface: H = 0.8, roll-off at 1/8 of the side, shortest wave 8 cells, rms slope 0.1.
-// The solver's levels are run one by one as press_to_pressure() runs them. What a solve takes beyond its transforms is its
-// pointwise passes. Traffic is what the passes must move to and
+// The solver's levels are run one by one as press_to_pressure() runs them. A transform takes each row from the tiles and hands
+// it back to them: this counts as part of it. What a solve takes beyond its transforms is its other pointwise passes. Traffic is what the passes must move to and
 // from memory if nothing stays in a cache between two of them, a write to a line counted twice because the line is read first.
 // The machine's bandwidth is that of a copy of arrays beyond every cache, counted in the same way.
 
@@ -66,11 +66,13 @@ double copy_bandwidth() {
   return 24 * static_cast<double>(size) / seconds;
 }
 
-// A pair reads the field and the symbol, writes, reads, writes and reads the spectrum, and writes the result: in sizes of a cell's
-// number 1 + ¼, 2, 1 + 1, 1, 2 – the columns write lines that they have read.
-constexpr double pair_numbers = 8.25;
-// An iteration on a cell of a tile in use, in mixed precision; on one of a tile at rest, its gap and its image.
-constexpr double active_bytes = 24 + 20 + 12 + 52, resting_bytes = 8 + 8 + 4;
+// A pair writes, reads, writes and reads the spectrum and reads the symbol: in sizes of a cell's number 2, 1 + 1, 1 and ¼, because a
+// line is read before it is written, but by the columns that have it.
+constexpr double pair_numbers = 5.25;
+// What an iteration moves besides, on a cell of a tile in use and of one at rest, in mixed precision: directions and images within the
+// transform, preconditioner and step apart from it.
+constexpr double active_within = 16 + 16, active_apart = 24 + 52, resting_within = 8,
+                 resting_apart = 4 + 16;
 
 struct Share {
   double setup = 0, prolongation = 0, single_pairs = 0, double_pairs = 0, pointwise = 0;
@@ -92,7 +94,7 @@ void profile(const Surface& surface, double load, double bandwidth) {
   coarse.setup += now() - start;
   Field pressure, gap;
   detail::ActiveSetOutcome outcome;
-  double pointwise_bytes = 0, pair = 0, solves = 0;
+  double bytes_apart = 0, bytes_within = 0, pair = 0, solves = 0;
   for (std::size_t k = levels.size(); k-- > 0;) {
     const detail::ContactLevel& level = levels[k];
     Share& share = k == 0 ? fine : coarse;
@@ -121,7 +123,8 @@ void profile(const Surface& surface, double load, double bandwidth) {
     pair = (outcome.fft_seconds - outcome.exact_fft_seconds) /
            (outcome.fft_count - outcome.exact_fft_count);
     solves = solve;
-    pointwise_bytes = active_bytes * outcome.active_cells + resting_bytes * outcome.resting_cells;
+    bytes_within = active_within * outcome.active_cells + resting_within * outcome.resting_cells;
+    bytes_apart = active_apart * outcome.active_cells + resting_apart * outcome.resting_cells;
   }
 
   const double total = coarse.total() + fine.total(), cells = static_cast<double>(grid.points());
@@ -135,10 +138,11 @@ void profile(const Surface& surface, double load, double bandwidth) {
   line("set-up: plans, symbol, stencil", fine.setup);
   line("transforms in float", fine.single_pairs);
   line("transforms in double", fine.double_pairs);
-  line("pointwise passes", fine.pointwise);
+  line("other pointwise passes", fine.pointwise);
   std::printf("  %-44s %8.3f s\n", "all", total);
-  const double pair_rate = pair_numbers * sizeof(float) * cells / pair;
-  const double pointwise_rate = pointwise_bytes / fine.pointwise;
+  const double singles = outcome.fft_count - outcome.exact_fft_count;
+  const double pair_rate = (pair_numbers * sizeof(float) * cells + bytes_within / singles) / pair;
+  const double pointwise_rate = bytes_apart / fine.pointwise;
   std::printf("  a pair in float takes %.2f ms and moves %.1f GB/s, %.0f %% of a copy\n",
               1e3 * pair, 1e-9 * pair_rate, 100 * pair_rate / bandwidth);
   std::printf(
@@ -149,7 +153,7 @@ void profile(const Surface& surface, double load, double bandwidth) {
       100 * pointwise_rate / bandwidth);
   const double needed =
       (pair_numbers * sizeof(float) * (outcome.fft_count + outcome.exact_fft_count) * cells +
-       pointwise_bytes) /
+       bytes_within + bytes_apart) /
       bandwidth;
   std::printf(
       "  memory traffic of the finest level at the speed of a copy: %.3f s, %.0f %% of its solve\n",

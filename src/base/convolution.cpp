@@ -104,60 +104,91 @@ struct Convolution2D<Real>::Passes {
         points());
   }
 
-  // body(first, pairs, row, rows): a group of pairs of rows, room for one row, and for as many rows with row_stride between them.
+  // Room for the work on a group of pairs of rows.
+  struct Room {
+    LargeArray<Complex> row,
+        rows;  // one row, and as many as are done at once with stride between them
+    LargeArray<Real> near, far;  // of the two real rows of a pair
+    Index stride;
+  };
+
+  // body(first, pairs, room) for the groups of pairs of rows.
   template <class Body>
   void for_groups(const Body& body) {
-    const Index row_stride = padded(shape.period_y);
+    const Index stride = padded(shape.period_y);
     parallel::for_slabs(
         groups(),
         [&](Index begin, Index end) {
-          const auto row = large_array<Complex>(count(row_stride));
-          const auto rows = large_array<Complex>(count(pairs_at_once * row_stride));
+          const Room room{large_array<Complex>(count(stride)),
+                          large_array<Complex>(count(pairs_at_once * stride)),
+                          large_array<Real>(count(shape.ny)), large_array<Real>(count(shape.ny)),
+                          stride};
           for (Index first = begin * pairs_at_once; first < std::min(end * pairs_at_once, half);
                first += pairs_at_once)
-            body(first, std::min(pairs_at_once, half - first), row.get(), rows.get(), row_stride);
+            body(first, std::min(pairs_at_once, half - first), room);
         },
         points());
   }
 
-  void rows_forward(const Real* const* fields) {
-    for_groups([&](Index first, Index pairs, Complex* row, Complex* rows, Index row_stride) {
+  bool is_paired(Index i) const { return i + half < shape.nx; }
+
+  // source(component, row, room) as RowSource.
+  template <class Source>
+  void rows_forward(const Source& source) {
+    for_groups([&](Index first, Index pairs, const Room& room) {
       for (int component = 0; component < components; ++component) {
         for (Index i = 0; i < pairs; ++i) {
-          const Real* field = fields[component] + (first + i) * shape.ny;
-          const bool paired = first + i + half < shape.nx;
-          kernels.interleave(field, paired ? field + half * shape.ny : nullptr, shape.ny,
-                             real(row));
-          std::fill(row + shape.ny, row + shape.period_y, Complex{});
-          Api::execute(row_forward.get(), raw(row), raw(rows + i * row_stride));
+          Complex* to = room.rows.get() + i * room.stride;
+          const Index row = first + i;
+          const Real* near = source(component, row, room.near.get());
+          const Real* far =
+              is_paired(row) ? source(component, row + half, room.far.get()) : nullptr;
+          if (!near && !far) {
+            std::fill_n(to, shape.period_y, Complex{});
+            continue;
+          }
+          if (!near) {
+            std::fill_n(room.near.get(), shape.ny, Real(0));
+            near = room.near.get();
+          }
+          kernels.interleave(near, far, shape.ny, real(room.row.get()));
+          std::fill(room.row.get() + shape.ny, room.row.get() + shape.period_y, Complex{});
+          Api::execute(row_forward.get(), raw(room.row.get()), raw(to));
         }
         Complex* to = column(component, 0) + first;
+        const Complex* rows = room.rows.get();
         if (pairs == pairs_at_once) {
-          kernels.to_columns(real(rows), row_stride, shape.period_y, real(to), column_stride);
+          kernels.to_columns(real(rows), room.stride, shape.period_y, real(to), column_stride);
         } else {
           for (Index k = 0; k < shape.period_y; ++k)
-            for (Index i = 0; i < pairs; ++i) to[k * column_stride + i] = rows[i * row_stride + k];
+            for (Index i = 0; i < pairs; ++i) to[k * column_stride + i] = rows[i * room.stride + k];
         }
       }
     });
   }
 
-  void rows_backward(Real* const* results) {
-    for_groups([&](Index first, Index pairs, Complex* row, Complex* rows, Index row_stride) {
+  // place(component, row, room) says where a row is to be, and done(component, row, values) is told when it is there.
+  template <class Place, class Done>
+  void rows_backward(const Place& place, const Done& done) {
+    for_groups([&](Index first, Index pairs, const Room& room) {
       for (int component = 0; component < components; ++component) {
         const Complex* from = column(component, 0) + first;
+        Complex* rows = room.rows.get();
         if (pairs == pairs_at_once) {
-          kernels.to_rows(real(from), column_stride, shape.period_y, real(rows), row_stride);
+          kernels.to_rows(real(from), column_stride, shape.period_y, real(rows), room.stride);
         } else {
           for (Index k = 0; k < shape.period_y; ++k)
             for (Index i = 0; i < pairs; ++i)
-              rows[i * row_stride + k] = from[k * column_stride + i];
+              rows[i * room.stride + k] = from[k * column_stride + i];
         }
         for (Index i = 0; i < pairs; ++i) {
-          Api::execute(row_backward.get(), raw(rows + i * row_stride), raw(row));
-          Real* result = results[component] + (first + i) * shape.ny;
-          const bool paired = first + i + half < shape.nx;
-          kernels.split(real(row), shape.ny, result, paired ? result + half * shape.ny : nullptr);
+          Api::execute(row_backward.get(), raw(rows + i * room.stride), raw(room.row.get()));
+          const Index row = first + i;
+          Real* near = place(component, row, room.near.get());
+          Real* far = is_paired(row) ? place(component, row + half, room.far.get()) : nullptr;
+          kernels.split(real(room.row.get()), shape.ny, near, far);
+          done(component, row, near);
+          if (far) done(component, row + half, far);
         }
       }
     });
@@ -238,7 +269,8 @@ struct Convolution2D<Real>::Passes {
       at(shape.period_x - i, i, sign[0], sign[1], sign[2]);
   }
 
-  void apply(const Real* const* fields, Real* const* results) {
+  template <class Source, class Place, class Done>
+  void apply(const Source& source, const Place& place, const Done& done) {
     for (int t = 0; t < (components == 1 ? 1 : 3); ++t)
       if (tables[static_cast<std::size_t>(t)].values == nullptr)
         set_symbol(
@@ -247,9 +279,15 @@ struct Convolution2D<Real>::Passes {
       own_spectrum = large_array<Complex>(spectrum_size());
       spectrum = own_spectrum.get();
     }
-    rows_forward(fields);
+    rows_forward(source);
     columns();
-    rows_backward(results);
+    rows_backward(place, done);
+  }
+
+  void apply(const Real* const* fields, Real* const* results) {
+    apply([&](int component, Index row, Real*) { return fields[component] + row * shape.ny; },
+          [&](int component, Index row, Real*) { return results[component] + row * shape.ny; },
+          [](int, Index, const Real*) {});
   }
 };
 
@@ -280,6 +318,15 @@ void Convolution2D<Real>::apply(const Real* field, Real* result) {
   require(passes_->components == 1, "components", passes_->components,
           "must be 1 to transform one field");
   passes_->apply(&field, &result);
+}
+
+template <class Real>
+void Convolution2D<Real>::apply(const RowSource& source, const RowSink& sink) {
+  require(passes_->components == 1, "components", passes_->components,
+          "must be 1 to transform one field");
+  passes_->apply([&](int, Index row, Real* room) { return source(row, room); },
+                 [](int, Index, Real* room) { return room; },
+                 [&](int, Index row, const Real* values) { sink(row, values); });
 }
 
 template <class Real>

@@ -23,26 +23,15 @@ constexpr double refresh_after = 1e-4;
 // A start for a finer level needs no more than this many refreshes.
 constexpr int most_inexact_refreshes = 3;
 
-// Adds the seconds until its end.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double& seconds_;
-  Clock::time_point start_ = Clock::now();
-};
-
 void add(PreconditionSums& total, const PreconditionSums& part) {
   total.z += part.z;
   total.zw += part.zw;
   total.zz += part.zz;
   total.t += part.t;
   total.w += part.w;
+  total.r += part.r;
+  total.zr += part.zr;
+  total.tr += part.tr;
 }
 void add(CurvatureSums& total, const CurvatureSums& part) {
   total.tw += part.tw;
@@ -67,9 +56,8 @@ void add(GapSums& total, const GapSums& part) {
   total.saturated += part.saturated;
   total.least = std::min(total.least, part.least);
 }
-void add(double& total, double part) { total += part; }
 
-// In the order of the slabs, so that the sum has the same bits for every thread count.
+// In the order of the slabs or rows, so that the sum has the same bits for every thread count.
 template <class Sums>
 Sums total_of(const std::vector<Sums>& parts) {
   Sums total = parts.front();
@@ -148,55 +136,55 @@ Convolution2D<double>& ActiveSetCg<Real>::exact_compliance() {
 }
 
 template <class Real>
-void ActiveSetCg<Real>::transform(Run& run, const Real* field, Real* result) {
-  const Stopwatch stopwatch(run.outcome.fft_seconds);
-  ++run.outcome.fft_count;
-  compliance_.apply(field, result);
-}
-
-template <class Real>
-void ActiveSetCg<Real>::exact_transform(Run& run) {
-  double seconds = 0;
-  {
-    const Stopwatch stopwatch(seconds);
-    exact_compliance().apply(run.p, run.g);
-  }
-  ++run.outcome.fft_count;
-  run.outcome.fft_seconds += seconds;
-  if constexpr (std::is_same_v<Real, float>) {
-    ++run.outcome.exact_fft_count;
-    run.outcome.exact_fft_seconds += seconds;
-  }
+CurvatureSums ActiveSetCg<Real>::take_direction(double z_mean, double beta, double t_mean) {
+  const auto a = arrays(std::numeric_limits<double>::infinity());
+  return total_of(displace<CurvatureSums>(
+      [&](Index begin, Index end, Real* row) {
+        kernels_.direct(a, begin, end, z_mean, beta, t_mean, row);
+      },
+      [&](Index begin, Index end, const Real* row) {
+        return kernels_.take_image(a, begin, end, row);
+      }));
 }
 
 // g = Gp − h and what follows from it.
 template <class Real>
 ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
-  exact = exact || std::is_same_v<Real, double>;
-  if (exact) {
-    exact_transform(run);
-  } else {
-    for_rows([&](Index begin, Index end) {
-      for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) w_[k] = static_cast<Real>(run.p[k]);
-    });
-    transform(run, w_.get(), w_.get());
-    run.has_direction = false;  // its image is gone
-  }
+  using Clock = std::chrono::steady_clock;
   // Counted from a plane near the true one, which is known only afterwards, Σp(g − plane) loses no digits.
   const double near = run.load_given() ? run.level : run.target.value;
+  const double bound = run.target.bound;
+  std::vector<GapSums> sums(static_cast<std::size_t>(grid_.nx));
+  const auto take = [&](auto kernel, Index row, const auto* displacement) {
+    const Index first = row * grid_.ny;
+    sums[static_cast<std::size_t>(row)] =
+        kernel(displacement, heights_.values + first, heights_.zero, run.p + first, run.g + first,
+               grid_.ny, bound, near);
+  };
+  ++run.outcome.fft_count;
+  const auto start = Clock::now();
+  if (exact || std::is_same_v<Real, double>) {
+    exact_compliance().apply(
+        [&](Index row, double*) { return run.p + row * grid_.ny; },
+        [&](Index row, const double* values) { take(kernels_.exact_gap, row, values); });
+  } else {
+    compliance_.apply(
+        [&](Index row, Real* room) {
+          std::transform(run.p + row * grid_.ny, run.p + (row + 1) * grid_.ny, room,
+                         [](double p) { return static_cast<Real>(p); });
+          return room;
+        },
+        [&](Index row, const Real* values) { take(kernels_.gap, row, values); });
+  }
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  run.outcome.fft_seconds += seconds;
+  if (exact && std::is_same_v<Real, float>) {
+    ++run.outcome.exact_fft_count;
+    run.outcome.exact_fft_seconds += seconds;
+  }
   GapSums total;
   total.least = std::numeric_limits<double>::infinity();
-  for (const GapSums& part : over_rows<GapSums>([&](Index begin, Index end) {
-         const Index first = begin * grid_.ny, count = (end - begin) * grid_.ny;
-         const double* heights = heights_.values + first;
-         const double* p = run.p + first;
-         double* g = run.g + first;
-         return exact ? kernels_.exact_gap(g, heights, heights_.zero, p, g, count, run.target.bound,
-                                           near)
-                      : kernels_.gap(w_.get() + first, heights, heights_.zero, p, g, count,
-                                     run.target.bound, near);
-       }))
-    add(total, part);
+  for (const GapSums& part : sums) add(total, part);
   if (total.saturated > 0) return contact_residual(grid_, run.target, rms_height_, run.p, run.g);
   ContactResidual result;
   const double misfit =
@@ -219,26 +207,28 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
   const auto a = arrays(run.target.bound);
 
   frame_residual();
-  const auto preconditioned = total_of(over_tiles<PreconditionSums>(
+  const auto now = total_of(over_tiles<PreconditionSums>(
       [&](Index begin, Index end) { return kernels_.precondition(a, begin, end); }));
   // At given load the steps must keep it: directions have no mean over the free cells.
-  const double z_mean = load_given ? preconditioned.z / run.count : 0;
-  const double t_mean = load_given ? preconditioned.t / run.count : 0;
-  const double zw = preconditioned.zw - z_mean * preconditioned.w;
-  const double zz = std::max(0.0, preconditioned.zz - preconditioned.z * z_mean);
-  const auto direct = [&](double beta) {
-    return total_of(over_tiles<double>([&](Index begin, Index end) {
-      return kernels_.direct(a, begin, end, z_mean, beta, t_mean);
-    }));
+  const double z_mean = load_given ? now.z / run.count : 0;
+  const double t_mean = load_given ? now.t / run.count : 0;
+  const double zw = now.zw - z_mean * now.w;
+  const double zz = std::max(0.0, now.zz - now.z * z_mean);
+  // <t, r> of the direction t = z − z_mean + β(t − t_mean).
+  const auto descent_along = [&](double beta) {
+    return now.zr - z_mean * now.r + beta * (now.tr - t_mean * now.r);
   };
-  const double beta = run.has_direction ? std::max(0.0, -zw / run.curvature) : 0;
-  double descent = direct(beta);
-  if (descent <= 0 && beta > 0) descent = direct(0);
+  double beta = run.has_direction ? std::max(0.0, -zw / run.curvature) : 0;
+  if (descent_along(beta) <= 0) beta = 0;
+  const double descent = descent_along(beta);
 
-  transform(run, t_.get(), w_.get());
+  CurvatureSums curvature;
+  {
+    const Stopwatch stopwatch(run.outcome.fft_seconds);
+    ++run.outcome.fft_count;
+    curvature = take_direction(z_mean, beta, t_mean);
+  }
   run.has_direction = true;
-  const auto curvature = total_of(over_tiles<CurvatureSums>(
-      [&](Index begin, Index end) { return kernels_.curvature(a, begin, end); }));
   run.curvature = curvature.tw;
   const double alpha =
       curvature.tw > 0 && std::isfinite(descent / curvature.tw) ? descent / curvature.tw : 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <optional>
 #include <salebra/base/convolution.hpp>
@@ -14,6 +16,20 @@
 #include "tile_kernels.hpp"
 
 namespace salebra::detail {
+
+// Adds the seconds until its end.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point start_ = Clock::now();
+};
 
 // Minimises ½p·Gp − p·h over 0 <= p <= bound on one grid: conjugate gradients on the free cells, preconditioned by
 // InverseStencil, that are not restarted when the set of free cells changes. Search directions and their images are Real;
@@ -62,6 +78,7 @@ class ActiveSetCg {
 
   Index points() const { return grid_.points(); }
   Index tile_points() const { return static_cast<Index>(tiles_.size()) * tile_width; }
+  Index first_tile(Index row) const { return row_begins_[static_cast<std::size_t>(row)]; }
   TileArrays<Real> arrays(double bound);
 
   // Dense passes: body(begin, end) over the slabs of rows.
@@ -89,14 +106,35 @@ class ActiveSetCg {
     return parallel::map_slabs<Sums>(static_cast<Index>(tiles_.size()), body, tile_points());
   }
 
+  // Gx of a field x that lives on the tiles: spread(begin, end, row) writes the tiles [begin, end) of a row into it, collect(begin, end,
+  // row) takes them from the row of Gx and returns its sums. Row by row, those of rows without tiles being Sums{}.
+  template <class Sums, class Spread, class Collect>
+  std::vector<Sums> displace(const Spread& spread, const Collect& collect) {
+    std::vector<Sums> sums(static_cast<std::size_t>(grid_.nx));
+    compliance_.apply(
+        [&](Index row, Real* room) -> const Real* {
+          const Index begin = first_tile(row), end = first_tile(row + 1);
+          if (begin == end) return nullptr;
+          std::fill_n(room, grid_.ny, Real(0));
+          spread(begin, end, room);
+          return room;
+        },
+        [&](Index row, const Real* values) {
+          const Index begin = first_tile(row), end = first_tile(row + 1);
+          if (begin < end) sums[static_cast<std::size_t>(row)] = collect(begin, end, values);
+        });
+    return sums;
+  }
+  // w = Gt for the next direction t, with <t, w> and Σw over the free cells.
+  CurvatureSums take_direction(double z_mean, double beta, double t_mean);
+
   void reset();
   void correct_load(const ContactTarget& target, double* p) const;
   Convolution2D<double>& exact_compliance();
-  void transform(Run& run, const Real* field, Real* result);
-  void exact_transform(Run& run);
   ContactResidual dense_gap(Run& run, bool exact);
   void choose_tiles(Run& run, double margin);
   void list_tiles();
+  void keep_directions(const std::vector<Tile>& before, const std::vector<Index>& begins_before);
   std::byte* pool(std::size_t bytes);
   void collect_pressure(Run& run);
   void begin_set(Run& run, const std::vector<SetSums>& parts);
@@ -118,16 +156,17 @@ class ActiveSetCg {
   const TileKernels<Real>& kernels_;
 
   Index tiles_per_row_, framed_stride_;
-  std::vector<Tile> tiles_;
+  std::vector<Tile> tiles_;            // row by row
+  std::vector<Index> row_begins_;      // the first tile of each row, and the number of tiles
   std::vector<unsigned char> in_use_;  // (nx, tiles_per_row)
-  // Not initialised before reset(), which lets the thread that will use a page touch it first.
-  LargeArray<Real> t_, w_;  // dense
-  LargeArray<Real> r_;      // framed
-  // Tile after tile, with zeros where a row ends within a tile. Between two refreshes p and g are up to date only here.
+  // See TileArrays. Between two refreshes p and g are up to date only on the tiles.
+  LargeArray<Real> r_;
   double *p_ = nullptr, *g_ = nullptr;
   Real *z_ = nullptr, *m_ = nullptr;
+  LargeArray<Real> t_, w_;  // outlive a new list of tiles
+  std::size_t directions_size_ = 0;
   std::vector<unsigned char> quiet_;
-  // Holds the tiles' arrays and, while they are not needed, the spectrum of the exact check.
+  // Holds the tiles' other arrays and, while they are not needed, the spectrum of the exact check.
   LargeArray<std::byte> pool_;
   std::size_t pool_size_ = 0;
 };

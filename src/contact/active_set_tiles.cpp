@@ -8,25 +8,32 @@ namespace salebra::detail {
 
 template <class Real>
 TileArrays<Real> ActiveSetCg<Real>::arrays(double bound) {
-  return {
-      tiles_.data(), grid_.ny,        framed_stride_, t_.get(), w_.get(), r_.get(), p_, g_, z_, m_,
-      quiet_.data(), stencil_.data(), bound};
+  return {tiles_.data(),
+          static_cast<Index>(tiles_.size()),
+          grid_.ny,
+          framed_stride_,
+          r_.get(),
+          p_,
+          g_,
+          t_.get(),
+          w_.get(),
+          z_,
+          m_,
+          quiet_.data(),
+          stencil_.data(),
+          bound};
 }
 
 template <class Real>
 void ActiveSetCg<Real>::reset() {
   tiles_.clear();
+  row_begins_.assign(static_cast<std::size_t>(grid_.nx + 1), 0);
   in_use_.assign(static_cast<std::size_t>(grid_.nx * tiles_per_row_), 0);
   const Index framed_rows = grid_.nx + 2 * frame;
-  if (!t_) {
-    t_ = large_array<Real>(static_cast<std::size_t>(points()));
-    w_ = large_array<Real>(static_cast<std::size_t>(points()));
-    // A tile's vectors may end beyond the frame of the last row.
+  // A tile's vectors may end beyond the frame of the last row.
+  if (!r_)
     r_ = large_array<Real>(static_cast<std::size_t>(framed_rows * framed_stride_ + tile_width));
-  }
   for_rows([&](Index begin, Index end) {
-    std::fill(t_.get() + begin * grid_.ny, t_.get() + end * grid_.ny, Real(0));
-    std::fill(w_.get() + begin * grid_.ny, w_.get() + end * grid_.ny, Real(0));
     const Index last = end == grid_.nx ? framed_rows : end;
     std::fill(r_.get() + begin * framed_stride_, r_.get() + last * framed_stride_, Real(0));
   });
@@ -43,22 +50,63 @@ std::byte* ActiveSetCg<Real>::pool(std::size_t bytes) {
   return pool_.get();
 }
 
-// The tiles that are in use, row by row, with room for what is stored tile after tile.
+// The tiles that are in use, with room for what is stored tile after tile; of that, t and w stay as they were where there were tiles
+// already.
 template <class Real>
 void ActiveSetCg<Real>::list_tiles() {
+  const std::vector<Tile> before = std::move(tiles_);
+  const std::vector<Index> begins_before = std::move(row_begins_);
   tiles_.clear();
-  for (Index row = 0; row < grid_.nx; ++row)
+  row_begins_.clear();
+  for (Index row = 0; row < grid_.nx; ++row) {
+    row_begins_.push_back(static_cast<Index>(tiles_.size()));
     for (Index k = 0; k < tiles_per_row_; ++k)
       if (in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)])
         tiles_.push_back(
             {static_cast<std::int32_t>(row), static_cast<std::int32_t>(k * tile_width)});
+  }
+  row_begins_.push_back(static_cast<Index>(tiles_.size()));
   const auto size = static_cast<std::size_t>(tile_points());
   std::byte* memory = pool(size * 2 * (sizeof(double) + sizeof(Real)));
   p_ = reinterpret_cast<double*>(memory);
   g_ = p_ + size;
   z_ = reinterpret_cast<Real*>(g_ + size);
   m_ = z_ + size;
+  keep_directions(before, begins_before);
   quiet_.assign(tiles_.size(), 0);
+}
+
+// Moves t and w to the places of the new tiles. A tile that is new has no direction yet, and its w comes with the next transform.
+template <class Real>
+void ActiveSetCg<Real>::keep_directions(const std::vector<Tile>& before,
+                                        const std::vector<Index>& begins_before) {
+  const auto size = static_cast<std::size_t>(tile_points());
+  for (LargeArray<Real>* field : {&t_, &w_}) {
+    for_rows([&](Index begin, Index end) {
+      for (Index row = begin; row < end; ++row) {
+        Index old = begins_before[static_cast<std::size_t>(row)];
+        const Index old_end = begins_before[static_cast<std::size_t>(row + 1)];
+        for (Index k = first_tile(row); k < first_tile(row + 1); ++k) {
+          const auto column = tiles_[static_cast<std::size_t>(k)].column;
+          while (old < old_end && before[static_cast<std::size_t>(old)].column < column) ++old;
+          Real* to = z_ + k * tile_width;
+          if (old < old_end && before[static_cast<std::size_t>(old)].column == column) {
+            std::copy_n(field->get() + old * tile_width, tile_width, to);
+          } else {
+            std::fill_n(to, tile_width, Real(0));
+          }
+        }
+      }
+    });
+    if (size > directions_size_) {
+      field->reset();  // first, lest both are there at once
+      *field = large_array<Real>(size);
+    }
+    for_tiles([&](Index begin, Index end) {
+      std::copy(z_ + begin * tile_width, z_ + end * tile_width, field->get() + begin * tile_width);
+    });
+  }
+  directions_size_ = std::max(directions_size_, size);
 }
 
 // The tiles of all cells that carry pressure or are closer to the plane than margin·h_rms, and the free cells in them.
@@ -74,11 +122,9 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
         bool needed = false;
         for (Index i = 0; i < width; ++i) needed |= (p[i] > 0) | (g[i] < near);
         unsigned char& used = in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)];
-        if (used && !needed) {
-          std::fill_n(t_.get() + row * grid_.ny + column, width, Real(0));
+        if (used && !needed)
           std::fill_n(r_.get() + (row + frame) * framed_stride_ + column + side_frame, width,
                       Real(0));
-        }
         used = needed;
       }
   });
@@ -104,7 +150,7 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
           }
           if (busy) continue;
           quiet_[static_cast<std::size_t>(k)] = 1;
-          std::fill_n(t_.get() + dense, width, Real(0));
+          std::fill_n(t_.get() + packed, tile_width, Real(0));
           std::fill_n(r_.get() + (tile.row + frame) * framed_stride_ + tile.column + side_frame,
                       width, Real(0));
         }
@@ -211,10 +257,17 @@ void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
   for_tiles([&](Index begin, Index end) {
     kernels_.truncate(a, begin, end, run.level, correction.scale, correction.shift);
   });
-  // The last direction and its image come back afterwards: CG goes on without a restart.
-  transform(run, t_.get(), w_.get());
-  const auto sums = over_tiles<SetSums>(
-      [&](Index begin, Index end) { return kernels_.add_displacement(a, begin, end); });
+  // The last direction and its image stay as they are: CG goes on without a restart.
+  std::vector<SetSums> sums;
+  {
+    const Stopwatch stopwatch(run.outcome.fft_seconds);
+    ++run.outcome.fft_count;
+    sums = displace<SetSums>(
+        [&](Index begin, Index end, Real* row) { kernels_.spread_change(a, begin, end, row); },
+        [&](Index begin, Index end, const Real* row) {
+          return kernels_.add_displacement(a, begin, end, row);
+        });
+  }
   begin_set(run, sums);
 }
 

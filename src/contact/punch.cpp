@@ -48,13 +48,7 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
       if (in_set(p[first + i])) m_[packed + static_cast<std::size_t>(i)] = Real(1);
   }
   const auto a = arrays(std::numeric_limits<double>::infinity());
-  const auto tiles = static_cast<Index>(tiles_.size());
-  const auto over = [&]<class Sums>(Sums, auto kernel) {
-    return parallel::map_slabs<Sums>(tiles, kernel, tiles * tile_width);
-  };
-  parallel::for_slabs(
-      tiles, [&](Index begin, Index end) { kernels_.residual(a, begin, end, 0); },
-      tiles * tile_width);
+  for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, 0); });
   double curvature = 1, gained = 0;
   int small_gains = 0;
   while (small_gains < gains_in_a_row && outcome.iterations < limits.max_iterations) {
@@ -63,30 +57,25 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
       break;
     }
     frame_residual();
-    double zw = 0, descent = 0, tw = 0;
-    for (const auto& part : over(PreconditionSums{}, [&](Index begin, Index end) {
-           return kernels_.precondition(a, begin, end);
-         }))
+    double zw = 0, zr = 0, tr = 0;
+    for (const auto& part : over_tiles<PreconditionSums>(
+             [&](Index begin, Index end) { return kernels_.precondition(a, begin, end); })) {
       zw += part.zw;
+      zr += part.zr;
+      tr += part.tr;
+    }
     const double beta = outcome.iterations > 0 ? -zw / curvature : 0;
-    for (const double part : over(0.0, [&](Index begin, Index end) {
-           return kernels_.direct(a, begin, end, 0, beta, 0);
-         }))
-      descent += part;
-    compliance_.apply(t_.get(), w_.get());
+    const double descent = zr + beta * tr;
+    const double tw = take_direction(0, beta, 0).tw;
     ++outcome.fft_count;
-    for (const auto& part : over(CurvatureSums{}, [&](Index begin, Index end) {
-           return kernels_.curvature(a, begin, end);
-         }))
-      tw += part.tw;
     if (!(tw > 0)) {
       // Nothing is left to gain, as after one step on a single cell; or the numbers are none.
       if (tw == 0) small_gains = gains_in_a_row;
       break;
     }
     curvature = tw;
-    over(StepSums{},
-         [&](Index begin, Index end) { return kernels_.step(a, begin, end, descent / tw, 0); });
+    over_tiles<StepSums>(
+        [&](Index begin, Index end) { return kernels_.step(a, begin, end, descent / tw, 0); });
     const double gain = descent * descent / tw;
     gained += gain;
     small_gains = gain < limits.relative_gain * gained ? small_gains + 1 : 0;

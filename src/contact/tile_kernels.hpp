@@ -20,27 +20,30 @@ struct Tile {
   std::int32_t row, column;  // of the first cell; the last tile of a row may be narrower
 };
 
+// A field is either framed, or tile after tile (packed) with zeros where a row ends within a tile. Directions and their images are
+// packed too: as whole fields they would be the half of what an iteration reads and writes. The transform spreads and collects
+// them row by row.
 template <class Real>
 struct TileArrays {
   const Tile* tiles;
-  std::ptrdiff_t ny;             // cells of a row of the dense arrays
+  std::ptrdiff_t tile_count;
+  std::ptrdiff_t ny;             // cells of a row
   std::ptrdiff_t framed_stride;  // from one row of r to the next
-  Real* t;                       // dense: search direction, zero off the tiles
-  Real* w;                       // dense: Gt
   Real* r;                       // framed: (g − level) on the free cells, zero elsewhere
-  double* p;                     // tile after tile: pressure
-  double* g;                     // tile after tile: Gp − h
-  Real* z;                       // tile after tile: preconditioned residual
-  // Tile after tile: 1 on free cells, where g = level is wanted; 0 where p is held at a bound.
-  Real* m;
+  double* p;                     // packed: pressure
+  double* g;                     // packed: Gp − h
+  Real* t;                       // packed: search direction
+  Real* w;                       // packed: Gt
+  Real* z;                       // packed: preconditioned residual, and what truncate() changes
+  Real* m;  // packed: 1 on free cells, where g = level is wanted; 0 where p is held at a bound
   unsigned char*
-      quiet;  // tile after tile: 1 where no cell is free or loaded, and then r and t are zero
+      quiet;  // of each tile: 1 where no cell is free or loaded, and then r and t are zero
   const Real* stencil;  // stencil_size weights
   double bound;         // largest pressure allowed; may be infinite
 };
 
 struct PreconditionSums {
-  double z = 0, zw = 0, zz = 0, t = 0, w = 0;  // sums over the free cells
+  double z = 0, zw = 0, zz = 0, t = 0, w = 0, r = 0, zr = 0, tr = 0;  // sums over the free cells
 };
 struct CurvatureSums {
   double tw = 0, w = 0;  // <t, w>, and Σw over the free cells
@@ -67,6 +70,7 @@ struct GapSums {
   double least = 0;         // least g
 };
 
+// begin and end count tiles. Where a row is given they are the tiles of that row, and it holds its ny cells.
 template <class Real>
 struct TileKernels {
   // r = m(g − level)
@@ -74,23 +78,29 @@ struct TileKernels {
   // z = m(S r)
   PreconditionSums (*precondition)(const TileArrays<Real>&, std::ptrdiff_t begin,
                                    std::ptrdiff_t end);
-  // t = m(z − z_mean + beta(t − t_mean)); <t, r>
-  double (*direct)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double z_mean,
-                   double beta, double t_mean);
-  CurvatureSums (*curvature)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end);
+  // t = m(z − z_mean + beta(t − t_mean)), and into the row
+  void (*direct)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double z_mean,
+                 double beta, double t_mean, Real* row);
+  // w from the row
+  CurvatureSums (*take_image)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
+                              const Real* row);
   // p −= alpha t, g −= alpha w, r = m(g − level)
   StepSums (*step)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double alpha,
                    double level);
   // Frees held cells whose gap has the wrong sign, holds free cells whose pressure left its bounds.
   SetSums (*change_set)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                         double level);
-  // The same, and p becomes min(scale·max(p, 0) + shift, bound), t the change of p, z the old t, r the old w.
+  // The same, and p becomes min(scale·max(p, 0) + shift, bound), z the change of p.
   void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double level,
                    double scale, double shift);
-  // g += w, w = r, t = z; the free cells and Σg as they are then. r has to be made again.
-  SetSums (*add_displacement)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end);
+  // z into the row
+  void (*spread_change)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
+                        Real* row);
+  // g += row; the free cells and Σg as they are then. r has to be made again.
+  SetSums (*add_displacement)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
+                              const Real* row);
 
-  // Over consecutive cells of the dense arrays: g = u − (heights − zero), and what the contact plane follows from. u may be g.
+  // Over consecutive cells: g = u − (heights − zero), and what the contact plane follows from.
   GapSums (*gap)(const Real* u, const double* heights, double zero, const double* p, double* g,
                  std::ptrdiff_t count, double bound, double plane);
   GapSums (*exact_gap)(const double* u, const double* heights, double zero, const double* p,

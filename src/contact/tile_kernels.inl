@@ -31,52 +31,55 @@ struct FullWidth {
   constexpr operator Size() const { return tile_width; }
 };
 
-// The dense arrays are read in pieces whose distances the processor does not guess: it is asked for them this many tiles earlier.
+// The residual is read in pieces whose distances the processor does not guess: it is asked for them this many tiles earlier.
 inline constexpr Size ahead = 16;
 
-// Which of the dense arrays a pass reads.
-enum Reads : unsigned { reads_t = 1, reads_w = 2, reads_r = 4, reads_frame = 8 };
+// What a pass reads of the residual: nothing, its own cells, or all that the stencil reaches.
+enum class Reads { packed, residual, frame };
 
-template <unsigned reads, class Real>
+template <Reads reads, class Real>
 SALEBRA_INLINE void fetch(const TileArrays<Real>& a, const Tile& tile) {
-  const Size dense = tile.row * a.ny + tile.column;
+  if constexpr (reads == Reads::packed) return;
   const Real* r = a.r + (tile.row + frame) * a.framed_stride + tile.column + side_frame;
-  if constexpr (reads & reads_t) __builtin_prefetch(a.t + dense);
-  if constexpr (reads & reads_w) __builtin_prefetch(a.w + dense);
-  if constexpr (reads & reads_r) __builtin_prefetch(r);
-  if constexpr (reads & reads_frame) __builtin_prefetch(r + frame * a.framed_stride);
+  if constexpr (reads == Reads::residual) __builtin_prefetch(r);
+  if constexpr (reads == Reads::frame) __builtin_prefetch(r + frame * a.framed_stride);
 }
 
-// Calls body(packed, dense, framed, width) with the offsets of each tile; width is a constant for all but the last of a row.
-// quiet_body likewise, where the tile is quiet.
-template <unsigned reads, class Real, class Body, class QuietBody>
+// Where a tile's cells are.
+struct Place {
+  Size packed, framed, column;
+};
+
+// Calls body(place, width) for each tile; width is a constant for all but the last of a row. quiet_body likewise, where the tile is
+// quiet.
+template <Reads reads, class Real, class Body, class QuietBody>
 SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, const Body& body,
                               const QuietBody& quiet_body) {
   for (Size k = begin; k < end; ++k) {
     const Size row = a.tiles[k].row, column = a.tiles[k].column;
-    const Size dense = row * a.ny + column,
-               framed = (row + frame) * a.framed_stride + column + side_frame;
+    const Place place = {k * tile_width, (row + frame) * a.framed_stride + column + side_frame,
+                         column};
     const bool whole = a.ny - column >= tile_width;
-    if (k + ahead < end) fetch<reads>(a, a.tiles[k + ahead]);
+    if (k + ahead < a.tile_count) fetch<reads>(a, a.tiles[k + ahead]);
     if (a.quiet[k]) {
       if (whole) {
-        quiet_body(k * tile_width, dense, framed, FullWidth{});
+        quiet_body(place, FullWidth{});
       } else {
-        quiet_body(k * tile_width, dense, framed, a.ny - column);
+        quiet_body(place, a.ny - column);
       }
     } else if (whole) {
-      body(k * tile_width, dense, framed, FullWidth{});
+      body(place, FullWidth{});
     } else {
-      body(k * tile_width, dense, framed, a.ny - column);
+      body(place, a.ny - column);
     }
   }
 }
 
 // The same, where a quiet tile adds nothing and does not change.
-template <unsigned reads, class Real, class Body>
+template <Reads reads, class Real, class Body>
 SALEBRA_INLINE void for_active_tiles(const TileArrays<Real>& a, Size begin, Size end,
                                      const Body& body) {
-  for_tiles<reads>(a, begin, end, body, [](Size, Size, Size, auto) {});
+  for_tiles<reads>(a, begin, end, body, [](const Place&, auto) {});
 }
 
 // Whether any of a tile's numbers is not +0, from their bits: the test of each number would not vectorise.
@@ -96,13 +99,12 @@ SALEBRA_INLINE bool any(const Number* tile, Width width) {
 
 // Lets a tile rest whose cells are all held and without load.
 template <class Real, class Width>
-SALEBRA_INLINE void rest(const TileArrays<Real>& a, Size packed, Size dense, Size framed,
-                         Width width) {
-  if (any(a.m + packed, width) || any(a.p + packed, width)) return;
-  a.quiet[packed / tile_width] = 1;
+SALEBRA_INLINE void rest(const TileArrays<Real>& a, const Place& place, Width width) {
+  if (any(a.m + place.packed, width) || any(a.p + place.packed, width)) return;
+  a.quiet[place.packed / tile_width] = 1;
   for (Size i = 0; i < width; ++i) {
-    a.t[dense + i] = 0;
-    a.r[framed + i] = 0;
+    a.t[place.packed + i] = 0;
+    a.r[place.framed + i] = 0;
   }
 }
 
@@ -116,10 +118,10 @@ SALEBRA_INLINE bool any_below(const double* g, double level, Width width) {
 
 template <class Real>
 void residual(const TileArrays<Real>& a, Size begin, Size end, double level) {
-  for_active_tiles<reads_r>(a, begin, end, [&](Size packed, Size, Size framed, auto width) {
-    const double* g = a.g + packed;
-    const Real* m = a.m + packed;
-    Real* r = a.r + framed;
+  for_active_tiles<Reads::residual>(a, begin, end, [&](const Place& place, auto width) {
+    const double* g = a.g + place.packed;
+    const Real* m = a.m + place.packed;
+    Real* r = a.r + place.framed;
     for (Size i = 0; i < width; ++i) r[i] = m[i] * static_cast<Real>(g[i] - level);
   });
 }
@@ -225,60 +227,65 @@ SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, Size w
 
 template <class Real>
 PreconditionSums precondition(const TileArrays<Real>& a, Size begin, Size end) {
-  Lanes sum_z, sum_zw, sum_zz, sum_t, sum_w;
-  for_active_tiles<reads_t | reads_w | reads_frame>(
-      a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
-        const Real* m = a.m + packed;
-        const Real *t = a.t + dense, *w = a.w + dense;
-        Real* z = a.z + packed;
-        apply_stencil(a, framed, width, z);
-        for (Size i = 0; i < width; ++i) {
-          const Real free = z[i] * m[i];
-          z[i] = free;
-          const double x = free, free_w = static_cast<double>(m[i]) * static_cast<double>(w[i]);
-          sum_z.value[i] += x;
-          sum_zw.value[i] += x * static_cast<double>(w[i]);
-          sum_zz.value[i] += x * x;
-          sum_t.value[i] += static_cast<double>(m[i]) * static_cast<double>(t[i]);
-          sum_w.value[i] += free_w;
-        }
-      });
-  return {sum_z.sum(), sum_zw.sum(), sum_zz.sum(), sum_t.sum(), sum_w.sum()};
+  Lanes sum_z, sum_zw, sum_zz, sum_t, sum_w, sum_r, sum_zr, sum_tr;
+  for_active_tiles<Reads::frame>(a, begin, end, [&](const Place& place, auto width) {
+    const Real *m = a.m + place.packed, *t = a.t + place.packed, *w = a.w + place.packed,
+               *r = a.r + place.framed;
+    Real* z = a.z + place.packed;
+    apply_stencil(a, place.framed, width, z);
+    for (Size i = 0; i < width; ++i) {
+      const Real free = z[i] * m[i];
+      z[i] = free;
+      const double x = free, misfit = r[i];
+      const double along = static_cast<double>(m[i]) * static_cast<double>(t[i]);
+      sum_z.value[i] += x;
+      sum_zw.value[i] += x * static_cast<double>(w[i]);
+      sum_zz.value[i] += x * x;
+      sum_t.value[i] += along;
+      sum_w.value[i] += static_cast<double>(m[i]) * static_cast<double>(w[i]);
+      sum_r.value[i] += misfit;
+      sum_zr.value[i] += x * misfit;
+      sum_tr.value[i] += along * misfit;
+    }
+  });
+  return {sum_z.sum(), sum_zw.sum(), sum_zz.sum(), sum_t.sum(),
+          sum_w.sum(), sum_r.sum(),  sum_zr.sum(), sum_tr.sum()};
 }
 
 template <class Real>
-double direct(const TileArrays<Real>& a, Size begin, Size end, double z_mean, double beta,
-              double t_mean) {
-  Lanes sum;
-  for_active_tiles<reads_t | reads_r>(
-      a, begin, end, [&](Size packed, Size dense, Size framed, auto width) {
-        const Real* m = a.m + packed;
-        const Real *z = a.z + packed, *r = a.r + framed;
-        Real* t = a.t + dense;
-        for (Size i = 0; i < width; ++i) {
-          const double x =
-              static_cast<double>(m[i]) *
-              (static_cast<double>(z[i]) - z_mean + beta * (static_cast<double>(t[i]) - t_mean));
-          t[i] = static_cast<Real>(x);
-          sum.value[i] += x * static_cast<double>(r[i]);
-        }
-      });
-  return sum.sum();
+void direct(const TileArrays<Real>& a, Size begin, Size end, double z_mean, double beta,
+            double t_mean, Real* row) {
+  for_active_tiles<Reads::packed>(a, begin, end, [&](const Place& place, auto width) {
+    const Real *m = a.m + place.packed, *z = a.z + place.packed;
+    Real *t = a.t + place.packed, *cells = row + place.column;
+    for (Size i = 0; i < width; ++i) {
+      const double x =
+          static_cast<double>(m[i]) *
+          (static_cast<double>(z[i]) - z_mean + beta * (static_cast<double>(t[i]) - t_mean));
+      t[i] = static_cast<Real>(x);
+      cells[i] = static_cast<Real>(x);
+    }
+  });
 }
 
 template <class Real>
-CurvatureSums curvature(const TileArrays<Real>& a, Size begin, Size end) {
+CurvatureSums take_image(const TileArrays<Real>& a, Size begin, Size end, const Real* row) {
   Lanes sum_tw, sum_w;
-  for_active_tiles<reads_t | reads_w>(a, begin, end,
-                                      [&](Size packed, Size dense, Size, auto width) {
-                                        const Real* m = a.m + packed;
-                                        const Real *t = a.t + dense, *w = a.w + dense;
-                                        for (Size i = 0; i < width; ++i) {
-                                          const double y = w[i];
-                                          sum_tw.value[i] += static_cast<double>(t[i]) * y;
-                                          sum_w.value[i] += static_cast<double>(m[i]) * y;
-                                        }
-                                      });
+  for_tiles<Reads::packed>(
+      a, begin, end,
+      [&](const Place& place, auto width) {
+        const Real *m = a.m + place.packed, *t = a.t + place.packed, *cells = row + place.column;
+        Real* w = a.w + place.packed;
+        for (Size i = 0; i < width; ++i) {
+          const double y = cells[i];
+          w[i] = cells[i];
+          sum_tw.value[i] += static_cast<double>(t[i]) * y;
+          sum_w.value[i] += static_cast<double>(m[i]) * y;
+        }
+      },
+      [&](const Place& place, auto width) {
+        for (Size i = 0; i < width; ++i) a.w[place.packed + i] = row[place.column + i];
+      });
   return {sum_tw.sum(), sum_w.sum()};
 }
 
@@ -287,13 +294,12 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
   Lanes outside, wrong, clipped, pressure, misfit, signed_misfit, saturated, least;
   for (int lane = 0; lane < tile_width; ++lane) least.value[lane] = __builtin_inf();
   const double bound = a.bound;
-  for_tiles<reads_t | reads_w | reads_r>(
+  for_tiles<Reads::residual>(
       a, begin, end,
-      [&](Size packed, Size dense, Size framed, auto width) {
-        const Real* m = a.m + packed;
-        const Real *t = a.t + dense, *w = a.w + dense;
-        double *p = a.p + packed, *g = a.g + packed;
-        Real* r = a.r + framed;
+      [&](const Place& place, auto width) {
+        const Real *m = a.m + place.packed, *t = a.t + place.packed, *w = a.w + place.packed;
+        double *p = a.p + place.packed, *g = a.g + place.packed;
+        Real* r = a.r + place.framed;
         for (Size i = 0; i < width; ++i) {
           const double x = p[i] - alpha * static_cast<double>(t[i]);
           const double y = g[i] - alpha * static_cast<double>(w[i]);
@@ -320,9 +326,9 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
           least.value[i] = candidate < least.value[i] ? candidate : least.value[i];
         }
       },
-      [&](Size packed, Size dense, Size, auto width) {
-        const Real* w = a.w + dense;
-        double* g = a.g + packed;
+      [&](const Place& place, auto width) {
+        const Real* w = a.w + place.packed;
+        double* g = a.g + place.packed;
         for (Size i = 0; i < width; ++i) {
           const double y = g[i] - alpha * static_cast<double>(w[i]);
           g[i] = y;
@@ -350,21 +356,21 @@ template <class Real>
 SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level) {
   Lanes count, sum;
   const double bound = a.bound;
-  const auto change = [&](Size packed, Size dense, Size framed, auto width) {
-    Real* m = a.m + packed;
-    const double *p = a.p + packed, *g = a.g + packed;
+  const auto change = [&](const Place& place, auto width) {
+    Real* m = a.m + place.packed;
+    const double *p = a.p + place.packed, *g = a.g + place.packed;
     for (Size i = 0; i < width; ++i) {
       const double free = freed(m[i], p[i], g[i], level, bound);
       m[i] = static_cast<Real>(free);
       count.value[i] += free;
       sum.value[i] += free * g[i];
     }
-    rest(a, packed, dense, framed, width);
+    rest(a, place, width);
   };
-  for_tiles<0>(a, begin, end, change, [&](Size packed, Size dense, Size framed, auto width) {
-    if (!any_below(a.g + packed, level, width)) return;
-    a.quiet[packed / tile_width] = 0;
-    change(packed, dense, framed, width);
+  for_tiles<Reads::packed>(a, begin, end, change, [&](const Place& place, auto width) {
+    if (!any_below(a.g + place.packed, level, width)) return;
+    a.quiet[place.packed / tile_width] = 0;
+    change(place, width);
   });
   return {count.sum(), sum.sum()};
 }
@@ -373,64 +379,53 @@ template <class Real>
 void truncate(const TileArrays<Real>& a, Size begin, Size end, double level, double scale,
               double shift) {
   const double bound = a.bound;
-  const auto keep_image = [&](Size dense, Size framed, auto width) {
-    for (Size i = 0; i < width; ++i) a.r[framed + i] = a.w[dense + i];
-  };
-  const auto cut = [&](Size packed, Size dense, Size framed, auto width) {
-    keep_image(dense, framed, width);
-    Real *z = a.z + packed, *t = a.t + dense;
-    Real* m = a.m + packed;
-    double* p = a.p + packed;
-    const double* g = a.g + packed;
+  const auto cut = [&](const Place& place, auto width) {
+    Real *z = a.z + place.packed, *m = a.m + place.packed;
+    double* p = a.p + place.packed;
+    const double* g = a.g + place.packed;
     for (Size i = 0; i < width; ++i) {
-      z[i] = t[i];
       const double above = (p[i] < 0 ? 0 : p[i] * scale) + shift;
       const double kept = above < bound ? above : bound;
       const double free = freed(m[i], p[i], g[i], level, bound);
       // A held cell that the correction of the load took off its bound is free again.
       const double loaded = kept > 0 ? 1.0 : 0.0, inside = kept < bound ? loaded : 0.0;
       m[i] = static_cast<Real>(inside > free ? inside : free);
-      t[i] = static_cast<Real>(kept - p[i]);
+      z[i] = static_cast<Real>(kept - p[i]);
       p[i] = kept;
     }
   };
-  constexpr unsigned reads = reads_t | reads_w | reads_r;
-  for_tiles<reads>(a, begin, end, cut, [&](Size packed, Size dense, Size framed, auto width) {
-    if (shift == 0 && !any_below(a.g + packed, level, width)) {
-      keep_image(dense, framed, width);
-      return;
-    }
-    a.quiet[packed / tile_width] = 0;
-    cut(packed, dense, framed, width);
+  for_tiles<Reads::packed>(a, begin, end, cut, [&](const Place& place, auto width) {
+    if (shift == 0 && !any_below(a.g + place.packed, level, width)) return;
+    a.quiet[place.packed / tile_width] = 0;
+    cut(place, width);
   });
 }
 
 template <class Real>
-SetSums add_displacement(const TileArrays<Real>& a, Size begin, Size end) {
+void spread_change(const TileArrays<Real>& a, Size begin, Size end, Real* row) {
+  for_active_tiles<Reads::packed>(a, begin, end, [&](const Place& place, auto width) {
+    for (Size i = 0; i < width; ++i) row[place.column + i] = a.z[place.packed + i];
+  });
+}
+
+template <class Real>
+SetSums add_displacement(const TileArrays<Real>& a, Size begin, Size end, const Real* row) {
   Lanes count, sum;
-  for_tiles<reads_t | reads_w | reads_r>(
+  for_tiles<Reads::packed>(
       a, begin, end,
-      [&](Size packed, Size dense, Size framed, auto width) {
-        double* g = a.g + packed;
-        Real *t = a.t + dense, *w = a.w + dense;
-        const Real *m = a.m + packed, *z = a.z + packed, *r = a.r + framed;
+      [&](const Place& place, auto width) {
+        double* g = a.g + place.packed;
+        const Real *m = a.m + place.packed, *cells = row + place.column;
         for (Size i = 0; i < width; ++i) {
-          g[i] += static_cast<double>(w[i]);
-          w[i] = r[i];
-          t[i] = z[i];
+          g[i] += static_cast<double>(cells[i]);
           count.value[i] += static_cast<double>(m[i]);
           sum.value[i] += static_cast<double>(m[i]) * g[i];
         }
-        rest(a, packed, dense, framed, width);
+        rest(a, place, width);
       },
-      [&](Size packed, Size dense, Size framed, auto width) {
-        double* g = a.g + packed;
-        Real *w = a.w + dense, *r = a.r + framed;
-        for (Size i = 0; i < width; ++i) {
-          g[i] += static_cast<double>(w[i]);
-          w[i] = r[i];
-          r[i] = 0;
-        }
+      [&](const Place& place, auto width) {
+        double* g = a.g + place.packed;
+        for (Size i = 0; i < width; ++i) g[i] += static_cast<double>(row[place.column + i]);
       });
   return {count.sum(), sum.sum()};
 }
@@ -489,10 +484,11 @@ TileKernels<Real> table() {
   return {residual<Real>,
           precondition<Real>,
           direct<Real>,
-          curvature<Real>,
+          take_image<Real>,
           step<Real>,
           change_set<Real>,
           truncate<Real>,
+          spread_change<Real>,
           add_displacement<Real>,
           gap<Real>,
           gap<double>,

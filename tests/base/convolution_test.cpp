@@ -94,6 +94,44 @@ TEST_CASE("A convolution has the same bits for one thread and for two, and may w
   CHECK((one == in_place).all());
 }
 
+TEST_CASE("A convolution of rows that are made and taken one by one is that of the whole field",
+          "[convolution]") {
+  // 96 rows are twelve groups of eight pairs, 45 leave a row without partner and a group that is not full.
+  const Case shape = GENERATE(Case{96, 64, 96, 64}, Case{45, 20, 90, 40}, Case{1, 5, 1, 5});
+  Field field = Field::Random(shape.nx, shape.ny);
+  // Of the first two pairs one row is empty each, of the next both.
+  const auto empty = [&](Index row) {
+    const Index half = (shape.nx + 1) / 2;
+    return row == 0 || row == half + 1 || row == 2 || row == half + 2;
+  };
+  for (Index row = 0; row < shape.nx; ++row)
+    if (empty(row)) field.row(row).setZero();
+  Convolution2D<double> convolution({shape.nx, shape.ny, shape.period_x, shape.period_y});
+  convolution.set_symbol(0, 0, [](Index i, Index j) { return 1 / (1.0 + double(i * i + j * j)); });
+  Field whole(shape.nx, shape.ny), by_rows = Field::Zero(shape.nx, shape.ny);
+  convolution.apply(field.data(), whole.data());
+  Eigen::ArrayXi asked = Eigen::ArrayXi::Zero(shape.nx), taken = asked;
+  convolution.apply(
+      [&](Index row, double* room) -> const double* {
+        ++asked(row);
+        if (empty(row)) {
+          std::fill_n(room, shape.ny,
+                      1e9);  // what is left in the room of an empty row does not count
+          return nullptr;
+        }
+        if (row % 3 == 0) return field.data() + row * shape.ny;
+        std::copy_n(field.data() + row * shape.ny, shape.ny, room);
+        return room;
+      },
+      [&](Index row, const double* values) {
+        ++taken(row);
+        std::copy_n(values, shape.ny, by_rows.data() + row * shape.ny);
+      });
+  CHECK((by_rows == whole).all());
+  CHECK((asked == 1).all());
+  CHECK((taken == 1).all());
+}
+
 TEST_CASE(
     "A convolution may keep its spectrum in memory that is used for something else in between",
     "[convolution]") {
