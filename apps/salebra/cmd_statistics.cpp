@@ -102,7 +102,7 @@ Json moments_json(const SpectralMoments& moments) {
           {"moment4", moments.moment4()},       {"nayak", moments.nayak()}};
 }
 
-Json interval_json(const Estimate& estimate) {
+Json interval_json(const IntervalEstimate& estimate) {
   return {{"wavelength", estimate.value},
           {"wavelength_low", estimate.low},
           {"wavelength_high", estimate.high}};

@@ -15,7 +15,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr Estimate not_found{none, none, none};
+constexpr IntervalEstimate not_found{none, none, none};
 constexpr double ended = 1e-3;        ///< of the law, where power counts as none
 constexpr double bins_per_unit = 64;  ///< of ln q, for the likelihood
 
@@ -95,7 +95,7 @@ double deviance(const std::vector<Ring>& rings, double kink) {
   return best;
 }
 
-Estimate fit_rolloff(const PowerSpectrum& spectrum, const HurstEstimate& hurst) {
+IntervalEstimate fit_rolloff(const PowerSpectrum& spectrum, const HurstEstimate& hurst) {
   const double longest = 2 * pi / std::min(spectrum.grid.lx, spectrum.grid.ly);
   const double lowest = spectrum.windowed
                             ? 3.5 * longest
@@ -140,7 +140,7 @@ Estimate fit_rolloff(const PowerSpectrum& spectrum, const HurstEstimate& hurst) 
   return {2 * pi / std::exp(kink), 2 * pi / std::exp(high), 2 * pi / std::exp(low)};
 }
 
-Estimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEstimate& hurst) {
+IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEstimate& hurst) {
   struct Mode {
     double wavenumber = 0, power = 0;
   };

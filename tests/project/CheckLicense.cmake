@@ -3,7 +3,7 @@
 cmake_minimum_required(VERSION 3.25)
 set(tag "SPDX-License-Identifier: GPL-3.0-or-later")
 set(globs)
-foreach(folder include src generators apps tests bench examples python)
+foreach(folder include src generators apps tests bench examples docs python)
   list(APPEND globs ${ROOT}/${folder}/*.cpp ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.py ${ROOT}/${folder}/*.cmake)
 endforeach()
 file(GLOB_RECURSE files LIST_DIRECTORIES false ${globs} ${ROOT}/cmake/*.cmake ${ROOT}/scripts/*)

@@ -6,7 +6,7 @@
 namespace salebra {
 
 /// A value with its 95 % interval; NaN where there is none.
-struct Estimate {
+struct IntervalEstimate {
   double value = 0, low = 0, high = 0;
 
   bool found() const { return value == value; }
@@ -17,9 +17,9 @@ struct Estimate {
 struct SelfAffineFit {
   HurstEstimate hurst;
   /// λ_r, m. NaN unless a plateau is seen: a law without one is less likely by more than the limit of the interval.
-  Estimate rolloff;
+  IntervalEstimate rolloff;
   /// λ_s, m. NaN unless the spectrum ends within the lattice, falling to less than a thousandth of the law within four modes.
-  Estimate short_cutoff;
+  IntervalEstimate short_cutoff;
 };
 
 /// H as estimate_hurst. The roll-off is that of greatest quasi-likelihood, plateau and slope being free, over all modes up to the end of the

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sphinx configuration of the documentation; scripts/docs runs it on the tree that stage.py lays out."""
+
+import importlib.util
+import pathlib
+import re
+
+from docutils import nodes
+from docutils.utils.math import MathError, latex2mathml
+from sphinx.util import logging
+
+logger = logging.getLogger(__name__)
+
+_root = pathlib.Path(__file__).resolve().parent.parent
+_cmake = (_root / "CMakeLists.txt").read_text()
+
+project = "salebra"
+author = "The salebra developers"
+copyright = author
+release = version = re.search(r"project\(salebra VERSION (\S+)", _cmake)[1]
+
+extensions = ["myst_parser", "breathe"]
+if importlib.util.find_spec("salebra"):
+    extensions += ["sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+root_doc = "docs/index"
+exclude_patterns = ["docs/README.md"]  # the index for readers of the tree
+
+myst_enable_extensions = ["dollarmath", "amsmath", "colon_fence", "deflist"]
+myst_heading_anchors = 3
+suppress_warnings = [
+    "duplicate_declaration.cpp",  # namespace salebra, which every header opens
+]
+
+breathe_projects = {"salebra": str(_root / "build/docs/doxygen/xml")}
+breathe_default_project = "salebra"
+highlight_language = "none"
+
+html_theme = "furo"
+html_title = f"salebra {release}"
+html_static_path = ["static"]
+html_css_files = ["salebra.css"]
+html_copy_source = False
+html_show_sphinx = False
+
+
+# Formulas become MathML in the page: browsers draw it without a script and without a network, and screen readers read it.
+# \\tag{12} sets the number of the paper's equation beside a formula, and makes it a target, #eq-12.
+def _formula(translator, node, as_block):
+    latex = node.astext()
+    tag = re.search(r"\\tag\{([^}]*)\}", latex)
+    try:
+        formula = latex2mathml.tex2mathml(latex.replace(tag[0], "") if tag else latex, as_block=as_block)
+    except MathError as error:
+        logger.warning("formula %r: %s", latex, error, location=node)
+        formula = ""
+    if as_block:
+        number = f'<span class="eqno" id="eq-{tag[1]}">({tag[1]})</span>' if tag else ""
+        formula = f'<div class="math">{number}{formula}</div>\n'
+    translator.body.append(formula)
+    raise nodes.SkipNode
+
+
+def setup(app):
+    app.add_html_math_renderer(
+        "mathml",
+        (lambda translator, node: _formula(translator, node, False), None),
+        (lambda translator, node: _formula(translator, node, True), None),
+    )
+
+
+html_math_renderer = "mathml"

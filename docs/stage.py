@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""stage.py PROGRAM DOXYGEN-XML FOLDER: lays out what Sphinx reads: the pages at the places that they have in the tree, so that a link between
+two of them holds in both, the reference of the commands from the program's own help, and a page of headers for each C++ module."""
+
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+root = pathlib.Path(__file__).resolve().parent.parent
+
+MODULES = {
+    "base": "errors, units, grid and fields, transforms, random numbers, parallel sums",
+    "generators": "rough surfaces and analytic shapes",
+    "surface": "what is measured on a surface",
+    "contact": "material, boundary elements, Greenwood–Williamson, dimensionality reduction, the law",
+    "damping": "what moves, the loss, the paper's closed forms, direct simulation",
+    "io": "files and pictures",
+    "study": "the whole path for an ensemble",
+}
+
+
+def put(target, text):
+    """Writes a page if it changed, so that Sphinx reads again only what did."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if not target.exists() or target.read_text() != text:
+        target.write_text(text)
+    return target
+
+
+def copy(source, target):
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if not target.exists() or source.read_bytes() != target.read_bytes():
+        shutil.copyfile(source, target)
+    return target
+
+
+def help_of(program, *command):
+    done = subprocess.run([program, *command, "--help"], capture_output=True, text=True, check=True)
+    return done.stdout.strip()
+
+
+def command_reference(program):
+    """docs/cli.md: --help of the program and of each command that it lists."""
+    overview = help_of(program)
+    listed = overview.split("Subcommands:", 1)[1].splitlines()
+    names = [line.split()[0] for line in listed if line.startswith("  ") and not line.startswith("   ")]
+    if len(names) < 10:
+        sys.exit(f"stage.py: the help of {program} lists {len(names)} commands; has its form changed?")
+    text = "# Commands\n\nWhat `salebra --help` and `salebra <command> --help` print.\n\n"
+    for name, page in [("salebra", overview)] + [(n, help_of(program, n)) for n in names]:
+        title = name if name == "salebra" else f"salebra {name}"
+        text += f"## {title}\n\n```text\n{page}\n```\n\n"
+    return text
+
+
+def module_pages():
+    """docs/cpp/<module>.rst: every public header of a module, in the order of their names."""
+    for module, about in MODULES.items():
+        above = root / ("generators/include" if module == "generators" else "include")
+        headers = sorted(p.relative_to(above) for p in (above / "salebra" / module).glob("*.hpp"))
+        title = f"salebra/{module}: {about}"
+        text = f"{title}\n{'=' * len(title)}\n\n"
+        for header in headers:
+            text += f"{header.stem}\n{'-' * len(header.stem)}\n\n.. code-block:: cpp\n\n   #include <{header}>\n\n"
+            text += f".. doxygenfile:: {header}\n   :project: salebra\n\n"
+        yield module, text
+
+
+def suit_breathe(doxygen):
+    """Changes in Doxygen's XML that Breathe needs: it looks a header up by the name in the index, which is the last part of its
+    path only, and does not know designated initialisers."""
+    for page in doxygen.glob("*.xml"):
+        text = page.read_text()
+        shorter = re.sub(r"<initializer>= ?\{\..*?</initializer>", "", text)
+        if shorter != text:
+            page.write_text(shorter)
+    index = doxygen / "index.xml"
+
+    def full(found):
+        header = (doxygen / f"{found[1]}.xml").read_text()
+        return found[0].replace(found[2], re.findall(r'<location file="([^"]+)"', header)[-1])
+
+    index.write_text(re.sub(r'<compound refid="(\w+)" kind="file"><name>([^<]+)', full, index.read_text()))
+
+
+def main(program, doxygen, folder):
+    folder = pathlib.Path(folder)
+    suit_breathe(pathlib.Path(doxygen))
+    kept = set()
+    for pattern in ("docs/**/*.md", "docs/**/*.png", "docs/static/*", "data/*.md", "examples/*.cpp", "tests/fuzz/README.md", "CHANGELOG.md",
+                    "CONTRIBUTING.md"):
+        for source in root.glob(pattern):
+            kept.add(copy(source, folder / source.relative_to(root)))
+    # Pages that not every tree has.
+    index = folder / "docs/index.md"
+    missing = [name for name in ("python", "report") if not (root / f"docs/{name}.md").exists()]
+    put(index, re.sub(rf"^({'|'.join(missing)})\n" if missing else "$^", "", index.read_text(), flags=re.M))
+    kept.add(put(folder / "docs/cli.md", command_reference(program)))
+    for module, text in module_pages():
+        kept.add(put(folder / f"docs/cpp/{module}.rst", text))
+    for old in folder.rglob("*"):
+        if old.is_file() and old not in kept:
+            old.unlink()
+
+
+main(*sys.argv[1:])
