@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -84,10 +85,19 @@ double stabilising_amplitude(const ContactLaw& law, const Position& position,
            falling_slope;
   };
   // γ starts in proportion to u_z and may have a maximum: the first of fine steps that is enough brackets the least
-  // amplitude.
-  constexpr int steps_per_octave = 4, octaves = 40;
+  // amplitude. The steps begin well below what the proportion asks for and no lower, since the loss at finite
+  // amplitude drowns in round-off where the sweep is a last digit of δ.
+  DampingOptions small = options;
+  small.amplitude = Amplitude::small;
+  const double proportional =
+      largest_amplitude * falling_slope /
+      damper_at(law, position, largest_amplitude, angular_frequency, small).damping_constant;
+  const double lowest = std::min(proportional / 16, largest_amplitude / 256);
+  constexpr int steps_per_octave = 4;
+  const int steps =
+      static_cast<int>(std::ceil(steps_per_octave * std::log2(largest_amplitude / lowest)));
   double below = 0;
-  for (int i = -octaves * steps_per_octave; i <= 0; ++i) {
+  for (int i = -steps; i <= 0; ++i) {
     const double amplitude =
         largest_amplitude * std::exp2(static_cast<double>(i) / steps_per_octave);
     if (excess(amplitude) >= 0) return detail::find_root(excess, below, amplitude);

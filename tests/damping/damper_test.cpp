@@ -100,6 +100,23 @@ TEST_CASE("The stabilising amplitude is where γ meets the falling slope", "[dam
   CHECK_THROWS_AS(stabilising_amplitude(law, AtForce{2}, omega, 0, 1e-6), InvalidInput);
 }
 
+TEST_CASE("The stabilising amplitude of a measured curve is that of the law behind it", "[damper]") {
+  // An exponential curve, sampled: the table interpolates ln F linearly and so reproduces it. δ far from 0, as it
+  // is from first touch: the search must not go where a sweep is lost in the last digits of δ.
+  const double decay_length = 3e-8, omega = 1e5, area = 1e-10, highest = 2.5e-7;
+  ForceCurve curve{.model = "made", .nominal_area = area};
+  for (int i = 0; i <= 40; ++i) {
+    const double indentation = 5e-9 * i + highest - 2e-7;
+    const double force = 1e-2 * std::exp((indentation - 2e-7) / decay_length);
+    curve.samples.push_back({.indentation = indentation, .force = force, .pressure = force / area});
+  }
+  const TabulatedLaw table(curve, ratio);
+  const ExponentialLaw law(1, decay_length, ratio);
+  for (const double slope : {1e-3, 1e-1, 1.0})
+    CHECK(stabilising_amplitude(table, AtForce{1e-2}, omega, slope, 4e-8) ==
+          Approx(stabilising_amplitude(law, AtForce{1e-2}, omega, slope, 4e-8)).epsilon(1e-6));
+}
+
 TEST_CASE("The damper map is γ of each amplitude over each frequency", "[damper]") {
   const ExponentialLaw law(1, 1e-7, ratio);
   const DamperMap map = damper_map(law, AtForce{1}, {1e-9, 1e-8, 1e-7}, {1e3, 1e5});

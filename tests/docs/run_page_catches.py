@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""run_page_catches.py --program FILE: run_page.py must pass a page that is right and refuse each of these that are not."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+here = pathlib.Path(__file__).resolve().parent
+RIGHT = """# A page
+```console
+$ echo "value  1.2345 nm"
+value 1.2346 nm
+$ printf 'a\\nb\\nc\\nd\\n'
+a
+…
+d
+$ for n in 1 2; do
+>   echo "number $n of …"
+> done
+number 1 …
+number 2 …
+```
+```sh
+test -e data/README.md
+```
+<!-- not run: it would fail -->
+```sh
+false
+```
+<!-- file: made.toml -->
+```toml
+key = 1
+```
+```sh
+grep key made.toml
+```
+"""
+WRONG = {
+    "a command that fails": "```sh\nfalse\n```\n",
+    "a command that fails in a pipe": "```sh\nfalse | cat\n```\n",
+    "another number": "```console\n$ echo 1.2345 nm\n1.2348 nm\n```\n",
+    "another unit": "```console\n$ echo 1.2345 nm\n1.2345 um\n```\n",
+    "a line too many": "```console\n$ printf 'a\\nb\\n'\na\n```\n",
+    "a line too few": "```console\n$ printf 'a\\n'\na\nb\n```\n",
+    "an option that is not there": "```sh\nsalebra info --no-such-option data/surfaces/afm-scan.txt\n```\n",
+    "a block without a language": "```\ntrue\n```\n",
+    "C++ that is in no example": "```cpp\nint in_no_example();\n```\n",
+    "a key that is in no study file": "```toml\nno_such_key = 1\n```\n",
+}
+
+with tempfile.TemporaryDirectory() as folder:
+    folder = pathlib.Path(folder)
+
+    def status(text):
+        page = folder / "page.md"
+        page.write_text(text)
+        done = subprocess.run([sys.executable, here / "run_page.py", page, *sys.argv[1:], "--scratch", folder / "scratch"],
+                              capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr
+
+    code, said = status(RIGHT)
+    if code != 0:
+        sys.exit(f"a right page is refused: {said}")
+    for fault, text in WRONG.items():
+        code, said = status(text)
+        if code != 1 or "Traceback" in said:
+            sys.exit(f"{fault} is not caught: status {code}, {said}")
+print(f"{len(WRONG)} faults are caught")
