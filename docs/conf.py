@@ -47,6 +47,9 @@ html_show_sphinx = False
 # \\tag{12} sets the number of the paper's equation beside a formula, and makes it a target, #eq-12.
 def _formula(translator, node, as_block):
     latex = node.astext()
+    unclear = re.search(r"\\(?:[td]?frac|sqrt|hat|bar|dot)\s*[^{\s]", latex)
+    if unclear:  # the converter takes \\frac83 for 83 over what follows
+        logger.warning("formula %r: %r needs braces", latex, unclear[0], location=node)
     tag = re.search(r"\\tag\{([^}]*)\}", latex)
     try:
         formula = latex2mathml.tex2mathml(latex.replace(tag[0], "") if tag else latex, as_block=as_block)

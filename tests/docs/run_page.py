@@ -68,7 +68,16 @@ def blocks_of(page):
 
 def smaller(text):
     text = re.sub(r"(--points|--map-phases|--map-radii|--steps|--levels) \d+", r"\1 32", text)
-    return re.sub(r"(:[^ :]+):\d+", r"\1:4", text)
+    text = re.sub(r"(:[^ :]+):\d+", r"\1:4", text)
+
+    def direct(found):
+        given = found[0]
+        added = " --steps 16" if "--steps" not in given else ""
+        if "--points" not in given and "--surface" not in given:
+            added += " --points 32"
+        return f"{found[1]}{added}{given[len(found[1]):]}"
+
+    return re.sub(r"(salebra (?:oscillate|figure3)\b)(?:[^\n\\]|\\\n)*", direct, text)
 
 
 NUMBER = re.compile(r"[-+−]?\d+(\.\d+)?([eE][-+]?\d+)?")
