@@ -2,6 +2,7 @@
 """stage.py PROGRAM DOXYGEN-XML FOLDER: lays out what Sphinx reads: the pages at the places that they have in the tree, so that a link between
 two of them holds in both, the reference of the commands from the program's own help, and a page of headers for each C++ module."""
 
+import importlib.util
 import pathlib
 import re
 import shutil
@@ -19,6 +20,18 @@ MODULES = {
     "io": "files and pictures",
     "study": "the whole path for an ensemble",
 }
+
+
+PYTHON = """Python package
+==============
+
+.. automodule:: salebra
+   :members:
+   :imported-members:
+
+.. automodule:: salebra.closed_form
+   :members:
+"""
 
 
 def put(target, text):
@@ -93,9 +106,11 @@ def main(program, doxygen, folder):
                     "CONTRIBUTING.md"):
         for source in root.glob(pattern):
             kept.add(copy(source, folder / source.relative_to(root)))
+    if importlib.util.find_spec("salebra"):
+        kept.add(put(folder / "docs/python_reference.rst", PYTHON))
     # Pages that not every tree has.
     index = folder / "docs/index.md"
-    missing = [name for name in ("python", "report") if not (root / f"docs/{name}.md").exists()]
+    missing = [name for name in ("python", "python_reference", "report") if not list(folder.glob(f"docs/{name}.*"))]
     put(index, re.sub(rf"^({'|'.join(missing)})\n" if missing else "$^", "", index.read_text(), flags=re.M))
     kept.add(put(folder / "docs/cli.md", command_reference(program)))
     for module, text in module_pages():
