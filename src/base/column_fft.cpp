@@ -46,6 +46,7 @@ detail::FftwPlan<double> plan_row(Index ny) {
 Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column) {
   require(columns >= 1 && columns <= ny / 2 + 1, "columns", columns, "must lie in 1 … ny/2+1");
   Field field = uninitialised_field(nx, ny);
+  touch_pages(field);
   // ny values hold ny/2 modes; where there is one more, it stands apart.
   const Index stored = std::min(columns, ny / 2);
   std::vector<Complex> last_column(static_cast<std::size_t>(columns > stored ? nx : 0));

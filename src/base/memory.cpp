@@ -4,6 +4,7 @@
 #include <limits>
 #include <new>
 #include <salebra/base/memory.hpp>
+#include <salebra/base/parallel.hpp>
 #include <string>
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -43,6 +44,16 @@ Field uninitialised_field(Index nx, Index ny) {
   Field field(nx, ny);
   advise_large_pages(field.data(), static_cast<std::size_t>(field.size()) * sizeof(double));
   return field;
+}
+
+void touch_pages(Field& field) {
+  constexpr Index per_page = 4096 / sizeof(double);
+  parallel::for_slabs(
+      (field.size() + per_page - 1) / per_page,
+      [&](Index begin, Index end) {
+        for (Index page = begin; page < end; ++page) field.data()[page * per_page] = 0;
+      },
+      field.size());
 }
 
 std::size_t available_memory() {

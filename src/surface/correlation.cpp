@@ -4,10 +4,11 @@
 #include <complex>
 #include <limits>
 #include <salebra/base/convolution.hpp>
-#include <salebra/base/error.hpp>
 #include <salebra/base/fft.hpp>
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/moments.hpp>
+
+#include "ring_means.hpp"
 
 namespace salebra {
 namespace {
@@ -102,37 +103,22 @@ Correlation profile_correlation(const CorrelationMap& map, Axis axis) {
 }
 
 Correlation radial_correlation(const CorrelationMap& map, int bins_per_octave) {
-  require(bins_per_octave >= 1, "bins_per_octave", bins_per_octave, "must be >= 1");
-  const double shortest = std::min(map.grid.dx(), map.grid.dy());
   const double longest = std::min(map.grid.lx, map.grid.ly) / 2;
-  struct Bin {
-    double pairs = 0, distance = 0, autocorrelation = 0, structure = 0;
-  };
-  std::vector<Bin> bins(1);
+  detail::RingMeans<2> rings(std::min(map.grid.dx(), map.grid.dy()), bins_per_octave);
   for (Index row = 0; row < map.pairs.rows(); ++row) {
     for (Index column = 0; column < map.pairs.cols(); ++column) {
       const double pairs = map.pairs(row, column);
       const double distance = std::hypot(map.lag_x(row), map.lag_y(column));
       if (!(pairs > 0) || distance > longest * (1 + 1e-12)) continue;
-      // Half a bin below the shortest distance: nothing but for rounding lies on a limit.
-      const std::size_t number =
-          distance == 0 ? 0
-                        : 1 + static_cast<std::size_t>(
-                                  std::log2(distance / shortest) * bins_per_octave + 0.5);
-      if (number >= bins.size()) bins.resize(number + 1);
-      bins[number].pairs += pairs;
-      bins[number].distance += pairs * distance;
-      bins[number].autocorrelation += pairs * map.autocorrelation(row, column);
-      bins[number].structure += pairs * map.structure(row, column);
+      rings.add(distance, pairs, {map.autocorrelation(row, column), map.structure(row, column)});
     }
   }
   Correlation radial;
-  for (const Bin& bin : bins) {
-    if (bin.pairs == 0) continue;
-    radial.distance.push_back(bin.distance / bin.pairs);
-    radial.autocorrelation.push_back(bin.autocorrelation / bin.pairs);
-    radial.structure.push_back(bin.structure / bin.pairs);
-    radial.pairs.push_back(bin.pairs);
+  for (const auto& ring : rings.rings()) {
+    radial.distance.push_back(ring.radius);
+    radial.autocorrelation.push_back(ring.mean[0]);
+    radial.structure.push_back(ring.mean[1]);
+    radial.pairs.push_back(ring.weight);
   }
   return radial;
 }

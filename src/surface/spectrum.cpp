@@ -3,11 +3,11 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <salebra/base/error.hpp>
 #include <salebra/base/fft.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/spectrum.hpp>
 
+#include "ring_means.hpp"
 #include "spectrum_lattice.hpp"
 
 namespace salebra {
@@ -120,32 +120,20 @@ ProfilePsd profile_psd(const Surface& surface, Axis axis, Window window) {
 }
 
 RadialSpectrum radial_spectrum(const PowerSpectrum& spectrum, int bins_per_octave) {
-  require(bins_per_octave >= 1, "bins_per_octave", bins_per_octave, "must be >= 1");
   const Grid2D& grid = spectrum.grid;
-  const double longest = 2 * pi / std::max(grid.lx, grid.ly);
-  struct Bin {
-    double modes = 0, wavenumber = 0, density = 0;
-  };
-  std::vector<Bin> bins;
+  detail::RingMeans<1> rings(2 * pi / std::max(grid.lx, grid.ly), bins_per_octave);
   for (Index i = 0; i < grid.nx; ++i) {
     for (Index j = 0; j < spectrum.density.cols(); ++j) {
       if (i == 0 && j == 0) continue;
       const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
-      // Half a bin below the longest wave: no mode but for rounding lies on a limit.
-      const auto number = static_cast<std::size_t>(std::log2(q / longest) * bins_per_octave + 0.5);
-      if (number >= bins.size()) bins.resize(number + 1);
-      const double multiplicity = spectrum.multiplicity(j);
-      bins[number].modes += multiplicity;
-      bins[number].wavenumber += multiplicity * q;
-      bins[number].density += multiplicity * spectrum.density(i, j);
+      rings.add(q, spectrum.multiplicity(j), {spectrum.density(i, j)});
     }
   }
   RadialSpectrum radial;
-  for (const Bin& bin : bins) {
-    if (bin.modes == 0) continue;
-    radial.wavenumber.push_back(bin.wavenumber / bin.modes);
-    radial.density.push_back(bin.density / bin.modes);
-    radial.modes.push_back(static_cast<Index>(bin.modes));
+  for (const auto& ring : rings.rings()) {
+    radial.wavenumber.push_back(ring.radius);
+    radial.density.push_back(ring.mean[0]);
+    radial.modes.push_back(static_cast<Index>(ring.weight));
   }
   return radial;
 }
