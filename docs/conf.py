@@ -6,7 +6,7 @@ import pathlib
 import re
 
 from docutils import nodes
-from docutils.utils.math import MathError, latex2mathml
+from latex2mathml.converter import convert
 from sphinx.util import logging
 
 logger = logging.getLogger(__name__)
@@ -47,15 +47,10 @@ html_show_sphinx = False
 # \\tag{12} sets the number of the paper's equation beside a formula, and makes it a target, #eq-12.
 def _formula(translator, node, as_block):
     latex = node.astext()
-    unclear = re.search(r"\\(?:[td]?frac|sqrt|hat|bar|dot)\s*[^{\s]", latex)
-    if unclear:  # the converter takes \\frac83 for 83 over what follows
-        logger.warning("formula %r: %r needs braces", latex, unclear[0], location=node)
     tag = re.search(r"\\tag\{([^}]*)\}", latex)
-    try:
-        formula = latex2mathml.tex2mathml(latex.replace(tag[0], "") if tag else latex, as_block=as_block)
-    except MathError as error:
-        logger.warning("formula %r: %s", latex, error, location=node)
-        formula = ""
+    formula = convert(latex.replace(tag[0], "") if tag else latex, display="block" if as_block else "inline")
+    if unknown := re.search(r"\\[a-zA-Z]+", formula):
+        logger.warning("formula %r: %s is not known", latex, unknown[0], location=node)
     if as_block:
         number = f'<span class="eqno" id="eq-{tag[1]}">({tag[1]})</span>' if tag else ""
         formula = f'<div class="math">{number}{formula}</div>\n'

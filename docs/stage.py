@@ -42,7 +42,24 @@ def put(target, text):
     return target
 
 
+def one_title(text):
+    """A page with every heading after its first title one level down, where it has several titles: the index shows titles."""
+    parts = re.split(r"(^```.*?^```)", text, flags=re.M | re.S)
+    titles = 0
+    for i in range(0, len(parts), 2):
+
+        def demoted(found):
+            nonlocal titles
+            titles += found[1] == "#"
+            return found[0] if titles < 2 else "#" + found[0]
+
+        parts[i] = re.sub(r"^(#+) ", demoted, parts[i], flags=re.M)
+    return "".join(parts)
+
+
 def copy(source, target):
+    if source.suffix == ".md":
+        return put(target, one_title(source.read_text()))
     target.parent.mkdir(parents=True, exist_ok=True)
     if not target.exists() or source.read_bytes() != target.read_bytes():
         shutil.copyfile(source, target)
@@ -68,6 +85,23 @@ def command_reference(program):
     return text
 
 
+def preamble(header):
+    """What a header says of itself, before it opens its namespace, as reStructuredText."""
+    found = re.search(r"((?:^///.*\n)+)\s*namespace salebra \{", header.read_text(), re.M)
+    text = ""
+    literal = False
+    for line in found[1].splitlines() if found else []:
+        line = line.removeprefix("///")
+        inset = line.startswith("    ")
+        if inset and not literal:
+            text += "\n::\n\n"
+        elif literal and not inset:
+            text += "\n"
+        literal = inset
+        text += (line if inset else re.sub(r"([*`|_\\\\])", r"\\\1", line.strip())) + "\n"
+    return text + "\n"
+
+
 def module_pages():
     """docs/cpp/<module>.rst: every public header of a module, in the order of their names."""
     for module, about in MODULES.items():
@@ -77,6 +111,7 @@ def module_pages():
         text = f"{title}\n{'=' * len(title)}\n\n"
         for header in headers:
             text += f"{header.stem}\n{'-' * len(header.stem)}\n\n.. code-block:: cpp\n\n   #include <{header}>\n\n"
+            text += preamble(above / header)
             text += f".. doxygenfile:: {header}\n   :project: salebra\n\n"
         yield module, text
 
@@ -89,6 +124,11 @@ def suit_breathe(doxygen):
         shorter = re.sub(r"<initializer>= ?\{\..*?</initializer>", "", text)
         if shorter != text:
             page.write_text(shorter)
+    # What stands before `namespace salebra` in a header would stand under that namespace in all of them; module_pages shows it.
+    namespace = doxygen / "namespacesalebra.xml"
+    text = namespace.read_text()
+    head, members = text.rsplit("</sectiondef>", 1)
+    namespace.write_text(head + "</sectiondef>" + re.sub(r"<(brief|detailed)description>.*</\1description>", "", members, flags=re.S))
     index = doxygen / "index.xml"
 
     def full(found):
