@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
@@ -113,7 +115,8 @@ Json model_json(const StudyResult& result, const StudyModel& model) {
 
 Json comparison_json(const StudyResult& result) {
   Json models = Json::object();
-  for (const StudyModel& model : result.models()) models[model.name] = model_json(result, model);
+  for (const StudyModel& model : result.models())
+    models[name_of(model.model)] = model_json(result, model);
   std::vector<double> relative;
   for (const double pressure : result.pressures)
     relative.push_back(pressure / result.contact_scale);
@@ -251,27 +254,23 @@ PlotCurve band(const std::string& name, const std::vector<double>& x,
           .high = column(y, &EnsembleMean::high)};
 }
 
-/// Force–gap, area–load, stiffness–load and damping–force, with bands of 95 %.
-Figure figure(const StudyResult& result) {
-  Figure figure;
-  figure.columns = 2;
-  figure.panels.resize(4);
-  PlotPanel &gaps = figure.panels[0], &areas = figure.panels[1], &stiffness = figure.panels[2],
-            &damping = figure.panels[3];
+/// Force–gap, area–load, stiffness–load and damping–force of one point, with bands of 95 %.
+std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
+  std::array<PlotPanel, 4> panels;
+  auto& [gaps, areas, stiffness, damping] = panels;
   std::vector<double> loads, forces;
   for (const double pressure : result.pressures) {
     loads.push_back(pressure / result.contact_scale);
     forces.push_back(pressure * result.grid.area());
   }
-  gaps.x = {.label = "nominal pressure p/(E*h')", .logarithmic = true};
+  gaps.x = areas.x = stiffness.x = {.label = "nominal pressure p/(E^{*}h')", .logarithmic = true};
   gaps.y = {.label = "mean gap ū/h_{rms}"};
-  areas.x = gaps.x;
-  areas.y = {.label = "contact area A/A_0", .logarithmic = true};
-  stiffness.x = gaps.x;
-  stiffness.y = {.label = "normal stiffness K h_{rms}/F"};
+  areas.y = {.label = "area over load, A E^{*}h'/F"};
+  stiffness.y = {.label = "stiffness K h_{rms}/F"};
   damping.x = {.label = "normal force F", .unit = "N", .logarithmic = true};
   damping.y = {.label = "damping constant γ", .unit = "N s/m", .logarithmic = true};
-  areas.legend = damping.legend = PlotLegend::top_left;
+  stiffness.legend = PlotLegend::bottom_left;
+  damping.legend = PlotLegend::top_left;
   for (const StudyModel& model : result.models()) {
     const auto scaled = [&](auto value) {
       return at_pressures(result, [&](const Realisation& r, std::size_t k) {
@@ -280,19 +279,37 @@ Figure figure(const StudyResult& result) {
                                                           : ForceSample::unknown;
       });
     };
-    gaps.curves.push_back(
-        band(model.title, loads, scaled([](const Realisation& r, const ForceSample& sample) {
-               return sample.mean_gap / r.heights.rms_height;
-             })));
-    areas.curves.push_back(
-        band("", loads, result.curve(model.result, &ForceSample::contact_area_fraction)));
-    stiffness.curves.push_back(
-        band("", loads, scaled([](const Realisation& r, const ForceSample& sample) {
-               return sample.normal_stiffness * r.heights.rms_height / sample.force;
-             })));
-    damping.curves.push_back(
-        band("", forces, result.damping(&DampingPoint::curve_damping_constant, model.result)));
+    // By the place among all models: a model keeps its colour whatever is drawn beside it.
+    const auto add = [&](PlotPanel& panel, const std::vector<double>& x,
+                         const std::vector<EnsembleMean>& y) {
+      panel.curves.push_back(band("", x, y));
+      panel.curves.back().color = int(model.model);
+    };
+    add(gaps, loads, scaled([](const Realisation& r, const ForceSample& sample) {
+          return sample.mean_gap / r.heights.rms_height;
+        }));
+    gaps.curves.back().name = model.title;
+    add(areas, loads, scaled([&](const Realisation& r, const ForceSample& sample) {
+          return sample.contact_area_fraction / sample.pressure * r.moments.rms_slope() *
+                 result.configuration.material.contact_modulus;
+        }));
+    add(stiffness, loads, scaled([](const Realisation& r, const ForceSample& sample) {
+          return sample.normal_stiffness * r.heights.rms_height / sample.force;
+        }));
+    add(damping, forces, result.damping(&DampingPoint::curve_damping_constant, model.result));
   }
+  // The window of the fit, and what the theories of vanishing load say.
+  if (!result.configuration.window) gaps.lines = {{.at = 1}, {.at = 2.5}};
+  areas.lines = {{.at = bgt_slope, .name = "BGT"}, {.at = persson_slope, .name = "Persson"}};
+  PlotCurve edge = band("boundary elements, less the edge", loads,
+                        at_pressures(result, [&](const Realisation& r, std::size_t k) {
+                          return r.spots[k].corrected_area_fraction / result.pressures[k] *
+                                 r.moments.rms_slope() *
+                                 result.configuration.material.contact_modulus;
+                        }));
+  edge.style = PlotStyle::dotted;
+  edge.color = 0;
+  areas.curves.push_back(std::move(edge));
   const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
   PlotCurve law = band(drag ? "Eq. (16), fitted l" : "Eq. (12), fitted l", forces,
                        result.damping(&DampingPoint::law_damping_constant));
@@ -300,16 +317,67 @@ Figure figure(const StudyResult& result) {
   law.style = PlotStyle::dashed;
   law.color = 6;
   damping.curves.push_back(std::move(law));
+  return panels;
+}
+
+/// Limits that hold all curves with their bands, so that panels beside each other can be compared.
+void share_limits(const std::vector<PlotPanel*>& panels) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const PlotPanel* panel : panels)
+    for (const PlotCurve& curve : panel->curves)
+      for (const auto* values : {&curve.y, &curve.low, &curve.high})
+        for (const double value : *values)
+          if (std::isfinite(value) && (value > 0 || !panel->y.logarithmic)) {
+            low = std::min(low, value);
+            high = std::max(high, value);
+          }
+  if (!(low < high)) return;
+  const bool logarithmic = panels.front()->y.logarithmic;
+  const double margin = 0.04 * (logarithmic ? std::log(high / low) : high - low);
+  for (PlotPanel* panel : panels) {
+    panel->y.low = logarithmic ? low * std::exp(-margin) : low - margin;
+    panel->y.high = logarithmic ? high * std::exp(margin) : high + margin;
+  }
+}
+
+/// One point: a square of four panels. Several: a column for each, whose panels share their axes along a row.
+Figure figure(const std::vector<StudyResult>& results, const ParameterLists& varied) {
+  Figure figure;
+  figure.columns = results.size() == 1 ? 2 : int(results.size());
+  std::vector<std::array<PlotPanel, 4>> points;
+  for (const StudyResult& result : results) points.push_back(panels_of(result));
+  for (std::size_t quantity = 0; quantity < 4; ++quantity) {
+    std::vector<PlotPanel*> row;
+    for (auto& point : points) row.push_back(&point[quantity]);
+    if (row.size() > 1) share_limits(row);
+  }
+  for (std::size_t quantity = 0; quantity < 4; ++quantity)
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      PlotPanel& panel = points[i][quantity];
+      // The first column explains the lines of all.
+      if (i > 0)
+        for (PlotCurve& curve : panel.curves) curve.name.clear();
+      if (quantity == 0 && points.size() > 1)
+        panel.title = describe_point(varied, results[i].configuration);
+      figure.panels.push_back(std::move(panel));
+    }
   return figure;
 }
 
-void run(const StudyArguments& arguments, Session& session) {
-  StudyConfiguration configuration = arguments.study();
-  configuration.all_models = true;
-  const std::vector<StudyResult> results = run_and_keep(configuration, arguments.resume, session);
+struct CompareArguments {
+  StudyArguments study;
+  std::vector<std::string> models;
+};
+
+void run(const CompareArguments& arguments, Session& session) {
+  StudyConfiguration configuration = arguments.study.study();
+  configuration.models =
+      arguments.models.empty() ? configuration.compared_models : contact_models(arguments.models);
+  const std::vector<StudyResult> results =
+      run_and_keep(configuration, arguments.study.resume, session);
+  if (results.empty()) return;
   const std::string file = session.has_output() ? session.output().string() : "";
-  // One figure holds one point: the first.
-  session.plot(figure(results.front()));
+  session.plot(figure(results, configuration.ensemble));
   const Json files{{"results", file.empty() ? Json() : Json(file)}};
   Json answer = Json::object();
   std::string text;
@@ -335,14 +403,20 @@ void run(const StudyArguments& arguments, Session& session) {
 }  // namespace
 
 void add_compare_command(Program& program) {
-  auto arguments = std::make_shared<StudyArguments>();
+  auto arguments = std::make_shared<CompareArguments>();
   CLI::App& command = program.add_command(
       "compare", "every contact model on the same surfaces, down to the damping constant",
       {"salebra compare data/paper.toml -o paper.h5 --plot paper.png",
        "salebra compare data/quickstart.toml --precision 5% --json"},
       [arguments](Session& session) { run(*arguments, session); },
-      "force over gap, area, stiffness and damping of all models, with bands");
-  arguments->add_to(command);
+      "force over gap, area, stiffness and damping of all models, with bands", study_output);
+  arguments->study.add_to(command);
+  command
+      .add_option("--models", arguments->models,
+                  "those to compare with the boundary elements, of gw_moments, gw_deterministic, "
+                  "gw_monte_carlo, gw_interacting and persson; default: all")
+      ->delimiter(',')
+      ->type_name("NAME,...");
 }
 
 }  // namespace salebra::cli

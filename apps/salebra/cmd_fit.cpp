@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
@@ -18,7 +20,12 @@ namespace {
 struct FitArguments {
   std::string curve;
   std::vector<double> window;
+  std::string weights = "spacing";
 };
+
+constexpr std::array weightings{std::pair{"spacing", FitWeights::spacing},
+                                std::pair{"equal", FitWeights::equal},
+                                std::pair{"force", FitWeights::force}};
 
 std::string length(double value) { return format_quantity(value, Dimension::length, 3); }
 
@@ -48,7 +55,10 @@ void run(const FitArguments& arguments, Session& session) {
             "--pressure-window", arguments.window.size(), "values must be two, LOWER,UPPER");
     window = PressureWindow{arguments.window[0], arguments.window[1], 0};
   }
-  const ExponentialFit fit = fit_exponential(curve, window);
+  const FitWeights weights = std::ranges::find(weightings, arguments.weights, [](const auto& item) {
+                               return std::string(item.first);
+                             })->second;
+  const ExponentialFit fit = fit_exponential(curve, window, weights);
   Json answer{{"decay_length", fit.decay_length},
               {"decay_length_low", fit.decay_length_low},
               {"decay_length_high", fit.decay_length_high},
@@ -59,12 +69,17 @@ void run(const FitArguments& arguments, Session& session) {
                 {"pressure_max", fit.window.pressure_max},
                 {"points", fit.window.points}}},
               {"decay_length_over_rms_height", fit.decay_length_over_rms_height}};
-  const WindowSensitivity parts = window_sensitivity(curve, window);
+  Json by_weights = Json::object();
+  for (const auto& [name, other] : weightings)
+    by_weights[name] = fit_exponential(curve, window, other).decay_length;
+  answer["weights"] = arguments.weights;
+  answer["decay_length_by_weights"] = by_weights;
+  const WindowSensitivity parts = window_sensitivity(curve, window, weights);
   answer["window_sensitivity"] = {{"decay_length_min", parts.decay_length_min},
                                   {"decay_length_max", parts.decay_length_max}};
   std::string verdict = "Four samples in the window would be needed to test the law.\n";
   if (fit.window.points >= 4) {
-    const ExponentialTest test = test_exponential(curve, window);
+    const ExponentialTest test = test_exponential(curve, window, weights);
     answer["test"] = {{"significance", test.significance},
                       {"refuted", test.refuted()},
                       {"decay_length_closest", test.decay_length_closest},
@@ -92,6 +107,11 @@ void add_fit_command(Program& program) {
       ->type_name("FILE");
   add_values(command, "--pressure-window", arguments->window, Dimension::pressure,
              "LOWER,UPPER; default: mean gaps of 1 to 2.5 rms heights");
+  command
+      .add_option("--weights", arguments->weights,
+                  "what a sample counts: spacing, the length of gap it stands for (computed "
+                  "curves); equal (noise in proportion to F); force, F^2 (noise of one size)")
+      ->check(CLI::IsMember({"spacing", "equal", "force"}));
 }
 
 }  // namespace salebra::cli

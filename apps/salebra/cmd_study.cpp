@@ -22,9 +22,10 @@ Json files_json(const std::string& file) {
 Json study_json(const StudyResult& result, const std::string& file) {
   Json comparison;
   for (const StudyModel& model : result.models()) {
-    comparison[model.name] = {{"decay_length", to_json(result.decay_length(model.result))},
-                              {"decay_length_over_rms_height",
-                               to_json(result.decay_length_over_rms_height(model.result))}};
+    comparison[name_of(model.model)] = {
+        {"decay_length", to_json(result.decay_length(model.result))},
+        {"decay_length_over_rms_height",
+         to_json(result.decay_length_over_rms_height(model.result))}};
   }
   comparison["law_deviation_percent"] = to_json(result.damping_deviation(), 100);
   std::vector<double> forces;
@@ -104,6 +105,7 @@ std::string study_text(const StudyResult& result, const std::string& file) {
 void run(const StudyArguments& arguments, Session& session) {
   const StudyConfiguration configuration = arguments.study();
   const std::vector<StudyResult> results = run_and_keep(configuration, arguments.resume, session);
+  if (results.empty()) return;
   const std::string file = session.has_output() ? session.output().string() : "";
   if (results.size() == 1 && configuration.ensemble.empty()) {
     session.answer(study_json(results.front(), file), study_text(results.front(), file));
@@ -134,7 +136,7 @@ void add_study_command(Program& program) {
       {"salebra study data/quickstart.toml -o quickstart.h5",
        "salebra study --surface scan.txt --contact-modulus 115GPa --poisson 0.3 "
        "--normal-amplitude 1nm --drag-velocity 1mm/s --frequency 20kHz"},
-      [arguments](Session& session) { run(*arguments, session); });
+      [arguments](Session& session) { run(*arguments, session); }, "", study_output);
   arguments->add_to(command);
 }
 

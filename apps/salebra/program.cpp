@@ -41,7 +41,7 @@ std::string help_hint(const CLI::App& app) {
 
 CLI::App& Program::add_command(const std::string& name, const std::string& what,
                                const std::array<std::string, 2>& examples, Action action,
-                               const std::string& picture) {
+                               const std::string& picture, OutputCheck check) {
   auto common = std::make_shared<CommonOptions>();
   CLI::App* command = app_.add_subcommand(name, what);
   command->footer(
@@ -68,9 +68,9 @@ CLI::App& Program::add_command(const std::string& name, const std::string& what,
   command->add_option("--progress", common->progress, "auto: on a terminal only; always; never")
       ->group(group)
       ->check(CLI::IsMember({"auto", "always", "never"}));
-  command->callback([common, action = std::move(action), line = command_line_] {
+  command->callback([common, action = std::move(action), line = command_line_, check] {
     parallel::set_threads(common->threads);
-    Session session(*common, line);
+    Session session(*common, line, check);
     action(session);
   });
   return *command;

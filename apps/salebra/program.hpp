@@ -26,7 +26,7 @@ class Program {
   /// picture: what Session::plot() is given, for the help of --plot; a command without pictures has no such option.
   CLI::App& add_command(const std::string& name, const std::string& what,
                         const std::array<std::string, 2>& examples, Action action,
-                        const std::string& picture = "");
+                        const std::string& picture = "", OutputCheck check = OutputCheck::at_start);
 
  private:
   CLI::App& app_;

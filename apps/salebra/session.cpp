@@ -34,13 +34,17 @@ void catch_interrupts() {
   sigaction(SIGINT, &action, nullptr);
 }
 
-Session::Session(CommonOptions options, std::string command_line)
+Session::Session(CommonOptions options, std::string command_line, OutputCheck check)
     : options_(std::move(options)),
       command_line_(std::move(command_line)),
       bar_(options_.progress == "always" ||
            (options_.progress == "auto" && !options_.quiet && isatty(STDERR_FILENO) != 0)) {
-  if (has_output()) require_output(output(), write_options());
+  if (check == OutputCheck::at_start) require_free_output();
   if (has_plot()) require_plot(options_.plot, write_options());
+}
+
+void Session::require_free_output() const {
+  if (has_output()) require_output(output(), write_options());
 }
 
 Provenance Session::provenance() const {

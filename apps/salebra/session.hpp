@@ -27,14 +27,20 @@ struct CommonOptions {
   std::string progress = "auto";
 };
 
+/// Whether a file that is in the way is an error before the command begins, or a matter for the command itself.
+enum class OutputCheck { at_start, by_command };
+
 /// One run of a command: where its answer, its remarks and its progress go.
 class Session {
  public:
   /// Throws InvalidInput where the output may not be written, so that no work is done in vain.
-  Session(CommonOptions options, std::string command_line);
+  Session(CommonOptions options, std::string command_line,
+          OutputCheck check = OutputCheck::at_start);
 
   bool has_output() const { return !options_.output.empty(); }
   std::filesystem::path output() const { return options_.output; }
+  /// Throws as the constructor does.
+  void require_free_output() const;
   bool quiet() const { return options_.quiet; }
   bool has_plot() const { return !options_.plot.empty(); }
   /// Draws what --plot asked for; nothing where it was not given.

@@ -107,9 +107,16 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, b
   if (resume) {
     require(session.has_output(), "--resume", "needs", "the --output of the run to go on with");
   }
+  const std::filesystem::path folder = session.output().string() + ".parts";
+  if (resume && is_result_of(session.output(), configuration)) {
+    StudyParts(folder, true).discard();
+    session.answer({{"files", {{"results", session.output().string()}}}},
+                   fmt::format("results: {}, complete already\n", session.output().string()));
+    return {};
+  }
+  session.require_free_output();
   std::unique_ptr<StudyParts> parts;
-  if (session.has_output())
-    parts = std::make_unique<StudyParts>(session.output().string() + ".parts", resume);
+  if (session.has_output()) parts = std::make_unique<StudyParts>(folder, resume);
 
   Pace pace;
   RealisationReport last;
@@ -256,9 +263,20 @@ std::string law_verdict(const StudyResult& result) {
         .mean([&](const Realisation& r) { return r.bem.sensitivity.*limit / r.heights.rms_height; })
         .mean;
   };
-  return text + fmt::format("  Fits to parts of the window give l from {:.2f} to {:.2f} h_rms.\n",
-                            range(&WindowSensitivity::decay_length_min),
-                            range(&WindowSensitivity::decay_length_max));
+  const double equal =
+      result
+          .mean([&](const Realisation& r) {
+            return fit_exponential(r.bem.curve, result.configuration.window, FitWeights::equal)
+                       .decay_length /
+                   r.heights.rms_height;
+          })
+          .mean;
+  return text + fmt::format(
+                    "  Fits to parts of the window give l from {:.2f} to {:.2f} h_rms; equal "
+                    "weights for all loads, in place of equal weights along the gap, {:.3f} "
+                    "h_rms.\n",
+                    range(&WindowSensitivity::decay_length_min),
+                    range(&WindowSensitivity::decay_length_max), equal);
 }
 
 std::string ensemble_remarks(const StudyResult& result) {

@@ -27,8 +27,12 @@ struct StudyArguments {
   StudyConfiguration study() const;
 };
 
+/// For commands that end in run_and_keep(), which looks at the output itself.
+inline constexpr OutputCheck study_output = OutputCheck::by_command;
+
 /// Runs the ensembles with progress, keeps finished surfaces beside the session's output as it goes, and writes the result there. Without
-/// an output nothing is kept. Returns at least one finished surface; what stopped the run before its end throws Interrupted, which says
+/// an output nothing is kept. Where a resumed study has its result already, tidies up after it, answers so and returns nothing.
+/// Otherwise returns at least one finished surface; what stopped the run before its end throws Interrupted, which says
 /// how to go on, after the surfaces that were finished have been answered where they are not kept.
 std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, bool resume,
                                       Session& session);

@@ -12,6 +12,7 @@ namespace {
 
 struct Point {
   double mean_gap, pressure;
+  double weight = 1;  ///< their mean is 1
 };
 
 std::vector<Point> usable_points(const ForceCurve& curve) {
@@ -55,6 +56,34 @@ std::vector<Point> points_in_window(const ForceCurve& curve,
   return points;
 }
 
+/// Sets the weights, and sorts by gap.
+void weigh(std::vector<Point>& points, FitWeights weights) {
+  std::ranges::sort(points, {}, &Point::mean_gap);
+  const std::size_t last = points.size() - 1;
+  const double greatest = std::ranges::max(points, {}, &Point::pressure).pressure;
+  double sum = 0;
+  for (std::size_t i = 0; i <= last; ++i) {
+    switch (weights) {
+      case FitWeights::equal:
+        points[i].weight = 1;
+        break;
+      case FitWeights::force: {
+        const double relative = points[i].pressure / greatest;
+        points[i].weight = relative * relative;
+        break;
+      }
+      case FitWeights::spacing:
+        points[i].weight =
+            points[std::min(i + 1, last)].mean_gap - points[i > 0 ? i - 1 : 0].mean_gap;
+        break;
+    }
+    sum += points[i].weight;
+  }
+  require(sum > 0, "curve.mean_gap", points.front().mean_gap,
+          "is the same in all samples of the window; compute samples at different loads");
+  for (Point& point : points) point.weight *= static_cast<double>(points.size()) / sum;
+}
+
 PressureWindow window_of(const std::vector<Point>& points) {
   const auto [low, high] = std::ranges::minmax(points, {}, &Point::pressure);
   return {.pressure_min = low.pressure,
@@ -62,15 +91,19 @@ PressureWindow window_of(const std::vector<Point>& points) {
           .points = static_cast<int>(points.size())};
 }
 
-/// Least squares y = mean_y + b u + c v with u = ū − mean and v = u² made orthogonal to 1 and u, so that no term
-/// disturbs the others and no large sums cancel.
+/// Weighted least squares y = mean_y + b u + c v with u = ū − mean and v = u² made orthogonal to 1 and u in the weighted sums, so that
+/// no term disturbs the others and no large sums cancel. Each error is that of independent values of y with one variance s²,
+/// whatever the weights: for a term φ of the orthogonal ones
+///     Var = s² Σw²φ²/(Σwφ²)²,   s² = Σw r²/(Σw − Σ_φ Σw²φ²/Σwφ²),
+/// which for equal weights are the textbook's.
 struct Regression {
   double mean_x = 0, mean_y = 0;
-  double square_u = 0, square_v = 0, square_y = 0;
-  double skew = 0;  ///< Σu³/Σu²: v = u² − skew·u − Σu²/n
+  double square_u = 0, square_v = 0, square_y = 0;  ///< Σw u² and so on
+  double skew = 0;  ///< Σw u³/Σw u²: v = u² − skew·u − Σw u²/Σw
   double slope = 0, quadratic = 0;
-  double linear_residual = 0;  ///< Σ(y − mean_y − b u)²
-  double full_residual = 0;    ///< Σ(y − mean_y − b u − c v)²
+  double slope_error = 0;      ///< standard error of b, with c = 0
+  double quadratic_error = 0;  ///< standard error of c
+  double linear_residual = 0;  ///< Σw(y − mean_y − b u)²
 };
 
 Regression regress(const std::vector<Point>& points) {
@@ -80,16 +113,16 @@ Regression regress(const std::vector<Point>& points) {
   require(closest.mean_gap < farthest.mean_gap, "curve.mean_gap", closest.mean_gap,
           "is the same in all samples of the window; compute samples at different loads");
   for (const Point& point : points) {
-    fit.mean_x += point.mean_gap / count;
-    fit.mean_y += std::log(point.pressure) / count;
+    fit.mean_x += point.weight * point.mean_gap / count;
+    fit.mean_y += point.weight * std::log(point.pressure) / count;
   }
   double product_u = 0, cube = 0;
   for (const Point& point : points) {
     const double u = point.mean_gap - fit.mean_x, y = std::log(point.pressure) - fit.mean_y;
-    fit.square_u += u * u;
-    fit.square_y += y * y;
-    product_u += u * y;
-    cube += u * u * u;
+    fit.square_u += point.weight * u * u;
+    fit.square_y += point.weight * y * y;
+    product_u += point.weight * u * y;
+    cube += point.weight * u * u * u;
   }
   fit.slope = product_u / fit.square_u;
   fit.skew = cube / fit.square_u;
@@ -97,16 +130,26 @@ Regression regress(const std::vector<Point>& points) {
   double product_v = 0;
   for (const Point& point : points) {
     const double v = orthogonal(point.mean_gap - fit.mean_x);
-    fit.square_v += v * v;
-    product_v += v * (std::log(point.pressure) - fit.mean_y);
+    fit.square_v += point.weight * v * v;
+    product_v += point.weight * v * (std::log(point.pressure) - fit.mean_y);
   }
   if (fit.square_v > 0) fit.quadratic = product_v / fit.square_v;
+  double full_residual = 0, twice_1 = 0, twice_u = 0, twice_v = 0;  // twice: Σw²φ²
   for (const Point& point : points) {
-    const double u = point.mean_gap - fit.mean_x;
+    const double u = point.mean_gap - fit.mean_x, v = orthogonal(u), w = point.weight;
     const double linear = std::log(point.pressure) - fit.mean_y - fit.slope * u;
-    const double full = linear - fit.quadratic * orthogonal(u);
-    fit.linear_residual += linear * linear;
-    fit.full_residual += full * full;
+    const double full = linear - fit.quadratic * v;
+    fit.linear_residual += w * linear * linear;
+    full_residual += w * full * full;
+    twice_1 += w * w;
+    twice_u += w * w * u * u;
+    twice_v += w * w * v * v;
+  }
+  const double linear_freedom = count - twice_1 / count - twice_u / fit.square_u;
+  fit.slope_error = std::sqrt(fit.linear_residual / linear_freedom * twice_u) / fit.square_u;
+  if (fit.square_v > 0) {
+    const double freedom = linear_freedom - twice_v / fit.square_v;
+    fit.quadratic_error = std::sqrt(full_residual / freedom * twice_v) / fit.square_v;
   }
   require(fit.slope < 0, "curve.pressure", points.front().pressure,
           "does not fall with the mean gap over the window; check the curve");
@@ -115,13 +158,13 @@ Regression regress(const std::vector<Point>& points) {
 
 }  // namespace
 
-ExponentialFit fit_exponential(const ForceCurve& curve,
-                               const std::optional<PressureWindow>& window) {
-  const std::vector<Point> points = points_in_window(curve, window, 3);
+ExponentialFit fit_exponential(const ForceCurve& curve, const std::optional<PressureWindow>& window,
+                               FitWeights weights) {
+  std::vector<Point> points = points_in_window(curve, window, 3);
+  weigh(points, weights);
   const Regression fit = regress(points);
   const double freedom = static_cast<double>(points.size()) - 2;
-  const double standard_error = std::sqrt(fit.linear_residual / freedom / fit.square_u);
-  const double reach = gsl_cdf_tdist_Pinv(0.975, freedom) * standard_error;
+  const double reach = gsl_cdf_tdist_Pinv(0.975, freedom) * fit.slope_error;
   ExponentialFit result;
   result.decay_length = -1 / fit.slope;
   result.decay_length_low = 1 / (reach - fit.slope);
@@ -135,15 +178,16 @@ ExponentialFit fit_exponential(const ForceCurve& curve,
 }
 
 ExponentialTest test_exponential(const ForceCurve& curve,
-                                 const std::optional<PressureWindow>& window) {
-  const std::vector<Point> points = points_in_window(curve, window, 4);
+                                 const std::optional<PressureWindow>& window, FitWeights weights) {
+  std::vector<Point> points = points_in_window(curve, window, 4);
+  weigh(points, weights);
   const Regression fit = regress(points);
   require(fit.square_v > 0, "curve.mean_gap", points.size(),
           "points have only two different mean gaps; compute samples at different loads");
   const double freedom = static_cast<double>(points.size()) - 3;
   ExponentialTest test;
   test.quadratic = fit.quadratic;
-  test.standard_error = std::sqrt(fit.full_residual / freedom / fit.square_v);
+  test.standard_error = fit.quadratic_error;
   // Residuals at the round-off of ln p are a perfect fit and tell nothing about c.
   const double round_off = 1e-14 * std::sqrt(fit.square_y / fit.square_v);
   test.significance =
@@ -153,24 +197,25 @@ ExponentialTest test_exponential(const ForceCurve& curve,
   auto decay_length = [&](double mean_gap) {
     return -1 / (fit.slope + fit.quadratic * (2 * (mean_gap - fit.mean_x) - fit.skew));
   };
-  const auto [closest, farthest] = std::ranges::minmax(points, {}, &Point::mean_gap);
-  test.decay_length_closest = decay_length(closest.mean_gap);
-  test.decay_length_farthest = decay_length(farthest.mean_gap);
+  test.decay_length_closest = decay_length(points.front().mean_gap);
+  test.decay_length_farthest = decay_length(points.back().mean_gap);
   test.window = window_of(points);
   return test;
 }
 
 WindowSensitivity window_sensitivity(const ForceCurve& curve,
-                                     const std::optional<PressureWindow>& window) {
+                                     const std::optional<PressureWindow>& window,
+                                     FitWeights weights) {
   std::vector<Point> points = points_in_window(curve, window, 3);
   std::ranges::sort(points, {}, &Point::pressure);
   const std::size_t least = std::max<std::size_t>(3, (points.size() + 1) / 2);
   WindowSensitivity sensitivity{.decay_length_min = std::numeric_limits<double>::infinity()};
   for (std::size_t begin = 0; begin + least <= points.size(); ++begin)
     for (std::size_t end = begin + least; end <= points.size(); ++end) {
-      const double length = -1 / regress({points.begin() + static_cast<std::ptrdiff_t>(begin),
-                                          points.begin() + static_cast<std::ptrdiff_t>(end)})
-                                     .slope;
+      std::vector<Point> run(points.begin() + static_cast<std::ptrdiff_t>(begin),
+                             points.begin() + static_cast<std::ptrdiff_t>(end));
+      weigh(run, weights);
+      const double length = -1 / regress(run).slope;
       sensitivity.decay_length_min = std::min(sensitivity.decay_length_min, length);
       sensitivity.decay_length_max = std::max(sensitivity.decay_length_max, length);
       ++sensitivity.windows;

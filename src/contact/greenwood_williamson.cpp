@@ -145,6 +145,22 @@ AsperityContact DeterministicSummits::at(double separation) const {
   return sum;
 }
 
+ForceSample force_sample(const AsperityModel& model, double separation,
+                         const AsperityContact& contact) {
+  const AsperityModel::Common& common = model.common();
+  return {.indentation = model.indentation(separation),
+          .mean_gap = model.mean_gap(separation),
+          .separation = separation,
+          .force = contact.force,
+          .pressure = contact.force / common.nominal_area,
+          .contact_area_fraction = contact.contact_area / common.nominal_area,
+          .normal_stiffness = contact.normal_stiffness,
+          // NaN where G* is.
+          .tangential_stiffness = common.material.tangential_modulus /
+                                  common.material.contact_modulus * contact.normal_stiffness,
+          .converged = contact.converged};
+}
+
 ForceCurve curve_at_separations(const AsperityModel& model,
                                 const std::vector<double>& separations) {
   std::vector<double> descending = separations;
@@ -156,21 +172,8 @@ ForceCurve curve_at_separations(const AsperityModel& model,
                    .nominal_area = common.nominal_area,
                    .rms_height = common.rms_height,
                    .samples = {}};
-  for (const double separation : descending) {
-    const AsperityContact contact = model.at(separation);
-    curve.samples.push_back({.indentation = model.indentation(separation),
-                             .mean_gap = model.mean_gap(separation),
-                             .separation = separation,
-                             .force = contact.force,
-                             .pressure = contact.force / common.nominal_area,
-                             .contact_area_fraction = contact.contact_area / common.nominal_area,
-                             .normal_stiffness = contact.normal_stiffness,
-                             // NaN where G* is.
-                             .tangential_stiffness = common.material.tangential_modulus /
-                                                     common.material.contact_modulus *
-                                                     contact.normal_stiffness,
-                             .converged = contact.converged});
-  }
+  for (const double separation : descending)
+    curve.samples.push_back(force_sample(model, separation, model.at(separation)));
   return curve;
 }
 

@@ -2,7 +2,6 @@
 #include "periodic_point_loads.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <salebra/base/convolution.hpp>
@@ -15,11 +14,12 @@ using std::numbers::pi;
 
 // erfc(4.5) = 2e-10 is dropped beyond the cut-off, and as much of the spectrum erfc(q/2α) beyond q = 9α.
 constexpr double short_reach = 4.5;
-constexpr double neighbours = 80;  // balances the pairs against the grid
-// The grid resolves waves twice as short as the spectrum has. A Gaussian cut off after `reach` nodes is e^−23 there, and its images
-// beyond the grid's Nyquist wave are below what the spectrum has left.
-constexpr Index reach = 9;
-constexpr double cut_exponent = 23;
+constexpr double neighbours = 40;  // balances the pairs against the grid
+// The grid resolves waves `oversampling` times as short as the spectrum has. The window is `width` nodes wide; what it aliases is
+// worst where the spectrum has next to nothing left, so that sums come out ten times as good as it is there.
+constexpr double oversampling = 1.5;
+constexpr Index width = 10;
+const double window_exponent = 0.97 * pi * double(width) * (1 - 1 / (2 * oversampling));
 
 double wrapped(double value, double period) {
   const double rest = value - period * std::floor(value / period);
@@ -30,66 +30,91 @@ double nearest_image(double difference, double period) {
   return difference - period * std::round(difference / period);
 }
 
-/// exp(−(k + 1 − fraction)²h²/4τ) for the nodes −reach+1 … reach around a point `fraction` cells above node 0.
-std::array<double, 2 * reach> gaussian_weights(double fraction, double decay) {
-  std::array<double, 2 * reach> weights;
-  for (Index k = 0; k < 2 * reach; ++k) {
-    const double distance = static_cast<double>(k - reach + 1) - fraction;
-    weights[static_cast<std::size_t>(k)] = std::exp(-decay * distance * distance);
+/// exp(β(√(1 − t²) − 1)), t = 2x/width for a distance of x nodes.
+double window(double nodes) {
+  const double t = 2 * nodes / double(width), rest = 1 - t * t;
+  return rest > 0 ? std::exp(window_exponent * (std::sqrt(rest) - 1)) : 0;
+}
+
+/// ∫ window(x) cos(kx) dx, k in radians a node: the trapezoidal rule in t = sin θ, whose error is exp(−β) as the jump at the ends is.
+double window_transform(double k) {
+  constexpr int panels = 64;
+  double sum = 0;
+  for (int i = 1; i < panels; ++i) {
+    const double angle = pi * (double(i) / panels - 0.5);
+    sum += std::exp(window_exponent * (std::cos(angle) - 1)) * std::cos(angle) *
+           std::cos(k * double(width) / 2 * std::sin(angle));
   }
-  return weights;
+  return sum * pi / panels * double(width) / 2;
 }
 
 }  // namespace
 
 PeriodicPointLoads::PeriodicPointLoads(std::vector<PlanePoint> points, double lx, double ly)
-    : points_(std::move(points)), lx_(lx), ly_(ly) {
-  for (PlanePoint& point : points_) point = {wrapped(point.x, lx), wrapped(point.y, ly)};
+    : count_(points.size()), lx_(lx), ly_(ly) {
+  for (PlanePoint& point : points) point = {wrapped(point.x, lx), wrapped(point.y, ly)};
   const double area = lx * ly;
   const double cutoff =
-      std::min(std::sqrt(neighbours * area / (pi * static_cast<double>(points_.size()))),
-               0.49 * std::min(lx, ly));
+      std::min(std::sqrt(neighbours * area / (pi * double(count_))), 0.49 * std::min(lx, ly));
   split_ = short_reach / cutoff;
-  find_pairs(cutoff);
+  find_pairs(points, cutoff);
 
-  const double spacing = pi / (2 * 2 * short_reach * split_);
+  const double spacing = pi / (oversampling * 2 * short_reach * split_);
   const auto nodes = [&](double period) {
-    return fast_transform_size(
-        std::max<Index>(static_cast<Index>(std::ceil(period / spacing)), 2 * reach + 2));
+    return fast_transform_size(std::max(static_cast<Index>(std::ceil(period / spacing)), width));
   };
   nx_ = nodes(lx);
   ny_ = nodes(ly);
-  fft_ = std::make_unique<RealFft2D<double>>(nx_, ny_);
-  field_.resize(static_cast<std::size_t>(nx_ * ny_));
-  modes_.resize(static_cast<std::size_t>(nx_ * fft_->modes_y()));
-  symbol_.resize(modes_.size());
-  // In units of the cell, along both axes alike: the Gaussian is isotropic in index space, which only the symbol needs to know.
-  width_ = static_cast<double>(reach * reach) / (4 * cut_exponent);
-  for (Index i = 0; i < nx_; ++i) {
-    const Index wave_x = i <= nx_ / 2 ? i : i - nx_;
-    for (Index j = 0; j < fft_->modes_y(); ++j) {
-      const double qx = 2 * pi * static_cast<double>(wave_x) / lx;
-      const double qy = 2 * pi * static_cast<double>(j) / ly;
-      const double q = std::hypot(qx, qy);
-      double& symbol = symbol_[static_cast<std::size_t>(i * fft_->modes_y() + j)];
-      if (q == 0) {
-        symbol = 0;
-        continue;
-      }
-      const double spectrum = 2 / q * std::erfc(q / (2 * split_)) / area;
-      // Spreading and gathering each multiply by the transform 4πτ exp(−τκ²) of the Gaussian, κ = q in units of 1/cell.
-      const double kx = 2 * pi * static_cast<double>(wave_x) / static_cast<double>(nx_);
-      const double ky = 2 * pi * static_cast<double>(j) / static_cast<double>(ny_);
-      const double gaussian = 4 * pi * width_ * std::exp(-width_ * (kx * kx + ky * ky));
-      symbol = spectrum / (gaussian * gaussian);
-    }
-  }
+  place_windows(points);
+  set_symbol();
   // erf(αr)/(πr) → 2α/π^{3/2} at the force's own place is not a displacement by other forces.
   self_ = -2 * split_ / (pi * std::sqrt(pi));
   background_ = -2 / (std::sqrt(pi) * split_ * area);
 }
 
-void PeriodicPointLoads::find_pairs(double cutoff) {
+void PeriodicPointLoads::place_windows(const std::vector<PlanePoint>& points) {
+  const auto place = [&](double position, Index nodes) {
+    const Index first = static_cast<Index>(std::ceil(position - double(width) / 2));
+    for (Index k = 0; k < width; ++k) weights_.push_back(window(double(first + k) - position));
+    return (first % nodes + nodes) % nodes;
+  };
+  windows_.reserve(count_);
+  weights_.reserve(2 * std::size_t(width) * count_);
+  for (const PlanePoint& point : points) {
+    const Index row = place(point.x / lx_ * double(nx_), nx_);
+    windows_.push_back({row, place(point.y / ly_ * double(ny_), ny_)});
+  }
+}
+
+void PeriodicPointLoads::set_symbol() {
+  fft_ = std::make_unique<RealFft2D<double>>(nx_, ny_);
+  field_.resize(static_cast<std::size_t>(nx_ * ny_));
+  modes_.resize(static_cast<std::size_t>(nx_ * fft_->modes_y()));
+  symbol_.resize(modes_.size());
+  const auto transforms = [](Index nodes) {
+    std::vector<double> values;
+    for (Index wave = 0; wave <= nodes / 2; ++wave)
+      values.push_back(window_transform(2 * pi * double(wave) / double(nodes)));
+    return values;
+  };
+  const std::vector<double> along_x = transforms(nx_), along_y = transforms(ny_);
+  for (Index i = 0; i < nx_; ++i) {
+    const Index wave_x = std::min(i, nx_ - i);
+    const double qx = 2 * pi * double(wave_x) / lx_;
+    for (Index j = 0; j < fft_->modes_y(); ++j) {
+      if (i == 0 && j == 0) continue;  // the mean plane does not move
+      const double qy = 2 * pi * double(j) / ly_, q = std::sqrt(qx * qx + qy * qy);
+      // Beyond, the spectrum is left out: the window must not magnify what it aliases there.
+      if (q > 2 * short_reach * split_) continue;
+      const double spectrum = 2 / q * std::erfc(q / (2 * split_)) / (lx_ * ly_);
+      // Spreading and gathering each multiply by the transform of the window.
+      const double both = along_x[std::size_t(wave_x)] * along_y[std::size_t(j)];
+      symbol_[static_cast<std::size_t>(i * fft_->modes_y() + j)] = spectrum / (both * both);
+    }
+  }
+}
+
+void PeriodicPointLoads::find_pairs(const std::vector<PlanePoint>& points, double cutoff) {
   // Cells at least as wide as the cut-off: neighbours lie in the 3 × 3 cells around. Fewer than three cells a side would be visited twice.
   const auto cells = [&](double period) {
     return std::max<Index>(1, static_cast<Index>(std::floor(period / cutoff)));
@@ -97,12 +122,12 @@ void PeriodicPointLoads::find_pairs(double cutoff) {
   const Index cx = cells(lx_), cy = cells(ly_);
   std::vector<std::vector<std::uint32_t>> members(static_cast<std::size_t>(cx * cy));
   const auto cell_of = [&](const PlanePoint& point) {
-    const Index ix = std::min(cx - 1, static_cast<Index>(point.x / lx_ * static_cast<double>(cx)));
-    const Index iy = std::min(cy - 1, static_cast<Index>(point.y / ly_ * static_cast<double>(cy)));
+    const Index ix = std::min(cx - 1, static_cast<Index>(point.x / lx_ * double(cx)));
+    const Index iy = std::min(cy - 1, static_cast<Index>(point.y / ly_ * double(cy)));
     return std::pair{ix, iy};
   };
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const auto [ix, iy] = cell_of(points_[i]);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const auto [ix, iy] = cell_of(points[i]);
     members[static_cast<std::size_t>(ix * cy + iy)].push_back(static_cast<std::uint32_t>(i));
   }
   const auto around = [](Index cell, Index count) {
@@ -113,52 +138,61 @@ void PeriodicPointLoads::find_pairs(double cutoff) {
     cells_around.erase(std::unique(cells_around.begin(), cells_around.end()), cells_around.end());
     return cells_around;
   };
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const auto [ix, iy] = cell_of(points_[i]);
-    for (const Index jx : around(ix, cx))
-      for (const Index jy : around(iy, cy))
+  std::vector<std::vector<Index>> rows_around, columns_around;
+  for (Index ix = 0; ix < cx; ++ix) rows_around.push_back(around(ix, cx));
+  for (Index iy = 0; iy < cy; ++iy) columns_around.push_back(around(iy, cy));
+  for (std::size_t i = 0; i < count_; ++i) {
+    const auto [ix, iy] = cell_of(points[i]);
+    for (const Index jx : rows_around[std::size_t(ix)])
+      for (const Index jy : columns_around[std::size_t(iy)])
         for (const std::uint32_t j : members[static_cast<std::size_t>(jx * cy + jy)]) {
           if (j <= i) continue;
-          const double r = std::hypot(nearest_image(points_[i].x - points_[j].x, lx_),
-                                      nearest_image(points_[i].y - points_[j].y, ly_));
-          require(r > 0, "summits.position", points_[i].x,
+          const double x = nearest_image(points[i].x - points[j].x, lx_);
+          const double y = nearest_image(points[i].y - points[j].y, ly_);
+          const double square = x * x + y * y;
+          require(square > 0, "summits.position", points[i].x,
                   "m along x is that of two summits at one place; remove one of them");
-          if (r < cutoff)
-            pairs_.push_back({static_cast<std::uint32_t>(i), j, std::erfc(split_ * r) / (pi * r)});
+          if (square >= cutoff * cutoff) continue;
+          const double r = std::sqrt(square);
+          pairs_.push_back({static_cast<std::uint32_t>(i), j, std::erfc(split_ * r) / (pi * r)});
         }
   }
 }
 
-void PeriodicPointLoads::apply(std::span<const double> loads, std::span<double> displacements) {
-  const double decay = 1 / (4 * width_);
-  const auto visit = [&](const PlanePoint& point, auto&& at_node) {
-    const double x = point.x / lx_ * static_cast<double>(nx_);
-    const double y = point.y / ly_ * static_cast<double>(ny_);
-    const Index ix = static_cast<Index>(x), iy = static_cast<Index>(y);
-    const auto weights_x = gaussian_weights(x - static_cast<double>(ix), decay);
-    const auto weights_y = gaussian_weights(y - static_cast<double>(iy), decay);
-    for (Index kx = 0; kx < 2 * reach; ++kx) {
-      const Index row = (ix + kx - reach + 1 + nx_) % nx_ * ny_;
-      const double weight_x = weights_x[static_cast<std::size_t>(kx)];
-      for (Index ky = 0; ky < 2 * reach; ++ky)
-        at_node(static_cast<std::size_t>(row + (iy + ky - reach + 1 + ny_) % ny_),
-                weight_x * weights_y[static_cast<std::size_t>(ky)]);
-    }
-  };
+/// at_row(nodes, weight along x, weights along y, how many) for each run of nodes in a row under the window of a point.
+template <class AtRow>
+void PeriodicPointLoads::visit(std::size_t point, const AtRow& at_row) {
+  const Window& window = windows_[point];
+  const double* along_x = &weights_[2 * std::size_t(width) * point];
+  const double* along_y = along_x + width;
+  const Index before_edge = std::min(width, ny_ - window.column);
+  for (Index k = 0; k < width; ++k) {
+    double* row = &field_[static_cast<std::size_t>((window.row + k) % nx_ * ny_)];
+    at_row(row + window.column, along_x[k], along_y, before_edge);
+    if (before_edge < width) at_row(row, along_x[k], along_y + before_edge, width - before_edge);
+  }
+}
 
+void PeriodicPointLoads::apply(std::span<const double> loads, std::span<double> displacements) {
   std::ranges::fill(field_, 0.0);
   double total = 0;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
+  for (std::size_t i = 0; i < count_; ++i) {
     if (loads[i] == 0) continue;
     total += loads[i];
-    visit(points_[i], [&](std::size_t node, double weight) { field_[node] += weight * loads[i]; });
+    visit(i, [&](double* nodes, double along_x, const double* along_y, Index count) {
+      for (Index k = 0; k < count; ++k) nodes[k] += loads[i] * along_x * along_y[k];
+    });
   }
   fft_->forward(field_.data(), modes_.data());
   for (std::size_t mode = 0; mode < modes_.size(); ++mode) modes_[mode] *= symbol_[mode];
   fft_->backward(modes_.data(), field_.data());
-  for (std::size_t i = 0; i < points_.size(); ++i) {
+  for (std::size_t i = 0; i < count_; ++i) {
     double sum = 0;
-    visit(points_[i], [&](std::size_t node, double weight) { sum += weight * field_[node]; });
+    visit(i, [&](const double* nodes, double along_x, const double* along_y, Index count) {
+      double row = 0;
+      for (Index k = 0; k < count; ++k) row += nodes[k] * along_y[k];
+      sum += along_x * row;
+    });
     displacements[i] = sum + self_ * loads[i] + background_ * total;
   }
   for (const Pair& pair : pairs_) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -14,6 +16,13 @@ namespace salebra {
 namespace {
 
 using detail::TomlTable;
+
+constexpr std::array model_names{std::pair{ContactModel::bem, "bem"},
+                                 std::pair{ContactModel::gw_moments, "gw_moments"},
+                                 std::pair{ContactModel::gw_deterministic, "gw_deterministic"},
+                                 std::pair{ContactModel::gw_monte_carlo, "gw_monte_carlo"},
+                                 std::pair{ContactModel::gw_interacting, "gw_interacting"},
+                                 std::pair{ContactModel::persson, "persson"}};
 
 void check_positive(const TomlTable& table, std::string_view key, double value) {
   table.check(value > 0, key, fmt::format("{} must be > 0", value));
@@ -225,6 +234,13 @@ void read_fit(TomlTable table, StudyConfiguration& configuration) {
   table.require_no_other_keys();
 }
 
+void read_compare(TomlTable table, StudyConfiguration& configuration) {
+  if (table.has("models"))
+    configuration.compared_models =
+        table.located([&] { return contact_models(table.texts("models")); });
+  table.require_no_other_keys();
+}
+
 void read_damping(TomlTable table, StudyConfiguration& configuration) {
   const std::size_t mode = table.choice("mode", {"drag", "equal-frequency"}).value_or(0);
   const double normal_amplitude = required_positive(table, "normal_amplitude", Dimension::length);
@@ -258,6 +274,34 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
 
 }  // namespace
 
+ContactModel contact_model(std::string_view name) {
+  std::vector<std::string> known;
+  for (const auto& [model, own] : model_names) {
+    if (name == own) return model;
+    known.emplace_back(own);
+  }
+  throw InvalidInput(
+      fmt::format("models: '{}' is not known; known are {}", name, fmt::join(known, ", ")));
+}
+
+const char* name_of(ContactModel model) {
+  return std::ranges::find(model_names, model, [](const auto& item) { return item.first; })->second;
+}
+
+std::vector<ContactModel> contact_models(const std::vector<std::string>& names) {
+  std::vector<ContactModel> models{ContactModel::bem};
+  for (const std::string& name : names) {
+    const ContactModel model = contact_model(name);
+    if (std::ranges::find(models, model) == models.end()) models.push_back(model);
+  }
+  std::ranges::sort(models);
+  return models;
+}
+
+bool StudyConfiguration::has(ContactModel model) const {
+  return std::ranges::find(models, model) != models.end();
+}
+
 StudyConfiguration parse_study_configuration(const std::string& text, const std::string& name,
                                              const std::filesystem::path& folder) {
   toml::table document;
@@ -269,7 +313,8 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
   }
   TomlTable root(name, "", document, 1);
   // A misspelt table must not be told as a missing one.
-  for (const char* table : {"surface", "ensemble", "material", "contact", "fit", "damping"})
+  for (const char* table :
+       {"surface", "ensemble", "material", "contact", "fit", "damping", "compare"})
     root.table(table);
   root.require_no_other_keys();
   StudyConfiguration configuration;
@@ -290,6 +335,7 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
   read_contact(root.required_table("contact"), configuration);
   if (auto fit = root.table("fit")) read_fit(*fit, configuration);
   read_damping(root.required_table("damping"), configuration);
+  if (auto compare = root.table("compare")) read_compare(*compare, configuration);
   return configuration;
 }
 

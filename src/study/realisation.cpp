@@ -131,37 +131,6 @@ ModelResult fitted_if_possible(const ForceCurve& curve, const StudyConfiguration
   }
 }
 
-/// Own summits that press each other down; loads for which no state was found are marked.
-ForceCurve interacting_curve(const SummitList& summits, const Surface& surface,
-                             const Realisation& realisation, const Material& material,
-                             const std::vector<double>& pressures, const Progress& progress) {
-  const InteractingSummits model(summits.summits, material, surface.grid, realisation.heights.mean,
-                                 realisation.heights.rms_height);
-  ForceCurve curve;
-  for (std::size_t i = 0; i < pressures.size(); ++i) {
-    if (progress && !progress({.stage = "interacting summits",
-                               .fraction = double(i) / double(pressures.size())}))
-      throw Interrupted("study: interrupted");
-    try {
-      ForceCurve one = curve_at_pressures(model, {pressures[i]});
-      if (curve.samples.empty()) {
-        curve = std::move(one);
-      } else {
-        curve.samples.push_back(one.samples.front());
-      }
-    } catch (const NotConverged&) {
-      ForceSample lost;
-      lost.pressure = pressures[i];
-      lost.force = pressures[i] * surface.grid.area();
-      lost.converged = false;
-      curve.samples.push_back(lost);
-    }
-  }
-  curve.nominal_area = surface.grid.area();
-  curve.rms_height = realisation.heights.rms_height;
-  return curve;
-}
-
 /// The modes that the surface has, ring by ring.
 std::vector<RoughnessShell> shells_of(const Surface& surface) {
   const PowerSpectrum spectrum = power_spectrum(surface);
@@ -190,29 +159,34 @@ SpotStatistics spot_statistics(const ContactSpots& contact, const Grid2D& grid) 
   return statistics;
 }
 
-/// Monte Carlo, interacting summits and Persson's theory.
+/// Those of Monte Carlo, interacting summits and Persson's theory that were asked for.
 void add_other_models(Realisation& realisation, const Surface& surface, const SummitList& summits,
                       const StudyConfiguration& configuration, double scale,
                       const std::vector<double>& pressures, const Progress& progress) {
   const Material& material = configuration.material;
-  const double area = surface.grid.area();
-  const SummitEnsemble& ensemble = realisation.ensemble;
-  const int count = std::max(1, int(std::lround(ensemble.density * area)));
-  const DeterministicSummits drawn(draw_summits(ensemble, count, std::sqrt(area), realisation.seed),
-                                   material, area, -ensemble.mean_height,
-                                   realisation.heights.rms_height);
-  realisation.gw_monte_carlo =
-      fitted_if_possible(curve_at_pressures(drawn, pressures), configuration, scale);
-
-  const PerssonTheory theory(shells_of(surface), material.contact_modulus);
-  ForceCurve persson = persson_curve(theory, material, area, pressures);
-  persson.rms_height = realisation.heights.rms_height;
-  realisation.persson = fitted_if_possible(persson, configuration, scale);
-  realisation.persson_decay_length = theory.asymptote().decay_length;
-
-  realisation.gw_interacting = fitted_if_possible(
-      interacting_curve(summits, surface, realisation, material, pressures, progress),
-      configuration, scale);
+  const double area = surface.grid.area(), rms_height = realisation.heights.rms_height;
+  if (configuration.has(ContactModel::gw_monte_carlo)) {
+    const SummitEnsemble& ensemble = realisation.ensemble;
+    const int count = std::max(1, int(std::lround(ensemble.density * area)));
+    const DeterministicSummits drawn(
+        draw_summits(ensemble, count, std::sqrt(area), realisation.seed), material, area,
+        -ensemble.mean_height, rms_height);
+    realisation.gw_monte_carlo =
+        fitted_if_possible(curve_at_pressures(drawn, pressures), configuration, scale);
+  }
+  if (configuration.has(ContactModel::persson)) {
+    const PerssonTheory theory(shells_of(surface), material.contact_modulus);
+    ForceCurve persson = persson_curve(theory, material, area, pressures);
+    persson.rms_height = rms_height;
+    realisation.persson = fitted_if_possible(persson, configuration, scale);
+    realisation.persson_decay_length = theory.asymptote().decay_length;
+  }
+  if (configuration.has(ContactModel::gw_interacting)) {
+    const InteractingSummits interacting(summits.summits, material, surface.grid,
+                                         realisation.heights.mean, rms_height);
+    realisation.gw_interacting = fitted_if_possible(
+        curve_at_pressures(interacting, pressures, progress), configuration, scale);
+  }
 }
 
 }  // namespace
@@ -221,8 +195,11 @@ bool stick_solves(const StudyConfiguration& configuration) {
   return configuration.stick && std::isfinite(configuration.material.cerruti_isotropic);
 }
 
-std::span<const StudyModel> models_of(const StudyConfiguration& configuration) {
-  return std::span(study_models).first(configuration.all_models ? study_models.size() : 3);
+std::vector<StudyModel> models_of(const StudyConfiguration& configuration) {
+  std::vector<StudyModel> chosen;
+  for (const StudyModel& model : study_models)
+    if (configuration.has(model.model)) chosen.push_back(model);
+  return chosen;
 }
 
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed) {
@@ -278,7 +255,8 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
       fitted(curve_at_pressures(deterministic, pressures), configuration, scale);
 
   bool stopped = false;
-  const double others = configuration.all_models ? 0.5 : 0.0;
+  // The share of the interacting summits in the time.
+  const double others = configuration.has(ContactModel::gw_interacting) ? 0.4 : 0.0;
   const auto part = [&](double begin, double share) -> Progress {
     return [&, begin, share](const ProgressReport& report) {
       stopped = stopped || (progress && !progress({.stage = "realisation",
@@ -286,9 +264,8 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
       return !stopped;
     };
   };
-  if (configuration.all_models)
-    add_other_models(realisation, surface, summits, configuration, scale, pressures,
-                     part(0, others));
+  add_other_models(realisation, surface, summits, configuration, scale, pressures, part(0, others));
+  if (stopped) throw Interrupted("study: interrupted");
 
   SweepOptions sweep;
   sweep.contact.tolerance = configuration.tolerance;

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <type_traits>
 
+#include "point_run.hpp"
+
 namespace salebra::detail {
 namespace {
 
@@ -235,9 +237,18 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
            measured.height_unit);
   }
   writer(point.material, point.pressures, point.relative_pressures, point.tolerance, point.stick,
-         point.window, point.all_models, point.motion.index());
+         point.window, point.models, point.motion.index());
   std::visit([&](const auto& motion) { writer(motion); }, point.motion);
   writer(point.damping.hold, point.damping.amplitude, point.damping.tolerance);
+  return checksum(writer.bytes);
+}
+
+std::uint64_t study_key(const std::vector<StudyConfiguration>& points) {
+  Writer writer;
+  for (const StudyConfiguration& point : points) {
+    for (const std::uint64_t seed : seeds_of(point)) writer(realisation_key(point, seed));
+    writer(point.precision, point.least_realisations);
+  }
   return checksum(writer.bytes);
 }
 

@@ -13,6 +13,9 @@ std::uint64_t checksum(std::string_view bytes);
 
 /// A number for everything that decides the realisation: the point's configuration, the seed, and the program's version. What
 /// does not (other seeds, precision, comments) is not in it.
+/// Of everything that decides the result of a study with these points.
+std::uint64_t study_key(const std::vector<StudyConfiguration>& points);
+
 std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t seed);
 
 /// Every bit of a realisation with its key and a checksum; for this machine's byte order.

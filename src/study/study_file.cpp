@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -6,6 +8,8 @@
 #include <salebra/base/quantity.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/study/study_file.hpp>
+
+#include "realisation_record.hpp"
 
 namespace salebra {
 namespace {
@@ -44,7 +48,7 @@ void put_pressures(ResultGroup& group, const StudyResult& result) {
 
 void put_models(ResultGroup& group, const StudyResult& result) {
   Names names;
-  for (const StudyModel& model : result.models()) names.emplace_back(model.name);
+  for (const StudyModel& model : result.models()) names.emplace_back(name_of(model.model));
   group.labels("model", names, "contact model");
 }
 
@@ -382,7 +386,24 @@ void write_overview(ResultGroup group, const std::vector<StudyResult>& results) 
   put(group, "area_slope", slopes, {"point"}, "ensemble_");
 }
 
+std::string key_text(const std::vector<StudyConfiguration>& points) {
+  return fmt::format("{:016x}", detail::study_key(points));
+}
+
 }  // namespace
+
+bool is_result_of(const std::filesystem::path& file, const StudyConfiguration& study) {
+  if (!std::filesystem::is_regular_file(file)) return false;
+  try {
+    const ResultReader reader(file);
+    const std::string key = key_text(grid_points(study));
+    for (const char* group : {"surface", "ensemble"})
+      if (reader.has(group) && reader.text_attribute(group, "study") == key) return true;
+  } catch (const InvalidInput&) {
+    // Some other file.
+  }
+  return false;
+}
 
 void write_ensembles(const std::filesystem::path& file, const std::vector<StudyResult>& results,
                      Provenance provenance, const WriteOptions& options) {
@@ -391,10 +412,15 @@ void write_ensembles(const std::filesystem::path& file, const std::vector<StudyR
   if (!results.front().realisations.empty())
     provenance.seed = results.front().realisations.front().seed;
   ResultFile output(file, provenance, options);
+  std::vector<StudyConfiguration> points;
+  for (const StudyResult& result : results) points.push_back(result.configuration);
   if (results.size() == 1) {
     write_point(output, "", results.front());
+    output.group("surface").attribute("study", key_text(points));
   } else {
-    write_overview(output.group("ensemble"), results);
+    ResultGroup overview = output.group("ensemble");
+    write_overview(overview, results);
+    overview.attribute("study", key_text(points));
     for (std::size_t i = 0; i < results.size(); ++i)
       write_point(output, "points/" + std::to_string(i) + "/", results[i]);
   }

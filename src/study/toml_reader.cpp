@@ -78,6 +78,22 @@ std::optional<std::string> TomlTable::text(std::string_view key) {
   return node->value<std::string>();
 }
 
+std::vector<std::string> TomlTable::texts(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return {};
+  std::vector<std::string> all;
+  const auto add = [&](const toml::node& item) {
+    check(item.is_string(), key, written(item) + " must be a string; put it in quotes");
+    all.push_back(*item.value<std::string>());
+  };
+  if (const toml::array* array = node->as_array()) {
+    for (const toml::node& item : *array) add(item);
+  } else {
+    add(*node);
+  }
+  return all;
+}
+
 std::optional<std::size_t> TomlTable::choice(std::string_view key,
                                              const std::vector<std::string>& names) {
   const auto given = text(key);

@@ -184,7 +184,8 @@ TEST_CASE("A sweep leads to a curve, its fit and a damping constant", "[sweep][f
   CHECK(keys(fit) == std::set<std::string>{"decay_length", "decay_length_low", "decay_length_high",
                                            "reference_pressure", "r_squared", "window",
                                            "decay_length_over_rms_height", "local", "test",
-                                           "window_sensitivity"});
+                                           "window_sensitivity", "weights",
+                                           "decay_length_by_weights"});
   CHECK(keys(fit["window"]) == std::set<std::string>{"pressure_min", "pressure_max", "points"});
   CHECK(fit["window"]["points"] == 8);
   CHECK(fit["decay_length_low"] < fit["decay_length"]);

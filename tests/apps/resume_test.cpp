@@ -144,6 +144,33 @@ TEST_CASE("A study killed at twenty random moments ends as if nothing had happen
   CHECK(compared > 200);
 }
 
+TEST_CASE("A study killed while it tidied up is complete, and says so", "[resume]") {
+  const ProgramTest test;
+  test.write("study.toml", study);
+  const fs::path parts = test.folder() / "result.h5.parts", copy = test.folder() / "copy";
+  while (parts_in(parts) < 2) REQUIRE(run_and_kill(test, true, std::chrono::microseconds(0)));
+  fs::copy(parts, copy);
+  REQUIRE(test.run("study study.toml -o result.h5 --resume").status == 0);
+  // Parts beside a finished result: those that were not yet removed when the process died.
+  fs::remove(copy / "lock");
+  fs::rename(copy, parts);
+  const auto written = fs::last_write_time(test.folder() / "result.h5");
+  const auto again = test.run("study study.toml -o result.h5 --resume --json");
+  INFO(again.err);
+  REQUIRE(again.status == 0);
+  CHECK(again.json()["files"]["results"] == "result.h5");
+  CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5"});
+  CHECK(fs::last_write_time(test.folder() / "result.h5") == written);
+  // Without --resume, or as the result of another study, the file is in the way.
+  check_refused(test.run("study study.toml -o result.h5"), "exists");
+  check_refused(test.run("study study.toml -o result.h5 --resume --precision 9%"), "exists");
+  std::string other = study;
+  other.replace(other.find("1e-8"), 4, "1e-9");
+  test.write("study.toml", other);
+  check_refused(test.run("study study.toml -o result.h5 --resume"), "exists");
+  CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5"});
+}
+
 TEST_CASE("A study that cannot write its next surface keeps the others", "[resume]") {
   const ProgramTest test;
   test.write("study.toml", study);

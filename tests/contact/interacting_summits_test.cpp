@@ -151,15 +151,70 @@ TEST_CASE("The sums for thousands of summits agree with the plain ones", "[inter
   REQUIRE(state.converged);
   double mean = 0;
   for (const Summit& summit : summits) mean += summit.height / 2500;
-  for (std::size_t i = 0; i < summits.size(); i += 501) {
+  const double deepest = std::ranges::max(state.indentation);
+  for (std::size_t i = 0; i < summits.size(); i += 101) {
     double depth = summits[i].height - mean - separation;
     for (std::size_t j = 0; j < summits.size(); ++j)
       if (state.loads[j] > 0)
         depth -= state.loads[j] / modulus *
                  periodic_kernel(summits[i].x - summits[j].x, summits[i].y - summits[j].y, 9, 3);
-    const double load = 4.0 / 3 * modulus * std::sqrt(1e-3) * std::pow(std::max(depth, 0.0), 1.5);
-    CHECK(state.loads[i] == Approx(load).margin(1e-8));
+    if (state.loads[i] == 0) {
+      CHECK(depth < 1e-8 * deepest);
+      continue;
+    }
+    // The solver's 1e-10 and the 1e-9 that the sums promise, of displacements that are below the greatest depth.
+    CHECK(state.indentation[i] == Approx(depth).margin(3e-9 * deepest).epsilon(0));
+    CHECK(state.loads[i] ==
+          Approx(4.0 / 3 * modulus * std::sqrt(1e-3) * std::pow(state.indentation[i], 1.5)));
   }
+}
+
+TEST_CASE("Given the force or given the separation, the state is the same", "[interacting]") {
+  const InteractingSummits model(random_summits(400, 0.02, 20), soft, square(20));
+  const double separation = GENERATE(1.5, 0.2, -1.0);
+  const InteractingSummits::State by_separation = model.solve(separation);
+  REQUIRE(by_separation.converged);
+  const AsperityContact contact = model.contact_of(by_separation);
+  const InteractingSummits::State by_force = model.solve_for_force(contact.force);
+  REQUIRE(by_force.converged);
+  // Both solvers stop at 1e-10 of the greatest indentation, which is of the order of one.
+  CHECK(by_force.separation == Approx(separation).margin(1e-9));
+  CHECK(model.contact_of(by_force).force == Approx(contact.force).epsilon(1e-12));
+  CHECK(model.contact_of(by_force).normal_stiffness ==
+        Approx(contact.normal_stiffness).epsilon(1e-7));
+  CHECK(model.separation_of(contact.force) == by_force.separation);
+  // From another state it is the same one.
+  const InteractingSummits::State from_other = model.solve_for_force(contact.force, &by_separation);
+  CHECK(from_other.separation == Approx(separation).margin(1e-9));
+  const InteractingSummits::State closer = model.solve_for_force(2 * contact.force, &by_force);
+  CHECK(closer.converged);
+  CHECK(closer.separation < separation);
+}
+
+TEST_CASE("A curve of interacting summits is that of its single loads", "[interacting]") {
+  const InteractingSummits model(random_summits(300, 0.02, 15), soft, square(15));
+  const std::vector<double> pressures{0.08, 0.0005, 0.002, 0.02};
+  std::vector<double> fractions;
+  const ForceCurve curve = curve_at_pressures(model, pressures, [&](const ProgressReport& report) {
+    fractions.push_back(report.fraction);
+    return true;
+  });
+  REQUIRE(curve.samples.size() == 4);
+  CHECK(fractions == std::vector{0, 0.25, 0.5, 0.75});
+  const AsperityModel& plain = model;
+  const ForceCurve single = curve_at_pressures(plain, pressures);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const ForceSample &one = curve.samples[k], &other = single.samples[k];
+    REQUIRE(one.converged);
+    CHECK(one.pressure == Approx(other.pressure).epsilon(1e-8));
+    CHECK(one.mean_gap == Approx(other.mean_gap).margin(1e-8));
+    CHECK(one.contact_area_fraction == Approx(other.contact_area_fraction).epsilon(1e-7));
+    CHECK(one.normal_stiffness == Approx(other.normal_stiffness).epsilon(1e-7));
+  }
+  CHECK(curve.samples[0].pressure == Approx(0.0005).epsilon(1e-12));
+  CHECK(curve_at_pressures(model, pressures, [](const ProgressReport& report) {
+          return report.step < 2;
+        }).samples.size() == 2);
 }
 
 TEST_CASE("A summit within a larger contact is pressed out of it", "[interacting]") {

@@ -111,7 +111,7 @@ TEST_CASE("The key of a realisation changes with what decides it, and with nothi
   other.tolerance = 1e-9;
   CHECK(StudyParts::key(other, 1) != key);
   other = study;
-  other.all_models = true;
+  other.models = other.compared_models;
   CHECK(StudyParts::key(other, 1) != key);
   other = study;
   std::get<Drag>(other.motion).drag_velocity *= 2;

@@ -152,6 +152,10 @@ class DeterministicSummits final : public AsperityModel {
   std::vector<Cap> caps_;  ///< highest first, heights from their mean
 };
 
+/// What a curve of the model holds at a separation, where at(separation) is known.
+ForceSample force_sample(const AsperityModel& model, double separation,
+                         const AsperityContact& contact);
+
 /// Samples at the given separations (m, any order) or pressures (Pa, > 0, any order), from the lowest force to the highest;
 /// every quantity but K_t without G* is filled in, δ and ū as AsperityModel defines them.
 ForceCurve curve_at_separations(const AsperityModel& model, const std::vector<double>& separations);

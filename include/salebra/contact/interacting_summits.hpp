@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+#include <salebra/base/progress.hpp>
 #include <salebra/contact/greenwood_williamson.hpp>
 
 namespace salebra {
@@ -17,9 +19,9 @@ struct InteractionOptions {
 /// [Ciavarella, Delfine, Demelio, J. Mech. Phys. Solids 54 (2006) 2569]. ū is therefore the mean gap in the sense of boundary elements,
 /// which that of independent summits is not. A contact counts as a point outside of itself, which is good beyond about
 /// two contact radii; contacts do not merge, but a summit close to a larger contact is pressed out of contact.
-/// Solved by Newton's method on the energy with conjugate gradients; sums by Ewald's method, N log N.
-/// K and F'' follow from one more linear solve each, with the state's own interactions. Cost of at(): some hundred sums over N summits, each
-/// about 0.3 s for N = 10⁵ on one core.
+/// Solved by Newton's method on the energy with conjugate gradients among the summits in contact, at a given separation or under a
+/// given force; sums by Ewald's method, N log N. K and F'' follow from one more linear solve each, with the state's own interactions.
+/// Cost of a state: a dozen sums over all N summits, 0.5 µs a summit each, and some hundred over those in contact.
 class InteractingSummits final : public AsperityModel {
  public:
   /// grid: of the periodic surface; its period and area are used. mean_plane as for DeterministicSummits.
@@ -33,11 +35,11 @@ class InteractingSummits final : public AsperityModel {
 
   AsperityContact at(double separation) const override;
   double force(double separation) const override;
-  /// Newton's method in ln F, each step from the state of the last; to 1e-9 of the force.
   /// Throws NotConverged where no state was found, beside InvalidInput for a force that is not > 0.
   double separation_of(double force) const override;
 
   struct State {
+    double separation = 0;            ///< s, m
     std::vector<double> loads;        ///< P_i, N, in the order of the summits given
     std::vector<double> indentation;  ///< δ_i, m; negative where there is a gap
     double residual = 0;              ///< as InteractionOptions::tolerance
@@ -45,15 +47,27 @@ class InteractingSummits final : public AsperityModel {
     bool converged = false;
   };
   State solve(double separation) const;
+  /// Under a force > 0, N, which it carries to round-off; near: a state to start from, such as that of the load before.
+  State solve_for_force(double force, const State* near = nullptr) const;
+  AsperityContact contact_of(const State& state) const;
 
  private:
   struct System;
   struct Iterate;
-  State solve_from(double separation, std::vector<double> indentation) const;
-  AsperityContact sums_of(const State& state) const;
+  struct Goal {
+    double separation;           ///< where no load is given
+    std::optional<double> load;  ///< F/E*, m²
+  };
+  Iterate evaluated(std::vector<double> indentation, const Goal& goal) const;
+  State equilibrium(std::vector<double> indentation, const Goal& goal) const;
 
   InteractionOptions options_;
   std::unique_ptr<const System> system_;
 };
+
+/// curve_at_pressures() of other models, each load from the state of the load before. A load for which no state was found has
+/// converged = false. progress: "interacting summits"; a stop returns the samples so far.
+ForceCurve curve_at_pressures(const InteractingSummits& model, std::vector<double> pressures,
+                              const Progress& progress = {});
 
 }  // namespace salebra

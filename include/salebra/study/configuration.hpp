@@ -12,10 +12,27 @@
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 namespace salebra {
+
+/// The contact models of a study.
+enum class ContactModel {
+  bem,
+  gw_moments,
+  gw_deterministic,
+  gw_monte_carlo,
+  gw_interacting,
+  persson
+};
+
+/// By the name that files, JSON and study files have for it, that of the enumerator. Throws InvalidInput "models: …" for another.
+ContactModel contact_model(std::string_view name);
+const char* name_of(ContactModel model);
+/// The models of the names, each once, and the boundary elements, which the others are measured by.
+std::vector<ContactModel> contact_models(const std::vector<std::string>& names);
 
 enum class GenerationMethod { filtered_noise, random_phase };
 
@@ -64,7 +81,18 @@ struct StudyConfiguration {
   ParameterLists ensemble;     ///< for generated surfaces only
   double precision = 0;        ///< relative, at which an ensemble is large enough; 0: use all seeds
   int least_realisations = 8;  ///< >= 2, before the precision is looked at
-  bool all_models = false;     ///< also Monte Carlo and interacting summits and Persson's theory
+  /// The boundary elements, which all others are measured by, must be among them.
+  std::vector<ContactModel> models = {ContactModel::bem, ContactModel::gw_moments,
+                                      ContactModel::gw_deterministic};
+  /// What `salebra compare` takes in their place.
+  std::vector<ContactModel> compared_models = {ContactModel::bem,
+                                               ContactModel::gw_moments,
+                                               ContactModel::gw_deterministic,
+                                               ContactModel::gw_monte_carlo,
+                                               ContactModel::gw_interacting,
+                                               ContactModel::persson};
+
+  bool has(ContactModel model) const;
   Oscillation motion;
   DampingOptions damping;
   std::string text;  ///< the file as it was read, for provenance

@@ -12,7 +12,6 @@
 #include <salebra/study/configuration.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/summits.hpp>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -69,33 +68,37 @@ struct Realisation {
   SummitEnsemble ensemble;  ///< of the Greenwood–Williamson theory, from the moments
   ModelResult bem, gw_moments, gw_deterministic;
   ModelResult gw_monte_carlo, gw_interacting,
-      persson;                        ///< with StudyConfiguration::all_models only
+      persson;                        ///< where StudyConfiguration::models has them
   std::vector<SpotStatistics> spots;  ///< for each pressure
   double corrected_area_slope = ForceSample::
       unknown;  ///< κ of the boundary elements with the area corrected by its perimeter
-  /// u0 of Persson's p ∝ exp(−ū/u0), which is also K = pA0/u0 of Campañá, Persson and Müser, m; with all models only.
+  /// u0 of Persson's p ∝ exp(−ū/u0), which is also K = pA0/u0 of Campañá, Persson and Müser, m; with ContactModel::persson.
   double persson_decay_length = ForceSample::unknown;
 };
 
-/// The models of a study under the names that files and JSON have for them.
+/// Where the results of a model are, and what people call it.
 struct StudyModel {
-  const char* name;
+  ContactModel model;
   const char* title;
   ModelResult Realisation::*result;
 };
 inline constexpr std::array study_models{
-    StudyModel{"bem", "boundary elements", &Realisation::bem},
-    StudyModel{"gw_moments", "GW, summits from spectral moments", &Realisation::gw_moments},
-    StudyModel{"gw_deterministic", "GW, the surface's own summits", &Realisation::gw_deterministic},
-    StudyModel{"gw_monte_carlo", "GW, summits drawn at random", &Realisation::gw_monte_carlo},
-    StudyModel{"gw_interacting", "GW, own summits, interacting", &Realisation::gw_interacting},
-    StudyModel{"persson", "Persson's theory", &Realisation::persson}};
+    StudyModel{ContactModel::bem, "boundary elements", &Realisation::bem},
+    StudyModel{ContactModel::gw_moments, "GW, summits from spectral moments",
+               &Realisation::gw_moments},
+    StudyModel{ContactModel::gw_deterministic, "GW, the surface's own summits",
+               &Realisation::gw_deterministic},
+    StudyModel{ContactModel::gw_monte_carlo, "GW, summits drawn at random",
+               &Realisation::gw_monte_carlo},
+    StudyModel{ContactModel::gw_interacting, "GW, own summits, interacting",
+               &Realisation::gw_interacting},
+    StudyModel{ContactModel::persson, "Persson's theory", &Realisation::persson}};
 
 /// Whether K_t of the boundary elements comes from stick solves: where they are wanted, and the moduli are those of a body.
 bool stick_solves(const StudyConfiguration& configuration);
 
-/// The first three models, or all.
-std::span<const StudyModel> models_of(const StudyConfiguration& configuration);
+/// Those of the configuration, in the order of study_models.
+std::vector<StudyModel> models_of(const StudyConfiguration& configuration);
 
 /// The surface of a seed, or the measured one (its plane removed, as the configuration says). Throws as generators and readers do.
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed);

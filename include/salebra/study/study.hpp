@@ -31,7 +31,7 @@ struct StudyResult {
   bool precision_reached = false;  ///< fewer realisations than seeds were enough
   Bootstrap bootstrap;             ///< makes all intervals below
 
-  std::span<const StudyModel> models() const { return models_of(configuration); }
+  std::vector<StudyModel> models() const { return models_of(configuration); }
   /// Mean over the realisations of any number that belongs to one.
   EnsembleMean mean(const std::function<double(const Realisation&)>& value) const;
   /// Over the realisations; with one only, the interval of its fit.
@@ -84,7 +84,7 @@ struct StudyRun {
 /// the size of the step that this makes at the seam.
 /// throws  InvalidInput for a configuration that cannot be run, and for parts none of which belongs to it; NotConverged where fewer
 ///         than four contacts of a sweep converged; IoError where a part cannot be written
-/// cost    the BEM sweep, for each surface; with all models, about as much again for the interacting summits
+/// cost    the BEM sweep, for each surface; interacting summits cost about as much again
 std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
                                        const StudyRun& run = {});
 

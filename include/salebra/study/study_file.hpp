@@ -19,11 +19,15 @@ namespace salebra {
 ///   comparison   each model over the boundary elements on the same surfaces, means with limits (model, pressure)
 ///   convergence  mean l/h_rms over the first surfaces, with limits (surfaces)
 /// Several points of a parameter grid: these groups under points/0, points/1, …, and `ensemble`, which has their parameters and
-/// main results (point). The configuration's text goes into the provenance. Throws as ResultFile does, and for no results.
+/// main results (point). Attribute `study` of `surface` or `ensemble` names the study (is_result_of). The configuration's text goes into the provenance. Throws as ResultFile does, and for no results.
 void write_ensembles(const std::filesystem::path& file, const std::vector<StudyResult>& results,
                      Provenance provenance = {}, const WriteOptions& options = {});
 
-/// The same for one point.
+/// Whether the file is the finished result of this study, of all its surfaces, models and settings: a study that was killed between
+/// its last byte and the removal of its parts need not run again. False for any other file, and for none.
+bool is_result_of(const std::filesystem::path& file, const StudyConfiguration& study);
+
+/// write_ensembles() of one point.
 void write_study(const std::filesystem::path& file, const StudyResult& result,
                  Provenance provenance = {}, const WriteOptions& options = {});
 

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "point_run.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <thread>
+
+namespace salebra::detail {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The first M >= least realisations that determine l/h_rms and κ to the precision asked; 0: none do.
+std::size_t enough(const StudyResult& result,
+                   const std::vector<std::optional<Realisation>>& realisations,
+                   std::size_t finished) {
+  const StudyConfiguration& configuration = result.configuration;
+  if (configuration.precision <= 0 || finished < std::size_t(configuration.least_realisations))
+    return 0;
+  std::vector<double> lengths, slopes;
+  for (std::size_t i = 0; i < finished; ++i) {
+    const Realisation& realisation = *realisations[i];
+    lengths.push_back(realisation.bem.fit.decay_length / realisation.heights.rms_height);
+    slopes.push_back(realisation.bem.area_slope);
+  }
+  const auto precise = [&](const std::vector<double>& values) {
+    const EnsembleMean estimate = result.bootstrap.mean(values);
+    // No load in the range of the area law: nothing to wait for.
+    return std::isnan(estimate.mean) || estimate.relative_precision() <= configuration.precision;
+  };
+  return precise(lengths) && precise(slopes) ? finished : 0;
+}
+
+class PointRun {
+ public:
+  PointRun(StudyResult& result, const StudyRun& run, const RealisationReport& start)
+      : result_(result),
+        run_(run),
+        report_(start),
+        seeds_(seeds_of(result.configuration)),
+        realisations_(seeds_.size()),
+        fractions_(seeds_.size()) {}
+
+  void go() {
+    if (run_.parts && run_.parts->count() > 0) restore();
+    talk();
+    const auto workers = std::size_t(parallel::threads());
+    if (workers > 1 && seeds_.size() - finished_ >= workers) {
+      side_by_side(int(workers));
+    } else {
+      // Few surfaces: all threads work on each.
+      for (std::size_t i = 0; i < seeds_.size() && going_on(i); ++i) compute(i, true);
+    }
+    if (failure_) std::rethrow_exception(failure_);
+    // Realisations beyond a gap, or beyond the number that is enough, take no part.
+    const std::size_t used = std::min(prefix_, limit_.load());
+    for (std::size_t i = 0; i < used; ++i)
+      result_.realisations.push_back(std::move(*realisations_[i]));
+    result_.precision_reached = limit_ < seeds_.size();
+    result_.interrupted = used < std::min(limit_.load(), seeds_.size());
+  }
+
+ private:
+  void restore() {
+    for (std::size_t i = 0; i < seeds_.size(); ++i) {
+      realisations_[i] = run_.parts->read(StudyParts::key(result_.configuration, seeds_[i]));
+      if (realisations_[i]) note(i, 0, true);
+    }
+  }
+
+  /// One thread more than there is work for: it sleeps, and talks to the caller.
+  void side_by_side(int workers) {
+    std::atomic<std::size_t> next = 0;
+    std::atomic<int> working = 0;
+#pragma omp parallel num_threads(workers + 1)
+    {
+#pragma omp single
+      working = omp_get_num_threads() - 1;  // a team may have fewer threads than were asked for
+      if (omp_get_thread_num() == 0) {
+        while (working > 0) {
+          talk();
+          std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+      } else {
+        for (std::size_t i = next++; i < seeds_.size() && going_on(i); i = next++)
+          compute(i, false);
+        --working;
+      }
+    }
+    for (std::size_t i = next++; i < seeds_.size() && going_on(i); i = next++) compute(i, true);
+    talk();
+  }
+
+  bool going_on(std::size_t i) const { return !stop_ && i < limit_; }
+
+  void compute(std::size_t i, bool on_calling_thread) {
+    if (restored(i)) return;
+    const auto start = Clock::now();
+    try {
+      Realisation realisation = analyse_realisation(
+          result_.configuration, seeds_[i], result_.pressures, [&](const ProgressReport& sweep) {
+            fractions_[i] = sweep.fraction;
+            if (on_calling_thread) talk();
+            return going_on(i);
+          });
+      if (run_.parts)
+        run_.parts->write(StudyParts::key(result_.configuration, seeds_[i]), realisation);
+      const std::scoped_lock lock(guard_);
+      realisations_[i] = std::move(realisation);
+      note(i, std::chrono::duration<double>(Clock::now() - start).count(), false);
+    } catch (const Interrupted&) {
+      // Stopped, or not wanted any more.
+    } catch (...) {
+      const std::scoped_lock lock(guard_);
+      if (!failure_) failure_ = std::current_exception();
+      stop_ = true;
+    }
+    if (on_calling_thread) talk();
+  }
+
+  bool restored(std::size_t i) {
+    const std::scoped_lock lock(guard_);
+    return realisations_[i].has_value();
+  }
+
+  /// With the guard held, or before there are threads.
+  void note(std::size_t i, double seconds, bool restored) {
+    fractions_[i] = 1;
+    while (prefix_ < realisations_.size() && realisations_[prefix_]) {
+      ++prefix_;
+      if (const std::size_t count = enough(result_, realisations_, prefix_))
+        limit_ = std::min(limit_.load(), count);
+    }
+    RealisationReport item = report_;
+    item.finished += ++finished_;
+    item.seed = seeds_[i];
+    item.seconds = seconds;
+    item.restored = restored;
+    news_.push_back(item);
+  }
+
+  /// On the calling thread only. What the caller throws ends the run; it must not leave a parallel region.
+  void talk() {
+    try {
+      report();
+    } catch (...) {
+      const std::scoped_lock lock(guard_);
+      if (!failure_) failure_ = std::current_exception();
+      stop_ = true;
+    }
+  }
+
+  void report() {
+    std::vector<RealisationReport> news;
+    {
+      const std::scoped_lock lock(guard_);
+      news.swap(news_);
+    }
+    if (run_.on_realisation)
+      for (const RealisationReport& item : news) run_.on_realisation(item);
+    if (!run_.on_progress || stop_) return;
+    double sum = 0;
+    for (const std::atomic<double>& fraction : fractions_) sum += fraction;
+    const double wanted = double(report_.wanted);
+    const std::size_t finished = report_.finished + finished_;
+    const std::string stage = fmt::format("study {}/{}", finished, report_.wanted);
+    if (!run_.on_progress({.stage = stage,
+                           .fraction = (double(report_.finished) + sum) / wanted,
+                           .step = int(finished)}))
+      stop_ = true;
+  }
+
+  StudyResult& result_;
+  const StudyRun& run_;
+  const RealisationReport report_;  ///< as it was when the point began
+  const std::vector<std::uint64_t> seeds_;
+  std::vector<std::optional<Realisation>> realisations_;
+  std::vector<std::atomic<double>> fractions_;
+  std::vector<RealisationReport> news_;
+  std::atomic<std::size_t> finished_ = 0;
+  std::size_t prefix_ = 0;  ///< so many from the first on are there
+  std::atomic<std::size_t> limit_ = std::numeric_limits<std::size_t>::max();
+  std::atomic<bool> stop_ = false;
+  std::exception_ptr failure_;
+  std::mutex guard_;
+};
+
+}  // namespace
+
+std::vector<std::uint64_t> seeds_of(const StudyConfiguration& configuration) {
+  const auto* generated = std::get_if<GeneratedSurfaces>(&configuration.surfaces);
+  return generated ? generated->seeds : std::vector<std::uint64_t>{0};
+}
+
+void run_point(StudyResult& result, const StudyRun& run, const RealisationReport& start) {
+  PointRun(result, run, start).go();
+}
+
+}  // namespace salebra::detail

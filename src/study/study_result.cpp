@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <functional>
+#include <salebra/study/study.hpp>
+
+namespace salebra {
+
+EnsembleMean StudyResult::mean(const std::function<double(const Realisation&)>& value) const {
+  std::vector<double> values;
+  for (const Realisation& realisation : realisations) values.push_back(value(realisation));
+  return bootstrap.mean(values);
+}
+
+EnsembleMean StudyResult::decay_length(ModelResult Realisation::*model) const {
+  if (realisations.size() != 1)
+    return mean([&](const Realisation& r) { return (r.*model).fit.decay_length; });
+  const ExponentialFit& fit = (realisations.front().*model).fit;
+  return {fit.decay_length, fit.decay_length_low, fit.decay_length_high};
+}
+
+EnsembleMean StudyResult::decay_length_over_rms_height(ModelResult Realisation::*model) const {
+  if (realisations.size() != 1) {
+    return mean(
+        [&](const Realisation& r) { return (r.*model).fit.decay_length / r.heights.rms_height; });
+  }
+  const EnsembleMean length = decay_length(model);
+  const double rms_height = realisations.front().heights.rms_height;
+  return {length.mean / rms_height, length.low / rms_height, length.high / rms_height};
+}
+
+EnsembleMean StudyResult::area_slope(ModelResult Realisation::*model) const {
+  return mean([&](const Realisation& r) { return (r.*model).area_slope; });
+}
+
+std::vector<EnsembleMean> StudyResult::curve(ModelResult Realisation::*model,
+                                             double ForceSample::*quantity) const {
+  std::vector<EnsembleMean> estimates;
+  for (std::size_t k = 0; k < pressures.size(); ++k) {
+    estimates.push_back(mean([&](const Realisation& r) {
+      const auto& samples = (r.*model).curve.samples;
+      return k < samples.size() && samples[k].converged ? samples[k].*quantity
+                                                        : ForceSample::unknown;
+    }));
+  }
+  return estimates;
+}
+
+namespace {
+
+template <class Value>
+std::vector<EnsembleMean> over_realisations(const StudyResult& result,
+                                            ModelResult Realisation::*model, Value value) {
+  std::vector<EnsembleMean> estimates;
+  for (std::size_t k = 0; k < result.pressures.size(); ++k) {
+    estimates.push_back(result.mean([&](const Realisation& r) {
+      const auto& points = (r.*model).damping;
+      return k < points.size() ? double(std::invoke(value, points[k])) : ForceSample::unknown;
+    }));
+  }
+  return estimates;
+}
+
+}  // namespace
+
+std::vector<EnsembleMean> StudyResult::damping(double DampingPoint::*quantity,
+                                               ModelResult Realisation::*model) const {
+  return over_realisations(*this, model, quantity);
+}
+
+std::vector<EnsembleMean> StudyResult::damping_deviation(ModelResult Realisation::*model) const {
+  return over_realisations(*this, model, &DampingPoint::deviation);
+}
+
+EnsembleMean StudyResult::law_bend(ModelResult Realisation::*model) const {
+  return mean([&](const Realisation& r) {
+    const ExponentialTest& test = (r.*model).test;
+    return test.window.points >= 4 ? test.decay_length_farthest / test.decay_length_closest - 1
+                                   : ForceSample::unknown;
+  });
+}
+
+std::vector<EnsembleMean> StudyResult::over_bem(ModelResult Realisation::*model,
+                                                double ForceSample::*quantity) const {
+  std::vector<EnsembleMean> estimates;
+  for (std::size_t k = 0; k < pressures.size(); ++k) {
+    estimates.push_back(mean([&](const Realisation& r) {
+      const auto &samples = (r.*model).curve.samples, &reference = r.bem.curve.samples;
+      const bool known = k < samples.size() && samples[k].converged && reference[k].converged;
+      return known ? samples[k].*quantity / (reference[k].*quantity) : ForceSample::unknown;
+    }));
+  }
+  return estimates;
+}
+
+std::vector<EnsembleMean> StudyResult::damping_over_bem(ModelResult Realisation::*model,
+                                                        double DampingPoint::*quantity) const {
+  std::vector<EnsembleMean> estimates;
+  for (std::size_t k = 0; k < pressures.size(); ++k) {
+    estimates.push_back(mean([&](const Realisation& r) {
+      const auto& points = (r.*model).damping;
+      return k < points.size() ? points[k].*quantity / r.bem.damping[k].curve_work
+                               : ForceSample::unknown;
+    }));
+  }
+  return estimates;
+}
+
+std::vector<EnsembleMean> StudyResult::convergence() const {
+  std::vector<double> ratios;
+  std::vector<EnsembleMean> estimates;
+  for (const Realisation& realisation : realisations) {
+    ratios.push_back(realisation.bem.fit.decay_length / realisation.heights.rms_height);
+    if (ratios.size() >= 2) estimates.push_back(bootstrap.mean(ratios));
+  }
+  return estimates;
+}
+
+std::string StudyResult::interval_method() const {
+  const std::size_t count = realisations.size();
+  if (count == 1)
+    return "95 % limits of the least-squares fit; one surface says nothing about the spread "
+           "between surfaces";
+  return fmt::format("95 % {} interval of the mean over {} surfaces",
+                     count < Bootstrap::least_bootstrap_count ? "Student-t" : "bootstrap-t", count);
+}
+
+}  // namespace salebra
