@@ -2,10 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
@@ -14,16 +12,13 @@
 #include <salebra/study/study.hpp>
 #include <utility>
 
+#include "compare_figure.hpp"
 #include "program.hpp"
 #include "study_command.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {
 namespace {
-
-// Slopes of A/A0 over p/(E*h') at small loads.
-const double bgt_slope = std::sqrt(2 * std::numbers::pi);
-const double persson_slope = std::sqrt(8 / std::numbers::pi);
 
 std::string number(double value, int digits = 3) {
   return std::isnan(value) ? "n/a" : fmt::format("{:.{}g}", value, digits);
@@ -49,16 +44,6 @@ std::vector<EnsembleMean> spots(const StudyResult& result, double SpotStatistics
   std::vector<EnsembleMean> estimates;
   for (std::size_t k = 0; k < result.pressures.size(); ++k)
     estimates.push_back(result.mean([&](const Realisation& r) { return r.spots[k].*quantity; }));
-  return estimates;
-}
-
-/// Closed theories at each pressure, for the surfaces as they are.
-std::vector<EnsembleMean> at_pressures(
-    const StudyResult& result,
-    const std::function<double(const Realisation&, std::size_t)>& value) {
-  std::vector<EnsembleMean> estimates;
-  for (std::size_t k = 0; k < result.pressures.size(); ++k)
-    estimates.push_back(result.mean([&](const Realisation& r) { return value(r, k); }));
   return estimates;
 }
 
@@ -238,132 +223,6 @@ std::string comparison_text(const StudyResult& result) {
          "\n" + damping_table(result) + "\n" + ensemble_remarks(result);
 }
 
-std::vector<double> column(const std::vector<EnsembleMean>& estimates,
-                           double EnsembleMean::*member) {
-  std::vector<double> values;
-  for (const EnsembleMean& estimate : estimates) values.push_back(estimate.*member);
-  return values;
-}
-
-PlotCurve band(const std::string& name, const std::vector<double>& x,
-               const std::vector<EnsembleMean>& y) {
-  return {.name = name,
-          .x = x,
-          .y = column(y, &EnsembleMean::mean),
-          .low = column(y, &EnsembleMean::low),
-          .high = column(y, &EnsembleMean::high)};
-}
-
-/// Force–gap, area–load, stiffness–load and damping–force of one point, with bands of 95 %.
-std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
-  std::array<PlotPanel, 4> panels;
-  auto& [gaps, areas, stiffness, damping] = panels;
-  std::vector<double> loads, forces;
-  for (const double pressure : result.pressures) {
-    loads.push_back(pressure / result.contact_scale);
-    forces.push_back(pressure * result.grid.area());
-  }
-  gaps.x = areas.x = stiffness.x = {.label = "nominal pressure p/(E^{*}h')", .logarithmic = true};
-  gaps.y = {.label = "mean gap ū/h_{rms}"};
-  areas.y = {.label = "area over load, A E^{*}h'/F"};
-  stiffness.y = {.label = "stiffness K h_{rms}/F"};
-  damping.x = {.label = "normal force F", .unit = "N", .logarithmic = true};
-  damping.y = {.label = "damping constant γ", .unit = "N s/m", .logarithmic = true};
-  stiffness.legend = PlotLegend::bottom_left;
-  damping.legend = PlotLegend::top_left;
-  for (const StudyModel& model : result.models()) {
-    const auto scaled = [&](auto value) {
-      return at_pressures(result, [&](const Realisation& r, std::size_t k) {
-        const auto& samples = (r.*model.result).curve.samples;
-        return k < samples.size() && samples[k].converged ? double(value(r, samples[k]))
-                                                          : ForceSample::unknown;
-      });
-    };
-    // By the place among all models: a model keeps its colour whatever is drawn beside it.
-    const auto add = [&](PlotPanel& panel, const std::vector<double>& x,
-                         const std::vector<EnsembleMean>& y) {
-      panel.curves.push_back(band("", x, y));
-      panel.curves.back().color = int(model.model);
-    };
-    add(gaps, loads, scaled([](const Realisation& r, const ForceSample& sample) {
-          return sample.mean_gap / r.heights.rms_height;
-        }));
-    gaps.curves.back().name = model.title;
-    add(areas, loads, scaled([&](const Realisation& r, const ForceSample& sample) {
-          return sample.contact_area_fraction / sample.pressure * r.moments.rms_slope() *
-                 result.configuration.material.contact_modulus;
-        }));
-    add(stiffness, loads, scaled([](const Realisation& r, const ForceSample& sample) {
-          return sample.normal_stiffness * r.heights.rms_height / sample.force;
-        }));
-    add(damping, forces, result.damping(&DampingPoint::curve_damping_constant, model.result));
-  }
-  // The window of the fit, and what the theories of vanishing load say.
-  if (!result.configuration.window) gaps.lines = {{.at = 1}, {.at = 2.5}};
-  areas.lines = {{.at = bgt_slope, .name = "BGT"}, {.at = persson_slope, .name = "Persson"}};
-  PlotCurve edge = band("boundary elements, less the edge", loads,
-                        at_pressures(result, [&](const Realisation& r, std::size_t k) {
-                          return r.spots[k].corrected_area_fraction / result.pressures[k] *
-                                 r.moments.rms_slope() *
-                                 result.configuration.material.contact_modulus;
-                        }));
-  edge.style = PlotStyle::dotted;
-  edge.color = 0;
-  areas.curves.push_back(std::move(edge));
-  const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
-  PlotCurve law = band(drag ? "Eq. (16), fitted l" : "Eq. (12), fitted l", forces,
-                       result.damping(&DampingPoint::law_damping_constant));
-  law.low = law.high = {};
-  law.style = PlotStyle::dashed;
-  law.color = 6;
-  damping.curves.push_back(std::move(law));
-  return panels;
-}
-
-/// Limits that hold all curves with their bands, so that panels beside each other can be compared.
-void share_limits(const std::vector<PlotPanel*>& panels) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const PlotPanel* panel : panels)
-    for (const PlotCurve& curve : panel->curves)
-      for (const auto* values : {&curve.y, &curve.low, &curve.high})
-        for (const double value : *values)
-          if (std::isfinite(value) && (value > 0 || !panel->y.logarithmic)) {
-            low = std::min(low, value);
-            high = std::max(high, value);
-          }
-  if (!(low < high)) return;
-  const bool logarithmic = panels.front()->y.logarithmic;
-  const double margin = 0.04 * (logarithmic ? std::log(high / low) : high - low);
-  for (PlotPanel* panel : panels) {
-    panel->y.low = logarithmic ? low * std::exp(-margin) : low - margin;
-    panel->y.high = logarithmic ? high * std::exp(margin) : high + margin;
-  }
-}
-
-/// One point: a square of four panels. Several: a column for each, whose panels share their axes along a row.
-Figure figure(const std::vector<StudyResult>& results, const ParameterLists& varied) {
-  Figure figure;
-  figure.columns = results.size() == 1 ? 2 : int(results.size());
-  std::vector<std::array<PlotPanel, 4>> points;
-  for (const StudyResult& result : results) points.push_back(panels_of(result));
-  for (std::size_t quantity = 0; quantity < 4; ++quantity) {
-    std::vector<PlotPanel*> row;
-    for (auto& point : points) row.push_back(&point[quantity]);
-    if (row.size() > 1) share_limits(row);
-  }
-  for (std::size_t quantity = 0; quantity < 4; ++quantity)
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      PlotPanel& panel = points[i][quantity];
-      // The first column explains the lines of all.
-      if (i > 0)
-        for (PlotCurve& curve : panel.curves) curve.name.clear();
-      if (quantity == 0 && points.size() > 1)
-        panel.title = describe_point(varied, results[i].configuration);
-      figure.panels.push_back(std::move(panel));
-    }
-  return figure;
-}
-
 struct CompareArguments {
   StudyArguments study;
   std::vector<std::string> models;
@@ -377,7 +236,7 @@ void run(const CompareArguments& arguments, Session& session) {
       run_and_keep(configuration, arguments.study.resume, session);
   if (results.empty()) return;
   const std::string file = session.has_output() ? session.output().string() : "";
-  session.plot(figure(results, configuration.ensemble));
+  session.plot(compare_figure(results, configuration.ensemble));
   const Json files{{"results", file.empty() ? Json() : Json(file)}};
   Json answer = Json::object();
   std::string text;

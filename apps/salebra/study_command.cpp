@@ -271,12 +271,12 @@ std::string law_verdict(const StudyResult& result) {
                    r.heights.rms_height;
           })
           .mean;
-  return text + fmt::format(
-                    "  Fits to parts of the window give l from {:.2f} to {:.2f} h_rms; equal "
-                    "weights for all loads, in place of equal weights along the gap, {:.3f} "
-                    "h_rms.\n",
-                    range(&WindowSensitivity::decay_length_min),
-                    range(&WindowSensitivity::decay_length_max), equal);
+  return text +
+         fmt::format(
+             "  Fits to parts of the window give l from {:.2f} to {:.2f} h_rms; one with all loads "
+             "weighted alike, not by the gap that each stands for, {:.2f} h_rms.\n",
+             range(&WindowSensitivity::decay_length_min),
+             range(&WindowSensitivity::decay_length_max), equal);
 }
 
 std::string ensemble_remarks(const StudyResult& result) {

@@ -200,7 +200,7 @@ TEST_CASE("A curve of interacting summits is that of its single loads", "[intera
     return true;
   });
   REQUIRE(curve.samples.size() == 4);
-  CHECK(fractions == std::vector{0, 0.25, 0.5, 0.75});
+  CHECK(fractions == std::vector<double>{0, 0.25, 0.5, 0.75});
   const AsperityModel& plain = model;
   const ForceCurve single = curve_at_pressures(plain, pressures);
   for (std::size_t k = 0; k < 4; ++k) {
