@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of results. matplotlib is imported when the first one is drawn."""
+
+from __future__ import annotations
+
+from functools import singledispatch
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _core
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+    from matplotlib.axes import Axes
+
+_PREFIXES = {-15: "f", -12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
+
+
+def _axes(ax: Axes | None) -> Axes:
+    if ax is not None:
+        return ax
+    try:
+        import matplotlib.pyplot as plt
+    except ImportError as error:
+        raise ImportError("plot needs matplotlib; install it") from error
+    return plt.subplots(layout="constrained")[1]
+
+
+def _scale(values: npt.ArrayLike, unit: str) -> tuple[float, str]:
+    """Factor and unit with the SI prefix that suits the values."""
+    finite = np.abs(np.asarray(values, dtype=float))
+    finite = finite[np.isfinite(finite)]
+    largest = float(finite.max()) if finite.size else 0.0
+    if largest == 0 or unit not in ("m", "Pa", "N", "J", "N/m", "N s/m", "W"):
+        return 1.0, unit
+    exponent = int(np.clip(3 * np.floor(np.log10(largest) / 3), -15, 12))
+    return 10.0**-exponent, _PREFIXES[exponent] + unit
+
+
+def _label(text: str, unit: str) -> str:
+    return f"{text} ({unit})" if unit and unit != "1" else text
+
+
+def _image(
+    ax: Axes | None, grid: _core.Grid2D, values: npt.NDArray[Any], text: str, unit: str, keywords: dict[str, Any]
+) -> Axes:
+    drawn = _axes(ax)
+    factor, length = _scale([grid.lx, grid.ly], "m")
+    by, shown = _scale(values, unit)
+    # pcolormesh wants edges; cell (ix, iy) has its point in its middle.
+    x = (np.arange(grid.nx + 1) - 0.5) * grid.dx * factor
+    y = (np.arange(grid.ny + 1) - 0.5) * grid.dy * factor
+    keywords = {"cmap": "viridis", "rasterized": True} | keywords
+    mesh = drawn.pcolormesh(x, y, values.T * by, **keywords)
+    drawn.set_aspect("equal")
+    drawn.set_xlabel(_label("x", length))
+    drawn.set_ylabel(_label("y", length))
+    figure = drawn.get_figure()
+    if figure is not None:
+        figure.colorbar(mesh, ax=drawn, label=_label(text, shown))
+    return drawn
+
+
+def _line(
+    ax: Axes | None,
+    x: tuple[npt.ArrayLike, str, str],
+    y: tuple[npt.ArrayLike, str, str],
+    log: str,
+    keywords: dict[str, Any],
+) -> Axes:
+    drawn = _axes(ax)
+    (x_values, x_text, x_unit), (y_values, y_text, y_unit) = x, y
+    x_factor, x_shown = _scale(x_values, x_unit)
+    y_factor, y_shown = _scale(y_values, y_unit)
+    drawn.plot(np.asarray(x_values) * x_factor, np.asarray(y_values) * y_factor, **keywords)
+    drawn.set_xlabel(_label(x_text, x_shown))
+    drawn.set_ylabel(_label(y_text, y_shown))
+    if "x" in log:
+        drawn.set_xscale("log")
+    if "y" in log:
+        drawn.set_yscale("log")
+    if "label" in keywords:
+        drawn.legend()
+    return drawn
+
+
+@singledispatch
+def plot(result: Any, ax: Axes | None = None, **keywords: Any) -> Axes:
+    """Draws a result."""
+    raise TypeError(f"{type(result).__name__} has no picture")
+
+
+@plot.register
+def _(result: _core.Surface, ax: Axes | None = None, **keywords: Any) -> Axes:
+    return _image(ax, result.grid, result.heights, "height", "m", keywords)
+
+
+@plot.register
+def _(result: _core.NormalContactState, ax: Axes | None = None, **keywords: Any) -> Axes:
+    return _image(ax, result.grid, result.pressure, "pressure", "Pa", {"cmap": "magma"} | keywords)
+
+
+@plot.register
+def _(result: _core.ForceCurve, ax: Axes | None = None, **keywords: Any) -> Axes:
+    keywords = {"marker": ".", "label": result.model} | keywords
+    if np.isnan(result.mean_gap).any():
+        return _line(ax, (result.indentation, "indentation δ", "m"), (result.force, "force F", "N"), "y", keywords)
+    return _line(ax, (result.mean_gap, "mean gap ū", "m"), (result.pressure, "pressure p", "Pa"), "y", keywords)
+
+
+@plot.register
+def _(result: _core.LocalDecayLength, ax: Axes | None = None, **keywords: Any) -> Axes:
+    keywords = {"marker": "."} | keywords
+    return _line(ax, (result.mean_gap, "mean gap ū", "m"), (result.decay_length, "local decay length l", "m"), "", keywords)
+
+
+@plot.register
+def _(result: _core.RadialSpectrum, ax: Axes | None = None, **keywords: Any) -> Axes:
+    return _line(ax, (result.wavenumber, "wave number q", "rad/m"), (result.density, "C(q)", "m⁴"), "xy", keywords)
+
+
+@plot.register
+def _(result: _core.ProfilePsd, ax: Axes | None = None, **keywords: Any) -> Axes:
+    return _line(ax, (result.wavenumber, "wave number q", "rad/m"), (result.density, "C₁(q)", "m³"), "xy", keywords)
+
+
+@plot.register
+def _(result: _core.Correlation, ax: Axes | None = None, **keywords: Any) -> Axes:
+    return _line(ax, (result.distance, "distance", "m"), (result.autocorrelation, "autocorrelation", "m²"), "", keywords)
+
+
+@plot.register
+def _(result: _core.ScaleDependence, ax: Axes | None = None, **keywords: Any) -> Axes:
+    return _line(ax, (result.spacing, "distance", "m"), (result.rms_slope, "rms slope", "1"), "xy", keywords)
+
+
+@plot.register
+def _(result: _core.HeightHistogram, ax: Axes | None = None, **keywords: Any) -> Axes:
+    keywords = {"drawstyle": "steps-mid"} | keywords
+    return _line(ax, (result.height, "height", "m"), (result.density, "density", "1/m"), "", keywords)
+
+
+def _map(
+    ax: Axes | None,
+    axes: Sequence[tuple[npt.NDArray[Any], str, str]],
+    values: npt.NDArray[Any],
+    text: str,
+    unit: str,
+    keywords: dict[str, Any],
+) -> Axes:
+    drawn = _axes(ax)
+    (x, x_text, x_unit), (y, y_text, y_unit) = axes
+    x_factor, x_shown = _scale(x, x_unit)
+    y_factor, y_shown = _scale(y, y_unit)
+    factor, shown = _scale(values, unit)
+    keywords = {"shading": "nearest", "rasterized": True} | keywords
+    mesh = drawn.pcolormesh(x * x_factor, y * y_factor, values.T * factor, **keywords)
+    drawn.set_xlabel(_label(x_text, x_shown))
+    drawn.set_ylabel(_label(y_text, y_shown))
+    figure = drawn.get_figure()
+    if figure is not None:
+        figure.colorbar(mesh, ax=drawn, label=_label(text, shown))
+    return drawn
+
+
+@plot.register
+def _(result: _core.StressMap, ax: Axes | None = None, **keywords: Any) -> Axes:
+    finite = np.abs(result.shear[np.isfinite(result.shear)])
+    limit = float(np.quantile(finite, 0.99)) if finite.size else 1.0
+    factor, _ = _scale(result.shear, "Pa")
+    keywords = {"cmap": "RdBu_r", "vmin": -limit * factor, "vmax": limit * factor} | keywords
+    axes = ((result.angle, "phase θ", "rad"), (result.radius, "radius r", "m"))
+    return _map(ax, axes, result.shear, "shear stress τ", "Pa", keywords)
+
+
+@plot.register
+def _(result: _core.FrictionMap, ax: Axes | None = None, **keywords: Any) -> Axes:
+    axes = ((result.friction_number, "M = μE*u_z/(G*u_x)", "1"), (result.phase, "phase φ₀", "rad"))
+    drawn = _map(ax, axes, result.loss, "W(μ)/W(∞)", "1", keywords)
+    drawn.set_xscale("log")
+    return drawn
+
+
+@plot.register
+def _(result: _core.DamperMap, ax: Axes | None = None, **keywords: Any) -> Axes:
+    axes = ((result.normal_amplitude, "normal amplitude u_z", "m"), (result.angular_frequency, "angular frequency ω", "rad/s"))
+    drawn = _map(ax, axes, result.damping_constant, "damping constant γ", "N s/m", keywords)
+    drawn.set_xscale("log")
+    drawn.set_yscale("log")
+    return drawn
+
+
+def plot_law(law: _core.ContactLaw, indentation: npt.ArrayLike, ax: Axes | None = None, **keywords: Any) -> Axes:
+    """Draws F(δ)."""
+    return _line(ax, (indentation, "indentation δ", "m"), (law.force(indentation), "force F", "N"), "y", keywords)

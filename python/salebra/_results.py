@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Results as xarray datasets: every variable with SI units and a description."""
+
+from __future__ import annotations
+
+from functools import singledispatch
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _core
+
+if TYPE_CHECKING:
+    import xarray
+
+# Names whose meaning depends on where they stand, with what they mean there.
+_SPECIAL = {
+    "wavenumber": ("rad/m", "wave number"),
+    "wavenumber_x": ("rad/m", "wave number along x"),
+    "wavenumber_y": ("rad/m", "wave number along y"),
+    "distance": ("m", "distance"),
+    "spacing": ("m", "distance of the finite difference"),
+    "autocorrelation": ("m^2", "autocorrelation of heights"),
+    "structure": ("m^2", "structure function"),
+    "pairs": ("1", "number of pairs"),
+    "modes": ("1", "number of modes"),
+    "rms_curvature": ("1/m", "root mean square curvature"),
+    "least_curvature": ("1/m", "least curvature: the sharpest peak"),
+    "stencils": ("1", "number of stencils"),
+    "height": ("m", "height"),
+    "gap": ("m", "gap"),
+    "angle": ("rad", "phase of the normal oscillation"),
+    "radius": ("m", "distance from the axis"),
+    "time": ("1", "time over the period"),
+    "tangential": ("m", "tangential displacement"),
+    "dissipated": ("J", "energy dissipated since the start of the period"),
+    "normal_force": ("N", "normal force"),
+    "contact_area": ("m^2", "contact area"),
+    "slip_area": ("m^2", "area of cells that slip"),
+    "loss": ("J/m^2", "energy dissipated in a period by unit area"),
+    "contact": ("1", "whether the cell is in contact"),
+    "converged": ("1", "whether the solver converged"),
+}
+
+
+def _variable(name: str, dims: tuple[str, ...], values: Any, meaning: tuple[str, str] | None = None) -> Any:
+    units, long_name = meaning or _SPECIAL.get(name) or _core.quantity(name)
+    return dims, np.asarray(values), {"units": units, "long_name": long_name}
+
+
+def _dataset(
+    variables: dict[str, tuple[tuple[str, ...], Any]],
+    coordinates: dict[str, Any],
+    attributes: dict[str, Any],
+    meanings: dict[str, tuple[str, str]] | None = None,
+) -> xarray.Dataset:
+    try:
+        import xarray
+    except ImportError as error:
+        raise ImportError("to_xarray needs xarray; install it") from error
+    meanings = meanings or {}
+    return xarray.Dataset(
+        {name: _variable(name, dims, values, meanings.get(name)) for name, (dims, values) in variables.items()},
+        {name: _variable(name, (name,), values, meanings.get(name)) for name, values in coordinates.items()},
+        attributes | {"program": "salebra", "version": _core.version()},
+    )
+
+
+def _points(grid: _core.Grid2D) -> dict[str, Any]:
+    return {"x": np.arange(grid.nx) * grid.dx, "y": np.arange(grid.ny) * grid.dy}
+
+
+@singledispatch
+def to_xarray(result: Any) -> xarray.Dataset:
+    """The result as a dataset."""
+    raise TypeError(f"{type(result).__name__} has no form as a dataset")
+
+
+@to_xarray.register
+def _(result: _core.Surface) -> xarray.Dataset:
+    attributes = {"size_x": result.size_x, "size_y": result.size_y, "periodic": int(result.periodic), "origin": result.origin}
+    return _dataset({"heights": (("x", "y"), result.heights)}, _points(result.grid), attributes)
+
+
+@to_xarray.register
+def _(result: _core.NormalContactState) -> xarray.Dataset:
+    numbers = (
+        "mean_pressure", "force", "mean_gap", "indentation", "contact_area_fraction", "elastic_energy", "residual", "iterations",
+        "contact_modulus", "boundary",
+    )  # fmt: skip
+    attributes = {name: getattr(result, name) for name in numbers} | {"converged": int(result.converged)}
+    fields = {name: (("x", "y"), getattr(result, name)) for name in ("pressure", "gap")}
+    return _dataset(fields, _points(result.grid), attributes, {"pressure": ("Pa", "contact pressure")})
+
+
+@to_xarray.register
+def _(result: _core.ForceCurve) -> xarray.Dataset:
+    names = (
+        "force", "mean_gap", "indentation", "separation", "contact_area_fraction", "normal_stiffness", "tangential_stiffness",
+        "converged",
+    )  # fmt: skip
+    columns = {name: (("pressure",), getattr(result, name)) for name in names}
+    known = {name: column for name, column in columns.items() if not np.all(np.isnan(column[1]))}
+    attributes = {"model": result.model, "nominal_area": result.nominal_area, "rms_height": result.rms_height}
+    return _dataset(known, {"pressure": result.pressure}, attributes)
+
+
+@to_xarray.register
+def _(result: _core.LocalDecayLength) -> xarray.Dataset:
+    return _dataset({"decay_length": (("mean_gap",), result.decay_length)}, {"mean_gap": result.mean_gap}, {})
+
+
+@to_xarray.register
+def _(result: _core.PowerSpectrum) -> xarray.Dataset:
+    order = np.argsort(result.wavenumber_x)
+    return _dataset(
+        {"density": (("wavenumber_x", "wavenumber_y"), result.density[order])},
+        {"wavenumber_x": result.wavenumber_x[order], "wavenumber_y": result.wavenumber_y},
+        {"cell": result.cell},
+        {"density": ("m^4", "power spectral density C, h_rms^2 = integral of C d^2q")},
+    )
+
+
+@to_xarray.register
+def _(result: _core.RadialSpectrum) -> xarray.Dataset:
+    columns = {name: (("wavenumber",), getattr(result, name)) for name in ("density", "modes")}
+    meaning = {"density": ("m^4", "power spectral density C, h_rms^2 = 2 pi integral of q C dq")}
+    return _dataset(columns, {"wavenumber": result.wavenumber}, {}, meaning)
+
+
+@to_xarray.register
+def _(result: _core.ProfilePsd) -> xarray.Dataset:
+    columns = {name: (("wavenumber",), getattr(result, name)) for name in ("density", "modes")}
+    meaning = {"density": ("m^3", "power spectral density C1 of profiles, h_rms^2 = integral of C1 dq over all q")}
+    return _dataset(columns, {"wavenumber": result.wavenumber}, {"profiles": result.profiles, "length": result.length}, meaning)
+
+
+@to_xarray.register
+def _(result: _core.Correlation) -> xarray.Dataset:
+    columns = {name: (("distance",), getattr(result, name)) for name in ("autocorrelation", "structure", "pairs")}
+    return _dataset(columns, {"distance": result.distance}, {})
+
+
+@to_xarray.register
+def _(result: _core.ScaleDependence) -> xarray.Dataset:
+    names = ("rms_slope", "rms_curvature", "least_curvature", "stencils")
+    return _dataset({name: (("spacing",), getattr(result, name)) for name in names}, {"spacing": result.spacing}, {})
+
+
+@to_xarray.register
+def _(result: _core.HeightHistogram) -> xarray.Dataset:
+    meaning = {"density": ("1/m", "part of the points in the bin over its width"), "points": ("1", "points in the bin")}
+    columns = {name: (("height",), getattr(result, name)) for name in ("density", "points")}
+    return _dataset(columns, {"height": result.height}, {"width": result.width}, meaning)
+
+
+@to_xarray.register
+def _(result: _core.DamperMap) -> xarray.Dataset:
+    dims = ("normal_amplitude", "angular_frequency")
+    return _dataset({"damping_constant": (dims, result.damping_constant)}, {name: getattr(result, name) for name in dims}, {})
+
+
+@to_xarray.register
+def _(result: _core.FrictionMap) -> xarray.Dataset:
+    dims = ("friction_number", "phase")
+    names = ("loss", "relaxation", "slip")
+    meanings = {name: ("1", f"{name} over the loss in full stick") for name in names}
+    return _dataset(
+        {name: (dims, getattr(result, name)) for name in names}, {name: getattr(result, name) for name in dims}, {}, meanings
+    )
+
+
+@to_xarray.register
+def _(result: _core.StressMap) -> xarray.Dataset:
+    fields = {name: (("angle", "radius"), getattr(result, name)) for name in ("shear", "pressure")}
+    curves = {name: (("angle",), getattr(result, name)) for name in ("contact_radius", "tangential_force")}
+    meaning = {"pressure": ("Pa", "contact pressure")}
+    return _dataset(fields | curves, {"angle": result.angle, "radius": result.radius}, {}, meaning)

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/base/quantity.hpp>
+#include <salebra/base/spectral_moments.hpp>
+#include <salebra/base/units.hpp>
+#include <salebra/base/version.hpp>
+#include <salebra/io/provenance.hpp>
+#include <tuple>
+
+#include "bindings.hpp"
+#include "interop/citations.hpp"
+#include "interop/running.hpp"
+#include "interop/surface.hpp"
+
+namespace salebra::python {
+namespace {
+
+std::vector<std::string>& keys_cited() {
+  static std::vector<std::string> keys;
+  return keys;
+}
+
+}  // namespace
+
+void cite(std::initializer_list<const char*> keys) {
+  auto& known = keys_cited();
+  for (const char* key : keys)
+    if (std::ranges::find(known, key) == known.end()) known.emplace_back(key);
+}
+const std::vector<std::string>& cited() { return keys_cited(); }
+void forget_citations() { keys_cited().clear(); }
+
+void bind_base(nb::module_& m) {
+  static nb::exception<Error> error(m, "Error");
+  const auto child = [&](nb::handle builtin) { return nb::make_tuple(error, builtin); };
+  static nb::exception<InvalidInput> invalid(m, "InvalidInput", child(PyExc_ValueError));
+  static nb::exception<IoError> io(m, "IoError", child(PyExc_OSError));
+  static nb::exception<NotConverged> not_converged(m, "NotConverged", child(PyExc_RuntimeError));
+  static nb::exception<Interrupted> interrupted(m, "Interrupted", child(PyExc_RuntimeError));
+  error.attr("__doc__") = "Root of everything that salebra raises on purpose.";
+  invalid.attr("__doc__") =
+      "A value or file is unusable; nothing was computed or written. The text is \"<field or file>: <value> "
+      "<constraint>; <what to do>\". Also a ValueError.";
+  io.attr("__doc__") =
+      "The operating system refused a write (disk full, no permission). Also an OSError.";
+  not_converged.attr("__doc__") =
+      "A computation ended without reaching its tolerance, where no result could say so. Also a RuntimeError. Solvers "
+      "do not raise it: they return a result with converged = False.";
+  interrupted.attr("__doc__") =
+      "A progress function returned False where the work so far is of no use. Also a RuntimeError.";
+
+  m.def("version", [] { return std::string(version()); },
+        "Version of the library, \"major.minor.patch\".");
+  m.def("library_versions", &library_versions,
+        "\"Eigen 3.4.0, FFTW 3.3.10, …\": the libraries in use, which the last digits of a result depend on.");
+  m.def("set_threads", &parallel::set_threads, nb::arg("threads"),
+        "Threads that loops and transforms use from now on; 0 means all that the process may run on.\n\n"
+        "Results have the same bits for every number of threads.");
+  m.def("threads", &parallel::threads, "Threads that loops and transforms use.");
+
+  m.def(
+      "parse_quantity",
+      [](const std::string& text, const std::string& name) {
+        return parse_quantity(text, find_quantity(name).dimension, name);
+      },
+      nb::arg("text"), nb::arg("name"),
+      R"(A number in SI units from a text with a unit, as the program and study files take it.
+
+Parameters
+----------
+text : str
+    "10um", "115 GPa", "20kHz", "90deg"; a bare number is SI.
+name : str
+    Name of the quantity, such as "contact_modulus": it says which units are right.
+
+Examples
+--------
+>>> salebra.parse_quantity("115 GPa", "contact_modulus")
+115000000000.0
+)");
+  m.def(
+      "format_quantity",
+      [](double value, const std::string& name, int digits) {
+        return format_quantity(value, find_quantity(name).dimension, digits);
+      },
+      nb::arg("value"), nb::arg("name"), nb::arg("digits") = 4,
+      R"(The number with significant digits, an SI prefix and the unit of the quantity `name`.
+
+Examples
+--------
+>>> salebra.format_quantity(1.234e-6, "mean_gap")
+'1.234 µm'
+)");
+  m.def(
+      "quantity",
+      [](const std::string& name) {
+        const Quantity found = find_quantity(name);
+        return std::make_tuple(std::string(si_unit(found.dimension)), std::string(found.long_name));
+      },
+      nb::arg("name"),
+      "SI unit and description of a name that salebra uses in options, results and files: (\"m\", \"decay length of "
+      "force with mean gap\").");
+
+  m.def("_cited", &cited, "Keys of what this session used.");
+  m.def("_forget_citations", &forget_citations, "Begins the list of citations anew.");
+
+  nb::class_<Report>(m, "ProgressReport",
+                     "What a long computation tells: `progress` functions take one and return False to stop.")
+      .def_ro("stage", &Report::stage, "Such as \"contact\", \"sweep\", \"realisation\".")
+      .def_ro("fraction", &Report::fraction, "Of this stage, 0 … 1; a guess where the end is not known.")
+      .def_ro("step", &Report::step, "Iterations or items done.")
+      .def_ro("residual", &Report::residual, "Of an iteration; 0 where there is none.")
+      .def("__repr__", [](const Report& report) {
+        return "ProgressReport(stage='" + report.stage + "', fraction=" +
+               std::to_string(report.fraction) + ", step=" + std::to_string(report.step) + ")";
+      });
+
+  nb::class_<Grid2D>(m, "Grid2D",
+                     R"(Regular grid of nx × ny cells on a rectangle of lx × ly metres.
+
+Point (ix, iy) lies at x = ix·dx, y = iy·dy; lx = nx·dx is the period of a periodic surface.
+
+Parameters
+----------
+nx, ny : int
+    Cells along x and y.
+lx, ly : float
+    Size, m.
+)")
+      .def(
+          "__init__",
+          [](Grid2D* self, Index nx, Index ny, double lx, double ly) {
+            const Grid2D grid{nx, ny, lx, ly};
+            grid.validate();
+            new (self) Grid2D(grid);
+          },
+          nb::arg("nx"), nb::arg("ny"), nb::arg("lx"), nb::arg("ly"))
+      .def_ro("nx", &Grid2D::nx, "Cells along x.")
+      .def_ro("ny", &Grid2D::ny, "Cells along y.")
+      .def_ro("lx", &Grid2D::lx, "Size along x, m.")
+      .def_ro("ly", &Grid2D::ly, "Size along y, m.")
+      .def_prop_ro("dx", &Grid2D::dx, "Cell size along x, m.")
+      .def_prop_ro("dy", &Grid2D::dy, "Cell size along y, m.")
+      .def_prop_ro("points", &Grid2D::points, "nx·ny.")
+      .def_prop_ro("area", &Grid2D::area, "Nominal area, m².")
+      .def_prop_ro("cell_area", &Grid2D::cell_area, "m².")
+      .def("__eq__", [](const Grid2D& self, nb::handle other) {
+        Grid2D grid;
+        return nb::try_cast(other, grid) && grid == self;
+      }, nb::arg("other").none(), nb::sig("def __eq__(self, other: object, /) -> bool"))
+      .def("__hash__", [](const Grid2D& grid) {
+        return nb::hash(nb::make_tuple(grid.nx, grid.ny, grid.lx, grid.ly));
+      })
+      .def("__repr__", [](const Grid2D& grid) {
+        return "Grid2D(nx=" + std::to_string(grid.nx) + ", ny=" + std::to_string(grid.ny) +
+               ", lx=" + format_quantity(grid.lx, Dimension::length) +
+               ", ly=" + format_quantity(grid.ly, Dimension::length) + ")";
+      });
+
+  nb::class_<SpectralMoments>(m, "SpectralMoments",
+                              R"(Profile moments along both axes, of a surface or of a spectrum.
+
+.. math:: m_0 = \langle h^2\rangle,\quad m_2 = \langle(\partial h/\partial x)^2\rangle,\quad
+          m_4 = \langle(\partial^2 h/\partial x^2)^2\rangle
+)")
+      .def_ro("moment0", &SpectralMoments::moment0, "m0 = ⟨h²⟩, m².")
+      .def_ro("moment2_x", &SpectralMoments::moment2_x, "⟨(∂h/∂x)²⟩.")
+      .def_ro("moment2_y", &SpectralMoments::moment2_y, "⟨(∂h/∂y)²⟩.")
+      .def_ro("moment4_x", &SpectralMoments::moment4_x, "⟨(∂²h/∂x²)²⟩, 1/m².")
+      .def_ro("moment4_y", &SpectralMoments::moment4_y, "⟨(∂²h/∂y²)²⟩, 1/m².")
+      .def_prop_ro("moment2", &SpectralMoments::moment2, "m2, mean of both axes.")
+      .def_prop_ro("moment4", &SpectralMoments::moment4, "m4, mean of both axes, 1/m².")
+      .def_prop_ro("rms_height", &SpectralMoments::rms_height, "√m0, m.")
+      .def_prop_ro("rms_slope", &SpectralMoments::rms_slope, "√⟨|∇h|²⟩ = √(2 m2).")
+      .def_prop_ro("nayak", &SpectralMoments::nayak,
+                   "α = m0 m4/m2²; at least 1.5 for a Gaussian isotropic surface.")
+      .def("__repr__", [](const SpectralMoments& moments) {
+        return describe("SpectralMoments", {{"rms_height", moments.rms_height()},
+                                            {"rms_slope", moments.rms_slope()},
+                                            {"nayak", moments.nayak()}});
+      });
+}
+
+}  // namespace salebra::python

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+/// One function for each module of the library; module.cpp calls them from the lowest layer up, so that a signature can name every type.
+namespace salebra::python {
+
+void bind_base(nanobind::module_& module);
+void bind_generators(nanobind::module_& module);
+void bind_shapes(nanobind::module_& module);
+void bind_surface(nanobind::module_& module);
+void bind_statistics(nanobind::module_& module);
+void bind_files(nanobind::module_& module);
+void bind_contact(nanobind::module_& module);
+void bind_curve(nanobind::module_& module);
+void bind_stick(nanobind::module_& module);
+void bind_greenwood_williamson(nanobind::module_& module);
+void bind_theories(nanobind::module_& module);
+void bind_law(nanobind::module_& module);
+void bind_mdr(nanobind::module_& module);
+void bind_motion(nanobind::module_& module);
+void bind_damping(nanobind::module_& module);
+void bind_closed_form(nanobind::module_& module);
+void bind_cycle(nanobind::module_& module);
+void bind_study(nanobind::module_& module);
+
+}  // namespace salebra::python

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <salebra/contact/contact_spots.hpp>
+#include <salebra/contact/material.hpp>
+#include <salebra/contact/normal.hpp>
+#include <salebra/contact/sweep.hpp>
+
+#include "bindings.hpp"
+#include "interop/choice.hpp"
+#include "interop/citations.hpp"
+#include "interop/contact.hpp"
+#include "interop/running.hpp"
+#include "interop/surface.hpp"
+
+namespace salebra::python {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+void bind_material(nb::module_& m) {
+  nb::class_<ElasticBody>(m, "ElasticBody",
+                          "One elastic half-space: Young's modulus E, Pa, and Poisson's ratio ν. An infinite modulus (the "
+                          "default) is a rigid body.")
+      .def(
+          "__init__",
+          [](ElasticBody* self, double young, double poisson) {
+            new (self) ElasticBody{young, poisson};
+          },
+          nb::arg("young") = infinite, nb::arg("poisson") = 0.0)
+      .def_ro("young", &ElasticBody::young, "E, Pa.")
+      .def_ro("poisson", &ElasticBody::poisson, "ν.")
+      .def_prop_ro("shear", &ElasticBody::shear, "G = E/(2(1+ν)), Pa.");
+
+  nb::class_<Material>(m, "Material", R"(What a contact knows of its two bodies.
+
+.. math:: \frac{1}{E^*} = \sum_i\frac{1-\nu_i^2}{E_i} \quad\text{Eq. (1)}, \qquad
+          \frac{1}{G^*} = \sum_i\frac{2-\nu_i}{4G_i} \quad\text{Eq. (2)}
+
+of doi:10.1038/srep16189.
+
+Parameters
+----------
+contact_modulus : float
+    E*, Pa.
+poisson : float, optional
+    Of the one elastic body (the other is rigid): gives G* = 2E*(1−ν)/(2−ν).
+tangential_modulus : float, optional
+    G*, Pa, instead of `poisson`. With neither, only normal contact can be computed.
+)")
+      .def(
+          "__init__",
+          [](Material* self, double contact_modulus, std::optional<double> poisson,
+             std::optional<double> tangential_modulus) {
+            require(!poisson || !tangential_modulus, "tangential_modulus",
+                    tangential_modulus.value_or(0), "was given beside poisson; give one of them");
+            new (self) Material(poisson ? Material::of_contact_modulus(contact_modulus, *poisson)
+                                : tangential_modulus
+                                    ? Material::of_moduli(contact_modulus, *tangential_modulus)
+                                    : Material::of_contact_modulus(contact_modulus));
+          },
+          nb::arg("contact_modulus"), nb::kw_only(), nb::arg("poisson") = nb::none(),
+          nb::arg("tangential_modulus") = nb::none())
+      .def_static("of_bodies", &Material::of_bodies, nb::arg("first"), nb::arg("second") = ElasticBody{},
+                  "The material of two elastic bodies; at least one of them is not rigid.")
+      .def_ro("contact_modulus", &Material::contact_modulus, "E*, Pa.")
+      .def_ro("tangential_modulus", &Material::tangential_modulus, "G*, Pa; NaN where only E* was given.")
+      .def_ro("cerruti_isotropic", &Material::cerruti_isotropic, "Σ (1−ν_i)/(2πG_i), 1/Pa.")
+      .def_ro("cerruti_directed", &Material::cerruti_directed, "Σ ν_i/(2πG_i), 1/Pa.")
+      .def_prop_ro("modulus_ratio", &Material::modulus_ratio, "G*/E*. Raises InvalidInput where G* is not known.")
+      .def("__repr__", [](const Material& material) {
+        return describe("Material", {{"contact_modulus", material.contact_modulus},
+                                     {"tangential_modulus", material.tangential_modulus}});
+      });
+}
+
+// Everything that the three ways of pressing have in common.
+template <class Press>
+BoundContact* press(const BoundSurface& surface, double contact_modulus, double tolerance,
+                    int max_iterations, const Choice<Boundary>& boundary,
+                    const Choice<Precision>& precision, double hardness,
+                    const std::optional<FieldArgument>& initial_pressure,
+                    const ProgressArgument& progress, const Press& solve) {
+  cite({"polonsky_keer1999", "stanley_kato1997"});
+  const std::unique_ptr<BorrowedField> initial =
+      initial_pressure ? std::make_unique<BorrowedField>(*initial_pressure) : nullptr;
+  NormalContactOptions options{.tolerance = tolerance,
+                               .max_iterations = max_iterations,
+                               .boundary = boundary.value("boundary"),
+                               .precision = precision.value("precision"),
+                               .hardness = hardness,
+                               .initial_pressure = initial ? &initial->field() : nullptr};
+  return interruptible(progress, [&](Progress told) {
+    options.on_progress = std::move(told);
+    return new BoundContact{solve(surface.surface, options), surface.surface.grid, contact_modulus,
+                            options.boundary};
+  });
+}
+
+constexpr const char* options_of_contact = R"(
+tolerance : float
+    Stop at e_c = Σp(g − g_min)/(Σp·h_rms) < tolerance, checked in double precision; 1e-14 … 1e-1.
+max_iterations : int
+    On the finest level.
+boundary : {"periodic", "free"}
+    "periodic": the cell repeats for ever; "free": one loaded patch on an infinite half-space.
+precision : {"mixed", "full"}
+    "mixed": transforms in float, residuals and acceptance in double.
+hardness : float
+    Largest pressure that the bodies carry, Pa: cells saturate there.
+initial_pressure : array_like, (nx, ny), optional
+    Start of the iteration, Pa; not copied if C-contiguous float64.
+progress : bool or callable
+    True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop.
+
+Returns
+-------
+NormalContactState
+    Unless `converged`, its numbers describe the last iterate and must not be used as the answer.
+
+Raises
+------
+InvalidInput
+    Before any work. Non-convergence is returned, not raised.
+
+References
+----------
+I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206, doi:10.1016/S0043-1648(99)00113-1; H. M. Stanley, T. Kato, J. Tribol. 119
+(1997) 481, doi:10.1115/1.2833523.
+)";
+
+void bind_state(nb::module_& m) {
+  nb::class_<BoundContact> state(m, "NormalContactState", R"(Result of a normal contact; its fields are views, not copies.
+
+Unless `converged`, the numbers describe the last iterate and must not be used as the answer.
+)");
+  view_property(state, "pressure", &NormalContactState::pressure, "(nx, ny), Pa, >= 0.");
+  view_property(state, "gap", &NormalContactState::gap, "(nx, ny), m, >= 0 up to the tolerance.");
+  state
+      .def_ro("grid", &BoundContact::grid, "Points and size.")
+      .def_ro("contact_modulus", &BoundContact::contact_modulus, "E*, Pa, as given.")
+      .def_prop_ro("boundary", [](const BoundContact& self) { return text_of(self.boundary); },
+                   "\"periodic\" or \"free\", as given.")
+      .def_ro("mean_pressure", &BoundContact::mean_pressure, "Pa.")
+      .def_ro("force", &BoundContact::force, "N.")
+      .def_ro("mean_gap", &BoundContact::mean_gap, "ū: mean of the gap over all cells, m.")
+      .def_ro("indentation", &BoundContact::indentation, "Rigid approach from first touch, m.")
+      .def_ro("contact_area_fraction", &BoundContact::contact_area_fraction, "Cells with p > 0 over all cells.")
+      .def_ro("elastic_energy", &BoundContact::elastic_energy, "½∫pu dA with zero-mean u (periodic), J.")
+      .def_ro("residual", &BoundContact::residual, "e_c reached.")
+      .def_ro("iterations", &BoundContact::iterations, "On the finest level.")
+      .def_ro("fft_count", &BoundContact::fft_count, "Forward-and-backward pairs of the finest level.")
+      .def_ro("converged", &BoundContact::converged)
+      .def_ro("interrupted", &BoundContact::interrupted, "The progress function said stop.")
+      .def("__repr__", [](const BoundContact& s) {
+        return describe("NormalContactState",
+                        {{"pressure", s.mean_pressure}, {"mean_gap", s.mean_gap},
+                         {"contact_area_fraction", s.contact_area_fraction}},
+                        s.converged ? "converged=True" : "converged=False");
+      });
+  result_methods(state, true);
+}
+
+void bind_presses(nb::module_& m) {
+  const auto define = [&](const char* name, const char* target, const std::string& head,
+                          auto function) {
+    static std::vector<std::unique_ptr<std::string>> kept;
+    kept.push_back(std::make_unique<std::string>(head + options_of_contact));
+    m.def(
+        name,
+        [function](const BoundSurface& surface, double contact_modulus, double value,
+                   double tolerance, int max_iterations, const Choice<Boundary>& boundary,
+                   const Choice<Precision>& precision, double hardness,
+                   const std::optional<FieldArgument>& initial_pressure,
+                   const ProgressArgument& progress) {
+          return press(surface, contact_modulus, tolerance, max_iterations, boundary, precision,
+                       hardness, initial_pressure, progress,
+                       [&](const Surface& heights, const NormalContactOptions& options) {
+                         return function(heights, contact_modulus, value, options);
+                       });
+        },
+        nb::arg("surface"), nb::arg("contact_modulus"), nb::arg(target), nb::kw_only(),
+        nb::arg("tolerance") = 1e-10, nb::arg("max_iterations") = 1000,
+        nb::arg("boundary") = "periodic", nb::arg("precision") = "mixed",
+        nb::arg("hardness") = infinite, nb::arg("initial_pressure") = nb::none(),
+        nb::arg("progress") = false, kept.back()->c_str());
+  };
+  define("press_to_pressure", "nominal_pressure",
+         R"(Frictionless contact of a rigid rough surface with an elastic half-space, for a given nominal pressure.
+
+.. math:: \min_p\ \tfrac12\,p\cdot Gp - p\cdot h, \quad 0\le p\le \text{hardness},\ \langle p\rangle = \text{nominal pressure};
+          \qquad \hat u(q) = \frac{2\hat p(q)}{E^*|q|}
+
+by nested conjugate gradients on the contact set. One transform pair an iteration, 15 to 100 iterations; 57 to 67 bytes a cell.
+
+Parameters
+----------
+surface : Surface
+contact_modulus : float
+    E* > 0, Pa.
+nominal_pressure : float
+    > 0, Pa, below the hardness.)",
+         [](const Surface& s, double e, double v, const NormalContactOptions& o) {
+           return press_to_pressure(s, e, v, o);
+         });
+  define("press_to_mean_gap", "mean_gap",
+         R"(The contact of :func:`press_to_pressure` for a given mean gap: its inverse. Periodic and elastic contacts only.
+
+Parameters
+----------
+surface : Surface
+contact_modulus : float
+    E* > 0, Pa.
+mean_gap : float
+    ū in (0, max h − mean h), m.)",
+         [](const Surface& s, double e, double v, const NormalContactOptions& o) {
+           return press_to_mean_gap(s, e, v, o);
+         });
+  define("press_to_indentation", "indentation",
+         R"(The contact of :func:`press_to_pressure` for a rigid approach from first touch.
+
+Parameters
+----------
+surface : Surface
+contact_modulus : float
+    E* > 0, Pa.
+indentation : float
+    > 0, m; below max h − mean h for periodic contacts.)",
+         [](const Surface& s, double e, double v, const NormalContactOptions& o) {
+           return press_to_indentation(s, e, v, o);
+         });
+
+  m.def(
+      "normal_stiffness",
+      [](const BoundContact& state, double tolerance, int max_iterations,
+         const ProgressArgument& progress) {
+        NormalContactOptions options{.tolerance = tolerance,
+                                     .max_iterations = max_iterations,
+                                     .boundary = state.boundary};
+        return interruptible(progress, [&](Progress told) {
+          options.on_progress = std::move(told);
+          return normal_stiffness(state, state.grid, state.contact_modulus, options);
+        });
+      },
+      nb::arg("state"), nb::kw_only(), nb::arg("tolerance") = 1e-10, nb::arg("max_iterations") = 1000,
+      nb::arg("progress") = false,
+      R"(Normal stiffness K = dF/dδ of a state's contact set, by one linear solve with the set held, N/m.
+
+Infinite for a periodic cell in full contact, NaN where the solve did not converge or was interrupted.
+)");
+}
+
+void bind_spots(nb::module_& m) {
+  nb::class_<ContactSpot>(m, "ContactSpot", "A connected patch of contact.")
+      .def_ro("area", &ContactSpot::area, "m²")
+      .def_ro("force", &ContactSpot::force, "N");
+  nb::class_<ContactSpots> spots(m, "ContactSpots", "The patches of a contact, largest area first; columns are views.");
+  spots.def_ro("contact_area_fraction", &ContactSpots::contact_area_fraction, "Cells with p > 0 over all cells.")
+      .def_ro("perimeter", &ContactSpots::perimeter, "Of all spots, along cell edges, m.")
+      .def_ro("corrected_area_fraction", &ContactSpots::corrected_area_fraction,
+              "A/A0 without the cells counted in excess along the edges, A_cells − (π − 1 + ln 2)/24·perimeter·cell width, "
+              "doi:10.1016/j.triboint.2017.04.023.")
+      .def("__len__", [](const ContactSpots& self) { return self.spots.size(); });
+  column_property(spots, "area", &ContactSpots::spots, &ContactSpot::area, "m²");
+  column_property(spots, "force", &ContactSpots::spots, &ContactSpot::force, "N");
+  m.def(
+      "contact_spots",
+      [](const BoundContact& state) {
+        cite({"yastrebov2017"});
+        return unlocked([&] { return contact_spots(state.pressure, state.grid, state.boundary); });
+      },
+      nb::arg("state"), "Connected patches of cells with p > 0; neighbours wrap for periodic boundaries.");
+}
+
+}  // namespace
+
+void bind_contact(nb::module_& m) {
+  bind_material(m);
+  bind_state(m);
+  bind_presses(m);
+  bind_spots(m);
+}
+
+}  // namespace salebra::python

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <limits>
+#include <salebra/contact/fit.hpp>
+#include <salebra/contact/force_curve.hpp>
+#include <salebra/contact/sweep.hpp>
+
+#include "bindings.hpp"
+#include "interop/choice.hpp"
+#include "interop/citations.hpp"
+#include "interop/running.hpp"
+#include "interop/surface.hpp"
+
+namespace salebra::python {
+namespace {
+
+void bind_force_curve(nb::module_& m) {
+  nb::class_<ForceCurve> curve(m, "ForceCurve", R"(What every contact model returns, from the lowest force to the highest.
+
+Columns are views of one table, not copies; a quantity that the model does not have is NaN.
+
+Parameters
+----------
+nominal_area : float
+    A0, m².
+indentation, mean_gap, separation, force, pressure, contact_area_fraction, normal_stiffness, tangential_stiffness : array_like
+    Columns of equal length; force and pressure give each other.
+rms_height : float
+    Of the surface, m.
+model : str
+    Such as "measured".
+)");
+  curve.def(
+      "__init__",
+      [](ForceCurve* self, double nominal_area, std::optional<Values> indentation,
+         std::optional<Values> mean_gap, std::optional<Values> separation,
+         std::optional<Values> force, std::optional<Values> pressure,
+         std::optional<Values> contact_area_fraction, std::optional<Values> normal_stiffness,
+         std::optional<Values> tangential_stiffness, double rms_height, const std::string& model) {
+        require_positive(nominal_area, "nominal_area");
+        ForceCurve made;
+        made.model = model;
+        made.nominal_area = nominal_area;
+        made.rms_height = rms_height;
+        const auto fill = [&](const std::optional<Values>& values, const char* name,
+                              double ForceSample::* member) {
+          if (!values) return;
+          if (made.samples.empty()) made.samples.resize(values->values.size());
+          require(values->values.size() == made.samples.size(), name, values->values.size(),
+                  "values, unlike the other columns; give columns of one length");
+          for (std::size_t i = 0; i < made.samples.size(); ++i)
+            made.samples[i].*member = values->values[i];
+        };
+        fill(indentation, "indentation", &ForceSample::indentation);
+        fill(mean_gap, "mean_gap", &ForceSample::mean_gap);
+        fill(separation, "separation", &ForceSample::separation);
+        fill(force, "force", &ForceSample::force);
+        fill(pressure, "pressure", &ForceSample::pressure);
+        fill(contact_area_fraction, "contact_area_fraction", &ForceSample::contact_area_fraction);
+        fill(normal_stiffness, "normal_stiffness", &ForceSample::normal_stiffness);
+        fill(tangential_stiffness, "tangential_stiffness", &ForceSample::tangential_stiffness);
+        require(force || pressure, "force", "none", "given; give force or pressure");
+        for (auto& sample : made.samples) {
+          if (!force) sample.force = sample.pressure * nominal_area;
+          if (!pressure) sample.pressure = sample.force / nominal_area;
+        }
+        std::ranges::stable_sort(made.samples, {}, &ForceSample::force);
+        new (self) ForceCurve(std::move(made));
+      },
+      nb::arg("nominal_area"), nb::kw_only(), nb::arg("indentation") = nb::none(),
+      nb::arg("mean_gap") = nb::none(), nb::arg("separation") = nb::none(),
+      nb::arg("force") = nb::none(), nb::arg("pressure") = nb::none(),
+      nb::arg("contact_area_fraction") = nb::none(), nb::arg("normal_stiffness") = nb::none(),
+      nb::arg("tangential_stiffness") = nb::none(), nb::arg("rms_height") = ForceSample::unknown,
+      nb::arg("model") = "measured");
+  column_property(curve, "indentation", &ForceCurve::samples, &ForceSample::indentation, "δ, m; larger is closer.");
+  column_property(curve, "mean_gap", &ForceCurve::samples, &ForceSample::mean_gap, "ū, m; dū = −dδ.");
+  column_property(curve, "separation", &ForceCurve::samples, &ForceSample::separation,
+                  "s, m: smooth plane to mean plane of the summits (Greenwood–Williamson).");
+  column_property(curve, "force", &ForceCurve::samples, &ForceSample::force, "F, N.");
+  column_property(curve, "pressure", &ForceCurve::samples, &ForceSample::pressure, "p = F/A0, Pa.");
+  column_property(curve, "contact_area_fraction", &ForceCurve::samples, &ForceSample::contact_area_fraction, "A/A0.");
+  column_property(curve, "normal_stiffness", &ForceCurve::samples, &ForceSample::normal_stiffness, "K = dF/dδ, N/m.");
+  column_property(curve, "tangential_stiffness", &ForceCurve::samples, &ForceSample::tangential_stiffness,
+                  "K_t = dF_x/dx in full stick, N/m.");
+  column_property(curve, "converged", &ForceCurve::samples, &ForceSample::converged, "Of each sample.");
+  curve.def_ro("model", &ForceCurve::model, "\"bem\", \"greenwood-williamson\", …")
+      .def_ro("nominal_area", &ForceCurve::nominal_area, "A0, m².")
+      .def_ro("rms_height", &ForceCurve::rms_height, "h_rms of the surface, m.")
+      .def("__len__", [](const ForceCurve& self) { return self.samples.size(); })
+      .def("__repr__", [](const ForceCurve& self) {
+        return "ForceCurve(model='" + self.model + "', " + std::to_string(self.samples.size()) + " samples)";
+      });
+  result_methods(curve, true);
+}
+
+void bind_sweep(nb::module_& m) {
+  m.def(
+      "sweep_pressures",
+      [](const BoundSurface& surface, const Material& material, const Values& pressures,
+         bool stiffness, bool stick, int concurrent_loads, double tolerance, int max_iterations,
+         const Choice<Boundary>& boundary, const Choice<Precision>& precision, double hardness,
+         const ProgressArgument& progress) {
+        cite({"polonsky_keer1999", "stanley_kato1997"});
+        SweepOptions options;
+        options.contact = {.tolerance = tolerance,
+                           .max_iterations = max_iterations,
+                           .boundary = boundary.value("boundary"),
+                           .precision = precision.value("precision"),
+                           .hardness = hardness};
+        options.stiffness = stiffness;
+        options.stick = stick;
+        options.concurrent_loads = concurrent_loads;
+        return interruptible(progress, [&](Progress told) {
+          options.contact.on_progress = std::move(told);
+          return sweep_pressures(surface.surface, material, pressures.values, options);
+        });
+      },
+      nb::arg("surface"), nb::arg("material"), nb::arg("pressures"), nb::kw_only(),
+      nb::arg("stiffness") = true, nb::arg("stick") = false, nb::arg("concurrent_loads") = 0,
+      nb::arg("tolerance") = 1e-10, nb::arg("max_iterations") = 1000,
+      nb::arg("boundary") = "periodic", nb::arg("precision") = "mixed",
+      nb::arg("hardness") = std::numeric_limits<double>::infinity(), nb::arg("progress") = false,
+      R"(Force–gap curve of a surface by boundary elements, one independent solve for each pressure, in parallel over loads.
+
+Parameters
+----------
+surface : Surface
+material : Material
+pressures : array_like
+    > 0, increasing, Pa.
+stiffness : bool
+    K by a punch solve on each contact set, and K_t = (G*/E*)K where G* is known.
+stick : bool
+    With stiffness: K_t along x by a stick solve on each contact set instead.
+concurrent_loads : int
+    Loads solved at the same time, each with 50 to 60 bytes a cell of its own; 0: as many as there are threads.
+tolerance, max_iterations, boundary, precision, hardness
+    As for :func:`press_to_pressure`.
+progress : bool or callable
+    True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop: the loads finished by then are returned.
+
+Returns
+-------
+ForceCurve
+    Samples that did not converge are kept and marked.
+)");
+}
+
+std::optional<PressureWindow> window_of(const std::optional<std::pair<double, double>>& window) {
+  if (!window) return {};
+  return PressureWindow{window->first, window->second, 0};
+}
+
+void bind_fit(nb::module_& m) {
+  nb::class_<PressureWindow>(m, "PressureWindow", "Samples that a fit rests on.")
+      .def_ro("pressure_min", &PressureWindow::pressure_min, "Pa")
+      .def_ro("pressure_max", &PressureWindow::pressure_max, "Pa")
+      .def_ro("points", &PressureWindow::points);
+  nb::class_<ExponentialFit>(m, "ExponentialFit", "p = reference_pressure·exp(−ū/decay_length), with 95 % limits.")
+      .def_ro("decay_length", &ExponentialFit::decay_length, "l, m.")
+      .def_ro("decay_length_low", &ExponentialFit::decay_length_low, "Lower 95 % limit, m.")
+      .def_ro("decay_length_high", &ExponentialFit::decay_length_high, "Upper 95 % limit, m.")
+      .def_ro("reference_pressure", &ExponentialFit::reference_pressure, "p at ū = 0, Pa.")
+      .def_ro("r_squared", &ExponentialFit::r_squared)
+      .def_ro("window", &ExponentialFit::window)
+      .def_ro("decay_length_over_rms_height", &ExponentialFit::decay_length_over_rms_height)
+      .def("__repr__", [](const ExponentialFit& fit) {
+        return describe("ExponentialFit", {{"decay_length", fit.decay_length},
+                                           {"decay_length_low", fit.decay_length_low},
+                                           {"decay_length_high", fit.decay_length_high},
+                                           {"reference_pressure", fit.reference_pressure}});
+      });
+  m.def(
+      "fit_exponential",
+      [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window) {
+        return fit_exponential(curve, window_of(window));
+      },
+      nb::arg("curve"), nb::arg("window") = nb::none(),
+      R"(Least squares of ln p = a − ū/l over a window of a curve, with Student-t 95 % limits.
+
+Parameters
+----------
+curve : ForceCurve
+window : (float, float), optional
+    Least and largest pressure, Pa; none: the samples with ū between 1 and 2.5 h_rms, where the law is at its best.
+
+Notes
+-----
+The interval holds for independent errors of ln p. With a computed curve it measures the misfit of the law instead, and
+:func:`test_exponential` tells whether that is systematic.
+)");
+  nb::class_<ExponentialTest>(m, "ExponentialTest", "Whether ln p bends: ln p = a + b ū + c ū², and Student's t-test of c = 0.")
+      .def_ro("quadratic", &ExponentialTest::quadratic, "c, 1/m²; > 0 where l grows with ū.")
+      .def_ro("standard_error", &ExponentialTest::standard_error, "Of c, 1/m².")
+      .def_ro("significance", &ExponentialTest::significance, "Probability of so large a |c| if the law held.")
+      .def_ro("decay_length_closest", &ExponentialTest::decay_length_closest, "At the least ū of the window, m.")
+      .def_ro("decay_length_farthest", &ExponentialTest::decay_length_farthest, "At the largest, m.")
+      .def_ro("window", &ExponentialTest::window)
+      .def("refuted", &ExponentialTest::refuted, nb::arg("level") = 0.05, "The law is refuted at this level.")
+      .def("__repr__", [](const ExponentialTest& test) {
+        return describe("ExponentialTest", {{"significance", test.significance},
+                                            {"decay_length_min", test.decay_length_closest},
+                                            {"decay_length_max", test.decay_length_farthest}});
+      });
+  m.def(
+      "test_exponential",
+      [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window) {
+        return test_exponential(curve, window_of(window));
+      },
+      nb::arg("curve"), nb::arg("window") = nb::none(), "Tests the exponential law over the window of :func:`fit_exponential`.");
+  nb::class_<WindowSensitivity>(m, "WindowSensitivity", "How much a fit owes to its window.")
+      .def_ro("decay_length_min", &WindowSensitivity::decay_length_min, "m")
+      .def_ro("decay_length_max", &WindowSensitivity::decay_length_max, "m")
+      .def_ro("windows", &WindowSensitivity::windows, "How many runs of samples were fitted.");
+  m.def(
+      "window_sensitivity",
+      [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window) {
+        return window_sensitivity(curve, window_of(window));
+      },
+      nb::arg("curve"), nb::arg("window") = nb::none(),
+      "The least and largest decay length over every run of samples that holds at least half of the window.");
+  nb::class_<LocalDecayLength> local(m, "LocalDecayLength", "l(ū) = −dū/d ln p between consecutive samples.");
+  view_property(local, "mean_gap", &LocalDecayLength::mean_gap, "m");
+  view_property(local, "decay_length", &LocalDecayLength::decay_length, "m");
+  result_methods(local, true);
+  m.def("local_decay_length", &local_decay_length, nb::arg("curve"), "l(ū) at the midpoints between consecutive samples.");
+}
+
+}  // namespace
+
+void bind_curve(nb::module_& m) {
+  bind_force_curve(m);
+  bind_sweep(m);
+  bind_fit(m);
+}
+
+}  // namespace salebra::python

@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <limits>
+#include <salebra/damping/asperity_damping.hpp>
+#include <salebra/damping/damper.hpp>
+#include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/friction_map.hpp>
+#include <salebra/damping/stress_map.hpp>
+#include <salebra/damping/tangential_contact.hpp>
+#include <salebra/damping/trajectory_damping.hpp>
+
+#include "bindings.hpp"
+#include "interop/choice.hpp"
+#include "interop/citations.hpp"
+#include "interop/running.hpp"
+#include "interop/surface.hpp"
+
+namespace salebra::python {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// Where the contact stands: exactly one of the two keywords.
+Position position_of(std::optional<double> indentation, std::optional<double> force) {
+  require(indentation.has_value() != force.has_value(), "force", force.value_or(0),
+          "and indentation were both given, or neither; give exactly one of them");
+  if (force) return AtForce{*force};
+  return AtIndentation{*indentation};
+}
+
+DampingOptions damping_options(const Choice<Hold>& hold, const Choice<Amplitude>& amplitude,
+                               double tolerance) {
+  return {hold.value("hold"), amplitude.value("amplitude"), tolerance, {}};
+}
+
+using AnyMotion = std::variant<EqualFrequency, Drag, TwoFrequencies>;
+
+// calls function(Oscillation) or function(TwoFrequencies).
+template <class Function>
+auto with_motion(const AnyMotion& motion, const Function& function) {
+  if (const auto* two = std::get_if<TwoFrequencies>(&motion)) return function(*two);
+  if (const auto* drag = std::get_if<Drag>(&motion)) return function(Oscillation(*drag));
+  return function(Oscillation(std::get<EqualFrequency>(motion)));
+}
+
+void bind_damping_result(nb::module_& m) {
+  nb::class_<DampingResult>(m, "DampingResult", "Relaxation damping of one contact under one motion; NaN is unknown.")
+      .def_ro("work_per_cycle", &DampingResult::work_per_cycle, "W, J.")
+      .def_ro("power", &DampingResult::power, "P = Wω/2π, W; NaN where the motion has no ω.")
+      .def_ro("damping_constant", &DampingResult::damping_constant,
+              "γ = P/⟨ẋ²⟩ with ⟨ẋ²⟩ = v² or (u_x ω)²/2, N s/m; NaN where the motion has no ω.")
+      .def_ro("indentation", &DampingResult::indentation, "Mean indentation of the cycle, m.")
+      .def_ro("force", &DampingResult::force, "F at the mean indentation, N.")
+      .def_ro("mean_force", &DampingResult::mean_force, "Mean of F over the cycle, N.")
+      .def_ro("normal_stiffness", &DampingResult::normal_stiffness, "K at the mean indentation, N/m.")
+      .def_ro("curvature", &DampingResult::curvature, "F'' at the mean indentation, N/m².")
+      .def_ro("tangential_curvature", &DampingResult::tangential_curvature, "K_t' at the mean indentation, N/m².")
+      .def_ro("small_amplitude_work", &DampingResult::small_amplitude_work, "Eq. (12) or (15) at the given position, J.")
+      .def_ro("error_estimate", &DampingResult::error_estimate, "Of work_per_cycle, J: quadrature and round-off.")
+      .def_ro("converged", &DampingResult::converged, "False: do not use work_per_cycle.")
+      .def("__repr__", [](const DampingResult& r) {
+        return describe("DampingResult",
+                        {{"work_per_cycle", r.work_per_cycle}, {"damping_constant", r.damping_constant}, {"force", r.force}},
+                        r.converged ? "converged=True" : "converged=False");
+      });
+}
+
+void bind_theorem(nb::module_& m) {
+  m.def(
+      "relaxation_damping",
+      [](const ContactLaw& law, const AnyMotion& motion, std::optional<double> indentation,
+         std::optional<double> force, const Choice<Hold>& hold, const Choice<Amplitude>& amplitude,
+         double tolerance) {
+        cite({"popov2015"});
+        const Position position = position_of(indentation, force);
+        const DampingOptions options = damping_options(hold, amplitude, tolerance);
+        return unlocked([&] {
+          return with_motion(motion, [&](const auto& one) {
+            return relaxation_damping(law, position, one, options);
+          });
+        });
+      },
+      nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
+      nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
+      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10,
+      R"(Work lost per cycle by a contact without slip that oscillates, at any amplitude.
+
+.. math:: W = \tfrac12\oint s^2\,dK_t, \qquad s = x_{out} - x_{in}\text{ of each indentation level}
+
+in the by-parts forms that need K_t alone:
+
+.. math::
+    W_a = 2u_x^2\sin^2\varphi_0\int_0^\pi K_t(\delta(\theta))\sin2\theta\,d\theta, \qquad
+    W_b = 4(v/\omega)^2\int_0^\pi\theta\,[K_t(\delta(\theta)) - K_t(\delta_0-u_z)]\,d\theta
+
+with δ(θ) = δ0 + u_z cosθ. Its limit for small amplitudes is Eq. (12) or (15) of doi:10.1038/srep16189.
+
+Parameters
+----------
+law : ContactLaw
+motion : EqualFrequency, Drag or TwoFrequencies
+indentation : float, optional
+    Where the contact stands, m, on the law's own scale …
+force : float, optional
+    … or the force that it carries, N; exactly one of the two.
+hold : {"indentation", "force"}
+    What stays fixed over a cycle: the mean indentation, or the mean force (a dead weight).
+amplitude : {"finite", "small"}
+    "small": Eq. (12) or (15) with F'' of the law.
+tolerance : float
+    Relative, of the quadrature of W; 1e-13 … 1e-2.
+
+Raises
+------
+InvalidInput
+    For values that no motion has, and for a motion that leaves the range of a tabulated law.
+)");
+  m.def(
+      "damping_curve",
+      [](const ContactLaw& law, const std::vector<Oscillation>& motions,
+         const std::optional<Values>& indentation, const std::optional<Values>& force,
+         const Choice<Hold>& hold, const Choice<Amplitude>& amplitude, double tolerance,
+         const ProgressArgument& progress) {
+        cite({"popov2015"});
+        require(indentation.has_value() != force.has_value(), "force", force ? "given" : "missing",
+                "as indentation is; give exactly one of them");
+        const std::vector<double>& places = force ? force->values : indentation->values;
+        const std::size_t count = std::max(places.size(), motions.size());
+        require((places.size() == count || places.size() == 1) &&
+                    (motions.size() == count || motions.size() == 1),
+                "motions", motions.size(), "motions for another number of positions; give one, or as many");
+        std::vector<DampingCase> cases;
+        cases.reserve(count);
+        for (std::size_t i = 0; i < count; ++i) {
+          const double place = places[places.size() == 1 ? 0 : i];
+          cases.push_back({force ? Position(AtForce{place}) : Position(AtIndentation{place}),
+                           motions[motions.size() == 1 ? 0 : i]});
+        }
+        DampingOptions options = damping_options(hold, amplitude, tolerance);
+        return interruptible(progress, [&](Progress told) {
+          options.on_progress = std::move(told);
+          return relaxation_damping(law, cases, options);
+        });
+      },
+      nb::arg("law"), nb::arg("motions"), nb::kw_only(), nb::arg("indentation") = nb::none(),
+      nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
+      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10, nb::arg("progress") = false,
+      R"(:func:`relaxation_damping` of many cases, in parallel: a list of motions, of positions, or both of one length.
+
+Returns
+-------
+list of DampingResult
+    In the order of the cases.
+)");
+  m.def(
+      "relaxation_damping_force_controlled",
+      [](const ContactLaw& law, double mean_force, double force_amplitude, const AnyMotion& motion,
+         const Choice<Amplitude>& amplitude, double tolerance) {
+        cite({"popov2015"});
+        DampingOptions options;
+        options.amplitude = amplitude.value("amplitude");
+        options.tolerance = tolerance;
+        return unlocked([&] {
+          return with_motion(motion, [&](const auto& one) {
+            return relaxation_damping_force_controlled(law, mean_force, force_amplitude, one, options);
+          });
+        });
+      },
+      nb::arg("law"), nb::arg("mean_force"), nb::arg("force_amplitude"), nb::arg("motion"),
+      nb::kw_only(), nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10,
+      "Normal motion by force, F = F0 + F_a cos ωt with 0 <= F_a <= F0, N; the motion's normal_amplitude is not used.");
+  m.def("mean_force_of_cycle", &mean_force_of_cycle, nb::arg("law"), nb::arg("mean_indentation"),
+        nb::arg("normal_amplitude"), "Mean of F over a cycle δ0 + u_z cosθ, N.");
+  m.def("indentation_at_mean_force", &indentation_at_mean_force, nb::arg("law"),
+        nb::arg("mean_force"), nb::arg("normal_amplitude"),
+        "The mean indentation at which the cycle mean of F is mean_force, m: where a dead weight settles.");
+}
+
+void bind_trajectories(nb::module_& m) {
+  nb::class_<TangentialContact>(m, "TangentialContact", R"(The tangential state of any contact with nested contact sets, along any path.
+
+.. math:: F_x = \int_{-\infty}^{\delta} K_t'(\zeta)\,[x - x_0(\zeta)]\,d\zeta
+
+Exact for motion in straight steps. The motion must stay within lowest <= δ <= highest.
+
+Parameters
+----------
+law : ContactLaw
+lowest, highest : float
+    m.
+friction : float
+    μ >= 0; infinite: full stick, the case of the paper.
+merge_tolerance : float
+    How far the stored history may deviate from the motion, m; 0 keeps all of it.
+table_tolerance : float
+    Relative, of the table of K_t that stands for the law.
+tangential_range : float
+    Largest |x − x'| of the motion, m; needed where friction is finite.
+)")
+      .def(
+          "__init__",
+          [](TangentialContact* self, const ContactLaw& law, double lowest, double highest,
+             double friction, double merge_tolerance, double table_tolerance,
+             double tangential_range) {
+            new (self) TangentialContact(
+                law, lowest, highest,
+                {friction, merge_tolerance, table_tolerance, tangential_range});
+          },
+          nb::arg("law"), nb::arg("lowest"), nb::arg("highest"), nb::kw_only(),
+          nb::arg("friction") = infinite, nb::arg("merge_tolerance") = 0.0,
+          nb::arg("table_tolerance") = 1e-12, nb::arg("tangential_range") = 0.0,
+          nb::keep_alive<1, 2>())
+      .def("start", &TangentialContact::start, nb::arg("indentation"), nb::arg("x"),
+           "Puts the indenter down, all springs free of stress; sets the energies to 0.")
+      .def("move_to", &TangentialContact::move_to, nb::arg("indentation"), nb::arg("x"),
+           "Moves on a straight line in (δ, x), m.")
+      .def_prop_ro("tangential_force", &TangentialContact::tangential_force, "F_x, N.")
+      .def_prop_ro("stored_energy", &TangentialContact::stored_energy, "J")
+      .def_prop_ro("dissipated", &TangentialContact::dissipated, "Lost since start(), J.")
+      .def_prop_ro("dissipated_in_permanent_contact", &TangentialContact::dissipated_in_permanent_contact,
+                   "Of it, by slip of levels that never leave contact, J.")
+      .def_prop_ro("external_work", &TangentialContact::external_work, "∫F_x dx since start(), J.")
+      .def_prop_ro("permanent_stiffness", &TangentialContact::permanent_stiffness, "K_t at `lowest`, N/m.")
+      .def_prop_ro("memory", &TangentialContact::memory, "Pieces of history now held.");
+
+  nb::class_<TrajectoryDamping> damping(m, "TrajectoryDamping", "Steady state of a contact under a periodic motion.");
+  damping.def_ro("work_per_cycle", &TrajectoryDamping::work_per_cycle, "Energy lost per period, J.")
+      .def_ro("relaxation_work", &TrajectoryDamping::relaxation_work, "Of it, by levels that open and close, J.")
+      .def_ro("slip_work", &TrajectoryDamping::slip_work, "Of it, by slip in permanent contact, J.")
+      .def_ro("power", &TrajectoryDamping::power, "W")
+      .def_ro("damping_constant", &TrajectoryDamping::damping_constant, "γ = P/⟨ẋ²⟩, N s/m.")
+      .def_ro("storage_stiffness", &TrajectoryDamping::storage_stiffness, "Part of F_x in phase with x, N/m.")
+      .def_ro("loss_factor", &TrajectoryDamping::loss_factor, "W/(2πU) of a harmonic motion.")
+      .def_ro("memory", &TrajectoryDamping::memory, "Most pieces of history held at a time.")
+      .def_ro("periods", &TrajectoryDamping::periods, "Periods computed.")
+      .def_ro("converged", &TrajectoryDamping::converged);
+  view_property(damping, "tangential_force", &TrajectoryDamping::tangential_force, "F_x at the samples, N.");
+  view_property(damping, "dissipated", &TrajectoryDamping::dissipated, "Energy lost since the first sample, J.");
+  m.def(
+      "trajectory_damping",
+      [](const ContactLaw& law, const SampledMotion& trajectory, double friction, int max_periods) {
+        cite({"popov2015"});
+        return unlocked([&] { return trajectory_damping(law, trajectory, {friction, max_periods}); });
+      },
+      nb::arg("law"), nb::arg("trajectory"), nb::kw_only(), nb::arg("friction") = infinite,
+      nb::arg("max_periods") = 200,
+      "Follows a periodic trajectory until it is steady; exact for its straight steps. friction: μ, infinite for full stick.");
+}
+
+void bind_damper(nb::module_& m) {
+  nb::class_<OscillatorDecay>(m, "OscillatorDecay", "Decay of a tangential oscillator under fast normal oscillation of its contact.")
+      .def_ro("damping_constant", &OscillatorDecay::damping_constant, "γ, N s/m.")
+      .def_ro("contact_stiffness", &OscillatorDecay::contact_stiffness, "K_t of what is never let go, N/m.")
+      .def_ro("natural_frequency", &OscillatorDecay::natural_frequency, "ω0, rad/s.")
+      .def_ro("damping_ratio", &OscillatorDecay::damping_ratio, "ζ = γ/(2mω0).")
+      .def_ro("quality_factor", &OscillatorDecay::quality_factor, "1/(2ζ).")
+      .def_ro("decay_time", &OscillatorDecay::decay_time, "s")
+      .def_ro("logarithmic_decrement", &OscillatorDecay::logarithmic_decrement)
+      .def_ro("frequency_ratio", &OscillatorDecay::frequency_ratio, "ω0/ω; the description assumes that it is small.");
+  m.def(
+      "oscillator_decay",
+      [](const ContactLaw& law, double normal_amplitude, double angular_frequency, double mass,
+         double spring_stiffness, std::optional<double> indentation, std::optional<double> force,
+         const Choice<Hold>& hold, double tolerance) {
+        DampingOptions options;
+        options.hold = hold.value("hold");
+        options.tolerance = tolerance;
+        return oscillator_decay(law, position_of(indentation, force),
+                                {normal_amplitude, angular_frequency}, {mass, spring_stiffness},
+                                options);
+      },
+      nb::arg("law"), nb::kw_only(), nb::arg("normal_amplitude"), nb::arg("angular_frequency"),
+      nb::arg("mass"), nb::arg("spring_stiffness") = 0.0, nb::arg("indentation") = nb::none(),
+      nb::arg("force") = nb::none(), nb::arg("hold") = "indentation", nb::arg("tolerance") = 1e-10,
+      "A mass (kg) on a spring (N/m) and on the contact: m ẍ + γ ẋ + (k + K_t,min) x = 0.");
+
+  nb::class_<DamperMap> map(m, "DamperMap", "γ over normal amplitudes × angular frequencies.");
+  view_property(map, "normal_amplitude", &DamperMap::normal_amplitude, "m");
+  view_property(map, "angular_frequency", &DamperMap::angular_frequency, "rad/s");
+  view_property(map, "damping_constant", &DamperMap::damping_constant, "γ (amplitudes, frequencies), N s/m.");
+  result_methods(map, true);
+  m.def(
+      "damper_map",
+      [](const ContactLaw& law, const Values& normal_amplitudes, const Values& angular_frequencies,
+         std::optional<double> indentation, std::optional<double> force, const Choice<Hold>& hold,
+         double tolerance) {
+        DampingOptions options;
+        options.hold = hold.value("hold");
+        options.tolerance = tolerance;
+        const Position position = position_of(indentation, force);
+        return unlocked([&] {
+          return damper_map(law, position, normal_amplitudes.values, angular_frequencies.values, options);
+        });
+      },
+      nb::arg("law"), nb::arg("normal_amplitudes"), nb::arg("angular_frequencies"), nb::kw_only(),
+      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
+      nb::arg("hold") = "indentation", nb::arg("tolerance") = 1e-10,
+      "The damping constant over amplitudes (m) and angular frequencies (rad/s).");
+  m.def(
+      "stabilising_amplitude",
+      [](const ContactLaw& law, double angular_frequency, double falling_slope,
+         double largest_amplitude, std::optional<double> indentation, std::optional<double> force,
+         const Choice<Hold>& hold, double tolerance) {
+        DampingOptions options;
+        options.hold = hold.value("hold");
+        options.tolerance = tolerance;
+        return stabilising_amplitude(law, position_of(indentation, force), angular_frequency,
+                                     falling_slope, largest_amplitude, options);
+      },
+      nb::arg("law"), nb::kw_only(), nb::arg("angular_frequency"), nb::arg("falling_slope"),
+      nb::arg("largest_amplitude"), nb::arg("indentation") = nb::none(),
+      nb::arg("force") = nb::none(), nb::arg("hold") = "indentation", nb::arg("tolerance") = 1e-10,
+      "The least u_z, m, at which γ >= falling_slope (N s/m): it keeps a slider whose friction falls with velocity from stick–slip. "
+      "NaN where no amplitude up to largest_amplitude is enough.");
+}
+
+void bind_maps(nb::module_& m) {
+  nb::class_<FrictionMap> friction(m, "FrictionMap", "How far the paper's \"infinite\" friction reaches: losses over the full-stick loss.");
+  view_property(friction, "friction_number", &FrictionMap::friction_number, "M = μE*u_z/(G*u_x).");
+  view_property(friction, "phase", &FrictionMap::phase, "φ0, rad.");
+  view_property(friction, "loss", &FrictionMap::loss, "W(μ)/W(∞), (friction numbers, phases).");
+  view_property(friction, "relaxation", &FrictionMap::relaxation, "Its part from levels that open and close.");
+  view_property(friction, "slip", &FrictionMap::slip, "Its part from slip in permanent contact.");
+  result_methods(friction, true);
+  m.def(
+      "friction_map",
+      [](const ContactLaw& law, double mean_indentation, double normal_amplitude,
+         double tangential_amplitude, const Values& friction_numbers, const Values& phases,
+         int steps, const ProgressArgument& progress) {
+        return interruptible(progress, [&](Progress told) {
+          return friction_map(law, mean_indentation, normal_amplitude, tangential_amplitude,
+                              friction_numbers.values, phases.values, {steps, std::move(told)});
+        });
+      },
+      nb::arg("law"), nb::arg("mean_indentation"), nb::arg("normal_amplitude"),
+      nb::arg("tangential_amplitude"), nb::arg("friction_numbers"), nb::arg("phases"),
+      nb::kw_only(), nb::arg("steps") = 1000, nb::arg("progress") = false,
+      "W(μ)/W(∞) over friction numbers M = μE*u_z/(G*u_x) and phases, rad; lengths in m.");
+
+  nb::class_<StressMap> stress(m, "StressMap", "Stresses under an axisymmetric indenter over phases and radii: Fig. 4 of doi:10.1038/srep16189.");
+  view_property(stress, "angle", &StressMap::angle, "θ, rad.");
+  view_property(stress, "radius", &StressMap::radius, "r, m.");
+  view_property(stress, "contact_radius", &StressMap::contact_radius, "a of each phase, m.");
+  view_property(stress, "tangential_force", &StressMap::tangential_force, "F_x of each phase, N.");
+  view_property(stress, "shear", &StressMap::shear, "τ (phases, radii), Pa, Eq. (17).");
+  view_property(stress, "pressure", &StressMap::pressure, "p (phases, radii), Pa.");
+  result_methods(stress, true);
+  m.def(
+      "stress_map",
+      [](const IndenterLaw& law, double mean_indentation, const Oscillation& motion, int phases,
+         int radii, const ProgressArgument& progress) {
+        cite({"popov2015", "popov_hess2015"});
+        return interruptible(progress, [&](Progress told) {
+          return stress_map(law, mean_indentation, motion, phases, radii, told);
+        });
+      },
+      nb::arg("law"), nb::arg("mean_indentation"), nb::arg("motion"), nb::kw_only(),
+      nb::arg("phases") = 128, nb::arg("radii") = 256, nb::arg("progress") = false,
+      "The map of Fig. 4: phases + 1 angles from −π to π, and radii cells from 0 to 1.05 times the largest contact radius.");
+
+  nb::class_<AsperityDamping> asperity(m, "AsperityDamping", "Who loses what: the relaxation damping of every summit of a surface.");
+  view_property(asperity, "work", &AsperityDamping::work, "W_i of each summit, J.");
+  asperity.def_ro("work_per_cycle", &AsperityDamping::work_per_cycle, "Σ W_i, J.")
+      .def_ro("intermittent_work", &AsperityDamping::intermittent_work, "Of it, by summits that lose contact during the cycle, J.")
+      .def_ro("small_amplitude_work", &AsperityDamping::small_amplitude_work, "Eq. (12) or (15) with F'' of all summits, J.")
+      .def_ro("contacts_most", &AsperityDamping::contacts_most, "Summits in contact where the body is closest …")
+      .def_ro("contacts_least", &AsperityDamping::contacts_least, "… and farthest.")
+      .def_ro("power", &AsperityDamping::power, "W")
+      .def_ro("damping_constant", &AsperityDamping::damping_constant, "γ, N s/m.");
+  m.def(
+      "asperity_damping",
+      [](const SummitList& summits, const Material& material, double separation,
+         const Oscillation& motion, const Choice<SummitShape>& shape) {
+        cite({"popov2015", "greenwood_williamson1966"});
+        const SummitShape chosen = shape.value("shape");
+        return unlocked([&] {
+          return asperity_damping(summits.summits, material, separation, motion, chosen);
+        });
+      },
+      nb::arg("summits"), nb::arg("material"), nb::arg("separation"), nb::arg("motion"),
+      nb::kw_only(), nb::arg("shape") = "circular",
+      "Each summit is an elastic foundation of its own that sticks; separation: mean, from the mean of the summits' heights, m.");
+}
+
+}  // namespace
+
+void bind_damping(nb::module_& m) {
+  bind_damping_result(m);
+  bind_theorem(m);
+  bind_trajectories(m);
+  bind_damper(m);
+  bind_maps(m);
+}
+
+}  // namespace salebra::python

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nanobind/stl/function.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <salebra/generators/anisotropic_spectrum.hpp>
+#include <salebra/generators/composite.hpp>
+#include <salebra/generators/exact_rms.hpp>
+#include <salebra/generators/filtered_noise.hpp>
+#include <salebra/generators/forecast.hpp>
+#include <salebra/generators/non_gaussian.hpp>
+#include <salebra/generators/profile.hpp>
+#include <salebra/generators/radial_spectrum.hpp>
+#include <salebra/generators/random_phase.hpp>
+
+#include "bindings.hpp"
+#include "interop/choice.hpp"
+#include "interop/citations.hpp"
+#include "interop/running.hpp"
+#include "interop/surface.hpp"
+
+namespace salebra::python {
+namespace {
+
+void bind_spectra(nb::module_& m) {
+  nb::class_<Spectrum>(m, "Spectrum",
+                       R"(Power spectral density of a random surface.
+
+.. math:: C(q) = (2\pi)^{-2}\int\langle h(0)h(x)\rangle e^{-iq\cdot x}\,d^2x, \qquad h_{rms}^2 = \int C\,d^2q
+
+The mode of wave vector q = 2π(i/lx, j/ly) has the mean power C(q)·(2π)²/(lx ly).
+)")
+      .def("density", &Spectrum::density, nb::arg("qx"), nb::arg("qy"), "C(q), m⁴; qx, qy in rad/m.")
+      .def_prop_ro("highest_wavenumber", &Spectrum::highest_wavenumber, "C vanishes beyond this, rad/m.")
+      .def_prop_ro("moments", &Spectrum::moments, "Moments of the continuum.")
+      .def("lattice_moments", &Spectrum::lattice_moments, nb::arg("grid"),
+           "Moments that surfaces on this grid have in the mean: sums over the modes that the grid carries.")
+      .def("__repr__", &Spectrum::description);
+  nb::class_<IsotropicSpectrum, Spectrum>(m, "IsotropicSpectrum", "A spectrum that depends on |q| alone.")
+      .def(
+          "radial_density",
+          [](const IsotropicSpectrum& self, const Numbers& q) {
+            return for_each_number(q, [&](double value) { return self.radial_density(value); });
+          },
+          nb::arg("q"), nb::sig("def radial_density(self, q: numpy.typing.ArrayLike) -> typing.Any"),
+          "C(|q|), m⁴, for |q| > 0 in rad/m; a number or an array.");
+  nb::class_<SelfAffineSpectrum, IsotropicSpectrum>(m, "SelfAffineSpectrum",
+                                                    R"(Self-affine spectrum with a plateau.
+
+.. math::
+    C = C_0 \;(q_L \le q < q_r), \qquad C = C_0\,(q/q_r)^{-2(1+H)} \;(q_r \le q \le q_s), \qquad C = 0 \text{ elsewhere}
+
+C0 is set so that the *continuum* has the rms height (or slope) asked; what a grid has of it is :meth:`lattice_moments`.
+
+Parameters
+----------
+hurst : float
+    H, 0 < H <= 1.
+long_cutoff : float, optional
+    Longest wavelength 2π/q_L, m; none: every wave that the cell carries.
+rolloff : float, optional
+    2π/q_r <= long_cutoff, m; none: no plateau.
+short_cutoff : float
+    Shortest wavelength 2π/q_s, m.
+rms_height : float, optional
+    m; exactly one of rms_height and rms_slope.
+rms_slope : float, optional
+    √⟨|∇h|²⟩.
+)")
+      .def(
+          "__init__",
+          [](SelfAffineSpectrum* self, double hurst, std::optional<double> long_cutoff,
+             std::optional<double> rolloff, double short_cutoff, std::optional<double> rms_height,
+             std::optional<double> rms_slope) {
+            new (self) SelfAffineSpectrum(
+                {hurst, long_cutoff, rolloff, short_cutoff, rms_height, rms_slope});
+          },
+          nb::kw_only(), nb::arg("hurst") = 0.8, nb::arg("long_cutoff") = nb::none(),
+          nb::arg("rolloff") = nb::none(), nb::arg("short_cutoff"),
+          nb::arg("rms_height") = nb::none(), nb::arg("rms_slope") = nb::none())
+      .def_prop_ro("plateau", &SelfAffineSpectrum::plateau, "C0, m⁴.");
+  nb::class_<TabulatedSpectrum, IsotropicSpectrum>(
+      m, "TabulatedSpectrum",
+      "A spectrum from a table, straight in ln C against ln q between its points and 0 outside of them.\n\n"
+      "wavenumbers: > 0, increasing, rad/m; densities: > 0, m⁴.")
+      .def(
+          "__init__",
+          [](TabulatedSpectrum* self, Values wavenumbers, Values densities) {
+            new (self)
+                TabulatedSpectrum(std::move(wavenumbers.values), std::move(densities.values));
+          },
+          nb::arg("wavenumbers"), nb::arg("densities"));
+  nb::class_<FunctionSpectrum, IsotropicSpectrum>(
+      m, "FunctionSpectrum",
+      "Any function C(|q|) in m⁴ between two wave numbers, rad/m, and 0 outside of them. A Python function is slow: one call "
+      "for each wave; :class:`TabulatedSpectrum` is not.")
+      .def(nb::init<std::function<double(double)>, double, double, std::string>(), nb::arg("density"),
+           nb::arg("lowest"), nb::arg("highest"), nb::arg("name") = "function");
+  nb::class_<Anisotropy>(m, "Anisotropy",
+                         "How an isotropic surface is stretched: correlation lengths along·ℓ and across·ℓ; `angle` from the x "
+                         "axis to the direction of `along`, rad.")
+      .def(
+          "__init__",
+          [](Anisotropy* self, double along, double across, double angle) {
+            new (self) Anisotropy{along, across, angle};
+          },
+          nb::kw_only(), nb::arg("along") = 1.0, nb::arg("across") = 1.0, nb::arg("angle") = 0.0)
+      .def_ro("along", &Anisotropy::along)
+      .def_ro("across", &Anisotropy::across)
+      .def_ro("angle", &Anisotropy::angle, "rad")
+      .def_prop_ro("peklenik", &Anisotropy::peklenik, "γ = along/across.");
+  nb::class_<AnisotropicSpectrum, Spectrum>(
+      m, "AnisotropicSpectrum",
+      "The spectrum of an isotropic surface stretched along two perpendicular directions, with its rms height kept.")
+      .def(
+          "__init__",
+          [](AnisotropicSpectrum* self, std::shared_ptr<IsotropicSpectrum> isotropic,
+             const Anisotropy& anisotropy) {
+            new (self) AnisotropicSpectrum(std::move(isotropic), anisotropy);
+          },
+          nb::arg("isotropic"), nb::arg("anisotropy"));
+  m.def("gaussian_correlation_spectrum", &gaussian_correlation_spectrum, nb::arg("rms_height"),
+        nb::arg("correlation_length"), "⟨h(0)h(r)⟩ = rms_height² exp(−r²/ℓ²), lengths in m.");
+  m.def("exponential_correlation_spectrum", &exponential_correlation_spectrum,
+        nb::arg("rms_height"), nb::arg("correlation_length"), nb::arg("short_cutoff"),
+        "⟨h(0)h(r)⟩ = rms_height² exp(−r/ℓ), down to the shortest wavelength; lengths in m.");
+}
+
+void bind_forecast(nb::module_& m) {
+  nb::class_<Forecast>(m, "Forecast", "What can be said of a generated surface before it is made.")
+      .def_ro("target", &Forecast::target, "Moments of the continuum: what was asked.")
+      .def_ro("lattice", &Forecast::lattice, "What surfaces on this grid have in the mean.")
+      .def_ro("rms_height_scatter", &Forecast::rms_height_scatter,
+              "Relative standard deviation of the rms height of filtered noise.")
+      .def_ro("memory", &Forecast::memory, "Peak memory of the generation, bytes.")
+      .def_ro("warnings", &Forecast::warnings, "Sentences for the user.");
+  m.def("forecast", &forecast, nb::arg("grid"), nb::arg("spectrum"),
+        "Moments, scatter, memory and warnings of a surface before it is made.");
+}
+
+void bind_makers(nb::module_& m) {
+  m.def(
+      "filtered_noise",
+      [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed) {
+        cite({"salmon2011"});
+        return new_surface(unlocked([&] { return filtered_noise(grid, spectrum, seed); }));
+      },
+      nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"),
+      R"(A periodic Gaussian random surface with a given spectrum, by filtering white noise.
+
+.. math:: h(x) = \sum_q a(q) e^{iq\cdot x}, \qquad \langle|a(q)|^2\rangle = C(q)\,(2\pi)^2/(l_x l_y)
+
+An exact Gaussian process: rms height and slope fluctuate from seed to seed. Amplitudes are keyed by (seed, i, j): the same bits
+for every thread count, and the same long waves on every grid of one cell.
+
+Parameters
+----------
+grid : Grid2D
+spectrum : Spectrum
+seed : int
+    Any value >= 0.
+
+Raises
+------
+InvalidInput
+    If the grid does not carry the spectrum.
+)");
+  m.def(
+      "random_phase",
+      [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed) {
+        cite({"salmon2011"});
+        return new_surface(unlocked([&] { return random_phase(grid, spectrum, seed); }));
+      },
+      nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"),
+      R"(A periodic surface in which chance decides on phases only: |a(q)|² = C(q)·(2π)²/(lx ly) exactly.
+
+rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for each seed. Arguments and errors as
+:func:`filtered_noise`.
+)");
+  m.def(
+      "exact_rms",
+      [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, const Choice<Rms>& which) {
+        cite({"salmon2011"});
+        const Rms chosen = which.value("which");
+        return new_surface(unlocked([&] { return exact_rms(grid, spectrum, seed, chosen); }));
+      },
+      nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"), nb::arg("which") = "height",
+      "A random-phase surface scaled so that its own rms height (or slope) is that of the continuum, `spectrum.moments`.");
+  m.def(
+      "scale_to_rms",
+      [](const BoundSurface& surface, const Choice<Rms>& which, double target) {
+        const Rms chosen = which.value("which");
+        return new_surface(
+            unlocked([&] { return scale_to_rms(Surface(surface.surface), chosen, target); }));
+      },
+      nb::arg("surface"), nb::arg("which"), nb::arg("target"),
+      "The surface less its mean, times the factor that gives it this rms height (m) or rms slope.");
+  m.def(
+      "composite_surface",
+      [](const BoundSurface& first, const BoundSurface& second) {
+        return new_surface(
+            unlocked([&] { return composite_surface(first.surface, second.surface); }));
+      },
+      nb::arg("first"), nb::arg("second"),
+      "The one rough side that stands for two: h = h₁ + h₂, each height counted out of its own body.");
+  m.def(
+      "crop_surface",
+      [](const BoundSurface& surface, Index first_x, Index first_y, Index nx, Index ny) {
+        return new_surface(
+            unlocked([&] { return crop_surface(surface.surface, first_x, first_y, nx, ny); }));
+      },
+      nb::arg("surface"), nb::arg("first_x"), nb::arg("first_y"), nb::arg("nx"), nb::arg("ny"),
+      "The part of nx × ny cells from (first_x, first_y) on, not periodic; of a periodic surface it may reach over the edge.");
+}
+
+void bind_non_gaussian(nb::module_& m) {
+  nb::class_<HeightDistribution>(m, "HeightDistribution",
+                                 "A distribution of heights; location and scale do not matter.")
+      .def(
+          "quantile",
+          [](const HeightDistribution& self, const Numbers& u) {
+            return for_each_number(u, [&](double value) { return self.quantile(value); });
+          },
+          nb::arg("u"), nb::sig("def quantile(self, u: numpy.typing.ArrayLike) -> typing.Any"),
+          "Height that a fraction u of the surface lies below, 0 < u < 1.")
+      .def_ro("name", &HeightDistribution::name);
+  m.def("gaussian_heights", &gaussian_heights, "Normal heights.");
+  m.def("weibull_heights", &weibull_heights, nb::arg("shape"), "Weibull: u = 1 − exp(−x^shape), shape > 0.");
+  m.def(
+      "johnson_heights",
+      [](double skewness, double kurtosis) {
+        cite({"johnson1949"});
+        return johnson_heights(skewness, kurtosis);
+      },
+      nb::arg("skewness"), nb::arg("kurtosis"),
+      "The member of Johnson's system with this skewness and kurtosis (3 for a Gaussian), doi:10.1093/biomet/36.1-2.149.");
+  m.def(
+      "sampled_heights", [](Values heights) { return sampled_heights(std::move(heights.values)); },
+      nb::arg("heights"), "The distribution of given heights, such as those of a measured surface.");
+
+  struct BoundNonGaussian {
+    NonGaussianSurface result;
+    nb::object surface;
+  };
+  nb::class_<BoundNonGaussian>(m, "NonGaussianSurface", "A surface and how its iteration ended.")
+      .def_ro("surface", &BoundNonGaussian::surface, nb::sig("def surface(self) -> Surface"))
+      .def_prop_ro("iterations", [](const BoundNonGaussian& self) { return self.result.iterations; })
+      .def_prop_ro("spectrum_mismatch",
+                   [](const BoundNonGaussian& self) { return self.result.spectrum_mismatch; },
+                   "√(Σ(|a| − a_target)²/Σa_target²) over all modes.")
+      .def_prop_ro("converged", [](const BoundNonGaussian& self) { return self.result.converged; },
+                   "The mismatch has stopped falling.")
+      .def_prop_ro("interrupted", [](const BoundNonGaussian& self) { return self.result.interrupted; });
+  m.def(
+      "non_gaussian",
+      [](const Grid2D& grid, const Spectrum& spectrum, const HeightDistribution& distribution,
+         std::uint64_t seed, const Choice<Exact>& exact, int max_iterations, double tolerance,
+         const ProgressArgument& progress) {
+        cite({"schreiber1996", "salmon2011"});
+        NonGaussianOptions options{exact.value("exact"), max_iterations, tolerance, {}};
+        NonGaussianSurface result = interruptible(progress, [&](Progress told) {
+          options.on_progress = std::move(told);
+          return non_gaussian(grid, spectrum, distribution, seed, options);
+        });
+        nb::object surface = nb::cast(new_surface(std::move(result.surface)), nb::rv_policy::take_ownership);
+        return BoundNonGaussian{std::move(result), std::move(surface)};
+      },
+      nb::arg("grid"), nb::arg("spectrum"), nb::arg("distribution"), nb::arg("seed"), nb::kw_only(),
+      nb::arg("exact") = "heights", nb::arg("max_iterations") = 200, nb::arg("tolerance") = 1e-3,
+      nb::arg("progress") = false,
+      R"(A periodic surface with a given spectrum and a given height distribution.
+
+Iterated amplitude-adjusted Fourier transform, doi:10.1103/PhysRevLett.77.635: in turn, heights are replaced by those of the
+distribution in the same order, and mode amplitudes by those of the spectrum with the same phases.
+
+Parameters
+----------
+exact : {"heights", "spectrum"}
+    Which of the two holds exactly in the end.
+max_iterations : int
+tolerance : float
+    Stop when an iteration lowers the mismatch by less than this part of it.
+progress : bool or callable
+    True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop.
+)");
+}
+
+void bind_profiles(nb::module_& m) {
+  nb::class_<Profile> profile(m, "Profile", "A periodic line of heights: point k lies at x = k·length/n.");
+  profile.def_ro("length", &Profile::length, "m").def_prop_ro("dx", &Profile::dx, "m").def_ro("origin", &Profile::origin);
+  view_property(profile, "heights", &Profile::heights, "m");
+  nb::class_<ProfileSpectrum>(m, "ProfileSpectrum", "Power spectral density C₁(q) of a random profile, h_rms² = ∫C₁ dq.")
+      .def("density", &ProfileSpectrum::density, nb::arg("q"), "C₁(|q|), m³.")
+      .def_prop_ro("moments", &ProfileSpectrum::moments)
+      .def("__repr__", &ProfileSpectrum::description);
+  nb::class_<SelfAffineProfileSpectrum, ProfileSpectrum>(
+      m, "SelfAffineProfileSpectrum",
+      "Self-affine profile: C₁ = C0 from q_L to q_r, C0 (q/q_r)^{−(1+2H)} up to q_s. Parameters as SelfAffineSpectrum.")
+      .def(
+          "__init__",
+          [](SelfAffineProfileSpectrum* self, double hurst, std::optional<double> long_cutoff,
+             std::optional<double> rolloff, double short_cutoff, std::optional<double> rms_height,
+             std::optional<double> rms_slope) {
+            new (self) SelfAffineProfileSpectrum(
+                {hurst, long_cutoff, rolloff, short_cutoff, rms_height, rms_slope});
+          },
+          nb::kw_only(), nb::arg("hurst") = 0.8, nb::arg("long_cutoff") = nb::none(),
+          nb::arg("rolloff") = nb::none(), nb::arg("short_cutoff"),
+          nb::arg("rms_height") = nb::none(), nb::arg("rms_slope") = nb::none());
+  m.def("filtered_noise_profile", &filtered_noise_profile, nb::arg("points"), nb::arg("length"),
+        nb::arg("spectrum"), nb::arg("seed"), "A Gaussian random profile.");
+  m.def("random_phase_profile", &random_phase_profile, nb::arg("points"), nb::arg("length"),
+        nb::arg("spectrum"), nb::arg("seed"), "A profile whose every mode has exactly its target power.");
+}
+
+}  // namespace
+
+void bind_generators(nb::module_& m) {
+  bind_spectra(m);
+  bind_forecast(m);
+  bind_makers(m);
+  bind_non_gaussian(m);
+  bind_profiles(m);
+}
+
+}  // namespace salebra::python

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstdint>
+#include <salebra/base/grid.hpp>
+#include <salebra/contact/stick.hpp>
+#include <string_view>
+#include <vector>
+
+/// NumPy arrays and the library's fields: views both ways, no copies of what is C-contiguous float64.
+namespace salebra::python {
+
+namespace nb = nanobind;
+
+using Array1 = nb::ndarray<nb::numpy, double, nb::ndim<1>, nb::device::cpu>;
+using Array2 = nb::ndarray<nb::numpy, double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Flags1 = nb::ndarray<nb::numpy, bool, nb::ndim<1>, nb::device::cpu>;
+using Flags2 = nb::ndarray<nb::numpy, bool, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Counts1 = nb::ndarray<nb::numpy, std::int64_t, nb::ndim<1>, nb::device::cpu>;
+
+/// What Python gave for a field: anything that numpy.asarray understands. A C-contiguous float64 array is not copied.
+struct FieldArgument {
+  nb::object array;  ///< numpy.ndarray, two-dimensional, C-contiguous, float64
+  const double* data() const;
+  Index rows() const;
+  Index columns() const;
+  Field copy() const;
+};
+
+/// What Python gave for a contact set: truth values (nx, ny).
+struct ContactArgument {
+  ContactSet set;
+};
+
+/// What Python gave for a list of numbers: anything one-dimensional, or a single number.
+struct Values {
+  std::vector<double> values;
+};
+
+/// A number, or numbers of any shape, in; the same shape out.
+struct Numbers {
+  nb::object array;  ///< numpy.ndarray, float64, C-contiguous
+  bool scalar = false;
+};
+/// function of each number.
+template <class Function>
+nb::object for_each_number(const Numbers& numbers, const Function& function);
+
+/// A Field that lives in the memory of a NumPy array. The array must outlive the object, and the field must keep its size.
+/// Where the memory cannot be used as it is (not aligned as Eigen wants it), the field holds a copy.
+class BorrowedField {
+ public:
+  explicit BorrowedField(const FieldArgument& argument);
+  BorrowedField(const BorrowedField&) = delete;
+  BorrowedField& operator=(const BorrowedField&) = delete;
+  ~BorrowedField();
+
+  const Field& field() const { return field_; }
+  bool shares() const { return borrowed_; }
+
+ private:
+  Field field_;
+  bool borrowed_;
+};
+
+/// Lets a Field point to foreign memory, and forget it again. Returns false, and does nothing, where it cannot.
+bool adopt_memory(Field& field, const double* data, Index rows, Index columns);
+void release_memory(Field& field);
+
+/// Views of what `owner` holds; they keep it alive.
+Array2 view(const Field& field, nb::handle owner);
+Flags2 view(const ContactSet& set, nb::handle owner);
+Array1 view(const std::vector<double>& values, nb::handle owner);
+Counts1 view(const std::vector<Index>& values, nb::handle owner);
+
+/// The member of every record of a list, as a strided view.
+template <class Record, class Member>
+nb::ndarray<nb::numpy, Member, nb::ndim<1>, nb::device::cpu> column_view(
+    const std::vector<Record>& records, Member Record::*member, nb::handle owner) {
+  static Member nothing{};
+  static_assert(sizeof(Record) % sizeof(Member) == 0);
+  const std::size_t count = records.size();
+  const std::int64_t stride = sizeof(Record) / sizeof(Member);
+  auto* first = records.empty() ? &nothing : const_cast<Member*>(&(records.front().*member));
+  return {first, {count}, owner, {stride}};
+}
+
+/// Arrays that Python owns alone.
+nb::object array_of(std::vector<double> values);
+nb::object array_of(Field field);
+
+/// Read-only properties that are views.
+template <class Class, class Bound, class Type>
+void view_property(nb::class_<Bound>& bound, const char* name, Type Class::*member,
+                   const char* description) {
+  bound.def_prop_ro(
+      name,
+      [member](nb::handle_t<Bound> self) {
+        return view(nb::cast<const Bound&>(nb::handle(self)).*member, self);
+      },
+      description);
+}
+template <class Bound, class Record, class Member>
+void column_property(nb::class_<Bound>& bound, const char* name,
+                     std::vector<Record> Bound::*records, Member Record::*member,
+                     const char* description) {
+  bound.def_prop_ro(
+      name,
+      [records, member](nb::handle_t<Bound> self) {
+        return column_view(nb::cast<const Bound&>(nb::handle(self)).*records, member, self);
+      },
+      description);
+}
+
+nb::object empty_like(const Numbers& numbers, double*& data, std::size_t& size);
+const double* data_of(const Numbers& numbers);
+
+template <class Function>
+nb::object for_each_number(const Numbers& numbers, const Function& function) {
+  const double* in = data_of(numbers);
+  if (numbers.scalar) return nb::cast(static_cast<double>(function(*in)));
+  double* out = nullptr;
+  std::size_t size = 0;
+  nb::object result = empty_like(numbers, out, size);
+  for (std::size_t i = 0; i < size; ++i) out[i] = function(in[i]);
+  return result;
+}
+
+}  // namespace salebra::python
+
+namespace nanobind::detail {
+
+/// Converts with numpy.asarray; whatever it cannot take is no argument of ours.
+bool as_array(handle source, const char* type, bool contiguous, object& array) noexcept;
+
+template <>
+struct type_caster<salebra::python::FieldArgument> {
+  NB_TYPE_CASTER(salebra::python::FieldArgument, const_name("numpy.typing.ArrayLike"))
+  bool from_python(handle source, uint32_t, cleanup_list*) noexcept;
+  static handle from_cpp(const salebra::python::FieldArgument& argument, rv_policy,
+                         cleanup_list*) noexcept {
+    return object(argument.array).release();
+  }
+};
+
+template <>
+struct type_caster<salebra::python::ContactArgument> {
+  NB_TYPE_CASTER(salebra::python::ContactArgument, const_name("numpy.typing.ArrayLike"))
+  bool from_python(handle source, uint32_t, cleanup_list*) noexcept;
+};
+
+template <>
+struct type_caster<salebra::python::Values> {
+  NB_TYPE_CASTER(salebra::python::Values, const_name("numpy.typing.ArrayLike"))
+  bool from_python(handle source, uint32_t, cleanup_list*) noexcept;
+};
+
+template <>
+struct type_caster<salebra::python::Numbers> {
+  NB_TYPE_CASTER(salebra::python::Numbers, const_name("numpy.typing.ArrayLike"))
+  bool from_python(handle source, uint32_t, cleanup_list*) noexcept;
+};
+
+}  // namespace nanobind::detail

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "interop/running.hpp"
+
+namespace salebra::python {
+namespace {
+
+// Often enough for a person, too seldom to cost anything: taking the interpreter's lock may wait 5 ms for another thread.
+constexpr auto interval = std::chrono::milliseconds(100);
+
+}  // namespace
+
+ProgressBridge::ProgressBridge(const ProgressArgument& argument) {
+  const nb::object& value = argument.value;
+  if (value.is_none() || value.is(nb::bool_(false))) return;
+  if (value.is(nb::bool_(true))) {
+    nb::object bar = nb::module_::import_("salebra._progress").attr("Bar")();
+    tell_ = bar.attr("tell");
+    close_ = bar.attr("close");
+  } else {
+    tell_ = value;
+  }
+}
+
+ProgressBridge::~ProgressBridge() = default;
+
+Progress ProgressBridge::progress() {
+  return [this](const ProgressReport& report) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ < interval) return !error_.has_value();
+    last_ = now;
+    return tell(report);
+  };
+}
+
+bool ProgressBridge::tell(const ProgressReport& report) {
+  nb::gil_scoped_acquire locked;
+  if (error_) return false;
+  try {
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+    if (!tell_.is_valid()) return true;
+    const nb::object answer =
+        tell_(Report{std::string(report.stage), report.fraction, report.step, report.residual});
+    return !answer.is(nb::bool_(false));
+  } catch (nb::python_error& error) {
+    error_.emplace(std::move(error));
+    return false;
+  }
+}
+
+void ProgressBridge::finish() {
+  if (close_.is_valid()) close_();
+}
+
+void ProgressBridge::rethrow() {
+  if (error_) {
+    nb::python_error error = std::move(*error_);
+    error_.reset();
+    throw error;
+  }
+}
+
+}  // namespace salebra::python

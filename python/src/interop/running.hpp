@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <optional>
+#include <salebra/base/progress.hpp>
+#include <string>
+#include <utility>
+
+/// How long calls run: other Python threads go on, Ctrl-C stops them within a second, and progress is told.
+namespace salebra::python {
+
+namespace nb = nanobind;
+
+/// ProgressReport with a text of its own.
+struct Report {
+  std::string stage;
+  double fraction = 0;
+  int step = 0;
+  double residual = 0;
+};
+
+/// The argument `progress`: False, True for a bar of tqdm, or a function of a ProgressReport that returns False to stop.
+struct ProgressArgument {
+  nb::object value = nb::bool_(false);
+};
+
+/// Makes a Progress of the argument. A Python error in it, Ctrl-C included, stops the work and is raised by rethrow().
+class ProgressBridge {
+ public:
+  explicit ProgressBridge(const ProgressArgument& argument);
+  ProgressBridge(const ProgressBridge&) = delete;
+  ProgressBridge& operator=(const ProgressBridge&) = delete;
+  ~ProgressBridge();
+
+  /// To be called without the interpreter's lock.
+  Progress progress();
+  void rethrow();
+  /// Nothing is left to tell: the bar is closed.
+  void finish();
+
+ private:
+  bool tell(const ProgressReport& report);
+
+  nb::object tell_;
+  nb::object close_;
+  std::optional<nb::python_error> error_;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+/// work(Progress) without the interpreter's lock.
+template <class Work>
+auto interruptible(const ProgressArgument& argument, Work&& work) {
+  ProgressBridge bridge(argument);
+  std::exception_ptr failure;
+  std::optional<decltype(work(Progress{}))> result;
+  {
+    nb::gil_scoped_release unlocked;
+    try {
+      result.emplace(std::forward<Work>(work)(bridge.progress()));
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
+  bridge.finish();
+  bridge.rethrow();
+  if (failure) std::rethrow_exception(failure);
+  return std::move(*result);
+}
+
+/// work() without the interpreter's lock, for what takes seconds and cannot be stopped.
+template <class Work>
+auto unlocked(Work&& work) {
+  nb::gil_scoped_release release;
+  return std::forward<Work>(work)();
+}
+
+}  // namespace salebra::python
+
+namespace nanobind::detail {
+
+template <>
+struct type_caster<salebra::python::ProgressArgument> {
+  NB_TYPE_CASTER(salebra::python::ProgressArgument,
+                 const_name("bool | collections.abc.Callable[[") +
+                     const_name<salebra::python::Report>() + const_name("], object]"))
+  bool from_python(handle source, uint32_t, cleanup_list*) noexcept {
+    if (!source.is_none() && !PyBool_Check(source.ptr()) && !PyCallable_Check(source.ptr()))
+      return false;
+    value.value = borrow(source);
+    return true;
+  }
+  static handle from_cpp(const salebra::python::ProgressArgument& argument, rv_policy,
+                         cleanup_list*) noexcept {
+    return object(argument.value).release();
+  }
+};
+
+}  // namespace nanobind::detail

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings.hpp"
+
+NB_MODULE(_core, m) {
+  m.doc() = "The C++ library salebra. Import `salebra`, which has everything that is here.";
+  using namespace salebra::python;
+  bind_base(m);
+  bind_surface(m);
+  bind_generators(m);
+  bind_shapes(m);
+  bind_statistics(m);
+  bind_contact(m);
+  bind_curve(m);
+  bind_files(m);
+  bind_law(m);
+  bind_stick(m);
+  bind_greenwood_williamson(m);
+  bind_theories(m);
+  bind_mdr(m);
+  bind_motion(m);
+  bind_damping(m);
+  bind_closed_form(m);
+  bind_cycle(m);
+  bind_study(m);
+}

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <memory>
+#include <salebra/contact/coupled_contact.hpp>
+#include <salebra/contact/sliding_contact.hpp>
+#include <salebra/contact/stick.hpp>
+
+#include "bindings.hpp"
+#include "interop/choice.hpp"
+#include "interop/citations.hpp"
+#include "interop/contact.hpp"
+#include "interop/running.hpp"
+#include "interop/surface.hpp"
+
+namespace salebra::python {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+void bind_stiffness(nb::module_& m) {
+  nb::class_<StickStiffness>(m, "StickStiffness", "Tangential stiffness of a contact set in full stick: F_x = xx·x + xy·y, F_y = xy·x + yy·y.")
+      .def_ro("xx", &StickStiffness::xx, "N/m")
+      .def_ro("yy", &StickStiffness::yy, "N/m")
+      .def_ro("xy", &StickStiffness::xy, "N/m")
+      .def_ro("iterations", &StickStiffness::iterations)
+      .def_ro("fft_count", &StickStiffness::fft_count)
+      .def_ro("residual", &StickStiffness::residual)
+      .def_ro("converged", &StickStiffness::converged)
+      .def("__repr__", [](const StickStiffness& s) {
+        return describe("StickStiffness", {{"tangential_stiffness", s.xx}}, s.converged ? "converged=True" : "converged=False");
+      });
+  m.def(
+      "stick_stiffness",
+      [](const ContactArgument& contact, const Grid2D& grid, const Material& material,
+         double tolerance, int max_iterations, const Choice<Boundary>& boundary, bool hold_lateral,
+         bool along_x_only, const ProgressArgument& progress) {
+        StickOptions options{.tolerance = tolerance,
+                             .max_iterations = max_iterations,
+                             .boundary = boundary.value("boundary"),
+                             .hold_lateral = hold_lateral};
+        return interruptible(progress, [&](Progress told) {
+          options.on_progress = std::move(told);
+          return stick_stiffness(contact.set, grid, material, options, along_x_only);
+        });
+      },
+      nb::arg("contact"), nb::arg("grid"), nb::arg("material"), nb::kw_only(),
+      nb::arg("tolerance") = 1e-6, nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
+      nb::arg("hold_lateral") = true, nb::arg("along_x_only") = false, nb::arg("progress") = false,
+      R"(Tangential stiffness K_t of a contact set in full stick, by linear solves with Cerruti's response.
+
+.. math:: \hat u_x = \sum_i\frac{1}{G_iq}\left[\left(1-\nu_i\frac{q_x^2}{q^2}\right)\hat\tau_x - \nu_i\frac{q_xq_y}{q^2}\hat\tau_y\right]
+
+Parameters
+----------
+contact : array_like of bool, (nx, ny)
+    Cells in contact, such as ``state.pressure > 0``.
+grid : Grid2D
+material : Material
+    With the constants of its bodies.
+tolerance : float
+    Of the displacement; K_t is better by a square. 1e-14 … 1e-1.
+hold_lateral : bool
+    The displacement across the motion is held at 0; False: the traction across it is 0.
+along_x_only : bool
+    One direction alone costs half; yy and xy are NaN.
+
+Raises
+------
+InvalidInput
+    If every cell of a periodic grid is in contact: it has no finite stiffness.
+)");
+  nb::class_<PunchStiffness>(m, "PunchStiffness", "Normal stiffness of a contact set: a flat punch of that shape.")
+      .def_ro("normal_stiffness", &PunchStiffness::normal_stiffness, "N/m")
+      .def_ro("iterations", &PunchStiffness::iterations)
+      .def_ro("fft_count", &PunchStiffness::fft_count)
+      .def_ro("residual", &PunchStiffness::residual)
+      .def_ro("converged", &PunchStiffness::converged)
+      .def_ro("interrupted", &PunchStiffness::interrupted);
+  m.def(
+      "punch_stiffness",
+      [](const ContactArgument& contact, const Grid2D& grid, double contact_modulus,
+         double tolerance, int max_iterations, const Choice<Boundary>& boundary,
+         const ProgressArgument& progress) {
+        StickOptions options{.tolerance = tolerance,
+                             .max_iterations = max_iterations,
+                             .boundary = boundary.value("boundary")};
+        return interruptible(progress, [&](Progress told) {
+          options.on_progress = std::move(told);
+          return punch_stiffness(contact.set, grid, contact_modulus, options);
+        });
+      },
+      nb::arg("contact"), nb::arg("grid"), nb::arg("contact_modulus"), nb::kw_only(),
+      nb::arg("tolerance") = 1e-6, nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
+      nb::arg("progress") = false,
+      "Normal stiffness K = dF/dδ of a contact set, N/m. The same of a state: :func:`normal_stiffness`.");
+}
+
+void bind_sliding(nb::module_& m) {
+  nb::class_<PartialSlipReport>(m, "PartialSlipReport", "How a partial-slip solve ended.")
+      .def_ro("steps", &PartialSlipReport::steps, "Newton steps.")
+      .def_ro("iterations", &PartialSlipReport::iterations)
+      .def_ro("fft_count", &PartialSlipReport::fft_count)
+      .def_ro("residual", &PartialSlipReport::residual)
+      .def_ro("slipping", &PartialSlipReport::slipping, "Cells that slip.")
+      .def_ro("converged", &PartialSlipReport::converged)
+      .def_ro("interrupted", &PartialSlipReport::interrupted);
+  nb::class_<SlidingContact> sliding(m, "SlidingContact", R"(A rough contact with friction that remembers where each of its cells has been drawn to.
+
+Increments of pressures and of a tangential move, each solved implicitly with |τ| <= μp in every cell.
+
+Parameters
+----------
+grid : Grid2D
+material : Material
+friction : float
+    μ >= 0; infinite: full stick.
+motion_scale : float
+    > 0, m: the tangential displacement that the tolerance refers to.
+tolerance, max_iterations, boundary
+    Of the linear solves.
+)");
+  sliding
+      .def(
+          "__init__",
+          [](SlidingContact* self, const Grid2D& grid, const Material& material, double friction,
+             double motion_scale, double tolerance, int max_iterations, const Choice<Boundary>& boundary) {
+            new (self) SlidingContact(grid, material,
+                                      {friction, motion_scale,
+                                       {.tolerance = tolerance,
+                                        .max_iterations = max_iterations,
+                                        .boundary = boundary.value("boundary")}});
+          },
+          nb::arg("grid"), nb::arg("material"), nb::kw_only(), nb::arg("friction") = infinite,
+          nb::arg("motion_scale"), nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
+          nb::arg("boundary") = "periodic")
+      .def(
+          "advance",
+          [](SlidingContact& self, const FieldArgument& pressure, double x, double y) {
+            const BorrowedField field(pressure);
+            return unlocked([&] { return self.advance(field.field(), {x, y}); });
+          },
+          nb::arg("pressure"), nb::arg("x") = 0.0, nb::arg("y") = 0.0,
+          "To new pressures (nx, ny), Pa, while the body moves by (x, y), m.")
+      .def_prop_ro("pressure", [](nb::handle_t<SlidingContact> self) { return view(nb::cast<SlidingContact&>(nb::handle(self)).pressure(), self); }, "Pa")
+      .def_prop_ro("traction_x", [](nb::handle_t<SlidingContact> self) { return view(nb::cast<SlidingContact&>(nb::handle(self)).traction().x, self); }, "Pa")
+      .def_prop_ro("traction_y", [](nb::handle_t<SlidingContact> self) { return view(nb::cast<SlidingContact&>(nb::handle(self)).traction().y, self); }, "Pa")
+      .def_prop_ro("loss", [](nb::handle_t<SlidingContact> self) { return view(nb::cast<SlidingContact&>(nb::handle(self)).loss(), self); },
+                   "Friction's work in each cell since the start, J.")
+      .def_prop_ro("tangential_force_x", [](const SlidingContact& self) { return self.tangential_force().x; }, "N")
+      .def_prop_ro("tangential_force_y", [](const SlidingContact& self) { return self.tangential_force().y; }, "N")
+      .def_prop_ro("slipping", &SlidingContact::slipping, "Cells at their limit after the last increment.")
+      .def_prop_ro("stored_energy", &SlidingContact::stored_energy, "J")
+      .def_prop_ro("work", &SlidingContact::work, "∫F dx since the start, J.")
+      .def_prop_ro("released_energy", &SlidingContact::released_energy, "J")
+      .def_prop_ro("converged", &SlidingContact::converged, "Every increment did.");
+}
+
+}  // namespace
+
+void bind_stick(nb::module_& m) {
+  bind_stiffness(m);
+  bind_sliding(m);
+}
+
+}  // namespace salebra::python

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Contact: against analytic results, and against itself from Python's side."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import salebra
+from conftest import generated
+
+
+def test_hertz_pressure_and_force_of_a_paraboloid() -> None:
+    grid = salebra.Grid2D(128, 128, 2e-3, 2e-3)
+    radius, modulus, indentation = 10e-3, 1e9, 20e-6
+    surface = salebra.paraboloid_surface(grid, radius, salebra.off_grid_center(grid))
+    state = salebra.press_to_indentation(surface, modulus, indentation, boundary="free")
+    assert state.converged
+    # Hertz: F = 4/3 E* sqrt(R) d^(3/2), p0 = 2/pi E* sqrt(d/R). 28 cells in the radius: below 1 %.
+    assert state.force == pytest.approx(4 / 3 * modulus * math.sqrt(radius * indentation**3), rel=5e-3)
+    assert state.pressure.max() == pytest.approx(2 / math.pi * modulus * math.sqrt(indentation / radius), rel=1e-2)
+
+
+def test_westergaards_full_contact_closes_the_gap() -> None:
+    grid = salebra.Grid2D(64, 64, 1e-3, 1e-3)
+    amplitude, modulus = 1e-6, 1e9
+    surface = salebra.sinusoid_surface(grid, amplitude, 1, 0)
+    full = math.pi * modulus * amplitude / grid.lx
+    state = salebra.press_to_pressure(surface, modulus, 1.01 * full)
+    # One Fourier mode: no discretisation error.
+    assert state.contact_area_fraction == 1.0
+    assert state.pressure.max() == pytest.approx(2.01 * full, rel=1e-9)
+
+
+def test_fields_of_a_state_are_views_that_keep_it(surface: salebra.Surface) -> None:
+    state = salebra.press_to_pressure(surface, 1e9, 1e5)
+    pressure = state.pressure
+    assert np.shares_memory(pressure, state.pressure)
+    assert pressure.mean() == pytest.approx(1e5, rel=1e-9)
+    del state
+    assert pressure.mean() == pytest.approx(1e5, rel=1e-9)
+
+
+def test_a_mean_gap_gives_back_its_pressure(surface: salebra.Surface) -> None:
+    state = salebra.press_to_pressure(surface, 1e9, 2e5)
+    back = salebra.press_to_mean_gap(surface, 1e9, state.mean_gap)
+    assert back.mean_pressure == pytest.approx(2e5, rel=1e-6)
+
+
+def test_a_start_from_the_answer_takes_few_iterations(surface: salebra.Surface) -> None:
+    cold = salebra.press_to_pressure(surface, 1e9, 2e5)
+    warm = salebra.press_to_pressure(surface, 1e9, 2e5, initial_pressure=cold.pressure)
+    assert warm.converged
+    assert warm.iterations < cold.iterations
+    # The array that was lent is as it was.
+    assert cold.pressure.mean() == pytest.approx(2e5, rel=1e-9)
+
+
+def test_stiffness_is_the_derivative_of_the_force(surface: salebra.Surface) -> None:
+    low, middle, high = (salebra.press_to_pressure(surface, 1e9, 2e5 * factor) for factor in (0.98, 1.0, 1.02))
+    difference = (high.force - low.force) / (high.indentation - low.indentation)
+    # The contact grows between: second order in 2 %, and cells that enter at once.
+    assert salebra.normal_stiffness(middle) == pytest.approx(difference, rel=0.02)
+
+
+def test_non_convergence_is_returned_not_raised(surface: salebra.Surface) -> None:
+    state = salebra.press_to_pressure(surface, 1e9, 2e5, max_iterations=1, tolerance=1e-13)
+    assert not state.converged
+    assert state.residual > 1e-13
+
+
+def test_a_sweep_has_the_samples_of_single_solves(surface: salebra.Surface, material: salebra.Material) -> None:
+    pressures = np.geomspace(2e4, 2e6, 6)
+    curve = salebra.sweep_pressures(surface, material, pressures)
+    assert curve.converged.all()
+    assert np.allclose(curve.pressure, pressures, rtol=1e-12)
+    single = salebra.press_to_pressure(surface, 1e9, pressures[3])
+    assert curve.mean_gap[3] == pytest.approx(single.mean_gap, rel=1e-9)
+    assert np.allclose(curve.tangential_stiffness, material.modulus_ratio * curve.normal_stiffness, rtol=1e-14)
+    assert not curve.mean_gap.flags.owndata
+
+
+def test_stick_stiffness_of_a_round_contact_is_the_ratio_of_moduli(material: salebra.Material) -> None:
+    grid = salebra.Grid2D(96, 96, 1e-3, 1e-3)
+    x, y = np.meshgrid(np.arange(96) - 47.6, np.arange(96) - 47.8, indexing="ij")
+    contact = np.hypot(x, y) < 20
+    punch = salebra.punch_stiffness(contact, grid, material.contact_modulus, boundary="free")
+    stick = salebra.stick_stiffness(contact, grid, material, boundary="free")
+    assert punch.converged and stick.converged
+    # Mindlin: exactly G*/E* for a circle; the jagged edge of 20 cells is good for a few per mille.
+    assert stick.xx / punch.normal_stiffness == pytest.approx(material.modulus_ratio, rel=5e-3)
+
+
+def test_contact_spots_add_up_to_the_contact(surface: salebra.Surface) -> None:
+    state = salebra.press_to_pressure(surface, 1e9, 5e5)
+    spots = salebra.contact_spots(state)
+    assert spots.force.sum() == pytest.approx(state.force, rel=1e-12)
+    assert spots.area.sum() == pytest.approx(state.contact_area_fraction * surface.area, rel=1e-12)
+
+
+def test_greenwood_williamson_with_exponential_heights_is_the_exponential_law(material: salebra.Material) -> None:
+    ensemble = salebra.SummitEnsemble(density=1e9, radius=1e-5, summit_rms=1e-7, distribution="exponential")
+    model = salebra.StatisticalSummits(ensemble, material, 1e-6)
+    law = salebra.GreenwoodWilliamsonLaw(model)
+    exponential = salebra.ExponentialLaw(law.force(-3e-7), 1e-7, material.modulus_ratio)
+    steps = np.linspace(-2e-7, 1e-7, 7)
+    # F = F0 exp(-s/sigma) exactly, and delta = -s.
+    assert np.allclose(law.force(steps - 3e-7), exponential.force(steps), rtol=1e-12)
+    assert np.allclose(law.curvature(steps - 3e-7), exponential.curvature(steps), rtol=1e-12)
+
+
+def test_perssons_area_has_its_slope() -> None:
+    pressure = np.array([1e-4, 1e-3]) * 1e8
+    area = salebra.persson_area_fraction(pressure, 1e9, 0.1)
+    # erf(x) = 2x/sqrt(pi) (1 - x^2/3): 3e-7 off at p = 1e-3 E*h'.
+    assert np.allclose(area, math.sqrt(8 / math.pi) * pressure / 1e8, rtol=1e-6)
+    assert isinstance(salebra.bgt_area_fraction(1e4, 1e9, 0.1), float)
+
+
+def test_mdr_of_a_cone_is_the_power_law(material: salebra.Material) -> None:
+    angle = 0.1
+    law = salebra.IndenterLaw(salebra.cone_profile(angle), material)
+    power = salebra.PowerLaw(2 * material.contact_modulus / (math.pi * math.tan(angle)), 2, material.modulus_ratio)
+    indentation = np.array([[1e-6, 2e-6], [3e-6, 4e-6]])
+    assert law.force(indentation).shape == (2, 2)
+    assert np.allclose(law.force(indentation), power.force(indentation), rtol=1e-12)
+
+
+def test_the_curve_of_the_user_becomes_a_law() -> None:
+    indentation = np.linspace(0, 1e-7, 40)
+    force = 2.0 * np.exp(indentation / 3e-8)
+    curve = salebra.ForceCurve(1e-6, indentation=indentation, force=force)
+    assert np.allclose(curve.pressure, force * 1e6, rtol=1e-14)
+    law = salebra.TabulatedLaw(curve, 0.8)
+    # ln F is straight: the interpolation is exact.
+    assert law.force(5.05e-8) == pytest.approx(2.0 * math.exp(5.05e-8 / 3e-8), rel=1e-12)
+    with pytest.raises(salebra.InvalidInput, match="mean_gap: 3 values"):
+        salebra.ForceCurve(1e-6, force=force, mean_gap=[1.0, 2.0, 3.0])
+
+
+def test_the_fit_finds_the_decay_length_of_an_exponential() -> None:
+    gap = np.linspace(1e-6, 2.5e-6, 12)
+    curve = salebra.ForceCurve(1e-6, mean_gap=gap, pressure=1e9 * np.exp(-gap / 4e-7), rms_height=1e-6)
+    fit = salebra.fit_exponential(curve)
+    assert fit.decay_length == pytest.approx(4e-7, rel=1e-10)
+    part = salebra.fit_exponential(curve, (float(curve.pressure[2]), float(curve.pressure[8])))
+    assert part.window.points == 7
+
+
+def test_a_plastic_limit_caps_the_pressure() -> None:
+    state = salebra.press_to_pressure(generated(), 1e9, 2e5, hardness=1e7)
+    assert state.converged
+    assert state.pressure.max() <= 1e7

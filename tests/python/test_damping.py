@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Relaxation damping: closed forms, theorem, direct simulation."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import salebra
+from salebra import closed_form
+
+DRAG = salebra.Drag(normal_amplitude=1e-9, drag_velocity=1e-3, angular_frequency=2 * math.pi * 20e3)
+
+
+def test_equation_16_is_equation_15_with_the_curvature_of_the_law() -> None:
+    ratio, force, decay_length = 0.8, 0.1, 3e-7
+    work = closed_form.work_per_cycle_rough(ratio, force, decay_length, DRAG)
+    assert work == pytest.approx(closed_form.work_per_cycle(ratio, force / decay_length**2, DRAG), rel=1e-14)
+    by_hand = 2 * (math.pi**2 - 4) * ratio * force / decay_length**2 * 1e-9 * (1e-3 / DRAG.angular_frequency) ** 2
+    assert work == pytest.approx(by_hand, rel=1e-14)
+    assert closed_form.damping_constant(work, DRAG) == pytest.approx(
+        work * DRAG.angular_frequency / (2 * math.pi) / 1e-6, rel=1e-14
+    )
+
+
+@pytest.mark.parametrize("hold", ["indentation", "force"])
+def test_the_theorem_on_the_exponential_law_is_its_closed_form(hold: str) -> None:
+    law = salebra.ExponentialLaw(0.1, 3e-9, 0.8)
+    motion = salebra.EqualFrequency(normal_amplitude=2e-9, tangential_amplitude=1e-9, phase=1.0, angular_frequency=1e4)
+    result = salebra.relaxation_damping(law, motion, force=0.1, hold=hold)
+    form = (
+        closed_form.work_per_cycle_exponential if hold == "indentation" else closed_form.work_per_cycle_exponential_held_force
+    )
+    assert result.converged
+    # The quadrature's 1e-10.
+    assert result.work_per_cycle == pytest.approx(form(0.8, 0.1, 3e-9, motion), rel=1e-9)
+
+
+def test_position_is_given_once() -> None:
+    law = salebra.ExponentialLaw(0.1, 3e-9, 0.8)
+    with pytest.raises(salebra.InvalidInput, match="give exactly one"):
+        salebra.relaxation_damping(law, DRAG)
+    with pytest.raises(salebra.InvalidInput, match="give exactly one"):
+        salebra.relaxation_damping(law, DRAG, force=1.0, indentation=0.0)
+
+
+def test_a_damping_curve_is_its_points() -> None:
+    law = salebra.ExponentialLaw(0.1, 3e-7, 0.8)
+    forces = np.geomspace(0.01, 1.0, 5)
+    curve = salebra.damping_curve(law, [DRAG], force=forces)
+    single = [salebra.relaxation_damping(law, DRAG, force=force).damping_constant for force in forces]
+    assert [point.damping_constant for point in curve] == single
+
+
+def test_a_trajectory_meets_the_theorem_at_second_order() -> None:
+    law = salebra.PowerLaw(1e9, 1.5, 0.8)
+    motion = salebra.EqualFrequency(normal_amplitude=1e-7, tangential_amplitude=1e-7, phase=math.pi / 2)
+    exact = salebra.relaxation_damping(law, motion, indentation=1e-6).work_per_cycle
+    errors = []
+    for steps in (64, 128):
+        followed = salebra.trajectory_damping(law, salebra.sample(motion, 1e-6, steps))
+        errors.append(abs(followed.work_per_cycle / exact - 1))
+    assert math.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.05)
+
+
+def test_direct_simulation_of_a_paraboloid_meets_equation_12() -> None:
+    grid = salebra.Grid2D(64, 64, 2e-3, 2e-3)
+    material = salebra.Material(1e9, poisson=0.3)
+    surface = salebra.paraboloid_surface(grid, 10e-3, salebra.off_grid_center(grid))
+    motion = salebra.EqualFrequency(normal_amplitude=4e-6, tangential_amplitude=1e-6, phase=math.pi / 2)
+    levels = salebra.boundary_element_levels(surface, material.contact_modulus, boundary="free", tolerance=1e-8)
+    result = salebra.simulate_cycle(levels, material, motion, 2e-5, steps=24, boundary="free", tolerance=1e-6)
+    assert result.converged
+    law = salebra.IndenterLaw(salebra.paraboloid_profile(10e-3), material)
+    exact = salebra.relaxation_damping(law, motion, indentation=2e-5).work_per_cycle
+    # 14 cells in the contact's radius, 24 steps (-0.3 %): a few per cent.
+    assert result.work_per_cycle == pytest.approx(exact, rel=0.06)
+    # Work and released energy are independent sums.
+    assert result.released_energy == pytest.approx(result.work_per_cycle, rel=1e-4)
+    assert result.tangential_force.shape == (25,) or result.tangential_force.shape == (24,)
+
+
+def test_levels_may_be_a_python_function() -> None:
+    grid = salebra.Grid2D(48, 48, 1.0, 1.0)
+    x, y = np.meshgrid(np.arange(48) - 23.7, np.arange(48) - 23.9, indexing="ij")
+    distance = np.hypot(x, y) / 48
+
+    def cone(indentation: float) -> tuple[np.ndarray, float]:
+        return distance < max(indentation, 0.0), max(indentation, 0.0) ** 2
+
+    levels = salebra.ContactLevels(cone, grid)
+    assert levels(0.25).force == 0.0625
+    assert np.array_equal(levels(0.25).contact, distance < 0.25)
+
+    def broken(indentation: float) -> tuple[np.ndarray, float]:
+        raise LookupError("no such level")
+
+    material = salebra.Material(1.0, poisson=0.3)
+    motion = salebra.EqualFrequency(normal_amplitude=0.05, tangential_amplitude=0.01, phase=1.0)
+    with pytest.raises(LookupError, match="no such level"):
+        salebra.simulate_cycle(salebra.ContactLevels(broken, grid), material, motion, 0.2, steps=4, boundary="free")
+
+
+def test_a_study_from_text_writes_what_it_computed(tmp_path: Path) -> None:
+    configuration = salebra.parse_study_configuration(
+        """
+        [surface]
+        points = 64
+        size_x = "1mm"
+        hurst = 0.8
+        rolloff = "250um"
+        short_cutoff = "125um"
+        rms_height = "1um"
+        seeds = 2
+        [material]
+        contact_modulus = "1GPa"
+        poisson = 0.3
+        [contact]
+        relative_pressures = "1e-3:0.1:10"
+        tolerance = 1e-6
+        [damping]
+        mode = "drag"
+        normal_amplitude = "1nm"
+        drag_velocity = "1mm/s"
+        frequency = "20kHz"
+        """
+    )
+    result = salebra.run_study(configuration)
+    assert len(result.realisations) == 2
+    assert result.models[0] == "bem"
+    decay_length = result.decay_length()
+    fitted = [realisation.bem.fit.decay_length for realisation in result.realisations]
+    assert decay_length.mean == pytest.approx(np.mean(fitted), rel=1e-12)
+    assert len(result.damping("law_damping_constant")) == 10
+    result.write(tmp_path / "study.h5")
+    assert (tmp_path / "study.h5").exists()
+
+
+def test_measured_surface_to_damping_constant(measured: Path) -> None:
+    """The example of the README; its numbers are those that the program prints for the same scan."""
+    surface = salebra.read_surface(measured).detrended()
+    material = salebra.Material(115e9, poisson=0.3)
+    pressures = material.contact_modulus * surface.moments.rms_slope * np.geomspace(5e-4, 0.2, 16)
+    curve = salebra.sweep_pressures(surface, material, pressures, tolerance=1e-8)
+    fit = salebra.fit_exponential(curve)
+    assert fit.decay_length == pytest.approx(29.51e-9, rel=1e-3)
+    law = salebra.TabulatedLaw(curve, material.modulus_ratio)
+    force = float(curve.force[8])
+    by_law = closed_form.damping_constant(
+        closed_form.work_per_cycle_rough(material.modulus_ratio, force, fit.decay_length, DRAG), DRAG
+    )
+    assert by_law == pytest.approx(379.8e-3, rel=1e-3)
+    # With (G*/E*)K for K_t: `salebra study --no-stick`.
+    assert salebra.relaxation_damping(law, DRAG, force=force).converged
+    assert {"popov2015", "polonsky_keer1999"} <= {citation.key for citation in salebra.citations()}

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a session lives on: errors, threads, interruption, progress, the names of the package."""
+
+from __future__ import annotations
+
+import inspect
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import salebra
+from conftest import generated
+from salebra import _core
+
+
+def test_errors_are_those_that_python_users_catch() -> None:
+    assert issubclass(salebra.InvalidInput, (salebra.Error, ValueError))
+    assert issubclass(salebra.InvalidInput, ValueError) and issubclass(salebra.InvalidInput, salebra.Error)
+    assert issubclass(salebra.IoError, OSError) and issubclass(salebra.IoError, salebra.Error)
+    assert issubclass(salebra.NotConverged, RuntimeError) and issubclass(salebra.NotConverged, salebra.Error)
+    with pytest.raises(ValueError, match="nominal_pressure: -1 must be > 0"):
+        salebra.press_to_pressure(generated(), 1e9, -1.0)
+    with pytest.raises(ValueError, match="no-such-file"):
+        salebra.read_surface("no-such-file.h5")
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no full disk at hand")
+def test_a_write_that_the_system_refuses_is_an_oserror(tmp_path: os.PathLike[str]) -> None:
+    with pytest.raises((OSError, ValueError)):
+        salebra.write_surface("/proc/salebra.h5", generated())
+
+
+def test_other_threads_run_during_a_solve() -> None:
+    surface = generated(1024, rms_height=1e-6)
+    counted = 0
+    stop = threading.Event()
+
+    def count() -> None:
+        nonlocal counted
+        while not stop.is_set():
+            counted += 1
+            time.sleep(1e-3)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    try:
+        time.sleep(0.05)
+        before = counted
+        start = time.perf_counter()
+        salebra.press_to_pressure(surface, 1e9, 1e6)
+        seconds = time.perf_counter() - start
+        during = counted - before
+    finally:
+        stop.set()
+        thread.join()
+    # A thread that had to wait for the solve would count a few; one in ten milliseconds is far below what it counts.
+    assert during > max(3.0, seconds / 1e-2 * 0.1)
+
+
+def test_ctrl_c_stops_a_solve_within_a_second() -> None:
+    program = textwrap.dedent(
+        """
+        import threading, time, os, signal
+        import salebra
+        grid = salebra.Grid2D(1024, 1024, 1e-3, 1e-3)
+        spectrum = salebra.SelfAffineSpectrum(rolloff=2.5e-4, short_cutoff=4 * grid.dx, rms_height=1e-6)
+        surface = salebra.random_phase(grid, spectrum, 1)
+        sent = []
+        def interrupt():
+            time.sleep(0.3)
+            sent.append(time.perf_counter())
+            os.kill(os.getpid(), signal.SIGINT)
+        threading.Thread(target=interrupt, daemon=True).start()
+        try:
+            for k in range(10000):
+                salebra.sweep_pressures(surface, salebra.Material(1e9, poisson=0.3), [1e6 * 1.1**i for i in range(20)])
+        except KeyboardInterrupt:
+            print(time.perf_counter() - sent[0])
+        """
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stderr
+    # A second on a machine of one's own; a busy one gets three.
+    assert float(done.stdout) < 3.0
+
+
+def test_progress_tells_and_may_stop() -> None:
+    surface = generated(512)
+    reports: list[salebra.ProgressReport] = []
+
+    def stop(report: salebra.ProgressReport) -> bool:
+        reports.append(report)
+        return False
+
+    state = salebra.press_to_pressure(surface, 1e9, 1e6, tolerance=1e-13, progress=stop)
+    assert reports and reports[0].stage
+    assert state.interrupted and not state.converged
+
+
+def test_an_error_in_a_progress_function_is_raised() -> None:
+    def fail(report: salebra.ProgressReport) -> None:
+        raise LookupError("from the user")
+
+    with pytest.raises(LookupError, match="from the user"):
+        salebra.press_to_pressure(generated(512), 1e9, 1e6, progress=fail)
+
+
+def test_tqdm_shows_the_progress(capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("tqdm")
+    state = salebra.press_to_pressure(generated(512), 1e9, 1e6, progress=True)
+    assert state.converged
+    assert "%" in capsys.readouterr().err
+
+
+def test_citations_name_what_was_used_with_doi() -> None:
+    _core._forget_citations()
+    assert [citation.key for citation in salebra.citations()] == ["salebra"]
+    salebra.persson_area_fraction(1.0, 1e9, 0.1)
+    assert "10.1063/1.1388626" in str(salebra.citations()[-1])
+    # Every key that the library may cite has an entry.
+    sources = [path.read_text() for path in (salebra_sources() or []) if path.suffix == ".cpp"]
+    from salebra._citations import _ALL
+
+    import re
+
+    for source in sources:
+        for call in re.findall(r"cite\(\{([^}]*)\}\)", source):
+            for key in re.findall(r'"(\w+)"', call):
+                assert key in _ALL
+
+
+def salebra_sources() -> list[object]:
+    from conftest import ROOT
+
+    return list((ROOT / "python" / "src").glob("*.cpp"))
+
+
+def test_the_package_has_all_names_of_the_library_with_docstrings() -> None:
+    public = {name for name in dir(_core) if not name.startswith("_")} - {"closed_form"}
+    assert public <= set(salebra.__all__)
+    for name in salebra.__all__:
+        thing = getattr(salebra, name)
+        assert name == "__version__" or inspect.getdoc(thing), name
+    for name in salebra.closed_form.__all__:
+        assert inspect.getdoc(getattr(salebra.closed_form, name)), name
+
+
+def test_the_version_is_that_of_the_library() -> None:
+    assert salebra.__version__ == salebra.version()
+
+
+def test_results_become_datasets_with_units(surface: salebra.Surface, material: salebra.Material) -> None:
+    pytest.importorskip("xarray")
+    curve = salebra.sweep_pressures(surface, material, np.geomspace(1e5, 1e6, 4))
+    data = curve.to_xarray()
+    assert data.mean_gap.attrs["units"] == "m"
+    assert data.pressure.attrs["units"] == "Pa"
+    assert np.array_equal(data.mean_gap, curve.mean_gap)
+    state = salebra.press_to_pressure(surface, 1e9, 1e5)
+    fields = state.to_xarray()
+    assert fields.pressure.dims == ("x", "y")
+    assert float(fields.x[1]) == surface.grid.dx
+    results = [
+        surface, salebra.power_spectrum(surface), salebra.radial_spectrum(salebra.power_spectrum(surface)),
+        salebra.profile_psd(surface), salebra.radial_correlation(salebra.correlation_map(surface)),
+        salebra.scale_dependence(surface), salebra.height_histogram(salebra.BearingCurve(surface)),
+        salebra.local_decay_length(curve),
+    ]  # fmt: skip
+    for result in results:
+        for variable in result.to_xarray().variables.values():
+            assert variable.attrs["units"] and variable.attrs["long_name"]
+
+
+def test_pictures_have_labels_with_units(surface: salebra.Surface, material: salebra.Material) -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("agg")
+    curve = salebra.sweep_pressures(surface, material, np.geomspace(1e5, 1e6, 4))
+    axes = curve.plot()
+    assert axes.get_xlabel() == "mean gap ū (µm)"
+    assert axes.get_yscale() == "log"
+    law = salebra.IndenterLaw(salebra.paraboloid_profile(1e-2), material)
+    motion = salebra.EqualFrequency(normal_amplitude=1e-7, tangential_amplitude=1e-7, phase=1.5)
+    stresses = salebra.stress_map(law, 1e-6, motion, phases=16, radii=32)
+    drawn = [surface, salebra.press_to_pressure(surface, 1e9, 1e5), stresses, salebra.profile_psd(surface)]
+    for result in drawn:
+        assert result.plot().get_xlabel()
+
+
+def test_a_signal_handler_of_the_user_runs_during_a_solve() -> None:
+    called: list[int] = []
+    before = signal.signal(signal.SIGALRM, lambda number, frame: called.append(number))
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        salebra.press_to_pressure(generated(1024), 1e9, 1e6, tolerance=1e-13)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert called

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Surfaces, their memory and what is measured on them."""
+
+from __future__ import annotations
+
+import gc
+import weakref
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import salebra
+from conftest import generated
+
+
+def test_a_surface_shares_the_memory_of_its_array() -> None:
+    heights = np.random.default_rng(1).normal(size=(96, 64))
+    surface = salebra.Surface(heights, 3e-3, 2e-3)
+    assert np.shares_memory(surface.heights, heights)
+    heights[5, 7] = 42.0
+    assert surface.heights[5, 7] == 42.0
+    # The library sees it too, not only the property.
+    assert salebra.height_statistics(surface).maximum == 42.0
+
+
+def test_an_array_outlives_its_name_in_a_surface_and_is_freed_with_it() -> None:
+    class Array(np.ndarray):
+        """One that can be watched."""
+
+    heights = np.zeros((32, 32)).view(Array)
+    watched = weakref.ref(heights)
+    surface = salebra.Surface(heights, 1.0, 1.0)
+    del heights
+    gc.collect()
+    assert salebra.height_statistics(surface).rms_height == 0.0
+    view = surface.heights
+    del surface
+    gc.collect()
+    assert view[0, 0] == 0.0
+    del view
+    gc.collect()
+    assert watched() is None
+
+
+@pytest.mark.parametrize("array", [
+    np.arange(12.0, dtype=np.float32).reshape(3, 4), np.asfortranarray(np.arange(12.0).reshape(3, 4)),
+    np.arange(24.0).reshape(3, 8)[:, ::2], np.arange(12).reshape(3, 4), [[0.0, 1.0], [2.0, 3.0]],
+])  # fmt: skip
+def test_whatever_numpy_understands_is_taken_with_x_first(array: object) -> None:
+    surface = salebra.Surface(array, 1.0, 1.0)
+    assert np.array_equal(surface.heights, np.asarray(array))
+    assert not np.shares_memory(surface.heights, np.asarray(array))
+
+
+def test_an_array_that_is_not_aligned_is_copied_and_right() -> None:
+    memory = np.zeros(16 * 16 * 8 + 8, dtype=np.uint8)
+    start = 8 if memory.ctypes.data % 16 == 0 else 0
+    heights = memory[start : start + 16 * 16 * 8].view(np.float64).reshape(16, 16)
+    heights[:] = np.random.default_rng(2).normal(size=(16, 16))
+    surface = salebra.Surface(heights, 1.0, 1.0)
+    assert np.isclose(salebra.height_statistics(surface).rms_height, heights.std(), rtol=1e-14)
+
+
+def test_a_read_only_array_stays_read_only() -> None:
+    heights = np.zeros((8, 8))
+    heights.flags.writeable = False
+    surface = salebra.Surface(heights, 1.0, 1.0)
+    assert np.shares_memory(surface.heights, heights)
+    assert not surface.heights.flags.writeable
+
+
+def test_heights_of_a_generated_surface_are_a_view_that_keeps_it() -> None:
+    surface = generated()
+    heights = surface.heights
+    rms = heights.std()
+    del surface
+    gc.collect()
+    assert heights.std() == rms
+
+
+def test_the_shape_is_checked_and_named() -> None:
+    with pytest.raises(TypeError):
+        salebra.Surface(np.zeros(8), 1.0, 1.0)
+    with pytest.raises(salebra.InvalidInput, match="lx: -1"):
+        salebra.Surface(np.zeros((8, 8)), -1.0, 1.0)
+
+
+def test_random_phase_has_the_rms_height_of_its_lattice() -> None:
+    grid = salebra.Grid2D(64, 48, 1e-3, 0.75e-3)
+    spectrum = salebra.SelfAffineSpectrum(hurst=0.7, rolloff=4e-4, short_cutoff=1.3e-4, rms_height=1e-6)
+    surface = salebra.random_phase(grid, spectrum, 3)
+    expected = spectrum.lattice_moments(grid)
+    # Both are sums over the same modes: rounding alone.
+    assert np.isclose(surface.heights.std(), expected.rms_height, rtol=1e-12)
+    assert np.isclose(surface.moments.rms_slope, expected.rms_slope, rtol=1e-12)
+
+
+def test_seeds_give_the_same_bits_whatever_the_threads() -> None:
+    before = salebra.threads()
+    try:
+        salebra.set_threads(1)
+        one = generated(seed=5).heights.copy()
+        salebra.set_threads(2)
+        assert np.array_equal(generated(seed=5).heights, one)
+    finally:
+        salebra.set_threads(before)
+
+
+def test_the_power_spectrum_sums_to_the_mean_square_height(surface: salebra.Surface) -> None:
+    spectrum = salebra.power_spectrum(surface)
+    weights = np.full(spectrum.density.shape[1], 2.0)
+    weights[0] = weights[-1] = 1.0
+    assert np.isclose((spectrum.density * weights).sum() * spectrum.cell, surface.heights.var(), rtol=1e-12)
+
+
+def test_a_plane_is_subtracted_and_undefined_points_are_kept() -> None:
+    x, y = np.meshgrid(np.arange(16.0), np.arange(16.0), indexing="ij")
+    heights = 2e-6 * x - 1e-6 * y
+    heights[3, 4] = np.nan
+    flat = salebra.Surface(heights, 1e-3, 1e-3).detrended("plane")
+    assert flat.undefined_points == 1
+    assert np.nanmax(np.abs(flat.heights)) < 1e-18
+    with pytest.raises(salebra.InvalidInput, match="method: 'plan' is none of none, mean, plane, quadratic"):
+        flat.detrended("plan")
+
+
+def test_a_file_keeps_heights_size_and_period(tmp_path: Path, surface: salebra.Surface) -> None:
+    for name in ("s.h5", "s.npy", "s.nc"):
+        salebra.write_surface(tmp_path / name, surface)
+        back = salebra.read_surface(tmp_path / name)
+        assert np.array_equal(back.heights, surface.heights)
+        assert back.grid == surface.grid
+        assert back.periodic
+    with pytest.raises(salebra.InvalidInput, match="exists"):
+        salebra.write_surface(tmp_path / "s.h5", surface)
+    salebra.write_surface(tmp_path / "s.h5", surface, overwrite=True)
+
+
+def test_the_scan_of_the_readme_has_its_rms_height(measured: Path) -> None:
+    surface = salebra.read_surface(measured).detrended()
+    # README: 35.22 nm, slope 0.1924.
+    assert np.isclose(surface.height_statistics.rms_height, 35.22e-9, atol=0.005e-9)
+    assert not surface.periodic
+
+
+def test_surfacetopography_and_back() -> None:
+    topography = pytest.importorskip("SurfaceTopography")
+    heights = np.random.default_rng(3).normal(size=(24, 16))
+    surface = salebra.Surface.from_topography(topography.Topography(heights, (3.0, 2.0), unit="um", periodic=True))
+    assert np.allclose(surface.heights, heights * 1e-6, rtol=1e-15)
+    assert (surface.size_x, surface.size_y) == pytest.approx((3e-6, 2e-6), rel=1e-15)
+    assert surface.periodic
+    back = surface.to_topography()
+    assert np.array_equal(back.heights(), surface.heights)
+    assert np.isclose(back.rms_height_from_area(), surface.height_statistics.rms_height, rtol=1e-12)
+    with pytest.raises(salebra.InvalidInput, match="has no unit"):
+        salebra.Surface.from_topography(topography.Topography(heights, (3.0, 2.0)))
+
+
+def test_summits_are_columns_without_copies(surface: salebra.Surface) -> None:
+    summits = salebra.find_summits(surface)
+    assert summits.height.shape == (len(summits),)
+    assert summits.height.base is not None
+    assert summits[0].height == summits.height[0]
+    statistics = salebra.summit_statistics(summits)
+    assert np.isclose(statistics.mean_height, summits.height.mean(), rtol=1e-12)
