@@ -53,8 +53,8 @@ def _image(
     # pcolormesh wants edges; cell (ix, iy) has its point in its middle.
     x = (np.arange(grid.nx + 1) - 0.5) * grid.dx * factor
     y = (np.arange(grid.ny + 1) - 0.5) * grid.dy * factor
-    keywords = {"cmap": "viridis", "rasterized": True} | keywords
-    mesh = drawn.pcolormesh(x, y, values.T * by, **keywords)
+    options: dict[str, Any] = {"cmap": "viridis", "rasterized": True} | keywords
+    mesh = drawn.pcolormesh(x, y, values.T * by, **options)
     drawn.set_aspect("equal")
     drawn.set_xlabel(_label("x", length))
     drawn.set_ylabel(_label("y", length))
@@ -93,17 +93,17 @@ def plot(result: Any, ax: Axes | None = None, **keywords: Any) -> Axes:
     raise TypeError(f"{type(result).__name__} has no picture")
 
 
-@plot.register
+@plot.register(_core.Surface)
 def _(result: _core.Surface, ax: Axes | None = None, **keywords: Any) -> Axes:
     return _image(ax, result.grid, result.heights, "height", "m", keywords)
 
 
-@plot.register
+@plot.register(_core.NormalContactState)
 def _(result: _core.NormalContactState, ax: Axes | None = None, **keywords: Any) -> Axes:
     return _image(ax, result.grid, result.pressure, "pressure", "Pa", {"cmap": "magma"} | keywords)
 
 
-@plot.register
+@plot.register(_core.ForceCurve)
 def _(result: _core.ForceCurve, ax: Axes | None = None, **keywords: Any) -> Axes:
     keywords = {"marker": ".", "label": result.model} | keywords
     if np.isnan(result.mean_gap).any():
@@ -111,33 +111,33 @@ def _(result: _core.ForceCurve, ax: Axes | None = None, **keywords: Any) -> Axes
     return _line(ax, (result.mean_gap, "mean gap ū", "m"), (result.pressure, "pressure p", "Pa"), "y", keywords)
 
 
-@plot.register
+@plot.register(_core.LocalDecayLength)
 def _(result: _core.LocalDecayLength, ax: Axes | None = None, **keywords: Any) -> Axes:
     keywords = {"marker": "."} | keywords
     return _line(ax, (result.mean_gap, "mean gap ū", "m"), (result.decay_length, "local decay length l", "m"), "", keywords)
 
 
-@plot.register
+@plot.register(_core.RadialSpectrum)
 def _(result: _core.RadialSpectrum, ax: Axes | None = None, **keywords: Any) -> Axes:
     return _line(ax, (result.wavenumber, "wave number q", "rad/m"), (result.density, "C(q)", "m⁴"), "xy", keywords)
 
 
-@plot.register
+@plot.register(_core.ProfilePsd)
 def _(result: _core.ProfilePsd, ax: Axes | None = None, **keywords: Any) -> Axes:
     return _line(ax, (result.wavenumber, "wave number q", "rad/m"), (result.density, "C₁(q)", "m³"), "xy", keywords)
 
 
-@plot.register
+@plot.register(_core.Correlation)
 def _(result: _core.Correlation, ax: Axes | None = None, **keywords: Any) -> Axes:
     return _line(ax, (result.distance, "distance", "m"), (result.autocorrelation, "autocorrelation", "m²"), "", keywords)
 
 
-@plot.register
+@plot.register(_core.ScaleDependence)
 def _(result: _core.ScaleDependence, ax: Axes | None = None, **keywords: Any) -> Axes:
     return _line(ax, (result.spacing, "distance", "m"), (result.rms_slope, "rms slope", "1"), "xy", keywords)
 
 
-@plot.register
+@plot.register(_core.HeightHistogram)
 def _(result: _core.HeightHistogram, ax: Axes | None = None, **keywords: Any) -> Axes:
     keywords = {"drawstyle": "steps-mid"} | keywords
     return _line(ax, (result.height, "height", "m"), (result.density, "density", "1/m"), "", keywords)
@@ -156,8 +156,8 @@ def _map(
     x_factor, x_shown = _scale(x, x_unit)
     y_factor, y_shown = _scale(y, y_unit)
     factor, shown = _scale(values, unit)
-    keywords = {"shading": "nearest", "rasterized": True} | keywords
-    mesh = drawn.pcolormesh(x * x_factor, y * y_factor, values.T * factor, **keywords)
+    options: dict[str, Any] = {"shading": "nearest", "rasterized": True} | keywords
+    mesh = drawn.pcolormesh(x * x_factor, y * y_factor, values.T * factor, **options)
     drawn.set_xlabel(_label(x_text, x_shown))
     drawn.set_ylabel(_label(y_text, y_shown))
     figure = drawn.get_figure()
@@ -166,7 +166,7 @@ def _map(
     return drawn
 
 
-@plot.register
+@plot.register(_core.StressMap)
 def _(result: _core.StressMap, ax: Axes | None = None, **keywords: Any) -> Axes:
     finite = np.abs(result.shear[np.isfinite(result.shear)])
     limit = float(np.quantile(finite, 0.99)) if finite.size else 1.0
@@ -176,7 +176,7 @@ def _(result: _core.StressMap, ax: Axes | None = None, **keywords: Any) -> Axes:
     return _map(ax, axes, result.shear, "shear stress τ", "Pa", keywords)
 
 
-@plot.register
+@plot.register(_core.FrictionMap)
 def _(result: _core.FrictionMap, ax: Axes | None = None, **keywords: Any) -> Axes:
     axes = ((result.friction_number, "M = μE*u_z/(G*u_x)", "1"), (result.phase, "phase φ₀", "rad"))
     drawn = _map(ax, axes, result.loss, "W(μ)/W(∞)", "1", keywords)
@@ -184,7 +184,7 @@ def _(result: _core.FrictionMap, ax: Axes | None = None, **keywords: Any) -> Axe
     return drawn
 
 
-@plot.register
+@plot.register(_core.DamperMap)
 def _(result: _core.DamperMap, ax: Axes | None = None, **keywords: Any) -> Axes:
     axes = ((result.normal_amplitude, "normal amplitude u_z", "m"), (result.angular_frequency, "angular frequency ω", "rad/s"))
     drawn = _map(ax, axes, result.damping_constant, "damping constant γ", "N s/m", keywords)
@@ -196,3 +196,10 @@ def _(result: _core.DamperMap, ax: Axes | None = None, **keywords: Any) -> Axes:
 def plot_law(law: _core.ContactLaw, indentation: npt.ArrayLike, ax: Axes | None = None, **keywords: Any) -> Axes:
     """Draws F(δ)."""
     return _line(ax, (indentation, "indentation δ", "m"), (law.force(indentation), "force F", "N"), "y", keywords)
+
+
+@plot.register(_core.CycleResult)
+@plot.register(_core.FrictionalCycleResult)
+def _(result: _core.CycleResult | _core.FrictionalCycleResult, ax: Axes | None = None, **keywords: Any) -> Axes:
+    force = (result.tangential_force, "tangential force F_x", "N")
+    return _line(ax, (result.tangential, "tangential displacement x", "m"), force, "", keywords)

@@ -11,6 +11,8 @@ import numpy as np
 from . import _core
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
     import xarray
 
 # Names whose meaning depends on where they stand, with what they mean there.
@@ -49,9 +51,9 @@ def _variable(name: str, dims: tuple[str, ...], values: Any, meaning: tuple[str,
 
 
 def _dataset(
-    variables: dict[str, tuple[tuple[str, ...], Any]],
-    coordinates: dict[str, Any],
-    attributes: dict[str, Any],
+    variables: Mapping[str, tuple[tuple[str, ...], Any]],
+    coordinates: Mapping[str, Any],
+    attributes: Mapping[str, Any],
     meanings: dict[str, tuple[str, str]] | None = None,
 ) -> xarray.Dataset:
     try:
@@ -62,7 +64,7 @@ def _dataset(
     return xarray.Dataset(
         {name: _variable(name, dims, values, meanings.get(name)) for name, (dims, values) in variables.items()},
         {name: _variable(name, (name,), values, meanings.get(name)) for name, values in coordinates.items()},
-        attributes | {"program": "salebra", "version": _core.version()},
+        dict(attributes) | {"program": "salebra", "version": _core.version()},
     )
 
 
@@ -76,13 +78,13 @@ def to_xarray(result: Any) -> xarray.Dataset:
     raise TypeError(f"{type(result).__name__} has no form as a dataset")
 
 
-@to_xarray.register
+@to_xarray.register(_core.Surface)
 def _(result: _core.Surface) -> xarray.Dataset:
     attributes = {"size_x": result.size_x, "size_y": result.size_y, "periodic": int(result.periodic), "origin": result.origin}
     return _dataset({"heights": (("x", "y"), result.heights)}, _points(result.grid), attributes)
 
 
-@to_xarray.register
+@to_xarray.register(_core.NormalContactState)
 def _(result: _core.NormalContactState) -> xarray.Dataset:
     numbers = (
         "mean_pressure", "force", "mean_gap", "indentation", "contact_area_fraction", "elastic_energy", "residual", "iterations",
@@ -93,7 +95,7 @@ def _(result: _core.NormalContactState) -> xarray.Dataset:
     return _dataset(fields, _points(result.grid), attributes, {"pressure": ("Pa", "contact pressure")})
 
 
-@to_xarray.register
+@to_xarray.register(_core.ForceCurve)
 def _(result: _core.ForceCurve) -> xarray.Dataset:
     names = (
         "force", "mean_gap", "indentation", "separation", "contact_area_fraction", "normal_stiffness", "tangential_stiffness",
@@ -105,12 +107,12 @@ def _(result: _core.ForceCurve) -> xarray.Dataset:
     return _dataset(known, {"pressure": result.pressure}, attributes)
 
 
-@to_xarray.register
+@to_xarray.register(_core.LocalDecayLength)
 def _(result: _core.LocalDecayLength) -> xarray.Dataset:
     return _dataset({"decay_length": (("mean_gap",), result.decay_length)}, {"mean_gap": result.mean_gap}, {})
 
 
-@to_xarray.register
+@to_xarray.register(_core.PowerSpectrum)
 def _(result: _core.PowerSpectrum) -> xarray.Dataset:
     order = np.argsort(result.wavenumber_x)
     return _dataset(
@@ -121,46 +123,46 @@ def _(result: _core.PowerSpectrum) -> xarray.Dataset:
     )
 
 
-@to_xarray.register
+@to_xarray.register(_core.RadialSpectrum)
 def _(result: _core.RadialSpectrum) -> xarray.Dataset:
     columns = {name: (("wavenumber",), getattr(result, name)) for name in ("density", "modes")}
     meaning = {"density": ("m^4", "power spectral density C, h_rms^2 = 2 pi integral of q C dq")}
     return _dataset(columns, {"wavenumber": result.wavenumber}, {}, meaning)
 
 
-@to_xarray.register
+@to_xarray.register(_core.ProfilePsd)
 def _(result: _core.ProfilePsd) -> xarray.Dataset:
     columns = {name: (("wavenumber",), getattr(result, name)) for name in ("density", "modes")}
     meaning = {"density": ("m^3", "power spectral density C1 of profiles, h_rms^2 = integral of C1 dq over all q")}
     return _dataset(columns, {"wavenumber": result.wavenumber}, {"profiles": result.profiles, "length": result.length}, meaning)
 
 
-@to_xarray.register
+@to_xarray.register(_core.Correlation)
 def _(result: _core.Correlation) -> xarray.Dataset:
     columns = {name: (("distance",), getattr(result, name)) for name in ("autocorrelation", "structure", "pairs")}
     return _dataset(columns, {"distance": result.distance}, {})
 
 
-@to_xarray.register
+@to_xarray.register(_core.ScaleDependence)
 def _(result: _core.ScaleDependence) -> xarray.Dataset:
     names = ("rms_slope", "rms_curvature", "least_curvature", "stencils")
     return _dataset({name: (("spacing",), getattr(result, name)) for name in names}, {"spacing": result.spacing}, {})
 
 
-@to_xarray.register
+@to_xarray.register(_core.HeightHistogram)
 def _(result: _core.HeightHistogram) -> xarray.Dataset:
     meaning = {"density": ("1/m", "part of the points in the bin over its width"), "points": ("1", "points in the bin")}
     columns = {name: (("height",), getattr(result, name)) for name in ("density", "points")}
     return _dataset(columns, {"height": result.height}, {"width": result.width}, meaning)
 
 
-@to_xarray.register
+@to_xarray.register(_core.DamperMap)
 def _(result: _core.DamperMap) -> xarray.Dataset:
     dims = ("normal_amplitude", "angular_frequency")
     return _dataset({"damping_constant": (dims, result.damping_constant)}, {name: getattr(result, name) for name in dims}, {})
 
 
-@to_xarray.register
+@to_xarray.register(_core.FrictionMap)
 def _(result: _core.FrictionMap) -> xarray.Dataset:
     dims = ("friction_number", "phase")
     names = ("loss", "relaxation", "slip")
@@ -170,9 +172,44 @@ def _(result: _core.FrictionMap) -> xarray.Dataset:
     )
 
 
-@to_xarray.register
+@to_xarray.register(_core.StressMap)
 def _(result: _core.StressMap) -> xarray.Dataset:
     fields = {name: (("angle", "radius"), getattr(result, name)) for name in ("shear", "pressure")}
     curves = {name: (("angle",), getattr(result, name)) for name in ("contact_radius", "tangential_force")}
     meaning = {"pressure": ("Pa", "contact pressure")}
-    return _dataset(fields | curves, {"angle": result.angle, "radius": result.radius}, {}, meaning)
+    return _dataset({**fields, **curves}, {"angle": result.angle, "radius": result.radius}, {}, meaning)
+
+
+@to_xarray.register(_core.CycleResult)
+def _(result: _core.CycleResult) -> xarray.Dataset:
+    names = ("indentation", "tangential", "tangential_force", "normal_force", "work", "contact_area")
+    attributes = {"work_per_cycle": result.work_per_cycle, "released_energy": result.released_energy}
+    return _dataset({name: (("time",), getattr(result, name)) for name in names}, {"time": result.time}, attributes)
+
+
+@to_xarray.register(_core.FrictionalCycleResult)
+def _(result: _core.FrictionalCycleResult) -> xarray.Dataset:
+    names = ("indentation", "tangential", "tangential_force", "normal_force", "work", "contact_area", "slip_area")
+    attributes = {name: getattr(result, name) for name in ("work_per_cycle", "relaxation_work", "slip_work")}
+    return _dataset({name: (("time",), getattr(result, name)) for name in names}, {"time": result.time}, attributes)
+
+
+@to_xarray.register(_core.StudyResult)
+def _(result: _core.StudyResult) -> xarray.Dataset:
+    columns: dict[str, tuple[tuple[str, ...], Any]] = {}
+    meanings: dict[str, tuple[str, str]] = {}
+
+    def add(name: str, quantity: str, of: Callable[[str], list[_core.EnsembleMean]]) -> None:
+        units, long_name = _core.quantity(quantity)
+        means = [of(model) for model in result.models]
+        for part in ("mean", "low", "high"):
+            columns[f"{name}_{part}"] = ("model", "pressure"), [[getattr(mean, part) for mean in row] for row in means]
+            meanings[f"{name}_{part}"] = units, f"{long_name}, {part}"
+
+    for quantity in ("mean_gap", "contact_area_fraction", "normal_stiffness", "tangential_stiffness"):
+        add(quantity, quantity, lambda model, quantity=quantity: result.curve(quantity, model))  # type: ignore[misc]
+    for route in ("law", "small", "curve"):
+        name = f"{route}_damping_constant"
+        add(name, "damping_constant", lambda model, name=name: result.damping(name, model))  # type: ignore[misc]
+    meanings["model"] = "1", "contact model"
+    return _dataset(columns, {"model": result.models, "pressure": result.pressures}, {}, meanings)

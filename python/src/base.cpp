@@ -45,22 +45,27 @@ void bind_base(nb::module_& m) {
   static nb::exception<Interrupted> interrupted(m, "Interrupted", child(PyExc_RuntimeError));
   error.attr("__doc__") = "Root of everything that salebra raises on purpose.";
   invalid.attr("__doc__") =
-      "A value or file is unusable; nothing was computed or written. The text is \"<field or file>: <value> "
+      "A value or file is unusable; nothing was computed or written. The text is \"<field or "
+      "file>: <value> "
       "<constraint>; <what to do>\". Also a ValueError.";
   io.attr("__doc__") =
       "The operating system refused a write (disk full, no permission). Also an OSError.";
   not_converged.attr("__doc__") =
-      "A computation ended without reaching its tolerance, where no result could say so. Also a RuntimeError. Solvers "
+      "A computation ended without reaching its tolerance, where no result could say so. Also a "
+      "RuntimeError. Solvers "
       "do not raise it: they return a result with converged = False.";
   interrupted.attr("__doc__") =
       "A progress function returned False where the work so far is of no use. Also a RuntimeError.";
 
-  m.def("version", [] { return std::string(version()); },
-        "Version of the library, \"major.minor.patch\".");
+  m.def(
+      "version", [] { return std::string(version()); },
+      "Version of the library, \"major.minor.patch\".");
   m.def("library_versions", &library_versions,
-        "\"Eigen 3.4.0, FFTW 3.3.10, …\": the libraries in use, which the last digits of a result depend on.");
+        "\"Eigen 3.4.0, FFTW 3.3.10, …\": the libraries in use, which the last digits of a result "
+        "depend on.");
   m.def("set_threads", &parallel::set_threads, nb::arg("threads"),
-        "Threads that loops and transforms use from now on; 0 means all that the process may run on.\n\n"
+        "Threads that loops and transforms use from now on; 0 means all that the process may run "
+        "on.\n\n"
         "Results have the same bits for every number of threads.");
   m.def("threads", &parallel::threads, "Threads that loops and transforms use.");
 
@@ -104,21 +109,25 @@ Examples
         return std::make_tuple(std::string(si_unit(found.dimension)), std::string(found.long_name));
       },
       nb::arg("name"),
-      "SI unit and description of a name that salebra uses in options, results and files: (\"m\", \"decay length of "
+      "SI unit and description of a name that salebra uses in options, results and files: (\"m\", "
+      "\"decay length of "
       "force with mean gap\").");
 
   m.def("_cited", &cited, "Keys of what this session used.");
   m.def("_forget_citations", &forget_citations, "Begins the list of citations anew.");
 
-  nb::class_<Report>(m, "ProgressReport",
-                     "What a long computation tells: `progress` functions take one and return False to stop.")
+  nb::class_<Report>(
+      m, "ProgressReport",
+      "What a long computation tells: `progress` functions take one and return False to stop.")
       .def_ro("stage", &Report::stage, "Such as \"contact\", \"sweep\", \"realisation\".")
-      .def_ro("fraction", &Report::fraction, "Of this stage, 0 … 1; a guess where the end is not known.")
+      .def_ro("fraction", &Report::fraction,
+              "Of this stage, 0 … 1; a guess where the end is not known.")
       .def_ro("step", &Report::step, "Iterations or items done.")
       .def_ro("residual", &Report::residual, "Of an iteration; 0 where there is none.")
       .def("__repr__", [](const Report& report) {
-        return "ProgressReport(stage='" + report.stage + "', fraction=" +
-               std::to_string(report.fraction) + ", step=" + std::to_string(report.step) + ")";
+        return "ProgressReport(stage='" + report.stage +
+               "', fraction=" + std::to_string(report.fraction) +
+               ", step=" + std::to_string(report.step) + ")";
       });
 
   nb::class_<Grid2D>(m, "Grid2D",
@@ -150,13 +159,17 @@ lx, ly : float
       .def_prop_ro("points", &Grid2D::points, "nx·ny.")
       .def_prop_ro("area", &Grid2D::area, "Nominal area, m².")
       .def_prop_ro("cell_area", &Grid2D::cell_area, "m².")
-      .def("__eq__", [](const Grid2D& self, nb::handle other) {
-        Grid2D grid;
-        return nb::try_cast(other, grid) && grid == self;
-      }, nb::arg("other").none(), nb::sig("def __eq__(self, other: object, /) -> bool"))
-      .def("__hash__", [](const Grid2D& grid) {
-        return nb::hash(nb::make_tuple(grid.nx, grid.ny, grid.lx, grid.ly));
-      })
+      .def(
+          "__eq__",
+          [](const Grid2D& self, nb::handle other) {
+            Grid2D grid;
+            return nb::try_cast(other, grid) && grid == self;
+          },
+          nb::arg("other").none(), nb::sig("def __eq__(self, other: object, /) -> bool"))
+      .def("__hash__",
+           [](const Grid2D& grid) {
+             return nb::hash(nb::make_tuple(grid.nx, grid.ny, grid.lx, grid.ly));
+           })
       .def("__repr__", [](const Grid2D& grid) {
         return "Grid2D(nx=" + std::to_string(grid.nx) + ", ny=" + std::to_string(grid.ny) +
                ", lx=" + format_quantity(grid.lx, Dimension::length) +

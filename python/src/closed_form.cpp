@@ -13,29 +13,36 @@ namespace salebra::python {
 namespace cf = closed_form;
 
 void bind_closed_form(nb::module_& parent) {
-  nb::module_ m = parent.def_submodule(
-      "closed_form",
-      "Equations (6)–(16) of Popov, Popov and Pohrt, \"Relaxation damping in oscillating contacts\", doi:10.1038/srep16189, each "
-      "under its number, and the closed forms that go beyond them.\n\n"
-      "All assume infinite friction, quasi-static motion and no coupling of normal and tangential motion. `modulus_ratio` is G*/E*, "
-      "`curvature` is F'' = ∂²F/∂δ², `level` is z0, the distance of a point of the indenter from first touch at the mean position. "
-      "Units are SI. Arguments are not checked: they are formulas.");
+  nb::module_ m =
+      parent.def_submodule("closed_form",
+                           "Equations (6)–(16) of Popov, Popov and Pohrt, \"Relaxation damping in "
+                           "oscillating contacts\", doi:10.1038/srep16189, each "
+                           "under its number, and the closed forms that go beyond them.\n\n"
+                           "All assume infinite friction, quasi-static motion and no coupling of "
+                           "normal and tangential motion. `modulus_ratio` is G*/E*, "
+                           "`curvature` is F'' = ∂²F/∂δ², `level` is z0, the distance of a point "
+                           "of the indenter from first touch at the mean position. "
+                           "Units are SI. Arguments are not checked: they are formulas.");
   m.def("edge_slope", &cf::edge_slope, nb::arg("contact_modulus"), nb::arg("curvature"),
         "Eq. (6): slope c = 2E*/F'' of the one-dimensional profile at the edge of the contact.");
   m.def(
       "released_distance",
       [](double level, const Oscillation& motion) {
-        return std::visit([&](const auto& one) { return cf::released_distance(level, one); }, motion);
+        return std::visit([&](const auto& one) { return cf::released_distance(level, one); },
+                          motion);
       },
       nb::arg("level"), nb::arg("motion"),
       R"(How far a spring at `level` (m) is released, m; valid at any amplitude.
 
 .. math:: s = 2u_x\sqrt{1-(z_0/u_z)^2}\,\sin\varphi_0 \;\text{Eq. (7)}, \qquad s = 2(v/\omega)\arccos(z_0/u_z) \;\text{Eq. (13)}
 )");
-  m.def("spring_energy", &cf::spring_energy, nb::arg("tangential_modulus"), nb::arg("released_distance"),
-        nb::arg("spring_width"), "Eq. (8): energy ½G*s²Δx of one spring, J.");
-  m.def("intermittent_contact", &cf::intermittent_contact, nb::arg("level"), nb::arg("normal_amplitude"),
-        "Eq. (9): −|u_z| < z0 < |u_z|, the points that are in contact during a part of the cycle only.");
+  m.def("spring_energy", &cf::spring_energy, nb::arg("tangential_modulus"),
+        nb::arg("released_distance"), nb::arg("spring_width"),
+        "Eq. (8): energy ½G*s²Δx of one spring, J.");
+  m.def("intermittent_contact", &cf::intermittent_contact, nb::arg("level"),
+        nb::arg("normal_amplitude"),
+        "Eq. (9): −|u_z| < z0 < |u_z|, the points that are in contact during a part of the cycle "
+        "only.");
   m.def(
       "work_per_cycle_by_slope",
       [](double tangential_modulus, double edge_slope, const Oscillation& motion) {
@@ -57,11 +64,13 @@ void bind_closed_form(nb::module_& parent) {
       [](double tangential_modulus, double edge_slope, double normal_amplitude,
          const std::function<double(double)>& released_distance) {
         cite({"popov2015"});
-        return cf::work_per_cycle(tangential_modulus, edge_slope, normal_amplitude, released_distance);
+        return cf::work_per_cycle(tangential_modulus, edge_slope, normal_amplitude,
+                                  released_distance);
       },
-      nb::arg("tangential_modulus"), nb::arg("edge_slope"),
-      nb::arg("normal_amplitude"), nb::arg("released_distance"),
-      "Eq. (10): W = (G*/c) ∫ s² dz0 over the interval of Eq. (9), both edges of the contact, by adaptive quadrature, J. "
+      nb::arg("tangential_modulus"), nb::arg("edge_slope"), nb::arg("normal_amplitude"),
+      nb::arg("released_distance"),
+      "Eq. (10): W = (G*/c) ∫ s² dz0 over the interval of Eq. (9), both edges of the contact, by "
+      "adaptive quadrature, J. "
       "released_distance: a function of the level.");
   m.def(
       "work_per_cycle",
@@ -100,12 +109,15 @@ decay_length : float
     l, m.
 motion : Drag
 )");
-  m.def("power", &cf::power, nb::arg("work_per_cycle"), nb::arg("motion"), "P = Wω/2π, W. NaN where ω is not known.");
+  m.def("power", &cf::power, nb::arg("work_per_cycle"), nb::arg("motion"),
+        "P = Wω/2π, W. NaN where ω is not known.");
   m.def("damping_constant", &cf::damping_constant, nb::arg("work_per_cycle"), nb::arg("motion"),
-        "γ = P/⟨ẋ²⟩ of the equivalent viscous damper, N s/m: P/v² in case (b), 2P/(u_x ω)² in case (a).");
-  m.def("work_per_cycle_exponential", &cf::work_per_cycle_exponential, nb::arg("modulus_ratio"),
-        nb::arg("reference_force"), nb::arg("decay_length"), nb::arg("motion"),
-        R"(Finite amplitude, F = F0 exp(δ/l), mean indentation held; k = u_z/l, relative accuracy about 1e-14; J.
+        "γ = P/⟨ẋ²⟩ of the equivalent viscous damper, N s/m: P/v² in case (b), 2P/(u_x ω)² in case "
+        "(a).");
+  m.def(
+      "work_per_cycle_exponential", &cf::work_per_cycle_exponential, nb::arg("modulus_ratio"),
+      nb::arg("reference_force"), nb::arg("decay_length"), nb::arg("motion"),
+      R"(Finite amplitude, F = F0 exp(δ/l), mean indentation held; k = u_z/l, relative accuracy about 1e-14; J.
 
 .. math:: W_a = 8\tfrac{G^*}{E^*}\tfrac{F_0}{l^2}u_x^2u_z\sin^2\varphi_0\,\frac{k\cosh k-\sinh k}{k^3}, \qquad
           W_b = 2\tfrac{G^*}{E^*}\tfrac{F_0}{l^2}u_z(v/\omega)^2J(k)
@@ -113,11 +125,14 @@ motion : Drag
   m.def("work_per_cycle_exponential_held_force", &cf::work_per_cycle_exponential_held_force,
         nb::arg("modulus_ratio"), nb::arg("mean_force"), nb::arg("decay_length"), nb::arg("motion"),
         "The same with the mean force held (a dead weight): F0 = mean_force/I_0(k); J.");
-  m.def("indentation_shift_at_held_force", &cf::indentation_shift_at_held_force, nb::arg("normal_amplitude"),
-        nb::arg("decay_length"), "Change of the mean indentation, −l ln I_0(k), under a dead weight, m.");
-  m.def("work_per_cycle_force_controlled", &cf::work_per_cycle_force_controlled, nb::arg("modulus_ratio"),
-        nb::arg("force_amplitude"), nb::arg("decay_length"), nb::arg("motion"),
-        "Force-controlled normal oscillation on the exponential law: Eqs (12), (15) with F''u_z → F_a/l, exact at every F_a; J.");
+  m.def("indentation_shift_at_held_force", &cf::indentation_shift_at_held_force,
+        nb::arg("normal_amplitude"), nb::arg("decay_length"),
+        "Change of the mean indentation, −l ln I_0(k), under a dead weight, m.");
+  m.def("work_per_cycle_force_controlled", &cf::work_per_cycle_force_controlled,
+        nb::arg("modulus_ratio"), nb::arg("force_amplitude"), nb::arg("decay_length"),
+        nb::arg("motion"),
+        "Force-controlled normal oscillation on the exponential law: Eqs (12), (15) with F''u_z → "
+        "F_a/l, exact at every F_a; J.");
   m.def("equal_frequency_ratio_scaled", &cf::equal_frequency_ratio_scaled, nb::arg("k"),
         "e^{−k}·3(k cosh k − sinh k)/k³.");
   m.def("drag_integral_scaled", &cf::drag_integral_scaled, nb::arg("k"),
@@ -125,8 +140,8 @@ motion : Drag
   m.def("mean_force_ratio_scaled", &cf::mean_force_ratio_scaled, nb::arg("k"), "e^{−k} I_0(k).");
   m.def("frequency_ratio_integral", &cf::frequency_ratio_integral, nb::arg("ratio"),
         "I(r) = 1 − (1 + cos 2πr)/(2(1 − 4r²)) of two frequencies, r = ω_x/ω_z.");
-  m.def("frequency_ratio_phase_sum", &cf::frequency_ratio_phase_sum, nb::arg("normal_cycles"), nb::arg("phase"),
-        "S for r = q/p in lowest terms: p sin²φ0 for p <= 2, p/2 otherwise.");
+  m.def("frequency_ratio_phase_sum", &cf::frequency_ratio_phase_sum, nb::arg("normal_cycles"),
+        nb::arg("phase"), "S for r = q/p in lowest terms: p sin²φ0 for p <= 2, p/2 otherwise.");
 }
 
 }  // namespace salebra::python

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "interop/contact.hpp"
+
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -14,7 +16,6 @@
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
-#include "interop/contact.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -25,7 +26,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 void bind_material(nb::module_& m) {
   nb::class_<ElasticBody>(m, "ElasticBody",
-                          "One elastic half-space: Young's modulus E, Pa, and Poisson's ratio ν. An infinite modulus (the "
+                          "One elastic half-space: Young's modulus E, Pa, and Poisson's ratio ν. "
+                          "An infinite modulus (the "
                           "default) is a rigid body.")
       .def(
           "__init__",
@@ -66,13 +68,16 @@ tangential_modulus : float, optional
           },
           nb::arg("contact_modulus"), nb::kw_only(), nb::arg("poisson") = nb::none(),
           nb::arg("tangential_modulus") = nb::none())
-      .def_static("of_bodies", &Material::of_bodies, nb::arg("first"), nb::arg("second") = ElasticBody{},
+      .def_static("of_bodies", &Material::of_bodies, nb::arg("first"),
+                  nb::arg("second") = ElasticBody{},
                   "The material of two elastic bodies; at least one of them is not rigid.")
       .def_ro("contact_modulus", &Material::contact_modulus, "E*, Pa.")
-      .def_ro("tangential_modulus", &Material::tangential_modulus, "G*, Pa; NaN where only E* was given.")
+      .def_ro("tangential_modulus", &Material::tangential_modulus,
+              "G*, Pa; NaN where only E* was given.")
       .def_ro("cerruti_isotropic", &Material::cerruti_isotropic, "Σ (1−ν_i)/(2πG_i), 1/Pa.")
       .def_ro("cerruti_directed", &Material::cerruti_directed, "Σ ν_i/(2πG_i), 1/Pa.")
-      .def_prop_ro("modulus_ratio", &Material::modulus_ratio, "G*/E*. Raises InvalidInput where G* is not known.")
+      .def_prop_ro("modulus_ratio", &Material::modulus_ratio,
+                   "G*/E*. Raises InvalidInput where G* is not known.")
       .def("__repr__", [](const Material& material) {
         return describe("Material", {{"contact_modulus", material.contact_modulus},
                                      {"tangential_modulus", material.tangential_modulus}});
@@ -135,31 +140,36 @@ I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206, doi:10.1016/S0043-1648(99)00113
 )";
 
 void bind_state(nb::module_& m) {
-  nb::class_<BoundContact> state(m, "NormalContactState", R"(Result of a normal contact; its fields are views, not copies.
+  nb::class_<BoundContact> state(m, "NormalContactState",
+                                 R"(Result of a normal contact; its fields are views, not copies.
 
 Unless `converged`, the numbers describe the last iterate and must not be used as the answer.
 )");
   view_property(state, "pressure", &NormalContactState::pressure, "(nx, ny), Pa, >= 0.");
   view_property(state, "gap", &NormalContactState::gap, "(nx, ny), m, >= 0 up to the tolerance.");
-  state
-      .def_ro("grid", &BoundContact::grid, "Points and size.")
+  state.def_ro("grid", &BoundContact::grid, "Points and size.")
       .def_ro("contact_modulus", &BoundContact::contact_modulus, "E*, Pa, as given.")
-      .def_prop_ro("boundary", [](const BoundContact& self) { return text_of(self.boundary); },
-                   "\"periodic\" or \"free\", as given.")
+      .def_prop_ro(
+          "boundary", [](const BoundContact& self) { return text_of(self.boundary); },
+          "\"periodic\" or \"free\", as given.")
       .def_ro("mean_pressure", &BoundContact::mean_pressure, "Pa.")
       .def_ro("force", &BoundContact::force, "N.")
       .def_ro("mean_gap", &BoundContact::mean_gap, "ū: mean of the gap over all cells, m.")
       .def_ro("indentation", &BoundContact::indentation, "Rigid approach from first touch, m.")
-      .def_ro("contact_area_fraction", &BoundContact::contact_area_fraction, "Cells with p > 0 over all cells.")
-      .def_ro("elastic_energy", &BoundContact::elastic_energy, "½∫pu dA with zero-mean u (periodic), J.")
+      .def_ro("contact_area_fraction", &BoundContact::contact_area_fraction,
+              "Cells with p > 0 over all cells.")
+      .def_ro("elastic_energy", &BoundContact::elastic_energy,
+              "½∫pu dA with zero-mean u (periodic), J.")
       .def_ro("residual", &BoundContact::residual, "e_c reached.")
       .def_ro("iterations", &BoundContact::iterations, "On the finest level.")
-      .def_ro("fft_count", &BoundContact::fft_count, "Forward-and-backward pairs of the finest level.")
+      .def_ro("fft_count", &BoundContact::fft_count,
+              "Forward-and-backward pairs of the finest level.")
       .def_ro("converged", &BoundContact::converged)
       .def_ro("interrupted", &BoundContact::interrupted, "The progress function said stop.")
       .def("__repr__", [](const BoundContact& s) {
         return describe("NormalContactState",
-                        {{"pressure", s.mean_pressure}, {"mean_gap", s.mean_gap},
+                        {{"pressure", s.mean_pressure},
+                         {"mean_gap", s.mean_gap},
                          {"contact_area_fraction", s.contact_area_fraction}},
                         s.converged ? "converged=True" : "converged=False");
       });
@@ -190,8 +200,9 @@ void bind_presses(nb::module_& m) {
         nb::arg("hardness") = infinite, nb::arg("initial_pressure") = nb::none(),
         nb::arg("progress") = false, kept.back()->c_str());
   };
-  define("press_to_pressure", "nominal_pressure",
-         R"(Frictionless contact of a rigid rough surface with an elastic half-space, for a given nominal pressure.
+  define(
+      "press_to_pressure", "nominal_pressure",
+      R"(Frictionless contact of a rigid rough surface with an elastic half-space, for a given nominal pressure.
 
 .. math:: \min_p\ \tfrac12\,p\cdot Gp - p\cdot h, \quad 0\le p\le \text{hardness},\ \langle p\rangle = \text{nominal pressure};
           \qquad \hat u(q) = \frac{2\hat p(q)}{E^*|q|}
@@ -205,11 +216,12 @@ contact_modulus : float
     E* > 0, Pa.
 nominal_pressure : float
     > 0, Pa, below the hardness.)",
-         [](const Surface& s, double e, double v, const NormalContactOptions& o) {
-           return press_to_pressure(s, e, v, o);
-         });
-  define("press_to_mean_gap", "mean_gap",
-         R"(The contact of :func:`press_to_pressure` for a given mean gap: its inverse. Periodic and elastic contacts only.
+      [](const Surface& s, double e, double v, const NormalContactOptions& o) {
+        return press_to_pressure(s, e, v, o);
+      });
+  define(
+      "press_to_mean_gap", "mean_gap",
+      R"(The contact of :func:`press_to_pressure` for a given mean gap: its inverse. Periodic and elastic contacts only.
 
 Parameters
 ----------
@@ -218,9 +230,9 @@ contact_modulus : float
     E* > 0, Pa.
 mean_gap : float
     ū in (0, max h − mean h), m.)",
-         [](const Surface& s, double e, double v, const NormalContactOptions& o) {
-           return press_to_mean_gap(s, e, v, o);
-         });
+      [](const Surface& s, double e, double v, const NormalContactOptions& o) {
+        return press_to_mean_gap(s, e, v, o);
+      });
   define("press_to_indentation", "indentation",
          R"(The contact of :func:`press_to_pressure` for a rigid approach from first touch.
 
@@ -239,16 +251,15 @@ indentation : float
       "normal_stiffness",
       [](const BoundContact& state, double tolerance, int max_iterations,
          const ProgressArgument& progress) {
-        NormalContactOptions options{.tolerance = tolerance,
-                                     .max_iterations = max_iterations,
-                                     .boundary = state.boundary};
+        NormalContactOptions options{
+            .tolerance = tolerance, .max_iterations = max_iterations, .boundary = state.boundary};
         return interruptible(progress, [&](Progress told) {
           options.on_progress = std::move(told);
           return normal_stiffness(state, state.grid, state.contact_modulus, options);
         });
       },
-      nb::arg("state"), nb::kw_only(), nb::arg("tolerance") = 1e-10, nb::arg("max_iterations") = 1000,
-      nb::arg("progress") = false,
+      nb::arg("state"), nb::kw_only(), nb::arg("tolerance") = 1e-10,
+      nb::arg("max_iterations") = 1000, nb::arg("progress") = false,
       R"(Normal stiffness K = dF/dδ of a state's contact set, by one linear solve with the set held, N/m.
 
 Infinite for a periodic cell in full contact, NaN where the solve did not converge or was interrupted.
@@ -259,11 +270,15 @@ void bind_spots(nb::module_& m) {
   nb::class_<ContactSpot>(m, "ContactSpot", "A connected patch of contact.")
       .def_ro("area", &ContactSpot::area, "m²")
       .def_ro("force", &ContactSpot::force, "N");
-  nb::class_<ContactSpots> spots(m, "ContactSpots", "The patches of a contact, largest area first; columns are views.");
-  spots.def_ro("contact_area_fraction", &ContactSpots::contact_area_fraction, "Cells with p > 0 over all cells.")
+  nb::class_<ContactSpots> spots(
+      m, "ContactSpots", "The patches of a contact, largest area first; columns are views.");
+  spots
+      .def_ro("contact_area_fraction", &ContactSpots::contact_area_fraction,
+              "Cells with p > 0 over all cells.")
       .def_ro("perimeter", &ContactSpots::perimeter, "Of all spots, along cell edges, m.")
       .def_ro("corrected_area_fraction", &ContactSpots::corrected_area_fraction,
-              "A/A0 without the cells counted in excess along the edges, A_cells − (π − 1 + ln 2)/24·perimeter·cell width, "
+              "A/A0 without the cells counted in excess along the edges, A_cells − (π − 1 + ln "
+              "2)/24·perimeter·cell width, "
               "doi:10.1016/j.triboint.2017.04.023.")
       .def("__len__", [](const ContactSpots& self) { return self.spots.size(); });
   column_property(spots, "area", &ContactSpots::spots, &ContactSpot::area, "m²");
@@ -274,7 +289,8 @@ void bind_spots(nb::module_& m) {
         cite({"yastrebov2017"});
         return unlocked([&] { return contact_spots(state.pressure, state.grid, state.boundary); });
       },
-      nb::arg("state"), "Connected patches of cells with p > 0; neighbours wrap for periodic boundaries.");
+      nb::arg("state"),
+      "Connected patches of cells with p > 0; neighbours wrap for periodic boundaries.");
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ namespace salebra::python {
 namespace {
 
 void bind_force_curve(nb::module_& m) {
-  nb::class_<ForceCurve> curve(m, "ForceCurve", R"(What every contact model returns, from the lowest force to the highest.
+  nb::class_<ForceCurve> curve(
+      m, "ForceCurve", R"(What every contact model returns, from the lowest force to the highest.
 
 Columns are views of one table, not copies; a quantity that the model does not have is NaN.
 
@@ -48,7 +49,7 @@ model : str
         made.nominal_area = nominal_area;
         made.rms_height = rms_height;
         const auto fill = [&](const std::optional<Values>& values, const char* name,
-                              double ForceSample::* member) {
+                              double ForceSample::*member) {
           if (!values) return;
           if (made.samples.empty()) made.samples.resize(values->values.size());
           require(values->values.size() == made.samples.size(), name, values->values.size(),
@@ -78,23 +79,29 @@ model : str
       nb::arg("contact_area_fraction") = nb::none(), nb::arg("normal_stiffness") = nb::none(),
       nb::arg("tangential_stiffness") = nb::none(), nb::arg("rms_height") = ForceSample::unknown,
       nb::arg("model") = "measured");
-  column_property(curve, "indentation", &ForceCurve::samples, &ForceSample::indentation, "δ, m; larger is closer.");
-  column_property(curve, "mean_gap", &ForceCurve::samples, &ForceSample::mean_gap, "ū, m; dū = −dδ.");
+  column_property(curve, "indentation", &ForceCurve::samples, &ForceSample::indentation,
+                  "δ, m; larger is closer.");
+  column_property(curve, "mean_gap", &ForceCurve::samples, &ForceSample::mean_gap,
+                  "ū, m; dū = −dδ.");
   column_property(curve, "separation", &ForceCurve::samples, &ForceSample::separation,
                   "s, m: smooth plane to mean plane of the summits (Greenwood–Williamson).");
   column_property(curve, "force", &ForceCurve::samples, &ForceSample::force, "F, N.");
   column_property(curve, "pressure", &ForceCurve::samples, &ForceSample::pressure, "p = F/A0, Pa.");
-  column_property(curve, "contact_area_fraction", &ForceCurve::samples, &ForceSample::contact_area_fraction, "A/A0.");
-  column_property(curve, "normal_stiffness", &ForceCurve::samples, &ForceSample::normal_stiffness, "K = dF/dδ, N/m.");
-  column_property(curve, "tangential_stiffness", &ForceCurve::samples, &ForceSample::tangential_stiffness,
-                  "K_t = dF_x/dx in full stick, N/m.");
-  column_property(curve, "converged", &ForceCurve::samples, &ForceSample::converged, "Of each sample.");
+  column_property(curve, "contact_area_fraction", &ForceCurve::samples,
+                  &ForceSample::contact_area_fraction, "A/A0.");
+  column_property(curve, "normal_stiffness", &ForceCurve::samples, &ForceSample::normal_stiffness,
+                  "K = dF/dδ, N/m.");
+  column_property(curve, "tangential_stiffness", &ForceCurve::samples,
+                  &ForceSample::tangential_stiffness, "K_t = dF_x/dx in full stick, N/m.");
+  column_property(curve, "converged", &ForceCurve::samples, &ForceSample::converged,
+                  "Of each sample.");
   curve.def_ro("model", &ForceCurve::model, "\"bem\", \"greenwood-williamson\", …")
       .def_ro("nominal_area", &ForceCurve::nominal_area, "A0, m².")
       .def_ro("rms_height", &ForceCurve::rms_height, "h_rms of the surface, m.")
       .def("__len__", [](const ForceCurve& self) { return self.samples.size(); })
       .def("__repr__", [](const ForceCurve& self) {
-        return "ForceCurve(model='" + self.model + "', " + std::to_string(self.samples.size()) + " samples)";
+        return "ForceCurve(model='" + self.model + "', " + std::to_string(self.samples.size()) +
+               " samples)";
       });
   result_methods(curve, true);
 }
@@ -162,7 +169,8 @@ void bind_fit(nb::module_& m) {
       .def_ro("pressure_min", &PressureWindow::pressure_min, "Pa")
       .def_ro("pressure_max", &PressureWindow::pressure_max, "Pa")
       .def_ro("points", &PressureWindow::points);
-  nb::class_<ExponentialFit>(m, "ExponentialFit", "p = reference_pressure·exp(−ū/decay_length), with 95 % limits.")
+  nb::class_<ExponentialFit>(m, "ExponentialFit",
+                             "p = reference_pressure·exp(−ū/decay_length), with 95 % limits.")
       .def_ro("decay_length", &ExponentialFit::decay_length, "l, m.")
       .def_ro("decay_length_low", &ExponentialFit::decay_length_low, "Lower 95 % limit, m.")
       .def_ro("decay_length_high", &ExponentialFit::decay_length_high, "Upper 95 % limit, m.")
@@ -195,14 +203,20 @@ Notes
 The interval holds for independent errors of ln p. With a computed curve it measures the misfit of the law instead, and
 :func:`test_exponential` tells whether that is systematic.
 )");
-  nb::class_<ExponentialTest>(m, "ExponentialTest", "Whether ln p bends: ln p = a + b ū + c ū², and Student's t-test of c = 0.")
+  nb::class_<ExponentialTest>(
+      m, "ExponentialTest",
+      "Whether ln p bends: ln p = a + b ū + c ū², and Student's t-test of c = 0.")
       .def_ro("quadratic", &ExponentialTest::quadratic, "c, 1/m²; > 0 where l grows with ū.")
       .def_ro("standard_error", &ExponentialTest::standard_error, "Of c, 1/m².")
-      .def_ro("significance", &ExponentialTest::significance, "Probability of so large a |c| if the law held.")
-      .def_ro("decay_length_closest", &ExponentialTest::decay_length_closest, "At the least ū of the window, m.")
-      .def_ro("decay_length_farthest", &ExponentialTest::decay_length_farthest, "At the largest, m.")
+      .def_ro("significance", &ExponentialTest::significance,
+              "Probability of so large a |c| if the law held.")
+      .def_ro("decay_length_closest", &ExponentialTest::decay_length_closest,
+              "At the least ū of the window, m.")
+      .def_ro("decay_length_farthest", &ExponentialTest::decay_length_farthest,
+              "At the largest, m.")
       .def_ro("window", &ExponentialTest::window)
-      .def("refuted", &ExponentialTest::refuted, nb::arg("level") = 0.05, "The law is refuted at this level.")
+      .def("refuted", &ExponentialTest::refuted, nb::arg("level") = 0.05,
+           "The law is refuted at this level.")
       .def("__repr__", [](const ExponentialTest& test) {
         return describe("ExponentialTest", {{"significance", test.significance},
                                             {"decay_length_min", test.decay_length_closest},
@@ -213,7 +227,8 @@ The interval holds for independent errors of ln p. With a computed curve it meas
       [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window) {
         return test_exponential(curve, window_of(window));
       },
-      nb::arg("curve"), nb::arg("window") = nb::none(), "Tests the exponential law over the window of :func:`fit_exponential`.");
+      nb::arg("curve"), nb::arg("window") = nb::none(),
+      "Tests the exponential law over the window of :func:`fit_exponential`.");
   nb::class_<WindowSensitivity>(m, "WindowSensitivity", "How much a fit owes to its window.")
       .def_ro("decay_length_min", &WindowSensitivity::decay_length_min, "m")
       .def_ro("decay_length_max", &WindowSensitivity::decay_length_max, "m")
@@ -224,12 +239,15 @@ The interval holds for independent errors of ln p. With a computed curve it meas
         return window_sensitivity(curve, window_of(window));
       },
       nb::arg("curve"), nb::arg("window") = nb::none(),
-      "The least and largest decay length over every run of samples that holds at least half of the window.");
-  nb::class_<LocalDecayLength> local(m, "LocalDecayLength", "l(ū) = −dū/d ln p between consecutive samples.");
+      "The least and largest decay length over every run of samples that holds at least half of "
+      "the window.");
+  nb::class_<LocalDecayLength> local(m, "LocalDecayLength",
+                                     "l(ū) = −dū/d ln p between consecutive samples.");
   view_property(local, "mean_gap", &LocalDecayLength::mean_gap, "m");
   view_property(local, "decay_length", &LocalDecayLength::decay_length, "m");
   result_methods(local, true);
-  m.def("local_decay_length", &local_decay_length, nb::arg("curve"), "l(ū) at the midpoints between consecutive samples.");
+  m.def("local_decay_length", &local_decay_length, nb::arg("curve"),
+        "l(ū) at the midpoints between consecutive samples.");
 }
 
 }  // namespace

@@ -25,15 +25,22 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-NormalContactOptions contact_options(double tolerance, int max_iterations, const Choice<Boundary>& boundary) {
-  return {.tolerance = tolerance, .max_iterations = max_iterations, .boundary = boundary.value("boundary")};
+NormalContactOptions contact_options(double tolerance, int max_iterations,
+                                     const Choice<Boundary>& boundary) {
+  return {.tolerance = tolerance,
+          .max_iterations = max_iterations,
+          .boundary = boundary.value("boundary")};
 }
 
 void bind_levels(nb::module_& m) {
-  nb::class_<ContactLevel> level(m, "ContactLevel", "The frictionless normal contact at one indentation.");
+  nb::class_<ContactLevel> level(m, "ContactLevel",
+                                 "The frictionless normal contact at one indentation.");
   view_property(level, "contact", &ContactLevel::contact, "Cells in contact, (nx, ny).");
-  level.def_ro("force", &ContactLevel::force, "F, N.").def_ro("converged", &ContactLevel::converged);
-  nb::class_<BoundLevels>(m, "ContactLevels", R"(The normal contact as a function of the indentation, for the direct simulation.
+  level.def_ro("force", &ContactLevel::force, "F, N.")
+      .def_ro("converged", &ContactLevel::converged);
+  nb::class_<BoundLevels>(
+      m, "ContactLevels",
+      R"(The normal contact as a function of the indentation, for the direct simulation.
 
 Parameters
 ----------
@@ -47,30 +54,37 @@ boundary_element_levels : the levels of a surface.
 )")
       .def(
           "__init__",
-          [](BoundLevels* self, const nb::callable& function, const Grid2D& grid) {
+          [](BoundLevels* self, const LevelFunction& given, const Grid2D& grid) {
             // The function may be dropped by a thread without the interpreter's lock.
-            const std::shared_ptr<nb::object> held(new nb::object(function), [](nb::object* object) {
-              const nb::gil_scoped_acquire locked;
-              delete object;
-            });
-            new (self) BoundLevels{[held](double indentation) {
-                                     const nb::gil_scoped_acquire locked;
-                                     const nb::object answer = (*held)(indentation);
-                                     auto [contact, force] = nb::cast<std::pair<nb::object, double>>(answer);
-                                     const nb::module_ numpy = nb::module_::import_("numpy");
-                                     const nb::object array = numpy.attr("ascontiguousarray")(contact, "bool");
-                                     const auto flags = nb::cast<nb::ndarray<const bool, nb::ndim<2>, nb::c_contig, nb::device::cpu>>(array);
-                                     ContactLevel made;
-                                     made.contact = Eigen::Map<const ContactSet>(flags.data(), Index(flags.shape(0)), Index(flags.shape(1)));
-                                     made.force = force;
-                                     return made;
-                                   },
-                                   grid};
+            const std::shared_ptr<nb::object> held(new nb::object(given.function),
+                                                   [](nb::object* object) {
+                                                     const nb::gil_scoped_acquire locked;
+                                                     delete object;
+                                                   });
+            new (self) BoundLevels{
+                [held](double indentation) {
+                  const nb::gil_scoped_acquire locked;
+                  const nb::object answer = (*held)(indentation);
+                  auto [contact, force] = nb::cast<std::pair<nb::object, double>>(answer);
+                  const nb::module_ numpy = nb::module_::import_("numpy");
+                  const nb::object array = numpy.attr("ascontiguousarray")(contact, "bool");
+                  const auto flags =
+                      nb::cast<nb::ndarray<const bool, nb::ndim<2>, nb::c_contig, nb::device::cpu>>(
+                          array);
+                  ContactLevel made;
+                  made.contact = Eigen::Map<const ContactSet>(flags.data(), Index(flags.shape(0)),
+                                                              Index(flags.shape(1)));
+                  made.force = force;
+                  return made;
+                },
+                grid};
           },
           nb::arg("function"), nb::arg("grid"))
       .def(
           "__call__",
-          [](const BoundLevels& self, double indentation) { return unlocked([&] { return self.levels(indentation); }); },
+          [](const BoundLevels& self, double indentation) {
+            return unlocked([&] { return self.levels(indentation); });
+          },
           nb::arg("indentation"), "The contact at an indentation, m.")
       .def_ro("grid", &BoundLevels::grid);
   m.def(
@@ -78,23 +92,30 @@ boundary_element_levels : the levels of a surface.
       [](const BoundSurface& surface, double contact_modulus, double tolerance, int max_iterations,
          const Choice<Boundary>& boundary) {
         cite({"polonsky_keer1999", "stanley_kato1997"});
-        return BoundLevels{boundary_element_levels(Surface(surface.surface), contact_modulus,
-                                                   contact_options(tolerance, max_iterations, boundary)),
-                           surface.surface.grid};
+        return BoundLevels{
+            boundary_element_levels(Surface(surface.surface), contact_modulus,
+                                    contact_options(tolerance, max_iterations, boundary)),
+            surface.surface.grid};
       },
       nb::arg("surface"), nb::arg("contact_modulus"), nb::kw_only(), nb::arg("tolerance") = 1e-10,
       nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
-      "The levels of a surface by boundary elements; the boundary must be that of the simulation. Copies the surface.");
+      "The levels of a surface by boundary elements; the boundary must be that of the simulation. "
+      "Copies the surface.");
 }
 
 Trajectory trajectory(const std::variant<EqualFrequency, Drag>& motion, double mean_indentation) {
-  return trajectory_of(std::visit([](const auto& one) { return Oscillation(one); }, motion), mean_indentation);
+  return trajectory_of(std::visit([](const auto& one) { return Oscillation(one); }, motion),
+                       mean_indentation);
 }
 
 void bind_simulation(nb::module_& m) {
-  nb::class_<CycleResult> result(m, "CycleResult", "A simulated period of a stuck contact; columns are views.");
-  result.def_ro("work_per_cycle", &CycleResult::work_per_cycle, "∮F_x dx less the change of the stored energy, J.")
-      .def_ro("released_energy", &CycleResult::released_energy, "By cells that leave the contact, an independent sum, J.")
+  nb::class_<CycleResult> result(m, "CycleResult",
+                                 "A simulated period of a stuck contact; columns are views.");
+  result
+      .def_ro("work_per_cycle", &CycleResult::work_per_cycle,
+              "∮F_x dx less the change of the stored energy, J.")
+      .def_ro("released_energy", &CycleResult::released_energy,
+              "By cells that leave the contact, an independent sum, J.")
       .def_ro("stored_energy_change", &CycleResult::stored_energy_change, "J")
       .def_ro("contact_area_min", &CycleResult::contact_area_min, "m²")
       .def_ro("contact_area_max", &CycleResult::contact_area_max, "m²")
@@ -102,39 +123,51 @@ void bind_simulation(nb::module_& m) {
       .def_ro("iterations", &CycleResult::iterations)
       .def_ro("fft_count", &CycleResult::fft_count)
       .def_ro("steady", &CycleResult::steady, "The period repeats.")
-      .def_ro("converged", &CycleResult::converged, "Every contact and every stick solve did; otherwise do not use the numbers.")
+      .def_ro("converged", &CycleResult::converged,
+              "Every contact and every stick solve did; otherwise do not use the numbers.")
       .def_ro("interrupted", &CycleResult::interrupted)
       .def("__repr__", [](const CycleResult& r) {
-        return describe("CycleResult", {{"work_per_cycle", r.work_per_cycle}, {"released_energy", r.released_energy}},
-                        r.converged ? "converged=True" : "converged=False");
+        return describe(
+            "CycleResult",
+            {{"work_per_cycle", r.work_per_cycle}, {"released_energy", r.released_energy}},
+            r.converged ? "converged=True" : "converged=False");
       });
   view_property(result, "smallest", &CycleResult::smallest, "Cells that are in contact always.");
-  view_property(result, "largest", &CycleResult::largest, "Cells that are in contact at some time.");
+  view_property(result, "largest", &CycleResult::largest,
+                "Cells that are in contact at some time.");
   column_property(result, "time", &CycleResult::samples, &CycleSample::t, "Over the period.");
   column_property(result, "indentation", &CycleResult::samples, &CycleSample::indentation, "δ, m.");
-  column_property(result, "tangential", &CycleResult::samples, &CycleSample::tangential, "x since the start, m.");
-  column_property(result, "tangential_force", &CycleResult::samples, &CycleSample::tangential_force, "F_x, N.");
-  column_property(result, "normal_force", &CycleResult::samples, &CycleSample::normal_force, "F, N.");
-  column_property(result, "work", &CycleResult::samples, &CycleSample::work, "∫F_x dx since the start of the period, J.");
+  column_property(result, "tangential", &CycleResult::samples, &CycleSample::tangential,
+                  "x since the start, m.");
+  column_property(result, "tangential_force", &CycleResult::samples, &CycleSample::tangential_force,
+                  "F_x, N.");
+  column_property(result, "normal_force", &CycleResult::samples, &CycleSample::normal_force,
+                  "F, N.");
+  column_property(result, "work", &CycleResult::samples, &CycleSample::work,
+                  "∫F_x dx since the start of the period, J.");
   column_property(result, "contact_area", &CycleResult::samples, &CycleSample::contact_area, "m²");
   result_methods(result, true);
   m.def(
       "simulate_cycle",
-      [](const BoundLevels& levels, const Material& material, const std::variant<EqualFrequency, Drag>& motion,
-         double mean_indentation, int steps, int max_periods, double direction, double tolerance,
-         int max_iterations, const Choice<Boundary>& boundary, const ProgressArgument& progress) {
+      [](const BoundLevels& levels, const Material& material,
+         const std::variant<EqualFrequency, Drag>& motion, double mean_indentation, int steps,
+         int max_periods, double direction, double tolerance, int max_iterations,
+         const Choice<Boundary>& boundary, const ProgressArgument& progress) {
         cite({"popov2015"});
         CycleOptions options{.steps = steps, .max_periods = max_periods, .direction = direction};
-        options.stick = {.tolerance = tolerance, .max_iterations = max_iterations, .boundary = boundary.value("boundary")};
+        options.stick = {.tolerance = tolerance,
+                         .max_iterations = max_iterations,
+                         .boundary = boundary.value("boundary")};
         return interruptible(progress, [&](Progress told) {
           options.on_progress = std::move(told);
-          return simulate_cycle(levels.levels, levels.grid, material, trajectory(motion, mean_indentation), options);
+          return simulate_cycle(levels.levels, levels.grid, material,
+                                trajectory(motion, mean_indentation), options);
         });
       },
-      nb::arg("levels"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"), nb::kw_only(),
-      nb::arg("steps") = 64, nb::arg("max_periods") = 4, nb::arg("direction") = 0.0,
-      nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
-      nb::arg("progress") = false,
+      nb::arg("levels"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
+      nb::kw_only(), nb::arg("steps") = 64, nb::arg("max_periods") = 4, nb::arg("direction") = 0.0,
+      nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
+      nb::arg("boundary") = "periodic", nb::arg("progress") = false,
       R"(Direct three-dimensional simulation of a contact with infinite friction through one oscillation.
 
 Cells that enter keep the displacement that they have at that time; cells that leave release their traction. The error of the steps
@@ -165,9 +198,12 @@ void bind_quadrature(nb::module_& m) {
   nb::class_<Result>(m, "LevelQuadratureResult", "The loss of a cycle from a few contact sets.")
       .def_ro("work_per_cycle", &Result::work_per_cycle, "W with K_t = ρ(δ)(G*/E*)F'(δ), J.")
       .def_ro("error_estimate", &Result::error_estimate, "Of work_per_cycle, J.")
-      .def_ro("work_by_levels", &Result::work_by_levels, "W from the K_t of the levels as they are, J.")
-      .def_ro("work_by_force", &Result::work_by_force, "W with K_t = (G*/E*)F', normal contacts alone, J.")
-      .def_ro("small_amplitude_work", &Result::small_amplitude_work, "Eq. (12) or (15) with F'' of the same fit, J.")
+      .def_ro("work_by_levels", &Result::work_by_levels,
+              "W from the K_t of the levels as they are, J.")
+      .def_ro("work_by_force", &Result::work_by_force,
+              "W with K_t = (G*/E*)F', normal contacts alone, J.")
+      .def_ro("small_amplitude_work", &Result::small_amplitude_work,
+              "Eq. (12) or (15) with F'' of the same fit, J.")
       .def_ro("force", &Result::force, "F at the mean indentation, N.")
       .def_ro("curvature", &Result::curvature, "F'' there, N/m².")
       .def_ro("stiffness_ratio", &Result::stiffness_ratio, "work_per_cycle/work_by_force.")
@@ -175,8 +211,10 @@ void bind_quadrature(nb::module_& m) {
       .def_ro("converged", &Result::converged)
       .def_ro("interrupted", &Result::interrupted)
       .def("__repr__", [](const Result& r) {
-        return describe("LevelQuadratureResult", {{"work_per_cycle", r.work_per_cycle}, {"error_estimate", r.error_estimate}},
-                        r.converged ? "converged=True" : "converged=False");
+        return describe(
+            "LevelQuadratureResult",
+            {{"work_per_cycle", r.work_per_cycle}, {"error_estimate", r.error_estimate}},
+            r.converged ? "converged=True" : "converged=False");
       });
   m.def(
       "level_quadrature",
@@ -185,15 +223,19 @@ void bind_quadrature(nb::module_& m) {
          const Choice<Boundary>& boundary, const ProgressArgument& progress) {
         cite({"popov2015"});
         LevelQuadratureOptions options{.levels = count, .direction = direction};
-        options.stick = {.tolerance = tolerance, .max_iterations = max_iterations, .boundary = boundary.value("boundary")};
+        options.stick = {.tolerance = tolerance,
+                         .max_iterations = max_iterations,
+                         .boundary = boundary.value("boundary")};
         return interruptible(progress, [&](Progress told) {
           options.on_progress = std::move(told);
-          return level_quadrature(levels.levels, levels.grid, material, motion, mean_indentation, options);
+          return level_quadrature(levels.levels, levels.grid, material, motion, mean_indentation,
+                                  options);
         });
       },
-      nb::arg("contact_levels"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
-      nb::kw_only(), nb::arg("levels") = 0, nb::arg("direction") = 0.0, nb::arg("tolerance") = 1e-5,
-      nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic", nb::arg("progress") = false,
+      nb::arg("contact_levels"), nb::arg("material"), nb::arg("motion"),
+      nb::arg("mean_indentation"), nb::kw_only(), nb::arg("levels") = 0, nb::arg("direction") = 0.0,
+      nb::arg("tolerance") = 1e-5, nb::arg("max_iterations") = 1000,
+      nb::arg("boundary") = "periodic", nb::arg("progress") = false,
       R"(Relaxation damping of a contact without stepping through the cycle: W = ½∮ s² dK_t by parts.
 
 On Gauss–Legendre nodes of θ, δ(θ) = δ0 + u_z cosθ, with a normal contact, a stick and a punch solve at each. levels = 0: 16 for equal
@@ -203,12 +245,18 @@ frequencies, 32 for drag.
 
 void bind_friction(nb::module_& m) {
   using Result = FrictionalCycleResult;
-  nb::class_<Result> result(m, "FrictionalCycleResult", "A simulated period of a contact with finite friction; columns are views.");
-  result.def_ro("work_per_cycle", &Result::work_per_cycle, "∮F_x dx less the change of the stored energy, J.")
+  nb::class_<Result> result(
+      m, "FrictionalCycleResult",
+      "A simulated period of a contact with finite friction; columns are views.");
+  result
+      .def_ro("work_per_cycle", &Result::work_per_cycle,
+              "∮F_x dx less the change of the stored energy, J.")
       .def_ro("dissipated", &Result::dissipated, "∮∫τ·ds over the cells, an independent sum, J.")
       .def_ro("normal_work", &Result::normal_work, "∮F dδ, J; 0 without coupling.")
-      .def_ro("relaxation_work", &Result::relaxation_work, "Of it, by cells that open and close, J.")
-      .def_ro("slip_work", &Result::slip_work, "Of it, by slip in cells that are in contact all the time, J.")
+      .def_ro("relaxation_work", &Result::relaxation_work,
+              "Of it, by cells that open and close, J.")
+      .def_ro("slip_work", &Result::slip_work,
+              "Of it, by slip in cells that are in contact all the time, J.")
       .def_ro("stored_energy_change", &Result::stored_energy_change, "J")
       .def_ro("contact_area_min", &Result::contact_area_min, "m²")
       .def_ro("contact_area_max", &Result::contact_area_max, "m²")
@@ -218,7 +266,9 @@ void bind_friction(nb::module_& m) {
       .def_ro("interrupted", &Result::interrupted)
       .def("__repr__", [](const Result& r) {
         return describe("FrictionalCycleResult",
-                        {{"work_per_cycle", r.work_per_cycle}, {"relaxation_work", r.relaxation_work}, {"slip_work", r.slip_work}},
+                        {{"work_per_cycle", r.work_per_cycle},
+                         {"relaxation_work", r.relaxation_work},
+                         {"slip_work", r.slip_work}},
                         r.converged ? "converged=True" : "converged=False");
       });
   view_property(result, "loss", &Result::loss, "Lost in a period by unit area, (nx, ny), J/m².");
@@ -227,21 +277,25 @@ void bind_friction(nb::module_& m) {
   column_property(result, "time", &Result::samples, &FrictionalSample::t, "Over the period.");
   column_property(result, "indentation", &Result::samples, &FrictionalSample::indentation, "δ, m.");
   column_property(result, "tangential", &Result::samples, &FrictionalSample::tangential, "x, m.");
-  column_property(result, "tangential_force", &Result::samples, &FrictionalSample::tangential_force, "F_x, N.");
-  column_property(result, "normal_force", &Result::samples, &FrictionalSample::normal_force, "F, N.");
+  column_property(result, "tangential_force", &Result::samples, &FrictionalSample::tangential_force,
+                  "F_x, N.");
+  column_property(result, "normal_force", &Result::samples, &FrictionalSample::normal_force,
+                  "F, N.");
   column_property(result, "work", &Result::samples, &FrictionalSample::work, "J");
   column_property(result, "contact_area", &Result::samples, &FrictionalSample::contact_area, "m²");
   column_property(result, "slip_area", &Result::samples, &FrictionalSample::slip_area, "m²");
   result_methods(result, true);
 
-  const auto options_of = [](double friction, int steps, int max_periods, double steady_tolerance, double direction,
-                             double tolerance, int max_iterations, Boundary boundary) {
+  const auto options_of = [](double friction, int steps, int max_periods, double steady_tolerance,
+                             double direction, double tolerance, int max_iterations,
+                             Boundary boundary) {
     FrictionalCycleOptions options{.friction = friction,
                                    .steps = steps,
                                    .max_periods = max_periods,
                                    .steady_tolerance = steady_tolerance,
                                    .direction = direction};
-    options.stick = {.tolerance = tolerance, .max_iterations = max_iterations, .boundary = boundary};
+    options.stick = {
+        .tolerance = tolerance, .max_iterations = max_iterations, .boundary = boundary};
     return options;
   };
   m.def(
@@ -253,19 +307,22 @@ void bind_friction(nb::module_& m) {
                    const Choice<Boundary>& boundary, const ProgressArgument& progress) {
         cite({"popov2015", "polonsky_keer1999", "stanley_kato1997"});
         const Boundary chosen = boundary.value("boundary");
-        FrictionalCycleOptions options =
-            options_of(friction, steps, max_periods, steady_tolerance, direction, tolerance, max_iterations, chosen);
+        FrictionalCycleOptions options = options_of(friction, steps, max_periods, steady_tolerance,
+                                                    direction, tolerance, max_iterations, chosen);
         return interruptible(progress, [&](Progress told) {
           options.on_progress = told;
-          const PressureLevels levels = boundary_element_pressures(Surface(surface.surface), material.contact_modulus,
-                                                                   {.boundary = chosen, .on_progress = told});
-          return simulate_frictional_cycle(levels, surface.surface.grid, material, trajectory(motion, mean_indentation), options);
+          const PressureLevels levels =
+              boundary_element_pressures(Surface(surface.surface), material.contact_modulus,
+                                         {.boundary = chosen, .on_progress = told});
+          return simulate_frictional_cycle(levels, surface.surface.grid, material,
+                                           trajectory(motion, mean_indentation), options);
         });
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
-      nb::kw_only(), nb::arg("friction") = infinite, nb::arg("steps") = 64, nb::arg("max_periods") = 6,
-      nb::arg("steady_tolerance") = 1e-5, nb::arg("direction") = 0.0, nb::arg("tolerance") = 1e-8,
-      nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic", nb::arg("progress") = false,
+      nb::kw_only(), nb::arg("friction") = infinite, nb::arg("steps") = 64,
+      nb::arg("max_periods") = 6, nb::arg("steady_tolerance") = 1e-5, nb::arg("direction") = 0.0,
+      nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
+      nb::arg("boundary") = "periodic", nb::arg("progress") = false,
       R"(Direct three-dimensional simulation of a surface with Coulomb friction through one oscillation.
 
 Each step solves |τ| <= μp in every cell. Without drift the permanent contact settles within two or three periods; a drag goes on until
@@ -280,12 +337,13 @@ all of it slides: raise max_periods, and look at `steady`. Arguments as :func:`s
                    const Choice<Boundary>& boundary, const ProgressArgument& progress) {
         cite({"popov2015", "polonsky_keer1999", "stanley_kato1997"});
         const Boundary chosen = boundary.value("boundary");
-        FrictionalCycleOptions options =
-            options_of(friction, steps, max_periods, steady_tolerance, direction, tolerance, max_iterations, chosen);
+        FrictionalCycleOptions options = options_of(friction, steps, max_periods, steady_tolerance,
+                                                    direction, tolerance, max_iterations, chosen);
         options.coupling = coupling;
         return interruptible(progress, [&](Progress told) {
           options.on_progress = told;
-          return simulate_coupled_cycle(surface.surface, material, trajectory(motion, mean_indentation), options,
+          return simulate_coupled_cycle(surface.surface, material,
+                                        trajectory(motion, mean_indentation), options,
                                         {.boundary = chosen, .on_progress = told});
         });
       },
@@ -294,7 +352,8 @@ all of it slides: raise max_periods, and look at `steady`. Arguments as :func:`s
       nb::arg("steps") = 64, nb::arg("max_periods") = 6, nb::arg("steady_tolerance") = 1e-5,
       nb::arg("direction") = 0.0, nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
       nb::arg("boundary") = "periodic", nb::arg("progress") = false,
-      "The same with the coupling of normal and tangential directions (Dundurs' β); coupling: β/(πE*), 1/Pa, by default the "
+      "The same with the coupling of normal and tangential directions (Dundurs' β); coupling: "
+      "β/(πE*), 1/Pa, by default the "
       "material's. It tells when neglecting the coupling, as the paper does, is safe.");
 }
 

@@ -48,7 +48,8 @@ auto with_motion(const AnyMotion& motion, const Function& function) {
 }
 
 void bind_damping_result(nb::module_& m) {
-  nb::class_<DampingResult>(m, "DampingResult", "Relaxation damping of one contact under one motion; NaN is unknown.")
+  nb::class_<DampingResult>(m, "DampingResult",
+                            "Relaxation damping of one contact under one motion; NaN is unknown.")
       .def_ro("work_per_cycle", &DampingResult::work_per_cycle, "W, J.")
       .def_ro("power", &DampingResult::power, "P = Wω/2π, W; NaN where the motion has no ω.")
       .def_ro("damping_constant", &DampingResult::damping_constant,
@@ -56,15 +57,21 @@ void bind_damping_result(nb::module_& m) {
       .def_ro("indentation", &DampingResult::indentation, "Mean indentation of the cycle, m.")
       .def_ro("force", &DampingResult::force, "F at the mean indentation, N.")
       .def_ro("mean_force", &DampingResult::mean_force, "Mean of F over the cycle, N.")
-      .def_ro("normal_stiffness", &DampingResult::normal_stiffness, "K at the mean indentation, N/m.")
+      .def_ro("normal_stiffness", &DampingResult::normal_stiffness,
+              "K at the mean indentation, N/m.")
       .def_ro("curvature", &DampingResult::curvature, "F'' at the mean indentation, N/m².")
-      .def_ro("tangential_curvature", &DampingResult::tangential_curvature, "K_t' at the mean indentation, N/m².")
-      .def_ro("small_amplitude_work", &DampingResult::small_amplitude_work, "Eq. (12) or (15) at the given position, J.")
-      .def_ro("error_estimate", &DampingResult::error_estimate, "Of work_per_cycle, J: quadrature and round-off.")
+      .def_ro("tangential_curvature", &DampingResult::tangential_curvature,
+              "K_t' at the mean indentation, N/m².")
+      .def_ro("small_amplitude_work", &DampingResult::small_amplitude_work,
+              "Eq. (12) or (15) at the given position, J.")
+      .def_ro("error_estimate", &DampingResult::error_estimate,
+              "Of work_per_cycle, J: quadrature and round-off.")
       .def_ro("converged", &DampingResult::converged, "False: do not use work_per_cycle.")
       .def("__repr__", [](const DampingResult& r) {
         return describe("DampingResult",
-                        {{"work_per_cycle", r.work_per_cycle}, {"damping_constant", r.damping_constant}, {"force", r.force}},
+                        {{"work_per_cycle", r.work_per_cycle},
+                         {"damping_constant", r.damping_constant},
+                         {"force", r.force}},
                         r.converged ? "converged=True" : "converged=False");
       });
 }
@@ -132,7 +139,8 @@ InvalidInput
         const std::size_t count = std::max(places.size(), motions.size());
         require((places.size() == count || places.size() == 1) &&
                     (motions.size() == count || motions.size() == 1),
-                "motions", motions.size(), "motions for another number of positions; give one, or as many");
+                "motions", motions.size(),
+                "motions for another number of positions; give one, or as many");
         std::vector<DampingCase> cases;
         cases.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
@@ -166,22 +174,27 @@ list of DampingResult
         options.tolerance = tolerance;
         return unlocked([&] {
           return with_motion(motion, [&](const auto& one) {
-            return relaxation_damping_force_controlled(law, mean_force, force_amplitude, one, options);
+            return relaxation_damping_force_controlled(law, mean_force, force_amplitude, one,
+                                                       options);
           });
         });
       },
       nb::arg("law"), nb::arg("mean_force"), nb::arg("force_amplitude"), nb::arg("motion"),
       nb::kw_only(), nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10,
-      "Normal motion by force, F = F0 + F_a cos ωt with 0 <= F_a <= F0, N; the motion's normal_amplitude is not used.");
+      "Normal motion by force, F = F0 + F_a cos ωt with 0 <= F_a <= F0, N; the motion's "
+      "normal_amplitude is not used.");
   m.def("mean_force_of_cycle", &mean_force_of_cycle, nb::arg("law"), nb::arg("mean_indentation"),
         nb::arg("normal_amplitude"), "Mean of F over a cycle δ0 + u_z cosθ, N.");
   m.def("indentation_at_mean_force", &indentation_at_mean_force, nb::arg("law"),
         nb::arg("mean_force"), nb::arg("normal_amplitude"),
-        "The mean indentation at which the cycle mean of F is mean_force, m: where a dead weight settles.");
+        "The mean indentation at which the cycle mean of F is mean_force, m: where a dead weight "
+        "settles.");
 }
 
 void bind_trajectories(nb::module_& m) {
-  nb::class_<TangentialContact>(m, "TangentialContact", R"(The tangential state of any contact with nested contact sets, along any path.
+  nb::class_<TangentialContact>(
+      m, "TangentialContact",
+      R"(The tangential state of any contact with nested contact sets, along any path.
 
 .. math:: F_x = \int_{-\infty}^{\delta} K_t'(\zeta)\,[x - x_0(\zeta)]\,d\zeta
 
@@ -206,9 +219,9 @@ tangential_range : float
           [](TangentialContact* self, const ContactLaw& law, double lowest, double highest,
              double friction, double merge_tolerance, double table_tolerance,
              double tangential_range) {
-            new (self) TangentialContact(
-                law, lowest, highest,
-                {friction, merge_tolerance, table_tolerance, tangential_range});
+            new (self)
+                TangentialContact(law, lowest, highest,
+                                  {friction, merge_tolerance, table_tolerance, tangential_range});
           },
           nb::arg("law"), nb::arg("lowest"), nb::arg("highest"), nb::kw_only(),
           nb::arg("friction") = infinite, nb::arg("merge_tolerance") = 0.0,
@@ -221,46 +234,60 @@ tangential_range : float
       .def_prop_ro("tangential_force", &TangentialContact::tangential_force, "F_x, N.")
       .def_prop_ro("stored_energy", &TangentialContact::stored_energy, "J")
       .def_prop_ro("dissipated", &TangentialContact::dissipated, "Lost since start(), J.")
-      .def_prop_ro("dissipated_in_permanent_contact", &TangentialContact::dissipated_in_permanent_contact,
+      .def_prop_ro("dissipated_in_permanent_contact",
+                   &TangentialContact::dissipated_in_permanent_contact,
                    "Of it, by slip of levels that never leave contact, J.")
       .def_prop_ro("external_work", &TangentialContact::external_work, "∫F_x dx since start(), J.")
-      .def_prop_ro("permanent_stiffness", &TangentialContact::permanent_stiffness, "K_t at `lowest`, N/m.")
+      .def_prop_ro("permanent_stiffness", &TangentialContact::permanent_stiffness,
+                   "K_t at `lowest`, N/m.")
       .def_prop_ro("memory", &TangentialContact::memory, "Pieces of history now held.");
 
-  nb::class_<TrajectoryDamping> damping(m, "TrajectoryDamping", "Steady state of a contact under a periodic motion.");
+  nb::class_<TrajectoryDamping> damping(m, "TrajectoryDamping",
+                                        "Steady state of a contact under a periodic motion.");
   damping.def_ro("work_per_cycle", &TrajectoryDamping::work_per_cycle, "Energy lost per period, J.")
-      .def_ro("relaxation_work", &TrajectoryDamping::relaxation_work, "Of it, by levels that open and close, J.")
+      .def_ro("relaxation_work", &TrajectoryDamping::relaxation_work,
+              "Of it, by levels that open and close, J.")
       .def_ro("slip_work", &TrajectoryDamping::slip_work, "Of it, by slip in permanent contact, J.")
       .def_ro("power", &TrajectoryDamping::power, "W")
       .def_ro("damping_constant", &TrajectoryDamping::damping_constant, "γ = P/⟨ẋ²⟩, N s/m.")
-      .def_ro("storage_stiffness", &TrajectoryDamping::storage_stiffness, "Part of F_x in phase with x, N/m.")
+      .def_ro("storage_stiffness", &TrajectoryDamping::storage_stiffness,
+              "Part of F_x in phase with x, N/m.")
       .def_ro("loss_factor", &TrajectoryDamping::loss_factor, "W/(2πU) of a harmonic motion.")
       .def_ro("memory", &TrajectoryDamping::memory, "Most pieces of history held at a time.")
       .def_ro("periods", &TrajectoryDamping::periods, "Periods computed.")
       .def_ro("converged", &TrajectoryDamping::converged);
-  view_property(damping, "tangential_force", &TrajectoryDamping::tangential_force, "F_x at the samples, N.");
-  view_property(damping, "dissipated", &TrajectoryDamping::dissipated, "Energy lost since the first sample, J.");
+  view_property(damping, "tangential_force", &TrajectoryDamping::tangential_force,
+                "F_x at the samples, N.");
+  view_property(damping, "dissipated", &TrajectoryDamping::dissipated,
+                "Energy lost since the first sample, J.");
   m.def(
       "trajectory_damping",
       [](const ContactLaw& law, const SampledMotion& trajectory, double friction, int max_periods) {
         cite({"popov2015"});
-        return unlocked([&] { return trajectory_damping(law, trajectory, {friction, max_periods}); });
+        return unlocked([&] {
+          return trajectory_damping(law, trajectory, {friction, max_periods});
+        });
       },
       nb::arg("law"), nb::arg("trajectory"), nb::kw_only(), nb::arg("friction") = infinite,
       nb::arg("max_periods") = 200,
-      "Follows a periodic trajectory until it is steady; exact for its straight steps. friction: μ, infinite for full stick.");
+      "Follows a periodic trajectory until it is steady; exact for its straight steps. friction: "
+      "μ, infinite for full stick.");
 }
 
 void bind_damper(nb::module_& m) {
-  nb::class_<OscillatorDecay>(m, "OscillatorDecay", "Decay of a tangential oscillator under fast normal oscillation of its contact.")
+  nb::class_<OscillatorDecay>(
+      m, "OscillatorDecay",
+      "Decay of a tangential oscillator under fast normal oscillation of its contact.")
       .def_ro("damping_constant", &OscillatorDecay::damping_constant, "γ, N s/m.")
-      .def_ro("contact_stiffness", &OscillatorDecay::contact_stiffness, "K_t of what is never let go, N/m.")
+      .def_ro("contact_stiffness", &OscillatorDecay::contact_stiffness,
+              "K_t of what is never let go, N/m.")
       .def_ro("natural_frequency", &OscillatorDecay::natural_frequency, "ω0, rad/s.")
       .def_ro("damping_ratio", &OscillatorDecay::damping_ratio, "ζ = γ/(2mω0).")
       .def_ro("quality_factor", &OscillatorDecay::quality_factor, "1/(2ζ).")
       .def_ro("decay_time", &OscillatorDecay::decay_time, "s")
       .def_ro("logarithmic_decrement", &OscillatorDecay::logarithmic_decrement)
-      .def_ro("frequency_ratio", &OscillatorDecay::frequency_ratio, "ω0/ω; the description assumes that it is small.");
+      .def_ro("frequency_ratio", &OscillatorDecay::frequency_ratio,
+              "ω0/ω; the description assumes that it is small.");
   m.def(
       "oscillator_decay",
       [](const ContactLaw& law, double normal_amplitude, double angular_frequency, double mass,
@@ -281,7 +308,8 @@ void bind_damper(nb::module_& m) {
   nb::class_<DamperMap> map(m, "DamperMap", "γ over normal amplitudes × angular frequencies.");
   view_property(map, "normal_amplitude", &DamperMap::normal_amplitude, "m");
   view_property(map, "angular_frequency", &DamperMap::angular_frequency, "rad/s");
-  view_property(map, "damping_constant", &DamperMap::damping_constant, "γ (amplitudes, frequencies), N s/m.");
+  view_property(map, "damping_constant", &DamperMap::damping_constant,
+                "γ (amplitudes, frequencies), N s/m.");
   result_methods(map, true);
   m.def(
       "damper_map",
@@ -293,7 +321,8 @@ void bind_damper(nb::module_& m) {
         options.tolerance = tolerance;
         const Position position = position_of(indentation, force);
         return unlocked([&] {
-          return damper_map(law, position, normal_amplitudes.values, angular_frequencies.values, options);
+          return damper_map(law, position, normal_amplitudes.values, angular_frequencies.values,
+                            options);
         });
       },
       nb::arg("law"), nb::arg("normal_amplitudes"), nb::arg("angular_frequencies"), nb::kw_only(),
@@ -314,16 +343,20 @@ void bind_damper(nb::module_& m) {
       nb::arg("law"), nb::kw_only(), nb::arg("angular_frequency"), nb::arg("falling_slope"),
       nb::arg("largest_amplitude"), nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation", nb::arg("tolerance") = 1e-10,
-      "The least u_z, m, at which γ >= falling_slope (N s/m): it keeps a slider whose friction falls with velocity from stick–slip. "
+      "The least u_z, m, at which γ >= falling_slope (N s/m): it keeps a slider whose friction "
+      "falls with velocity from stick–slip. "
       "NaN where no amplitude up to largest_amplitude is enough.");
 }
 
 void bind_maps(nb::module_& m) {
-  nb::class_<FrictionMap> friction(m, "FrictionMap", "How far the paper's \"infinite\" friction reaches: losses over the full-stick loss.");
+  nb::class_<FrictionMap> friction(
+      m, "FrictionMap",
+      "How far the paper's \"infinite\" friction reaches: losses over the full-stick loss.");
   view_property(friction, "friction_number", &FrictionMap::friction_number, "M = μE*u_z/(G*u_x).");
   view_property(friction, "phase", &FrictionMap::phase, "φ0, rad.");
   view_property(friction, "loss", &FrictionMap::loss, "W(μ)/W(∞), (friction numbers, phases).");
-  view_property(friction, "relaxation", &FrictionMap::relaxation, "Its part from levels that open and close.");
+  view_property(friction, "relaxation", &FrictionMap::relaxation,
+                "Its part from levels that open and close.");
   view_property(friction, "slip", &FrictionMap::slip, "Its part from slip in permanent contact.");
   result_methods(friction, true);
   m.def(
@@ -341,7 +374,9 @@ void bind_maps(nb::module_& m) {
       nb::kw_only(), nb::arg("steps") = 1000, nb::arg("progress") = false,
       "W(μ)/W(∞) over friction numbers M = μE*u_z/(G*u_x) and phases, rad; lengths in m.");
 
-  nb::class_<StressMap> stress(m, "StressMap", "Stresses under an axisymmetric indenter over phases and radii: Fig. 4 of doi:10.1038/srep16189.");
+  nb::class_<StressMap> stress(m, "StressMap",
+                               "Stresses under an axisymmetric indenter over phases and radii: "
+                               "Fig. 4 of doi:10.1038/srep16189.");
   view_property(stress, "angle", &StressMap::angle, "θ, rad.");
   view_property(stress, "radius", &StressMap::radius, "r, m.");
   view_property(stress, "contact_radius", &StressMap::contact_radius, "a of each phase, m.");
@@ -360,14 +395,19 @@ void bind_maps(nb::module_& m) {
       },
       nb::arg("law"), nb::arg("mean_indentation"), nb::arg("motion"), nb::kw_only(),
       nb::arg("phases") = 128, nb::arg("radii") = 256, nb::arg("progress") = false,
-      "The map of Fig. 4: phases + 1 angles from −π to π, and radii cells from 0 to 1.05 times the largest contact radius.");
+      "The map of Fig. 4: phases + 1 angles from −π to π, and radii cells from 0 to 1.05 times the "
+      "largest contact radius.");
 
-  nb::class_<AsperityDamping> asperity(m, "AsperityDamping", "Who loses what: the relaxation damping of every summit of a surface.");
+  nb::class_<AsperityDamping> asperity(
+      m, "AsperityDamping", "Who loses what: the relaxation damping of every summit of a surface.");
   view_property(asperity, "work", &AsperityDamping::work, "W_i of each summit, J.");
   asperity.def_ro("work_per_cycle", &AsperityDamping::work_per_cycle, "Σ W_i, J.")
-      .def_ro("intermittent_work", &AsperityDamping::intermittent_work, "Of it, by summits that lose contact during the cycle, J.")
-      .def_ro("small_amplitude_work", &AsperityDamping::small_amplitude_work, "Eq. (12) or (15) with F'' of all summits, J.")
-      .def_ro("contacts_most", &AsperityDamping::contacts_most, "Summits in contact where the body is closest …")
+      .def_ro("intermittent_work", &AsperityDamping::intermittent_work,
+              "Of it, by summits that lose contact during the cycle, J.")
+      .def_ro("small_amplitude_work", &AsperityDamping::small_amplitude_work,
+              "Eq. (12) or (15) with F'' of all summits, J.")
+      .def_ro("contacts_most", &AsperityDamping::contacts_most,
+              "Summits in contact where the body is closest …")
       .def_ro("contacts_least", &AsperityDamping::contacts_least, "… and farthest.")
       .def_ro("power", &AsperityDamping::power, "W")
       .def_ro("damping_constant", &AsperityDamping::damping_constant, "γ, N s/m.");
@@ -383,7 +423,8 @@ void bind_maps(nb::module_& m) {
       },
       nb::arg("summits"), nb::arg("material"), nb::arg("separation"), nb::arg("motion"),
       nb::kw_only(), nb::arg("shape") = "circular",
-      "Each summit is an elastic foundation of its own that sticks; separation: mean, from the mean of the summits' heights, m.");
+      "Each summit is an elastic foundation of its own that sticks; separation: mean, from the "
+      "mean of the summits' heights, m.");
 }
 
 }  // namespace

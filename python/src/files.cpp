@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
@@ -9,6 +8,7 @@
 #include <salebra/io/write_surface.hpp>
 
 #include "bindings.hpp"
+#include "interop/path.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -25,8 +25,7 @@ void bind_files(nb::module_& m) {
         }));
       },
       nb::arg("file"), nb::kw_only(), nb::arg("size_x") = nb::none(),
-      nb::arg("size_y") = nb::none(), nb::arg("periodic") = nb::none(),
-      nb::arg("height_unit") = "",
+      nb::arg("size_y") = nb::none(), nb::arg("periodic") = nb::none(), nb::arg("height_unit") = "",
       R"(Reads the heights of a surface.
 
 What the file is follows from its first bytes, not from its name: HDF5, NPY, NetCDF in SurfaceTopography's layout, X3P, GSF,
@@ -98,7 +97,8 @@ A table begins with the names of :class:`ForceCurve`'s columns, each with a unit
         });
       },
       nb::arg("file"), nb::arg("curve"), nb::kw_only(), nb::arg("overwrite") = false,
-      "Writes a curve: .h5 and .hdf5 with the group `curve`, .csv and .txt as text that :func:`read_force_curve` takes.");
+      "Writes a curve: .h5 and .hdf5 with the group `curve`, .csv and .txt as text that "
+      ":func:`read_force_curve` takes.");
 }
 
 }  // namespace salebra::python

@@ -32,19 +32,24 @@ void bind_spectra(nb::module_& m) {
 
 The mode of wave vector q = 2π(i/lx, j/ly) has the mean power C(q)·(2π)²/(lx ly).
 )")
-      .def("density", &Spectrum::density, nb::arg("qx"), nb::arg("qy"), "C(q), m⁴; qx, qy in rad/m.")
-      .def_prop_ro("highest_wavenumber", &Spectrum::highest_wavenumber, "C vanishes beyond this, rad/m.")
+      .def("density", &Spectrum::density, nb::arg("qx"), nb::arg("qy"),
+           "C(q), m⁴; qx, qy in rad/m.")
+      .def_prop_ro("highest_wavenumber", &Spectrum::highest_wavenumber,
+                   "C vanishes beyond this, rad/m.")
       .def_prop_ro("moments", &Spectrum::moments, "Moments of the continuum.")
       .def("lattice_moments", &Spectrum::lattice_moments, nb::arg("grid"),
-           "Moments that surfaces on this grid have in the mean: sums over the modes that the grid carries.")
+           "Moments that surfaces on this grid have in the mean: sums over the modes that the grid "
+           "carries.")
       .def("__repr__", &Spectrum::description);
-  nb::class_<IsotropicSpectrum, Spectrum>(m, "IsotropicSpectrum", "A spectrum that depends on |q| alone.")
+  nb::class_<IsotropicSpectrum, Spectrum>(m, "IsotropicSpectrum",
+                                          "A spectrum that depends on |q| alone.")
       .def(
           "radial_density",
           [](const IsotropicSpectrum& self, const Numbers& q) {
             return for_each_number(q, [&](double value) { return self.radial_density(value); });
           },
-          nb::arg("q"), nb::sig("def radial_density(self, q: numpy.typing.ArrayLike) -> typing.Any"),
+          nb::arg("q"),
+          nb::sig("def radial_density(self, q: numpy.typing.ArrayLike) -> typing.Any"),
           "C(|q|), m⁴, for |q| > 0 in rad/m; a number or an array.");
   nb::class_<SelfAffineSpectrum, IsotropicSpectrum>(m, "SelfAffineSpectrum",
                                                     R"(Self-affine spectrum with a plateau.
@@ -83,7 +88,8 @@ rms_slope : float, optional
       .def_prop_ro("plateau", &SelfAffineSpectrum::plateau, "C0, m⁴.");
   nb::class_<TabulatedSpectrum, IsotropicSpectrum>(
       m, "TabulatedSpectrum",
-      "A spectrum from a table, straight in ln C against ln q between its points and 0 outside of them.\n\n"
+      "A spectrum from a table, straight in ln C against ln q between its points and 0 outside of "
+      "them.\n\n"
       "wavenumbers: > 0, increasing, rad/m; densities: > 0, m⁴.")
       .def(
           "__init__",
@@ -94,12 +100,14 @@ rms_slope : float, optional
           nb::arg("wavenumbers"), nb::arg("densities"));
   nb::class_<FunctionSpectrum, IsotropicSpectrum>(
       m, "FunctionSpectrum",
-      "Any function C(|q|) in m⁴ between two wave numbers, rad/m, and 0 outside of them. A Python function is slow: one call "
+      "Any function C(|q|) in m⁴ between two wave numbers, rad/m, and 0 outside of them. A Python "
+      "function is slow: one call "
       "for each wave; :class:`TabulatedSpectrum` is not.")
-      .def(nb::init<std::function<double(double)>, double, double, std::string>(), nb::arg("density"),
-           nb::arg("lowest"), nb::arg("highest"), nb::arg("name") = "function");
+      .def(nb::init<std::function<double(double)>, double, double, std::string>(),
+           nb::arg("density"), nb::arg("lowest"), nb::arg("highest"), nb::arg("name") = "function");
   nb::class_<Anisotropy>(m, "Anisotropy",
-                         "How an isotropic surface is stretched: correlation lengths along·ℓ and across·ℓ; `angle` from the x "
+                         "How an isotropic surface is stretched: correlation lengths along·ℓ and "
+                         "across·ℓ; `angle` from the x "
                          "axis to the direction of `along`, rad.")
       .def(
           "__init__",
@@ -113,7 +121,8 @@ rms_slope : float, optional
       .def_prop_ro("peklenik", &Anisotropy::peklenik, "γ = along/across.");
   nb::class_<AnisotropicSpectrum, Spectrum>(
       m, "AnisotropicSpectrum",
-      "The spectrum of an isotropic surface stretched along two perpendicular directions, with its rms height kept.")
+      "The spectrum of an isotropic surface stretched along two perpendicular directions, with its "
+      "rms height kept.")
       .def(
           "__init__",
           [](AnisotropicSpectrum* self, std::shared_ptr<IsotropicSpectrum> isotropic,
@@ -181,13 +190,15 @@ rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for eac
 )");
   m.def(
       "exact_rms",
-      [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, const Choice<Rms>& which) {
+      [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
+         const Choice<Rms>& which) {
         cite({"salmon2011"});
         const Rms chosen = which.value("which");
         return new_surface(unlocked([&] { return exact_rms(grid, spectrum, seed, chosen); }));
       },
       nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"), nb::arg("which") = "height",
-      "A random-phase surface scaled so that its own rms height (or slope) is that of the continuum, `spectrum.moments`.");
+      "A random-phase surface scaled so that its own rms height (or slope) is that of the "
+      "continuum, `spectrum.moments`.");
   m.def(
       "scale_to_rms",
       [](const BoundSurface& surface, const Choice<Rms>& which, double target) {
@@ -196,7 +207,8 @@ rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for eac
             unlocked([&] { return scale_to_rms(Surface(surface.surface), chosen, target); }));
       },
       nb::arg("surface"), nb::arg("which"), nb::arg("target"),
-      "The surface less its mean, times the factor that gives it this rms height (m) or rms slope.");
+      "The surface less its mean, times the factor that gives it this rms height (m) or rms "
+      "slope.");
   m.def(
       "composite_surface",
       [](const BoundSurface& first, const BoundSurface& second) {
@@ -204,7 +216,8 @@ rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for eac
             unlocked([&] { return composite_surface(first.surface, second.surface); }));
       },
       nb::arg("first"), nb::arg("second"),
-      "The one rough side that stands for two: h = h₁ + h₂, each height counted out of its own body.");
+      "The one rough side that stands for two: h = h₁ + h₂, each height counted out of its own "
+      "body.");
   m.def(
       "crop_surface",
       [](const BoundSurface& surface, Index first_x, Index first_y, Index nx, Index ny) {
@@ -212,7 +225,8 @@ rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for eac
             unlocked([&] { return crop_surface(surface.surface, first_x, first_y, nx, ny); }));
       },
       nb::arg("surface"), nb::arg("first_x"), nb::arg("first_y"), nb::arg("nx"), nb::arg("ny"),
-      "The part of nx × ny cells from (first_x, first_y) on, not periodic; of a periodic surface it may reach over the edge.");
+      "The part of nx × ny cells from (first_x, first_y) on, not periodic; of a periodic surface "
+      "it may reach over the edge.");
 }
 
 void bind_non_gaussian(nb::module_& m) {
@@ -227,7 +241,8 @@ void bind_non_gaussian(nb::module_& m) {
           "Height that a fraction u of the surface lies below, 0 < u < 1.")
       .def_ro("name", &HeightDistribution::name);
   m.def("gaussian_heights", &gaussian_heights, "Normal heights.");
-  m.def("weibull_heights", &weibull_heights, nb::arg("shape"), "Weibull: u = 1 − exp(−x^shape), shape > 0.");
+  m.def("weibull_heights", &weibull_heights, nb::arg("shape"),
+        "Weibull: u = 1 − exp(−x^shape), shape > 0.");
   m.def(
       "johnson_heights",
       [](double skewness, double kurtosis) {
@@ -235,10 +250,12 @@ void bind_non_gaussian(nb::module_& m) {
         return johnson_heights(skewness, kurtosis);
       },
       nb::arg("skewness"), nb::arg("kurtosis"),
-      "The member of Johnson's system with this skewness and kurtosis (3 for a Gaussian), doi:10.1093/biomet/36.1-2.149.");
+      "The member of Johnson's system with this skewness and kurtosis (3 for a Gaussian), "
+      "doi:10.1093/biomet/36.1-2.149.");
   m.def(
       "sampled_heights", [](Values heights) { return sampled_heights(std::move(heights.values)); },
-      nb::arg("heights"), "The distribution of given heights, such as those of a measured surface.");
+      nb::arg("heights"),
+      "The distribution of given heights, such as those of a measured surface.");
 
   struct BoundNonGaussian {
     NonGaussianSurface result;
@@ -246,13 +263,17 @@ void bind_non_gaussian(nb::module_& m) {
   };
   nb::class_<BoundNonGaussian>(m, "NonGaussianSurface", "A surface and how its iteration ended.")
       .def_ro("surface", &BoundNonGaussian::surface, nb::sig("def surface(self) -> Surface"))
-      .def_prop_ro("iterations", [](const BoundNonGaussian& self) { return self.result.iterations; })
-      .def_prop_ro("spectrum_mismatch",
-                   [](const BoundNonGaussian& self) { return self.result.spectrum_mismatch; },
-                   "√(Σ(|a| − a_target)²/Σa_target²) over all modes.")
-      .def_prop_ro("converged", [](const BoundNonGaussian& self) { return self.result.converged; },
-                   "The mismatch has stopped falling.")
-      .def_prop_ro("interrupted", [](const BoundNonGaussian& self) { return self.result.interrupted; });
+      .def_prop_ro("iterations",
+                   [](const BoundNonGaussian& self) { return self.result.iterations; })
+      .def_prop_ro(
+          "spectrum_mismatch",
+          [](const BoundNonGaussian& self) { return self.result.spectrum_mismatch; },
+          "√(Σ(|a| − a_target)²/Σa_target²) over all modes.")
+      .def_prop_ro(
+          "converged", [](const BoundNonGaussian& self) { return self.result.converged; },
+          "The mismatch has stopped falling.")
+      .def_prop_ro("interrupted",
+                   [](const BoundNonGaussian& self) { return self.result.interrupted; });
   m.def(
       "non_gaussian",
       [](const Grid2D& grid, const Spectrum& spectrum, const HeightDistribution& distribution,
@@ -264,7 +285,8 @@ void bind_non_gaussian(nb::module_& m) {
           options.on_progress = std::move(told);
           return non_gaussian(grid, spectrum, distribution, seed, options);
         });
-        nb::object surface = nb::cast(new_surface(std::move(result.surface)), nb::rv_policy::take_ownership);
+        nb::object surface =
+            nb::cast(new_surface(std::move(result.surface)), nb::rv_policy::take_ownership);
         return BoundNonGaussian{std::move(result), std::move(surface)};
       },
       nb::arg("grid"), nb::arg("spectrum"), nb::arg("distribution"), nb::arg("seed"), nb::kw_only(),
@@ -288,16 +310,21 @@ progress : bool or callable
 }
 
 void bind_profiles(nb::module_& m) {
-  nb::class_<Profile> profile(m, "Profile", "A periodic line of heights: point k lies at x = k·length/n.");
-  profile.def_ro("length", &Profile::length, "m").def_prop_ro("dx", &Profile::dx, "m").def_ro("origin", &Profile::origin);
+  nb::class_<Profile> profile(m, "Profile",
+                              "A periodic line of heights: point k lies at x = k·length/n.");
+  profile.def_ro("length", &Profile::length, "m")
+      .def_prop_ro("dx", &Profile::dx, "m")
+      .def_ro("origin", &Profile::origin);
   view_property(profile, "heights", &Profile::heights, "m");
-  nb::class_<ProfileSpectrum>(m, "ProfileSpectrum", "Power spectral density C₁(q) of a random profile, h_rms² = ∫C₁ dq.")
+  nb::class_<ProfileSpectrum>(m, "ProfileSpectrum",
+                              "Power spectral density C₁(q) of a random profile, h_rms² = ∫C₁ dq.")
       .def("density", &ProfileSpectrum::density, nb::arg("q"), "C₁(|q|), m³.")
       .def_prop_ro("moments", &ProfileSpectrum::moments)
       .def("__repr__", &ProfileSpectrum::description);
   nb::class_<SelfAffineProfileSpectrum, ProfileSpectrum>(
       m, "SelfAffineProfileSpectrum",
-      "Self-affine profile: C₁ = C0 from q_L to q_r, C0 (q/q_r)^{−(1+2H)} up to q_s. Parameters as SelfAffineSpectrum.")
+      "Self-affine profile: C₁ = C0 from q_L to q_r, C0 (q/q_r)^{−(1+2H)} up to q_s. Parameters as "
+      "SelfAffineSpectrum.")
       .def(
           "__init__",
           [](SelfAffineProfileSpectrum* self, double hurst, std::optional<double> long_cutoff,
@@ -312,7 +339,8 @@ void bind_profiles(nb::module_& m) {
   m.def("filtered_noise_profile", &filtered_noise_profile, nb::arg("points"), nb::arg("length"),
         nb::arg("spectrum"), nb::arg("seed"), "A Gaussian random profile.");
   m.def("random_phase_profile", &random_phase_profile, nb::arg("points"), nb::arg("length"),
-        nb::arg("spectrum"), nb::arg("seed"), "A profile whose every mode has exactly its target power.");
+        nb::arg("spectrum"), nb::arg("seed"),
+        "A profile whose every mode has exactly its target power.");
 }
 
 }  // namespace

@@ -21,7 +21,9 @@ namespace salebra::python {
 namespace {
 
 void bind_ensemble(nb::module_& m) {
-  nb::class_<SummitEnsemble>(m, "SummitEnsemble", R"(A statistical ensemble of equal spherical caps whose heights z are distributed as φ(z).
+  nb::class_<SummitEnsemble>(
+      m, "SummitEnsemble",
+      R"(A statistical ensemble of equal spherical caps whose heights z are distributed as φ(z).
 
 Parameters
 ----------
@@ -45,8 +47,9 @@ table : list of (float, float)
           [](SummitEnsemble* self, double density, double radius, double summit_rms,
              double mean_height, const Choice<SummitDistribution>& distribution, double rms_height,
              const std::vector<std::pair<double, double>>& table) {
-            SummitEnsemble ensemble{density, radius, summit_rms, mean_height,
-                                    distribution.value("distribution"), rms_height, {}};
+            SummitEnsemble ensemble{
+                density,    radius, summit_rms, mean_height, distribution.value("distribution"),
+                rms_height, {}};
             for (const auto& [height, phi] : table) ensemble.table.push_back({height, phi});
             new (self) SummitEnsemble(std::move(ensemble));
           },
@@ -58,17 +61,21 @@ table : list of (float, float)
       .def_ro("radius", &SummitEnsemble::radius, "R, m.")
       .def_ro("summit_rms", &SummitEnsemble::summit_rms, "σ_s, m.")
       .def_ro("mean_height", &SummitEnsemble::mean_height, "m")
-      .def_prop_ro("distribution", [](const SummitEnsemble& self) { return text_of(self.distribution); })
+      .def_prop_ro("distribution",
+                   [](const SummitEnsemble& self) { return text_of(self.distribution); })
       .def_ro("rms_height", &SummitEnsemble::rms_height, "m")
       .def("__repr__", [](const SummitEnsemble& self) {
-        return describe("SummitEnsemble", {{"density", self.density}, {"radius", self.radius}, {"summit_rms", self.summit_rms}},
-                        "distribution='" + text_of(self.distribution) + "'");
+        return describe(
+            "SummitEnsemble",
+            {{"density", self.density}, {"radius", self.radius}, {"summit_rms", self.summit_rms}},
+            "distribution='" + text_of(self.distribution) + "'");
       });
   m.def(
       "summit_ensemble",
       [](const SpectralMoments& moments) {
         cite({"nayak1971", "mccool1986"});
-        SummitEnsemble ensemble = summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
+        SummitEnsemble ensemble =
+            summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
         ensemble.rms_height = moments.rms_height();
         return ensemble;
       },
@@ -82,34 +89,52 @@ Nayak, doi:10.1115/1.3451608; McCool, doi:10.1016/0043-1648(86)90045-1.
 )");
   m.def(
       "summit_ensemble",
-      [](const SummitStatistics& statistics, double mean_plane) { return summit_ensemble(statistics, mean_plane); },
+      [](const SummitStatistics& statistics, double mean_plane) {
+        return summit_ensemble(statistics, mean_plane);
+      },
       nb::arg("statistics"), nb::arg("mean_plane") = 0.0,
-      "The ensemble with the density, mean radius, and mean and standard deviation of the heights of summits that were counted. "
+      "The ensemble with the density, mean radius, and mean and standard deviation of the heights "
+      "of summits that were counted. "
       "mean_plane: mean of the surface's heights, m.");
 }
 
 void bind_models(nb::module_& m) {
   nb::class_<AsperityContact>(m, "AsperityContact", "Sums over the summits in contact.")
-      .def_ro("contacts", &AsperityContact::contacts, "N; an expectation for a statistical ensemble.")
+      .def_ro("contacts", &AsperityContact::contacts,
+              "N; an expectation for a statistical ensemble.")
       .def_ro("contact_area", &AsperityContact::contact_area, "A_c, m².")
       .def_ro("force", &AsperityContact::force, "F, N.")
       .def_ro("normal_stiffness", &AsperityContact::normal_stiffness, "K, N/m.")
       .def_ro("curvature", &AsperityContact::curvature, "F'', N/m².")
       .def_ro("converged", &AsperityContact::converged, "Only a model that iterates may say no.");
-  nb::class_<AsperityModel>(m, "AsperityModel", "A smooth rigid plane at separation s from the plane z = 0 of an ensemble of summits.")
+  nb::class_<AsperityModel>(
+      m, "AsperityModel",
+      "A smooth rigid plane at separation s from the plane z = 0 of an ensemble of summits.")
       .def(
-          "at", [](const AsperityModel& self, double separation) { return unlocked([&] { return self.at(separation); }); },
+          "at",
+          [](const AsperityModel& self, double separation) {
+            return unlocked([&] { return self.at(separation); });
+          },
           nb::arg("separation"), "All sums at a separation, m.")
       .def(
-          "separation_of", [](const AsperityModel& self, double force) { return unlocked([&] { return self.separation_of(force); }); },
+          "separation_of",
+          [](const AsperityModel& self, double force) {
+            return unlocked([&] { return self.separation_of(force); });
+          },
           nb::arg("force"), "s at which the summits carry the force > 0, N; m.")
-      .def("indentation", &AsperityModel::indentation, nb::arg("separation"), "δ = first_touch − s, m.")
+      .def("indentation", &AsperityModel::indentation, nb::arg("separation"),
+           "δ = first_touch − s, m.")
       .def("mean_gap", &AsperityModel::mean_gap, nb::arg("separation"),
            "ū = s + mean_height, from the *undeformed* mean plane of the surface, m.")
       .def_prop_ro("name", [](const AsperityModel& self) { return self.common().name; })
-      .def_prop_ro("nominal_area", [](const AsperityModel& self) { return self.common().nominal_area; }, "A0, m².")
-      .def_prop_ro("first_touch", [](const AsperityModel& self) { return self.common().first_touch; }, "s where δ = 0, m.");
-  nb::class_<StatisticalSummits, AsperityModel>(m, "StatisticalSummits", R"(Greenwood and Williamson, doi:10.1098/rspa.1966.0242.
+      .def_prop_ro(
+          "nominal_area", [](const AsperityModel& self) { return self.common().nominal_area; },
+          "A0, m².")
+      .def_prop_ro(
+          "first_touch", [](const AsperityModel& self) { return self.common().first_touch; },
+          "s where δ = 0, m.");
+  nb::class_<StatisticalSummits, AsperityModel>(
+      m, "StatisticalSummits", R"(Greenwood and Williamson, doi:10.1098/rspa.1966.0242.
 
 .. math::
     F = \tfrac43E^*\sqrt R\,\eta A_0\!\int_s^\infty\!(z-s)^{3/2}\varphi\,dz,\quad
@@ -125,12 +150,14 @@ nominal_area : float
 )")
       .def(
           "__init__",
-          [](StatisticalSummits* self, const SummitEnsemble& ensemble, const Material& material, double nominal_area) {
+          [](StatisticalSummits* self, const SummitEnsemble& ensemble, const Material& material,
+             double nominal_area) {
             cite({"greenwood_williamson1966"});
             new (self) StatisticalSummits(ensemble, material, nominal_area);
           },
           nb::arg("ensemble"), nb::arg("material"), nb::arg("nominal_area"));
-  nb::class_<DeterministicSummits, AsperityModel>(m, "DeterministicSummits", R"(Each summit of one surface with its own height and radius.
+  nb::class_<DeterministicSummits, AsperityModel>(
+      m, "DeterministicSummits", R"(Each summit of one surface with its own height and radius.
 
 .. math:: F = \sum_i\tfrac43E^*\sqrt{R_i}\,(z_i-s)^{3/2}
 
@@ -152,14 +179,18 @@ shape : {"circular", "elliptical"}
       .def(
           "__init__",
           [](DeterministicSummits* self, const SummitList& summits, const Material& material,
-             double nominal_area, double mean_plane, double rms_height, const Choice<SummitShape>& shape) {
+             double nominal_area, double mean_plane, double rms_height,
+             const Choice<SummitShape>& shape) {
             cite({"greenwood_williamson1966"});
-            new (self) DeterministicSummits(summits.summits, material, nominal_area, mean_plane, rms_height,
-                                            shape.value("shape"));
+            new (self) DeterministicSummits(summits.summits, material, nominal_area, mean_plane,
+                                            rms_height, shape.value("shape"));
           },
           nb::arg("summits"), nb::arg("material"), nb::arg("nominal_area"), nb::kw_only(),
-          nb::arg("mean_plane") = 0.0, nb::arg("rms_height") = ForceSample::unknown, nb::arg("shape") = "circular");
-  nb::class_<InteractingSummits, AsperityModel>(m, "InteractingSummits", R"(The summits of a periodic surface, each pressed down by all the others.
+          nb::arg("mean_plane") = 0.0, nb::arg("rms_height") = ForceSample::unknown,
+          nb::arg("shape") = "circular");
+  nb::class_<InteractingSummits, AsperityModel>(
+      m, "InteractingSummits",
+      R"(The summits of a periodic surface, each pressed down by all the others.
 
 .. math:: P_i = \tfrac43E^*\sqrt{R_i}\,\delta_i^{3/2},\qquad \delta_i = z_i - s - \sum_jG(x_i-x_j)P_j
 
@@ -176,10 +207,12 @@ Ciavarella, Delfine and Demelio, J. Mech. Phys. Solids 54 (2006) 2569. A state c
           },
           nb::arg("summits"), nb::arg("material"), nb::arg("grid"), nb::kw_only(),
           nb::arg("mean_plane") = 0.0, nb::arg("rms_height") = ForceSample::unknown,
-          nb::arg("shape") = "circular", nb::arg("tolerance") = 1e-10, nb::arg("max_iterations") = 100);
+          nb::arg("shape") = "circular", nb::arg("tolerance") = 1e-10,
+          nb::arg("max_iterations") = 100);
   nb::class_<GreenwoodTripp, AsperityModel>(
       m, "GreenwoodTripp",
-      "Contact of two rough sides: Greenwood and Tripp, Proc. Inst. Mech. Engrs 185 (1970) 625. Both ensembles Gaussian.")
+      "Contact of two rough sides: Greenwood and Tripp, Proc. Inst. Mech. Engrs 185 (1970) 625. "
+      "Both ensembles Gaussian.")
       .def(
           "__init__",
           [](GreenwoodTripp* self, const SummitEnsemble& first, const SummitEnsemble& second,
@@ -193,19 +226,23 @@ Ciavarella, Delfine and Demelio, J. Mech. Phys. Solids 54 (2006) 2569. A state c
       [](const AsperityModel& model, const Values& separations) {
         return unlocked([&] { return curve_at_separations(model, separations.values); });
       },
-      nb::arg("model"), nb::arg("separations"), "Samples at the given separations, m, from the lowest force to the highest.");
+      nb::arg("model"), nb::arg("separations"),
+      "Samples at the given separations, m, from the lowest force to the highest.");
   m.def(
       "curve_at_pressures",
       [](const AsperityModel& model, const Values& pressures) {
         return unlocked([&] { return curve_at_pressures(model, pressures.values); });
       },
-      nb::arg("model"), nb::arg("pressures"), "Samples at the given pressures, > 0, Pa, from the lowest force to the highest.");
-  nb::class_<GreenwoodWilliamsonLaw, ContactLaw>(m, "GreenwoodWilliamsonLaw",
-                                                 "F(δ) of an ensemble of summits, exact: no table, no fit. The material needs G*.")
+      nb::arg("model"), nb::arg("pressures"),
+      "Samples at the given pressures, > 0, Pa, from the lowest force to the highest.");
+  nb::class_<GreenwoodWilliamsonLaw, ContactLaw>(
+      m, "GreenwoodWilliamsonLaw",
+      "F(δ) of an ensemble of summits, exact: no table, no fit. The material needs G*.")
       .def(
           "__init__",
           [](GreenwoodWilliamsonLaw* self, std::shared_ptr<AsperityModel> model) {
-            new (self) GreenwoodWilliamsonLaw(std::shared_ptr<const AsperityModel>(std::move(model)));
+            new (self)
+                GreenwoodWilliamsonLaw(std::shared_ptr<const AsperityModel>(std::move(model)));
           },
           nb::arg("model"));
 }
@@ -213,30 +250,35 @@ Ciavarella, Delfine and Demelio, J. Mech. Phys. Solids 54 (2006) 2569. A state c
 void bind_sampling(nb::module_& m) {
   m.def(
       "draw_summits",
-      [](const SummitEnsemble& ensemble, int count, double size, std::uint64_t seed, int realisation) {
+      [](const SummitEnsemble& ensemble, int count, double size, std::uint64_t seed,
+         int realisation) {
         return SummitList{draw_summits(ensemble, count, size, seed, realisation), size * size};
       },
-      nb::arg("ensemble"), nb::arg("count"), nb::arg("size"), nb::arg("seed"), nb::arg("realisation") = 0,
+      nb::arg("ensemble"), nb::arg("count"), nb::arg("size"), nb::arg("seed"),
+      nb::arg("realisation") = 0,
       "Summits drawn from an ensemble over a square of side `size`, m.");
-  nb::class_<MonteCarloCurve> curve(m, "MonteCarloCurve", "What surfaces of finite size do: means over realisations.");
+  nb::class_<MonteCarloCurve> curve(m, "MonteCarloCurve",
+                                    "What surfaces of finite size do: means over realisations.");
   curve.def_ro("mean", &MonteCarloCurve::mean)
       .def_ro("realisations", &MonteCarloCurve::realisations)
       .def_ro("summits", &MonteCarloCurve::summits, "Of each realisation.")
       .def("interval", &MonteCarloCurve::interval, nb::arg("standard_deviation"),
-           "Half-width of the 95 % interval of the mean of a quantity with this standard deviation.");
+           "Half-width of the 95 % interval of the mean of a quantity with this standard "
+           "deviation.");
   column_property(curve, "force_deviation", &MonteCarloCurve::deviation, &AsperityContact::force,
                   "Standard deviation of F over realisations, N.");
-  column_property(curve, "contact_area_deviation", &MonteCarloCurve::deviation, &AsperityContact::contact_area,
-                  "Standard deviation of A_c, m².");
-  column_property(curve, "normal_stiffness_deviation", &MonteCarloCurve::deviation, &AsperityContact::normal_stiffness,
-                  "Standard deviation of K, N/m.");
+  column_property(curve, "contact_area_deviation", &MonteCarloCurve::deviation,
+                  &AsperityContact::contact_area, "Standard deviation of A_c, m².");
+  column_property(curve, "normal_stiffness_deviation", &MonteCarloCurve::deviation,
+                  &AsperityContact::normal_stiffness, "Standard deviation of K, N/m.");
   m.def(
       "monte_carlo_curve",
       [](const SummitEnsemble& ensemble, const Material& material, double nominal_area,
          const Values& separations, int realisations, std::uint64_t seed) {
         cite({"greenwood_williamson1966"});
         return unlocked([&] {
-          return monte_carlo_curve(ensemble, material, nominal_area, separations.values, {realisations, seed});
+          return monte_carlo_curve(ensemble, material, nominal_area, separations.values,
+                                   {realisations, seed});
         });
       },
       nb::arg("ensemble"), nb::arg("material"), nb::arg("nominal_area"), nb::arg("separations"),

@@ -32,53 +32,65 @@ void evaluation(nb::class_<ContactLaw>& law, const char* name, const char* argum
 }  // namespace
 
 void bind_law(nb::module_& m) {
-  nb::class_<ContactLaw> law(m, "ContactLaw", R"(Force–indentation law of a contact: all that the damping problem needs to know of it.
+  nb::class_<ContactLaw> law(
+      m, "ContactLaw",
+      R"(Force–indentation law of a contact: all that the damping problem needs to know of it.
 
 Indentation δ grows with approach. Functions take a number or an array and return the same shape. Evaluation outside
 [lowest_indentation, highest_indentation] raises InvalidInput; below first touch a law that knows it returns 0.
 )");
-  evaluation(law, "force", "indentation", &ContactLaw::force, SALEBRA_OF_INDENTATION("force"), "F(δ), N.");
+  evaluation(law, "force", "indentation", &ContactLaw::force, SALEBRA_OF_INDENTATION("force"),
+             "F(δ), N.");
   evaluation(law, "normal_stiffness", "indentation", &ContactLaw::normal_stiffness,
              SALEBRA_OF_INDENTATION("normal_stiffness"), "K = F', N/m.");
-  evaluation(law, "curvature", "indentation", &ContactLaw::curvature, SALEBRA_OF_INDENTATION("curvature"),
-             "K' = F'', N/m².");
+  evaluation(law, "curvature", "indentation", &ContactLaw::curvature,
+             SALEBRA_OF_INDENTATION("curvature"), "K' = F'', N/m².");
   evaluation(law, "tangential_stiffness", "indentation", &ContactLaw::tangential_stiffness,
              SALEBRA_OF_INDENTATION("tangential_stiffness"),
              "K_t, N/m: (G*/E*)K unless the law was given a K_t of its own.");
   evaluation(law, "tangential_curvature", "indentation", &ContactLaw::tangential_curvature,
              SALEBRA_OF_INDENTATION("tangential_curvature"), "K_t', N/m².");
-  evaluation(law, "indentation_of", "force", &ContactLaw::indentation_of,
-             "def indentation_of(self, force: numpy.typing.ArrayLike) -> typing.Any",
-             "δ with F(δ) = force > 0, m; raises InvalidInput where the law does not reach that force.");
-  law.def_prop_ro("lowest_indentation", &ContactLaw::lowest_indentation, "−∞ unless the law is a table, m.")
-      .def_prop_ro("highest_indentation", &ContactLaw::highest_indentation, "+∞ unless the law is a table, m.")
-      .def_prop_ro("break_points", [](const ContactLaw& self) { return array_of(self.break_points()); },
-                   nb::sig("def break_points(self) -> numpy.typing.NDArray[numpy.float64]"),
-                   "Indentations at which F, K, K_t or a first derivative jumps, m.")
+  evaluation(
+      law, "indentation_of", "force", &ContactLaw::indentation_of,
+      "def indentation_of(self, force: numpy.typing.ArrayLike) -> typing.Any",
+      "δ with F(δ) = force > 0, m; raises InvalidInput where the law does not reach that force.");
+  law.def_prop_ro("lowest_indentation", &ContactLaw::lowest_indentation,
+                  "−∞ unless the law is a table, m.")
+      .def_prop_ro("highest_indentation", &ContactLaw::highest_indentation,
+                   "+∞ unless the law is a table, m.")
+      .def_prop_ro(
+          "break_points", [](const ContactLaw& self) { return array_of(self.break_points()); },
+          nb::sig("def break_points(self) -> numpy.typing.NDArray[numpy.float64]"),
+          "Indentations at which F, K, K_t or a first derivative jumps, m.")
       .def_prop_ro("modulus_ratio", &ContactLaw::modulus_ratio, "G*/E*.")
       .def(
           "plot",
           [](nb::handle_t<ContactLaw> self, nb::args arguments, nb::kwargs keywords) {
             return call_python("salebra._plots", "plot_law", self, arguments, keywords);
           },
-          nb::sig("def plot(self, indentation: numpy.typing.ArrayLike, ax: matplotlib.axes.Axes | None = None, **kwargs: "
+          nb::sig("def plot(self, indentation: numpy.typing.ArrayLike, ax: matplotlib.axes.Axes | "
+                  "None = None, **kwargs: "
                   "typing.Any) -> matplotlib.axes.Axes"),
           "Draws F(δ) at the indentations given, m.");
 
-  nb::class_<PowerLaw, ContactLaw>(m, "PowerLaw",
-                                   "F = B δⁿ for δ > 0, 0 below: cone n = 2, paraboloid n = 3/2, profile r^m n = 1 + 1/m.\n\n"
-                                   "coefficient: B, N/mⁿ; modulus_ratio: G*/E*.")
-      .def(nb::init<double, double, double>(), nb::arg("coefficient"), nb::arg("exponent"), nb::arg("modulus_ratio"))
+  nb::class_<PowerLaw, ContactLaw>(
+      m, "PowerLaw",
+      "F = B δⁿ for δ > 0, 0 below: cone n = 2, paraboloid n = 3/2, profile r^m n = 1 + 1/m.\n\n"
+      "coefficient: B, N/mⁿ; modulus_ratio: G*/E*.")
+      .def(nb::init<double, double, double>(), nb::arg("coefficient"), nb::arg("exponent"),
+           nb::arg("modulus_ratio"))
       .def_prop_ro("coefficient", &PowerLaw::coefficient, "B, N/mⁿ.")
       .def_prop_ro("exponent", &PowerLaw::exponent, "n.");
   nb::class_<ExponentialLaw, ContactLaw>(
       m, "ExponentialLaw",
-      "F = F0 exp(δ/l), δ counted from where F = F0: the law of nominally flat rough surfaces, F ∝ exp(−ū/l).\n\n"
+      "F = F0 exp(δ/l), δ counted from where F = F0: the law of nominally flat rough surfaces, F ∝ "
+      "exp(−ū/l).\n\n"
       "reference_force: F0, N; decay_length: l, m; modulus_ratio: G*/E*.")
       .def(nb::init<double, double, double>(), nb::arg("reference_force"), nb::arg("decay_length"),
            nb::arg("modulus_ratio"))
       .def_prop_ro("decay_length", &ExponentialLaw::decay_length, "l, m.");
-  nb::class_<TabulatedLaw, ContactLaw>(m, "TabulatedLaw", R"(A computed or measured curve, shape-preserving.
+  nb::class_<TabulatedLaw, ContactLaw>(m, "TabulatedLaw",
+                                       R"(A computed or measured curve, shape-preserving.
 
 ln F against δ is interpolated by a monotone cubic whose slopes at the nodes are K/F where every sample has K; K = F' and K' = F''
 are its exact derivatives. K_t: where every sample has one, interpolated likewise; otherwise (G*/E*)K. δ is the samples'

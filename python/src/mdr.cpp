@@ -21,7 +21,8 @@ std::shared_ptr<Profile> shared(std::unique_ptr<Profile> profile) {
 }
 
 void bind_profile(nb::module_& m) {
-  nb::class_<Profile> profile(m, "IndenterProfile", R"(An axisymmetric indenter z = f(r), f(0) = 0, and its image g(x).
+  nb::class_<Profile> profile(m, "IndenterProfile",
+                              R"(An axisymmetric indenter z = f(r), f(0) = 0, and its image g(x).
 
 .. math:: g(x) = |x|\int_0^{|x|}\frac{f'(r)\,dr}{\sqrt{x^2-r^2}} \quad\text{Eq. (3) of doi:10.1038/srep16189}
 
@@ -36,17 +37,23 @@ Functions take a number or an array of radii, m, up to `largest_radius`.
         },
         nb::arg(argument), nb::sig(signature), description);
   };
-  evaluation("height", "r", &Profile::height, "def height(self, r: numpy.typing.ArrayLike) -> typing.Any", "f(r), m.");
-  evaluation("image", "x", &Profile::image, "def image(self, x: numpy.typing.ArrayLike) -> typing.Any", "g(x), m.");
+  evaluation("height", "r", &Profile::height,
+             "def height(self, r: numpy.typing.ArrayLike) -> typing.Any", "f(r), m.");
+  evaluation("image", "x", &Profile::image,
+             "def image(self, x: numpy.typing.ArrayLike) -> typing.Any", "g(x), m.");
   evaluation("image_slope", "x", &Profile::image_slope,
-             "def image_slope(self, x: numpy.typing.ArrayLike) -> typing.Any", "g'(x): the c of the paper at the edge.");
+             "def image_slope(self, x: numpy.typing.ArrayLike) -> typing.Any",
+             "g'(x): the c of the paper at the edge.");
   evaluation("image_integral", "x", &Profile::image_integral,
-             "def image_integral(self, x: numpy.typing.ArrayLike) -> typing.Any", "∫_0^x g dx, m².");
+             "def image_integral(self, x: numpy.typing.ArrayLike) -> typing.Any",
+             "∫_0^x g dx, m².");
   evaluation("contact_radius", "indentation", &Profile::contact_radius,
-             "def contact_radius(self, indentation: numpy.typing.ArrayLike) -> typing.Any", "a with g(a) = indentation, m.");
+             "def contact_radius(self, indentation: numpy.typing.ArrayLike) -> typing.Any",
+             "a with g(a) = indentation, m.");
   profile.def_prop_ro("flat_radius", &Profile::flat_radius, "Radius of the flat end, m.")
       .def_prop_ro("largest_radius", &Profile::largest_radius, "Where the profile ends, m.")
-      .def_prop_ro("has_side", &Profile::has_side, "Whether the contact stops growing at largest_radius.");
+      .def_prop_ro("has_side", &Profile::has_side,
+                   "Whether the contact stops growing at largest_radius.");
 
   m.def(
       "cone_profile", [](double angle) { return shared(cone_profile(angle)); }, nb::arg("angle"),
@@ -56,7 +63,9 @@ Functions take a number or an array of radii, m, up to `largest_radius`.
       nb::arg("radius"), "f = r²/2R: g = x²/R. radius: R, m.");
   m.def(
       "power_profile",
-      [](double coefficient, double exponent) { return shared(power_profile(coefficient, exponent)); },
+      [](double coefficient, double exponent) {
+        return shared(power_profile(coefficient, exponent));
+      },
       nb::arg("coefficient"), nb::arg("exponent"), "f = B rⁿ, n > 0: g = κ_n B |x|ⁿ.");
   m.def(
       "sphere_profile", [](double radius) { return shared(sphere_profile(radius)); },
@@ -70,10 +79,11 @@ Functions take a number or an array of radii, m, up to `largest_radius`.
         return shared(rounded_punch_profile(flat_radius, edge_radius));
       },
       nb::arg("flat_radius"), nb::arg("edge_radius"), "Flat end with rounded edge, m.");
-  nb::class_<TabulatedProfile, Profile>(
-      m, "TabulatedProfile",
-      "A profile measured or computed at radii: f between them by a monotone cubic, its image by exact quadrature.\n\n"
-      "radii: from 0, strictly increasing, m, at least seven; heights: rising from their first value, m.")
+  nb::class_<TabulatedProfile, Profile>(m, "TabulatedProfile",
+                                        "A profile measured or computed at radii: f between them "
+                                        "by a monotone cubic, its image by exact quadrature.\n\n"
+                                        "radii: from 0, strictly increasing, m, at least seven; "
+                                        "heights: rising from their first value, m.")
       .def(
           "__init__",
           [](TabulatedProfile* self, Values radii, Values heights) {
@@ -82,7 +92,8 @@ Functions take a number or an array of radii, m, up to `largest_radius`.
           },
           nb::arg("radii"), nb::arg("heights"))
       .def("image_error", &TabulatedProfile::image_error, nb::arg("x"),
-           "Relative change of g(x) when every other point is left out: an upper estimate of the interpolation error.");
+           "Relative change of g(x) when every other point is left out: an upper estimate of the "
+           "interpolation error.");
 }
 
 }  // namespace
@@ -90,7 +101,9 @@ Functions take a number or an array of radii, m, up to `largest_radius`.
 void bind_mdr(nb::module_& m) {
   bind_profile(m);
   using Law = IndenterLaw;
-  nb::class_<Law, ContactLaw>(m, "IndenterLaw", R"(The contact of a profile with an elastic half-space, exact (method of dimensionality reduction).
+  nb::class_<Law, ContactLaw>(
+      m, "IndenterLaw",
+      R"(The contact of a profile with an elastic half-space, exact (method of dimensionality reduction).
 
 .. math:: \delta = g(a),\quad F = 2E^*\int_0^a(\delta-g)\,dx,\quad K = 2E^*a,\quad F'' = 2E^*/g'(a),\quad K_t = \tfrac{G^*}{E^*}K
 
@@ -111,25 +124,31 @@ material : Material
       .def(
           "contact_radius",
           [](const Law& self, const Numbers& indentation) {
-            return for_each_number(indentation, [&](double value) { return self.contact_radius(value); });
+            return for_each_number(indentation,
+                                   [&](double value) { return self.contact_radius(value); });
           },
           nb::arg("indentation"),
-          nb::sig("def contact_radius(self, indentation: numpy.typing.ArrayLike) -> typing.Any"), "a, m.")
+          nb::sig("def contact_radius(self, indentation: numpy.typing.ArrayLike) -> typing.Any"),
+          "a, m.")
       .def(
           "pressure",
           [](const Law& self, double indentation, const Numbers& r) {
-            return for_each_number(r, [&](double value) { return self.pressure(indentation, value); });
+            return for_each_number(r,
+                                   [&](double value) { return self.pressure(indentation, value); });
           },
           nb::arg("indentation"), nb::arg("r"),
-          nb::sig("def pressure(self, indentation: float, r: numpy.typing.ArrayLike) -> typing.Any"),
+          nb::sig(
+              "def pressure(self, indentation: float, r: numpy.typing.ArrayLike) -> typing.Any"),
           "p(r) under the indenter, Pa; infinite at the edge of a flat end.")
       .def(
           "surface_displacement",
           [](const Law& self, double indentation, const Numbers& r) {
-            return for_each_number(r, [&](double value) { return self.surface_displacement(indentation, value); });
+            return for_each_number(
+                r, [&](double value) { return self.surface_displacement(indentation, value); });
           },
           nb::arg("indentation"), nb::arg("r"),
-          nb::sig("def surface_displacement(self, indentation: float, r: numpy.typing.ArrayLike) -> typing.Any"),
+          nb::sig("def surface_displacement(self, indentation: float, r: numpy.typing.ArrayLike) "
+                  "-> typing.Any"),
           "Normal displacement of the half-space's surface, m.")
       .def_prop_ro("contact_modulus", &Law::contact_modulus, "E*, Pa.");
 }

@@ -4,6 +4,7 @@
 NB_MODULE(_core, m) {
   m.doc() = "The C++ library salebra. Import `salebra`, which has everything that is here.";
   using namespace salebra::python;
+  nanobind::module_::import_("numpy");  // once, here, rather than inside the first call
   bind_base(m);
   bind_surface(m);
   bind_generators(m);

@@ -12,7 +12,8 @@
 namespace salebra::python {
 
 void bind_motion(nb::module_& m) {
-  nb::class_<EqualFrequency>(m, "EqualFrequency", R"(Case (a) of the paper: z = u_z cos ωt, x = u_x cos(ωt + φ0).
+  nb::class_<EqualFrequency>(m, "EqualFrequency",
+                             R"(Case (a) of the paper: z = u_z cos ωt, x = u_x cos(ωt + φ0).
 
 Parameters
 ----------
@@ -29,7 +30,8 @@ angular_frequency : float
           "__init__",
           [](EqualFrequency* self, double normal_amplitude, double tangential_amplitude,
              double phase, double angular_frequency) {
-            new (self) EqualFrequency{normal_amplitude, tangential_amplitude, phase, angular_frequency};
+            new (self)
+                EqualFrequency{normal_amplitude, tangential_amplitude, phase, angular_frequency};
           },
           nb::kw_only(), nb::arg("normal_amplitude"), nb::arg("tangential_amplitude"),
           nb::arg("phase"), nb::arg("angular_frequency") = 0.0)
@@ -43,7 +45,9 @@ angular_frequency : float
                                            {"phase", motion.phase},
                                            {"angular_frequency", motion.angular_frequency}});
       });
-  nb::class_<Drag>(m, "Drag", R"(Case (b) of the paper: z = u_z cos ωt while the body is drawn tangentially at constant velocity.
+  nb::class_<Drag>(
+      m, "Drag",
+      R"(Case (b) of the paper: z = u_z cos ωt while the body is drawn tangentially at constant velocity.
 
 Parameters
 ----------
@@ -59,7 +63,8 @@ angular_frequency : float
           [](Drag* self, double normal_amplitude, double drag_velocity, double angular_frequency) {
             new (self) Drag{normal_amplitude, drag_velocity, angular_frequency};
           },
-          nb::kw_only(), nb::arg("normal_amplitude"), nb::arg("drag_velocity"), nb::arg("angular_frequency"))
+          nb::kw_only(), nb::arg("normal_amplitude"), nb::arg("drag_velocity"),
+          nb::arg("angular_frequency"))
       .def_ro("normal_amplitude", &Drag::normal_amplitude, "u_z, m.")
       .def_ro("drag_velocity", &Drag::drag_velocity, "v, m/s.")
       .def_ro("angular_frequency", &Drag::angular_frequency, "ω, rad/s.")
@@ -69,7 +74,8 @@ angular_frequency : float
                                  {"angular_frequency", motion.angular_frequency}});
       });
   nb::class_<TwoFrequencies>(m, "TwoFrequencies",
-                             "Two frequencies: z = u_z cos ω_z t, x = u_x cos(ω_x t + φ0). Equal ones are case (a), slow tangential "
+                             "Two frequencies: z = u_z cos ω_z t, x = u_x cos(ω_x t + φ0). Equal "
+                             "ones are case (a), slow tangential "
                              "motion tends to case (b).")
       .def(
           "__init__",
@@ -79,12 +85,14 @@ angular_frequency : float
                                       normal_angular_frequency, tangential_angular_frequency};
           },
           nb::kw_only(), nb::arg("normal_amplitude"), nb::arg("tangential_amplitude"),
-          nb::arg("phase"), nb::arg("normal_angular_frequency"), nb::arg("tangential_angular_frequency"))
+          nb::arg("phase"), nb::arg("normal_angular_frequency"),
+          nb::arg("tangential_angular_frequency"))
       .def_ro("normal_amplitude", &TwoFrequencies::normal_amplitude, "u_z, m.")
       .def_ro("tangential_amplitude", &TwoFrequencies::tangential_amplitude, "u_x, m.")
       .def_ro("phase", &TwoFrequencies::phase, "φ0: phase of x at a maximum of z, rad.")
       .def_ro("normal_angular_frequency", &TwoFrequencies::normal_angular_frequency, "ω_z, rad/s.")
-      .def_ro("tangential_angular_frequency", &TwoFrequencies::tangential_angular_frequency, "ω_x, rad/s.");
+      .def_ro("tangential_angular_frequency", &TwoFrequencies::tangential_angular_frequency,
+              "ω_x, rad/s.");
   m.def(
       "common_period",
       [](const TwoFrequencies& motion, int most_cycles) {
@@ -92,9 +100,12 @@ angular_frequency : float
         return std::pair(period.normal_cycles, period.tangential_cycles);
       },
       nb::arg("motion"), nb::arg("most_cycles") = 1000,
-      "(p, q) with ω_x/ω_z = q/p in lowest terms; (0, 0) where the motion never repeats within most_cycles normal cycles.");
+      "(p, q) with ω_x/ω_z = q/p in lowest terms; (0, 0) where the motion never repeats within "
+      "most_cycles normal cycles.");
 
-  nb::class_<SampledMotion> sampled(m, "SampledMotion", R"(One period of any motion, straight between the samples; the last sample closes the period.
+  nb::class_<SampledMotion> sampled(
+      m, "SampledMotion",
+      R"(One period of any motion, straight between the samples; the last sample closes the period.
 
 Parameters
 ----------
@@ -117,18 +128,22 @@ displacement : array_like
   view_property(sampled, "time", &SampledMotion::time, "s");
   view_property(sampled, "indentation", &SampledMotion::indentation, "δ, m");
   view_property(sampled, "displacement", &SampledMotion::displacement, "x, m");
-  sampled.def_prop_ro("period", &SampledMotion::period, "s").def_prop_ro("drift", &SampledMotion::drift, "m");
+  sampled.def_prop_ro("period", &SampledMotion::period, "s")
+      .def_prop_ro("drift", &SampledMotion::drift, "m");
   m.def(
       "sample",
-      [](const std::variant<EqualFrequency, Drag, TwoFrequencies>& motion, double mean_indentation, int steps) {
-        if (const auto* two = std::get_if<TwoFrequencies>(&motion)) return sample(*two, mean_indentation, steps);
+      [](const std::variant<EqualFrequency, Drag, TwoFrequencies>& motion, double mean_indentation,
+         int steps) {
+        if (const auto* two = std::get_if<TwoFrequencies>(&motion))
+          return sample(*two, mean_indentation, steps);
         const Oscillation one = std::holds_alternative<Drag>(motion)
                                     ? Oscillation(std::get<Drag>(motion))
                                     : Oscillation(std::get<EqualFrequency>(motion));
         return sample(one, mean_indentation, steps);
       },
       nb::arg("motion"), nb::arg("mean_indentation"), nb::arg("steps"),
-      "One period about a mean indentation (m), `steps` straight steps for each normal cycle, beginning at a minimum of δ.");
+      "One period about a mean indentation (m), `steps` straight steps for each normal cycle, "
+      "beginning at a minimum of δ.");
 }
 
 }  // namespace salebra::python

@@ -29,7 +29,8 @@ void bind_shapes(nb::module_& m) {
         return Point{point.x, point.y};
       },
       nb::arg("grid"),
-      "The middle of the grid moved by (0.31, 0.17) of a cell, (x, y) in m: off the grid the contact area of a symmetric body does "
+      "The middle of the grid moved by (0.31, 0.17) of a cell, (x, y) in m: off the grid the "
+      "contact area of a symmetric body does "
       "not jump by many cells at a time.");
   m.def(
       "paraboloid_surface",
@@ -63,7 +64,8 @@ void bind_shapes(nb::module_& m) {
       [](const Grid2D& grid, double angle, std::optional<Point> at) {
         return new_surface(cone_surface(grid, angle, center_of(at)));
       },
-      nb::arg("grid"), nb::arg("angle"), center(), "h = −r tan(angle), angle between flank and plane, rad.");
+      nb::arg("grid"), nb::arg("angle"), center(),
+      "h = −r tan(angle), angle between flank and plane, rad.");
   m.def(
       "wedge_surface",
       [](const Grid2D& grid, double angle, std::optional<Point> at) {
@@ -75,7 +77,8 @@ void bind_shapes(nb::module_& m) {
       [](const Grid2D& grid, double radius, std::optional<Point> at) {
         return new_surface(ridge_surface(grid, radius, center_of(at)));
       },
-      nb::arg("grid"), nb::arg("radius"), center(), "h = −x²/(2 radius): a cylinder lying along y.");
+      nb::arg("grid"), nb::arg("radius"), center(),
+      "h = −x²/(2 radius): a cylinder lying along y.");
   m.def(
       "flat_punch_surface",
       [](const Grid2D& grid, double radius, double depth, std::optional<Point> at) {

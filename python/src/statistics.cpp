@@ -20,7 +20,8 @@ namespace salebra::python {
 namespace {
 
 void bind_spectra(nb::module_& m) {
-  nb::class_<PowerSpectrum> power(m, "PowerSpectrum", R"(Two-dimensional power spectral density of a surface.
+  nb::class_<PowerSpectrum> power(m, "PowerSpectrum",
+                                  R"(Two-dimensional power spectral density of a surface.
 
 .. math:: C(q) = (2\pi)^{-2}\int\langle h(0)h(x)\rangle e^{-iq\cdot x}\,d^2x, \qquad h_{rms}^2 = \int C\,d^2q
 
@@ -28,22 +29,26 @@ on the half-spectrum of wave vectors (i, j), j = 0 … ny/2.
 )");
   view_property(power, "density", &PowerSpectrum::density, "C, (nx, ny/2+1), m⁴.");
   power.def_ro("grid", &PowerSpectrum::grid)
-      .def_ro("windowed", &PowerSpectrum::windowed, "A window made the heights fade out at the edges.")
-      .def_prop_ro("wavenumber_x",
-                   [](const PowerSpectrum& self) {
-                     std::vector<double> q;
-                     for (Index i = 0; i < self.density.rows(); ++i) q.push_back(self.wavenumber_x(i));
-                     return array_of(std::move(q));
-                   },
-                   nb::sig("def wavenumber_x(self) -> numpy.typing.NDArray[numpy.float64]"),
-                   "q_x of each row, rad/m, −π/dx < q_x <= π/dx.")
-      .def_prop_ro("wavenumber_y",
-                   [](const PowerSpectrum& self) {
-                     std::vector<double> q;
-                     for (Index j = 0; j < self.density.cols(); ++j) q.push_back(self.wavenumber_y(j));
-                     return array_of(std::move(q));
-                   },
-                   nb::sig("def wavenumber_y(self) -> numpy.typing.NDArray[numpy.float64]"), "q_y >= 0 of each column, rad/m.")
+      .def_ro("windowed", &PowerSpectrum::windowed,
+              "A window made the heights fade out at the edges.")
+      .def_prop_ro(
+          "wavenumber_x",
+          [](const PowerSpectrum& self) {
+            std::vector<double> q;
+            for (Index i = 0; i < self.density.rows(); ++i) q.push_back(self.wavenumber_x(i));
+            return array_of(std::move(q));
+          },
+          nb::sig("def wavenumber_x(self) -> numpy.typing.NDArray[numpy.float64]"),
+          "q_x of each row, rad/m, −π/dx < q_x <= π/dx.")
+      .def_prop_ro(
+          "wavenumber_y",
+          [](const PowerSpectrum& self) {
+            std::vector<double> q;
+            for (Index j = 0; j < self.density.cols(); ++j) q.push_back(self.wavenumber_y(j));
+            return array_of(std::move(q));
+          },
+          nb::sig("def wavenumber_y(self) -> numpy.typing.NDArray[numpy.float64]"),
+          "q_y >= 0 of each column, rad/m.")
       .def_prop_ro("cell", &PowerSpectrum::cell, "d²q of one mode, 1/m².");
   result_methods(power, false);
   m.def(
@@ -64,19 +69,22 @@ window : {"customary", "none", "hann", "blackman", "radial_hann"}
 )");
 
   nb::class_<RadialSpectrum> radial(m, "RadialSpectrum", "C averaged over rings of wave vectors.");
-  view_property(radial, "wavenumber", &RadialSpectrum::wavenumber, "Mean |q| of the modes in the bin, rad/m.");
+  view_property(radial, "wavenumber", &RadialSpectrum::wavenumber,
+                "Mean |q| of the modes in the bin, rad/m.");
   view_property(radial, "density", &RadialSpectrum::density, "Mean C, m⁴.");
   view_property(radial, "modes", &RadialSpectrum::modes, "In the bin, of the full spectrum.");
   result_methods(radial, true);
   m.def("radial_spectrum", &radial_spectrum, nb::arg("spectrum"), nb::arg("bins_per_octave") = 4,
         "C over rings whose limits are in the ratio 2^(1/bins_per_octave).");
 
-  nb::class_<ProfilePsd> profile(m, "ProfilePsd", "Power spectral density of profiles, C₁(q) = ∫C dq_y, h_rms² = ∫C₁ dq.");
+  nb::class_<ProfilePsd> profile(
+      m, "ProfilePsd", "Power spectral density of profiles, C₁(q) = ∫C dq_y, h_rms² = ∫C₁ dq.");
   view_property(profile, "wavenumber", &ProfilePsd::wavenumber, "q, rad/m.");
   view_property(profile, "density", &ProfilePsd::density, "C₁, m³.");
   view_property(profile, "modes", &ProfilePsd::modes, "q and −q of all profiles.");
-  profile.def_ro("profiles", &ProfilePsd::profiles).def_ro("length", &ProfilePsd::length, "m").def_prop_ro(
-      "step", &ProfilePsd::step, "dq = 2π/length, rad/m.");
+  profile.def_ro("profiles", &ProfilePsd::profiles)
+      .def_ro("length", &ProfilePsd::length, "m")
+      .def_prop_ro("step", &ProfilePsd::step, "dq = 2π/length, rad/m.");
   result_methods(profile, true);
   m.def(
       "profile_psd",
@@ -88,7 +96,9 @@ window : {"customary", "none", "hann", "blackman", "radial_hann"}
       nb::arg("surface"), nb::arg("axis") = "x", nb::arg("window") = "customary",
       "Mean power spectral density of all profiles along an axis.");
 
-  nb::class_<ConvertedPsd> converted_psd(m, "ConvertedPsd", "A power spectral density in another convention, with what it takes to read it.");
+  nb::class_<ConvertedPsd> converted_psd(
+      m, "ConvertedPsd",
+      "A power spectral density in another convention, with what it takes to read it.");
   view_property(converted_psd, "wavenumber", &ConvertedPsd::wavenumber, "In wavenumber_unit.");
   view_property(converted_psd, "density", &ConvertedPsd::density, "In density_unit.");
   converted_psd.def_ro("wavenumber_unit", &ConvertedPsd::wavenumber_unit)
@@ -96,7 +106,8 @@ window : {"customary", "none", "hann", "blackman", "radial_hann"}
       .def_ro("normalisation", &ConvertedPsd::normalisation, "What the mean square height is.");
   m.def(
       "converted",
-      [](const RadialSpectrum& spectrum, const Grid2D& grid, const Choice<PsdConvention>& convention) {
+      [](const RadialSpectrum& spectrum, const Grid2D& grid,
+         const Choice<PsdConvention>& convention) {
         return converted(spectrum, grid, convention.value("convention"));
       },
       nb::arg("spectrum"), nb::arg("grid"), nb::arg("convention"),
@@ -114,7 +125,9 @@ wave numbers, m²; "rfgen" (2π/dx)²C over cycles in a sample, m².
 }
 
 void bind_hurst(nb::module_& m) {
-  nb::class_<HurstEstimate>(m, "HurstEstimate", "Hurst exponent of the self-affine range, with its 95 % interval; NaN where there is none.")
+  nb::class_<HurstEstimate>(
+      m, "HurstEstimate",
+      "Hurst exponent of the self-affine range, with its 95 % interval; NaN where there is none.")
       .def_ro("value", &HurstEstimate::value)
       .def_ro("low", &HurstEstimate::low)
       .def_ro("high", &HurstEstimate::high)
@@ -126,8 +139,10 @@ void bind_hurst(nb::module_& m) {
         return describe("HurstEstimate", {{"value", h.value}, {"low", h.low}, {"high", h.high}});
       });
   m.def("estimate_hurst", &estimate_hurst, nb::arg("spectrum"),
-        "Hurst exponent by maximum quasi-likelihood over the power-law part of a :class:`PowerSpectrum`, C ∝ q^{−2(1+H)}.");
-  nb::class_<IntervalEstimate>(m, "IntervalEstimate", "A value with its 95 % interval; NaN where there is none.")
+        "Hurst exponent by maximum quasi-likelihood over the power-law part of a "
+        ":class:`PowerSpectrum`, C ∝ q^{−2(1+H)}.");
+  nb::class_<IntervalEstimate>(m, "IntervalEstimate",
+                               "A value with its 95 % interval; NaN where there is none.")
       .def_ro("value", &IntervalEstimate::value)
       .def_ro("low", &IntervalEstimate::low)
       .def_ro("high", &IntervalEstimate::high)
@@ -135,26 +150,34 @@ void bind_hurst(nb::module_& m) {
   nb::class_<SelfAffineFit>(m, "SelfAffineFit", "The self-affine model of a surface.")
       .def_ro("hurst", &SelfAffineFit::hurst)
       .def_ro("rolloff", &SelfAffineFit::rolloff, "Wavelength, m; NaN unless a plateau is seen.")
-      .def_ro("short_cutoff", &SelfAffineFit::short_cutoff, "Wavelength, m; NaN unless the spectrum ends within the lattice.");
-  m.def("fit_self_affine", &fit_self_affine, nb::arg("spectrum"), "Hurst exponent, roll-off and shortest wavelength of a :class:`PowerSpectrum`.");
+      .def_ro("short_cutoff", &SelfAffineFit::short_cutoff,
+              "Wavelength, m; NaN unless the spectrum ends within the lattice.");
+  m.def("fit_self_affine", &fit_self_affine, nb::arg("spectrum"),
+        "Hurst exponent, roll-off and shortest wavelength of a :class:`PowerSpectrum`.");
 }
 
 void bind_correlation(nb::module_& m) {
-  nb::class_<CorrelationMap> map(m, "CorrelationMap", R"(Autocorrelation and structure function over distance vectors up to half the surface.
+  nb::class_<CorrelationMap> map(
+      m, "CorrelationMap",
+      R"(Autocorrelation and structure function over distance vectors up to half the surface.
 
 .. math:: A(r) = \langle(h(x)-\bar h)(h(x+r)-\bar h)\rangle, \qquad S(r) = \langle(h(x+r)-h(x))^2\rangle
 
 Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
 )");
   map.def_ro("grid", &CorrelationMap::grid, "Of the surface.");
-  view_property(map, "autocorrelation", &CorrelationMap::autocorrelation, "m²; NaN where there is no pair.");
+  view_property(map, "autocorrelation", &CorrelationMap::autocorrelation,
+                "m²; NaN where there is no pair.");
   view_property(map, "structure", &CorrelationMap::structure, "m²; NaN where there is no pair.");
   view_property(map, "pairs", &CorrelationMap::pairs, "Number of pairs.");
   m.def(
       "correlation_map",
-      [](const BoundSurface& surface) { return unlocked([&] { return correlation_map(surface.surface); }); },
+      [](const BoundSurface& surface) {
+        return unlocked([&] { return correlation_map(surface.surface); });
+      },
       nb::arg("surface"), "Correlation of a surface; undefined points take no part.");
-  nb::class_<Correlation> correlation(m, "Correlation", "Autocorrelation and structure function over distance.");
+  nb::class_<Correlation> correlation(m, "Correlation",
+                                      "Autocorrelation and structure function over distance.");
   view_property(correlation, "distance", &Correlation::distance, "m");
   view_property(correlation, "autocorrelation", &Correlation::autocorrelation, "m²");
   view_property(correlation, "structure", &Correlation::structure, "m²");
@@ -162,17 +185,21 @@ Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
   result_methods(correlation, true);
   m.def(
       "profile_correlation",
-      [](const CorrelationMap& map_, const Choice<Axis>& axis) { return profile_correlation(map_, axis.value("axis")); },
+      [](const CorrelationMap& map_, const Choice<Axis>& axis) {
+        return profile_correlation(map_, axis.value("axis"));
+      },
       nb::arg("map"), nb::arg("axis") = "x", "Along one axis: the mean over all profiles.");
   m.def("radial_correlation", &radial_correlation, nb::arg("map"), nb::arg("bins_per_octave") = 4,
         "Mean over all directions, in rings.");
 
   nb::class_<ScaleDependence> scale(m, "ScaleDependence",
-                                    "Slope and curvature along one axis over the distance of their differences, doi:10.1016/j.apsadv.2021.100190.");
+                                    "Slope and curvature along one axis over the distance of their "
+                                    "differences, doi:10.1016/j.apsadv.2021.100190.");
   view_property(scale, "spacing", &ScaleDependence::spacing, "s, m.");
   view_property(scale, "rms_slope", &ScaleDependence::rms_slope, "√⟨slope²⟩ = √S(s)/s.");
   view_property(scale, "rms_curvature", &ScaleDependence::rms_curvature, "1/m");
-  view_property(scale, "least_curvature", &ScaleDependence::least_curvature, "The sharpest peak, 1/m.");
+  view_property(scale, "least_curvature", &ScaleDependence::least_curvature,
+                "The sharpest peak, 1/m.");
   view_property(scale, "stencils", &ScaleDependence::stencils, "Of the curvature.");
   result_methods(scale, true);
   m.def(
@@ -182,45 +209,55 @@ Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
         const Axis along = axis.value("axis");
         return unlocked([&] { return scale_dependence(surface.surface, along); });
       },
-      nb::arg("surface"), nb::arg("axis") = "x", "Slope and curvature over scale, doi:10.1016/j.apsadv.2021.100190.");
+      nb::arg("surface"), nb::arg("axis") = "x",
+      "Slope and curvature over scale, doi:10.1016/j.apsadv.2021.100190.");
 
-  nb::class_<ReliabilityLimit>(m, "ReliabilityLimit", "Wavelengths below which a measured surface is the instrument's rather than its own.")
+  nb::class_<ReliabilityLimit>(
+      m, "ReliabilityLimit",
+      "Wavelengths below which a measured surface is the instrument's rather than its own.")
       .def_ro("pixel", &ReliabilityLimit::pixel, "2·max(dx, dy), m.")
       .def_ro("tip", &ReliabilityLimit::tip, "From the tip's radius, m.")
       .def_ro("resolution", &ReliabilityLimit::resolution, "As given, m.")
       .def_prop_ro("wavelength", &ReliabilityLimit::wavelength, "The longest of them, m.");
   m.def(
       "short_wavelength_limit",
-      [](const BoundSurface& surface, std::optional<double> tip_radius, std::optional<double> resolution,
-         double safety_factor) {
+      [](const BoundSurface& surface, std::optional<double> tip_radius,
+         std::optional<double> resolution, double safety_factor) {
         cite({"sanner2022"});
         return unlocked([&] {
           return short_wavelength_limit(surface.surface, {tip_radius, resolution, safety_factor});
         });
       },
-      nb::arg("surface"), nb::kw_only(), nb::arg("tip_radius") = nb::none(), nb::arg("resolution") = nb::none(),
-      nb::arg("safety_factor") = 0.5, "Shortest reliable wavelength for a tip radius (m) or a lateral resolution (m).");
+      nb::arg("surface"), nb::kw_only(), nb::arg("tip_radius") = nb::none(),
+      nb::arg("resolution") = nb::none(), nb::arg("safety_factor") = 0.5,
+      "Shortest reliable wavelength for a tip radius (m) or a lateral resolution (m).");
 }
 
 void bind_bearing(nb::module_& m) {
   nb::class_<BearingCurve>(m, "BearingCurve",
-                           "Abbott and Firestone's bearing curve c(p): the height above which the part p of the surface lies.")
+                           "Abbott and Firestone's bearing curve c(p): the height above which the "
+                           "part p of the surface lies.")
       .def(
-          "__init__", [](BearingCurve* self, const BoundSurface& surface) { new (self) BearingCurve(surface.surface); },
+          "__init__",
+          [](BearingCurve* self, const BoundSurface& surface) {
+            new (self) BearingCurve(surface.surface);
+          },
           nb::arg("surface"))
       .def(
           "height",
           [](const BearingCurve& self, const Numbers& area_fraction) {
             return for_each_number(area_fraction, [&](double p) { return self.height(p); });
           },
-          nb::arg("area_fraction"), nb::sig("def height(self, area_fraction: numpy.typing.ArrayLike) -> typing.Any"),
+          nb::arg("area_fraction"),
+          nb::sig("def height(self, area_fraction: numpy.typing.ArrayLike) -> typing.Any"),
           "c(p), m; ISO 25178-2 Smc(p).")
       .def(
           "area_fraction",
           [](const BearingCurve& self, const Numbers& height) {
             return for_each_number(height, [&](double c) { return self.area_fraction(c); });
           },
-          nb::arg("height"), nb::sig("def area_fraction(self, height: numpy.typing.ArrayLike) -> typing.Any"),
+          nb::arg("height"),
+          nb::sig("def area_fraction(self, height: numpy.typing.ArrayLike) -> typing.Any"),
           "The part of the surface above a height, m; ISO 25178-2 Smr(c).")
       .def("integral", &BearingCurve::integral, nb::arg("start"), nb::arg("stop"), "∫ c dp, m.")
       .def_prop_ro(
@@ -229,7 +266,8 @@ void bind_bearing(nb::module_& m) {
             return view(nb::cast<const BearingCurve&>(nb::handle(self)).heights(), self);
           },
           "Falling, m.");
-  nb::class_<CoreParameters>(m, "CoreParameters", "Core, peaks and valleys of a bearing curve by ISO 25178-2.")
+  nb::class_<CoreParameters>(m, "CoreParameters",
+                             "Core, peaks and valleys of a bearing curve by ISO 25178-2.")
       .def_ro("core_height", &CoreParameters::core_height, "Sk, m.")
       .def_ro("peak_height", &CoreParameters::peak_height, "Spk, m.")
       .def_ro("valley_depth", &CoreParameters::valley_depth, "Svk, m.")
@@ -238,7 +276,8 @@ void bind_bearing(nb::module_& m) {
   m.def("core_parameters", &core_parameters, nb::arg("curve"), "Sk, Spk, Svk, Smr1, Smr2.");
   nb::class_<HeightHistogram> histogram(m, "HeightHistogram", "Heights in bins of equal width.");
   view_property(histogram, "height", &HeightHistogram::height, "Middle of the bin, m.");
-  view_property(histogram, "density", &HeightHistogram::density, "Part of the points over the width, 1/m.");
+  view_property(histogram, "density", &HeightHistogram::density,
+                "Part of the points over the width, 1/m.");
   view_property(histogram, "points", &HeightHistogram::points, "In the bin.");
   histogram.def_ro("width", &HeightHistogram::width, "Of a bin, m.");
   result_methods(histogram, true);

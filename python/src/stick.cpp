@@ -20,7 +20,9 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 void bind_stiffness(nb::module_& m) {
-  nb::class_<StickStiffness>(m, "StickStiffness", "Tangential stiffness of a contact set in full stick: F_x = xx·x + xy·y, F_y = xy·x + yy·y.")
+  nb::class_<StickStiffness>(
+      m, "StickStiffness",
+      "Tangential stiffness of a contact set in full stick: F_x = xx·x + xy·y, F_y = xy·x + yy·y.")
       .def_ro("xx", &StickStiffness::xx, "N/m")
       .def_ro("yy", &StickStiffness::yy, "N/m")
       .def_ro("xy", &StickStiffness::xy, "N/m")
@@ -29,7 +31,8 @@ void bind_stiffness(nb::module_& m) {
       .def_ro("residual", &StickStiffness::residual)
       .def_ro("converged", &StickStiffness::converged)
       .def("__repr__", [](const StickStiffness& s) {
-        return describe("StickStiffness", {{"tangential_stiffness", s.xx}}, s.converged ? "converged=True" : "converged=False");
+        return describe("StickStiffness", {{"tangential_stiffness", s.xx}},
+                        s.converged ? "converged=True" : "converged=False");
       });
   m.def(
       "stick_stiffness",
@@ -46,8 +49,9 @@ void bind_stiffness(nb::module_& m) {
         });
       },
       nb::arg("contact"), nb::arg("grid"), nb::arg("material"), nb::kw_only(),
-      nb::arg("tolerance") = 1e-6, nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
-      nb::arg("hold_lateral") = true, nb::arg("along_x_only") = false, nb::arg("progress") = false,
+      nb::arg("tolerance") = 1e-6, nb::arg("max_iterations") = 1000,
+      nb::arg("boundary") = "periodic", nb::arg("hold_lateral") = true,
+      nb::arg("along_x_only") = false, nb::arg("progress") = false,
       R"(Tangential stiffness K_t of a contact set in full stick, by linear solves with Cerruti's response.
 
 .. math:: \hat u_x = \sum_i\frac{1}{G_iq}\left[\left(1-\nu_i\frac{q_x^2}{q^2}\right)\hat\tau_x - \nu_i\frac{q_xq_y}{q^2}\hat\tau_y\right]
@@ -71,7 +75,8 @@ Raises
 InvalidInput
     If every cell of a periodic grid is in contact: it has no finite stiffness.
 )");
-  nb::class_<PunchStiffness>(m, "PunchStiffness", "Normal stiffness of a contact set: a flat punch of that shape.")
+  nb::class_<PunchStiffness>(m, "PunchStiffness",
+                             "Normal stiffness of a contact set: a flat punch of that shape.")
       .def_ro("normal_stiffness", &PunchStiffness::normal_stiffness, "N/m")
       .def_ro("iterations", &PunchStiffness::iterations)
       .def_ro("fft_count", &PunchStiffness::fft_count)
@@ -92,9 +97,10 @@ InvalidInput
         });
       },
       nb::arg("contact"), nb::arg("grid"), nb::arg("contact_modulus"), nb::kw_only(),
-      nb::arg("tolerance") = 1e-6, nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
-      nb::arg("progress") = false,
-      "Normal stiffness K = dF/dδ of a contact set, N/m. The same of a state: :func:`normal_stiffness`.");
+      nb::arg("tolerance") = 1e-6, nb::arg("max_iterations") = 1000,
+      nb::arg("boundary") = "periodic", nb::arg("progress") = false,
+      "Normal stiffness K = dF/dδ of a contact set, N/m. The same of a state: "
+      ":func:`normal_stiffness`.");
 }
 
 void bind_sliding(nb::module_& m) {
@@ -106,7 +112,9 @@ void bind_sliding(nb::module_& m) {
       .def_ro("slipping", &PartialSlipReport::slipping, "Cells that slip.")
       .def_ro("converged", &PartialSlipReport::converged)
       .def_ro("interrupted", &PartialSlipReport::interrupted);
-  nb::class_<SlidingContact> sliding(m, "SlidingContact", R"(A rough contact with friction that remembers where each of its cells has been drawn to.
+  nb::class_<SlidingContact> sliding(
+      m, "SlidingContact",
+      R"(A rough contact with friction that remembers where each of its cells has been drawn to.
 
 Increments of pressures and of a tangential move, each solved implicitly with |τ| <= μp in every cell.
 
@@ -125,9 +133,11 @@ tolerance, max_iterations, boundary
       .def(
           "__init__",
           [](SlidingContact* self, const Grid2D& grid, const Material& material, double friction,
-             double motion_scale, double tolerance, int max_iterations, const Choice<Boundary>& boundary) {
+             double motion_scale, double tolerance, int max_iterations,
+             const Choice<Boundary>& boundary) {
             new (self) SlidingContact(grid, material,
-                                      {friction, motion_scale,
+                                      {friction,
+                                       motion_scale,
                                        {.tolerance = tolerance,
                                         .max_iterations = max_iterations,
                                         .boundary = boundary.value("boundary")}});
@@ -143,14 +153,38 @@ tolerance, max_iterations, boundary
           },
           nb::arg("pressure"), nb::arg("x") = 0.0, nb::arg("y") = 0.0,
           "To new pressures (nx, ny), Pa, while the body moves by (x, y), m.")
-      .def_prop_ro("pressure", [](nb::handle_t<SlidingContact> self) { return view(nb::cast<SlidingContact&>(nb::handle(self)).pressure(), self); }, "Pa")
-      .def_prop_ro("traction_x", [](nb::handle_t<SlidingContact> self) { return view(nb::cast<SlidingContact&>(nb::handle(self)).traction().x, self); }, "Pa")
-      .def_prop_ro("traction_y", [](nb::handle_t<SlidingContact> self) { return view(nb::cast<SlidingContact&>(nb::handle(self)).traction().y, self); }, "Pa")
-      .def_prop_ro("loss", [](nb::handle_t<SlidingContact> self) { return view(nb::cast<SlidingContact&>(nb::handle(self)).loss(), self); },
-                   "Friction's work in each cell since the start, J.")
-      .def_prop_ro("tangential_force_x", [](const SlidingContact& self) { return self.tangential_force().x; }, "N")
-      .def_prop_ro("tangential_force_y", [](const SlidingContact& self) { return self.tangential_force().y; }, "N")
-      .def_prop_ro("slipping", &SlidingContact::slipping, "Cells at their limit after the last increment.")
+      .def_prop_ro(
+          "pressure",
+          [](nb::handle_t<SlidingContact> self) {
+            return view(nb::cast<SlidingContact&>(nb::handle(self)).pressure(), self);
+          },
+          "Pa")
+      .def_prop_ro(
+          "traction_x",
+          [](nb::handle_t<SlidingContact> self) {
+            return view(nb::cast<SlidingContact&>(nb::handle(self)).traction().x, self);
+          },
+          "Pa")
+      .def_prop_ro(
+          "traction_y",
+          [](nb::handle_t<SlidingContact> self) {
+            return view(nb::cast<SlidingContact&>(nb::handle(self)).traction().y, self);
+          },
+          "Pa")
+      .def_prop_ro(
+          "loss",
+          [](nb::handle_t<SlidingContact> self) {
+            return view(nb::cast<SlidingContact&>(nb::handle(self)).loss(), self);
+          },
+          "Friction's work in each cell since the start, J.")
+      .def_prop_ro(
+          "tangential_force_x",
+          [](const SlidingContact& self) { return self.tangential_force().x; }, "N")
+      .def_prop_ro(
+          "tangential_force_y",
+          [](const SlidingContact& self) { return self.tangential_force().y; }, "N")
+      .def_prop_ro("slipping", &SlidingContact::slipping,
+                   "Cells at their limit after the last increment.")
       .def_prop_ro("stored_energy", &SlidingContact::stored_energy, "J")
       .def_prop_ro("work", &SlidingContact::work, "∫F dx since the start, J.")
       .def_prop_ro("released_energy", &SlidingContact::released_energy, "J")

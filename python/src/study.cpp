@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -7,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <salebra/base/error.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
@@ -15,13 +15,14 @@
 
 #include "bindings.hpp"
 #include "interop/citations.hpp"
+#include "interop/path.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
 namespace salebra::python {
 namespace {
 
-ModelResult Realisation::* model_of(const std::string& name) {
+ModelResult Realisation::*model_of(const std::string& name) {
   std::string known;
   for (const StudyModel& model : study_models) {
     if (model.name == name) return model.result;
@@ -30,65 +31,79 @@ ModelResult Realisation::* model_of(const std::string& name) {
   throw InvalidInput("model: '" + name + "' is none of " + known + "; choose one of them");
 }
 
-double ForceSample::* sample_quantity(const std::string& name) {
+double ForceSample::*sample_quantity(const std::string& name) {
   if (name == "indentation") return &ForceSample::indentation;
   if (name == "mean_gap") return &ForceSample::mean_gap;
   if (name == "force") return &ForceSample::force;
   if (name == "contact_area_fraction") return &ForceSample::contact_area_fraction;
   if (name == "normal_stiffness") return &ForceSample::normal_stiffness;
   if (name == "tangential_stiffness") return &ForceSample::tangential_stiffness;
-  throw InvalidInput("quantity: '" + name + "' is none of indentation, mean_gap, force, contact_area_fraction, normal_stiffness, "
-                     "tangential_stiffness; choose one of them");
+  throw InvalidInput(
+      "quantity: '" + name +
+      "' is none of indentation, mean_gap, force, contact_area_fraction, normal_stiffness, "
+      "tangential_stiffness; choose one of them");
 }
 
-double DampingPoint::* damping_quantity(const std::string& name) {
+double DampingPoint::*damping_quantity(const std::string& name) {
   if (name == "law_work") return &DampingPoint::law_work;
   if (name == "law_damping_constant") return &DampingPoint::law_damping_constant;
   if (name == "small_work") return &DampingPoint::small_work;
   if (name == "small_damping_constant") return &DampingPoint::small_damping_constant;
   if (name == "curve_work") return &DampingPoint::curve_work;
   if (name == "curve_damping_constant") return &DampingPoint::curve_damping_constant;
-  throw InvalidInput("quantity: '" + name + "' is none of law_work, law_damping_constant, small_work, small_damping_constant, "
-                     "curve_work, curve_damping_constant; choose one of them");
+  throw InvalidInput(
+      "quantity: '" + name +
+      "' is none of law_work, law_damping_constant, small_work, small_damping_constant, "
+      "curve_work, curve_damping_constant; choose one of them");
 }
 
 void cite_study() {
-  cite({"popov2015", "polonsky_keer1999", "stanley_kato1997", "greenwood_williamson1966", "nayak1971", "mccool1986"});
+  cite({"popov2015", "polonsky_keer1999", "stanley_kato1997", "greenwood_williamson1966",
+        "nayak1971", "mccool1986"});
 }
 
 void bind_configuration(nb::module_& m) {
-  nb::class_<StudyConfiguration>(m, "StudyConfiguration", "Everything that decides the result of a study.")
+  nb::class_<StudyConfiguration>(m, "StudyConfiguration",
+                                 "Everything that decides the result of a study.")
       .def_ro("text", &StudyConfiguration::text, "The file as it was read.")
       .def_ro("material", &StudyConfiguration::material)
       .def_ro("tolerance", &StudyConfiguration::tolerance)
       .def(
           "with_surface",
-          [](const StudyConfiguration& self, const std::filesystem::path& file, std::optional<double> size_x,
-             std::optional<double> size_y, const std::string& height_unit) {
+          [](const StudyConfiguration& self, const std::filesystem::path& file,
+             std::optional<double> size_x, std::optional<double> size_y,
+             const std::string& height_unit) {
             return with_surface(self, {file, size_x, size_y, {}, height_unit});
           },
-          nb::arg("file"), nb::kw_only(), nb::arg("size_x") = nb::none(), nb::arg("size_y") = nb::none(),
-          nb::arg("height_unit") = "", "`file` in place of the surfaces of the configuration, which keeps everything else.");
+          nb::arg("file"), nb::kw_only(), nb::arg("size_x") = nb::none(),
+          nb::arg("size_y") = nb::none(), nb::arg("height_unit") = "",
+          "`file` in place of the surfaces of the configuration, which keeps everything else.");
   m.def("read_study_configuration", &read_study_configuration, nb::arg("file"),
-        "Reads a TOML file of a study; data/README.md explains each key. Raises InvalidInput \"FILE:LINE: table.key: …\".");
+        "Reads a TOML file of a study; data/README.md explains each key. Raises InvalidInput "
+        "\"FILE:LINE: table.key: …\".");
   m.def(
       "parse_study_configuration",
       [](const std::string& text, const std::string& name, const std::filesystem::path& folder) {
         return parse_study_configuration(text, name, folder);
       },
-      nb::arg("text"), nb::arg("name") = "configuration", nb::arg("folder") = std::filesystem::path("."),
-      "The same from a text; `name` stands for the file in errors, relative paths are taken from `folder`.");
+      nb::arg("text"), nb::arg("name") = "configuration",
+      nb::arg("folder") = std::filesystem::path("."),
+      "The same from a text; `name` stands for the file in errors, relative paths are taken from "
+      "`folder`.");
 }
 
 void bind_realisation(nb::module_& m) {
-  nb::class_<DampingPoint>(m, "DampingPoint", "Damping at one pressure of a curve, by three routes.")
+  nb::class_<DampingPoint>(m, "DampingPoint",
+                           "Damping at one pressure of a curve, by three routes.")
       .def_ro("pressure", &DampingPoint::pressure, "Pa")
       .def_ro("force", &DampingPoint::force, "N")
       .def_ro("law_work", &DampingPoint::law_work, "Eq. (16), or (12) with F'' = F/l², J.")
       .def_ro("law_damping_constant", &DampingPoint::law_damping_constant, "N s/m")
-      .def_ro("small_work", &DampingPoint::small_work, "Eq. (15) or (12) with the F'' of the curve, J.")
+      .def_ro("small_work", &DampingPoint::small_work,
+              "Eq. (15) or (12) with the F'' of the curve, J.")
       .def_ro("small_damping_constant", &DampingPoint::small_damping_constant, "N s/m")
-      .def_ro("curve_work", &DampingPoint::curve_work, "The theorem on the curve at the amplitude given, J; NaN where the motion leaves it.")
+      .def_ro("curve_work", &DampingPoint::curve_work,
+              "The theorem on the curve at the amplitude given, J; NaN where the motion leaves it.")
       .def_ro("curve_damping_constant", &DampingPoint::curve_damping_constant, "N s/m")
       .def_prop_ro("deviation", &DampingPoint::deviation, "law_work/curve_work − 1.");
   nb::class_<ModelResult> model(m, "ModelResult", "What one contact model says about one surface.");
@@ -108,15 +123,21 @@ void bind_realisation(nb::module_& m) {
       .def_ro("summits", &Realisation::summits)
       .def_ro("ensemble", &Realisation::ensemble)
       .def(
-          "model", [](const Realisation& self, const std::string& name) { return self.*model_of(name); },
-          nb::arg("name"), "\"bem\", \"gw_moments\", \"gw_deterministic\", and with all models \"gw_monte_carlo\", \"gw_interacting\", \"persson\".")
+          "model",
+          [](const Realisation& self, const std::string& name) { return self.*model_of(name); },
+          nb::arg("name"),
+          "\"bem\", \"gw_moments\", \"gw_deterministic\", and with all models \"gw_monte_carlo\", "
+          "\"gw_interacting\", \"persson\".")
       .def_ro("bem", &Realisation::bem, "Boundary elements.")
-      .def_ro("gw_moments", &Realisation::gw_moments, "Greenwood–Williamson, summits from spectral moments.")
-      .def_ro("gw_deterministic", &Realisation::gw_deterministic, "Greenwood–Williamson, the surface's own summits.");
+      .def_ro("gw_moments", &Realisation::gw_moments,
+              "Greenwood–Williamson, summits from spectral moments.")
+      .def_ro("gw_deterministic", &Realisation::gw_deterministic,
+              "Greenwood–Williamson, the surface's own summits.");
 }
 
 void bind_result(nb::module_& m) {
-  nb::class_<EnsembleMean>(m, "EnsembleMean", "A mean with its 95 % interval; NaN limits where there is none.")
+  nb::class_<EnsembleMean>(m, "EnsembleMean",
+                           "A mean with its 95 % interval; NaN limits where there is none.")
       .def_ro("mean", &EnsembleMean::mean)
       .def_ro("low", &EnsembleMean::low)
       .def_ro("high", &EnsembleMean::high)
@@ -127,36 +148,52 @@ void bind_result(nb::module_& m) {
   nb::class_<StudyFlag>(m, "StudyFlag", "Why a result may be off for other reasons than chance.")
       .def_ro("name", &StudyFlag::name)
       .def_ro("text", &StudyFlag::text, "A sentence for the user.");
-  nb::class_<StudyResult> result(m, "StudyResult", "The ensemble at one point of the parameter grid.");
+  nb::class_<StudyResult> result(m, "StudyResult",
+                                 "The ensemble at one point of the parameter grid.");
   view_property(result, "pressures", &StudyResult::pressures, "Pa");
   result.def_ro("configuration", &StudyResult::configuration)
       .def_ro("grid", &StudyResult::grid)
-      .def_ro("contact_scale", &StudyResult::contact_scale, "E*h'_rms, Pa: the unit of relative pressures.")
+      .def_ro("contact_scale", &StudyResult::contact_scale,
+              "E*h'_rms, Pa: the unit of relative pressures.")
       .def_ro("realisations", &StudyResult::realisations)
       .def_ro("warnings", &StudyResult::warnings, "Sentences for the user.")
       .def_ro("flags", &StudyResult::flags)
       .def_ro("interrupted", &StudyResult::interrupted)
       .def_ro("precision_reached", &StudyResult::precision_reached)
-      .def_prop_ro("models",
-                   [](const StudyResult& self) {
-                     std::vector<std::string> names;
-                     for (const StudyModel& model : self.models()) names.emplace_back(model.name);
-                     return names;
-                   },
-                   "Names of the models that were asked for.")
+      .def_prop_ro(
+          "models",
+          [](const StudyResult& self) {
+            std::vector<std::string> names;
+            for (const StudyModel& model : self.models()) names.emplace_back(model.name);
+            return names;
+          },
+          "Names of the models that were asked for.")
       .def(
-          "decay_length", [](const StudyResult& self, const std::string& model) { return self.decay_length(model_of(model)); },
+          "decay_length",
+          [](const StudyResult& self, const std::string& model) {
+            return self.decay_length(model_of(model));
+          },
           nb::arg("model") = "bem", "l, m, with its interval.")
       .def(
           "decay_length_over_rms_height",
-          [](const StudyResult& self, const std::string& model) { return self.decay_length_over_rms_height(model_of(model)); },
+          [](const StudyResult& self, const std::string& model) {
+            return self.decay_length_over_rms_height(model_of(model));
+          },
           nb::arg("model") = "bem")
       .def(
-          "area_slope", [](const StudyResult& self, const std::string& model) { return self.area_slope(model_of(model)); },
+          "area_slope",
+          [](const StudyResult& self, const std::string& model) {
+            return self.area_slope(model_of(model));
+          },
           nb::arg("model") = "bem", "κ of A/A0 = κ p/(E*h').")
       .def(
-          "law_bend", [](const StudyResult& self, const std::string& model) { return self.law_bend(model_of(model)); },
-          nb::arg("model") = "bem", "l at the far end of the window over l at its close end, less 1: an interval without 0 refutes the law.")
+          "law_bend",
+          [](const StudyResult& self, const std::string& model) {
+            return self.law_bend(model_of(model));
+          },
+          nb::arg("model") = "bem",
+          "l at the far end of the window over l at its close end, less 1: an interval without 0 "
+          "refutes the law.")
       .def(
           "curve",
           [](const StudyResult& self, const std::string& quantity, const std::string& model) {
@@ -169,13 +206,19 @@ void bind_result(nb::module_& m) {
             return self.damping(damping_quantity(quantity), model_of(model));
           },
           nb::arg("quantity") = "curve_damping_constant", nb::arg("model") = "bem",
-          "Mean at each pressure of \"law_…\" (Eq. (16)), \"small_…\" or \"curve_damping_constant\", or of \"…_work\".")
+          "Mean at each pressure of \"law_…\" (Eq. (16)), \"small_…\" or "
+          "\"curve_damping_constant\", or of \"…_work\".")
       .def(
           "damping_deviation",
-          [](const StudyResult& self, const std::string& model) { return self.damping_deviation(model_of(model)); },
-          nb::arg("model") = "bem", "How far Eq. (16) is off the theorem on the curve, at each pressure.")
-      .def("convergence", &StudyResult::convergence, "Mean l/h_rms over the first 2, 3, … surfaces.")
-      .def("interval_method", &StudyResult::interval_method, "How the intervals came about: one line.")
+          [](const StudyResult& self, const std::string& model) {
+            return self.damping_deviation(model_of(model));
+          },
+          nb::arg("model") = "bem",
+          "How far Eq. (16) is off the theorem on the curve, at each pressure.")
+      .def("convergence", &StudyResult::convergence,
+           "Mean l/h_rms over the first 2, 3, … surfaces.")
+      .def("interval_method", &StudyResult::interval_method,
+           "How the intervals came about: one line.")
       .def(
           "write",
           [](const StudyResult& self, const std::filesystem::path& file, bool overwrite) {
@@ -185,7 +228,8 @@ void bind_result(nb::module_& m) {
             });
           },
           nb::arg("file"), nb::kw_only(), nb::arg("overwrite") = false,
-          "Writes an HDF5 file, each group of which xarray opens as it is: xarray.open_dataset(file, engine=\"h5netcdf\", "
+          "Writes an HDF5 file, each group of which xarray opens as it is: "
+          "xarray.open_dataset(file, engine=\"h5netcdf\", "
           "group=\"damping\").")
       .def("__repr__", [](const StudyResult& self) {
         return "StudyResult(" + std::to_string(self.realisations.size()) + " surfaces, " +
@@ -199,7 +243,8 @@ void bind_runs(nb::module_& m) {
       "run_study",
       [](const StudyConfiguration& configuration, const ProgressArgument& progress) {
         cite_study();
-        return interruptible(progress, [&](const Progress& told) { return run_study(configuration, told); });
+        return interruptible(progress,
+                             [&](const Progress& told) { return run_study(configuration, told); });
       },
       nb::arg("configuration"), nb::kw_only(), nb::arg("progress") = false,
       R"(Surface → statistics → contact models → exponential law → damping, for an ensemble or a measured surface.
@@ -211,13 +256,15 @@ Same bits for every thread count. Raises NotConverged where fewer than four cont
       [](const StudyConfiguration& configuration, const std::optional<std::filesystem::path>& parts,
          bool resume, const ProgressArgument& progress) {
         cite_study();
-        const std::unique_ptr<StudyParts> folder = parts ? std::make_unique<StudyParts>(*parts, resume) : nullptr;
+        const std::unique_ptr<StudyParts> folder =
+            parts ? std::make_unique<StudyParts>(*parts, resume) : nullptr;
         return interruptible(progress, [&](Progress told) {
-          return run_ensembles(configuration, {.on_progress = std::move(told), .parts = folder.get()});
+          return run_ensembles(configuration,
+                               {.on_progress = std::move(told), .parts = folder.get()});
         });
       },
-      nb::arg("configuration"), nb::kw_only(), nb::arg("parts") = nb::none(), nb::arg("resume") = false,
-      nb::arg("progress") = false,
+      nb::arg("configuration"), nb::kw_only(), nb::arg("parts") = nb::none(),
+      nb::arg("resume") = false, nb::arg("progress") = false,
       R"(The ensembles of every point of a configuration's parameter grid.
 
 Parameters
@@ -231,7 +278,8 @@ progress : bool or callable
 )");
   m.def(
       "write_ensembles",
-      [](const std::filesystem::path& file, const std::vector<const StudyResult*>& results, bool overwrite) {
+      [](const std::filesystem::path& file, const std::vector<const StudyResult*>& results,
+         bool overwrite) {
         std::vector<StudyResult> copies;
         for (const StudyResult* result : results) copies.push_back(*result);
         unlocked([&] {
@@ -242,7 +290,8 @@ progress : bool or callable
       nb::arg("file"), nb::arg("results"), nb::kw_only(), nb::arg("overwrite") = false,
       "Writes the results of :func:`run_ensembles` to one HDF5 file.");
 
-  nb::class_<Check>(m, "Check", "One number that this installation computes, beside what analysis says of it.")
+  nb::class_<Check>(m, "Check",
+                    "One number that this installation computes, beside what analysis says of it.")
       .def_ro("name", &Check::name)
       .def_ro("value", &Check::value)
       .def_ro("expected", &Check::expected)
@@ -254,7 +303,8 @@ progress : bool or callable
   m.def(
       "verify_installation",
       [](const ProgressArgument& progress) {
-        return interruptible(progress, [](const Progress& told) { return verify_installation(told); });
+        return interruptible(progress,
+                             [](const Progress& told) { return verify_installation(told); });
       },
       nb::kw_only(), nb::arg("progress") = false,
       "Runs the solvers on problems with known solutions (Hertz, Westergaard, …). A few seconds.");

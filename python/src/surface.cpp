@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "interop/surface.hpp"
+
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -15,7 +17,6 @@
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/running.hpp"
-#include "interop/surface.hpp"
 
 namespace salebra::python {
 namespace {
@@ -26,7 +27,8 @@ BoundSurface* detrended_surface(const BoundSurface& surface, const Choice<Detren
 }
 
 void bind_surface_class(nb::module_& m) {
-  nb::class_<BoundSurface> surface(m, "Surface", R"(Heights of the rough side. A hill is positive; hills touch first.
+  nb::class_<BoundSurface> surface(
+      m, "Surface", R"(Heights of the rough side. A hill is positive; hills touch first.
 
 Parameters
 ----------
@@ -55,23 +57,36 @@ True
           "heights",
           [](nb::handle_t<BoundSurface> self) -> nb::object {
             const auto& bound = nb::cast<const BoundSurface&>(nb::handle(self));
-            return bound.array.is_valid() ? bound.array : nb::cast(view(bound.surface.heights, self));
+            return bound.array.is_valid() ? bound.array
+                                          : nb::cast(view(bound.surface.heights, self));
           },
           nb::sig("def heights(self) -> numpy.typing.NDArray[numpy.float64]"),
           "Heights (nx, ny), m: the memory of the surface, not a copy.")
-      .def_prop_ro("grid", [](const BoundSurface& self) { return self.surface.grid; }, "Points and size.")
-      .def_prop_ro("nx", [](const BoundSurface& self) { return self.surface.grid.nx; }, "Points along x.")
-      .def_prop_ro("ny", [](const BoundSurface& self) { return self.surface.grid.ny; }, "Points along y.")
-      .def_prop_ro("size_x", [](const BoundSurface& self) { return self.surface.grid.lx; }, "Size along x, m.")
-      .def_prop_ro("size_y", [](const BoundSurface& self) { return self.surface.grid.ly; }, "Size along y, m.")
-      .def_prop_ro("area", [](const BoundSurface& self) { return self.surface.grid.area(); }, "Nominal area, m².")
-      .def_prop_ro("periodic", [](const BoundSurface& self) { return self.surface.periodic; },
-                   "Whether the surface repeats itself.")
-      .def_prop_ro("origin", [](const BoundSurface& self) { return self.surface.origin; },
-                   "File, or generator with its seed.")
-      .def_prop_ro("undefined_points",
-                   [](const BoundSurface& self) { return self.surface.undefined_points(); },
-                   "Number of NaN heights.")
+      .def_prop_ro(
+          "grid", [](const BoundSurface& self) { return self.surface.grid; }, "Points and size.")
+      .def_prop_ro(
+          "nx", [](const BoundSurface& self) { return self.surface.grid.nx; }, "Points along x.")
+      .def_prop_ro(
+          "ny", [](const BoundSurface& self) { return self.surface.grid.ny; }, "Points along y.")
+      .def_prop_ro(
+          "size_x", [](const BoundSurface& self) { return self.surface.grid.lx; },
+          "Size along x, m.")
+      .def_prop_ro(
+          "size_y", [](const BoundSurface& self) { return self.surface.grid.ly; },
+          "Size along y, m.")
+      .def_prop_ro(
+          "area", [](const BoundSurface& self) { return self.surface.grid.area(); },
+          "Nominal area, m².")
+      .def_prop_ro(
+          "periodic", [](const BoundSurface& self) { return self.surface.periodic; },
+          "Whether the surface repeats itself.")
+      .def_prop_ro(
+          "origin", [](const BoundSurface& self) { return self.surface.origin; },
+          "File, or generator with its seed.")
+      .def_prop_ro(
+          "undefined_points",
+          [](const BoundSurface& self) { return self.surface.undefined_points(); },
+          "Number of NaN heights.")
       .def("detrended", &detrended_surface, nb::arg("method") = "plane",
            R"(The surface less its trend.
 
@@ -102,25 +117,27 @@ What is filled has no summits and takes power from short waves, so count `undefi
             return new_surface(std::move(copy));
           },
           nb::arg("periodic") = true,
-          "A copy that counts as periodic, or not: boundary elements with periodic boundaries continue it either way.")
-      .def_prop_ro("height_statistics",
-                   [](const BoundSurface& self) {
-                     return unlocked([&] { return height_statistics(self.surface); });
-                   },
-                   "Moments of the heights, see :func:`height_statistics`.")
-      .def_prop_ro("moments",
-                   [](const BoundSurface& self) {
-                     return unlocked([&] { return surface_moments(self.surface); });
-                   },
-                   "Spectral moments of a periodic surface, those of finite differences of any other, see "
-                   ":func:`surface_moments`.")
+          "A copy that counts as periodic, or not: boundary elements with periodic boundaries "
+          "continue it either way.")
+      .def_prop_ro(
+          "height_statistics",
+          [](const BoundSurface& self) {
+            return unlocked([&] { return height_statistics(self.surface); });
+          },
+          "Moments of the heights, see :func:`height_statistics`.")
+      .def_prop_ro(
+          "moments",
+          [](const BoundSurface& self) {
+            return unlocked([&] { return surface_moments(self.surface); });
+          },
+          "Spectral moments of a periodic surface, those of finite differences of any other, see "
+          ":func:`surface_moments`.")
       .def_static(
           "from_topography",
           [](nb::handle topography) {
             return nb::module_::import_("salebra._topography").attr("from_topography")(topography);
           },
-          nb::arg("topography"),
-          nb::sig("def from_topography(topography: typing.Any) -> Surface"),
+          nb::arg("topography"), nb::sig("def from_topography(topography: typing.Any) -> Surface"),
           R"(The surface of a SurfaceTopography object, in metres.
 
 SurfaceTopography reads about a hundred instrument formats.
@@ -139,8 +156,8 @@ Examples
           "A SurfaceTopography.Topography of the same heights, unit m. Needs SurfaceTopography.")
       .def("__repr__", [](const BoundSurface& self) {
         const Grid2D& grid = self.surface.grid;
-        return "Surface(" + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) + " points, " +
-               format_quantity(grid.lx, Dimension::length) + " x " +
+        return "Surface(" + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) +
+               " points, " + format_quantity(grid.lx, Dimension::length) + " x " +
                format_quantity(grid.ly, Dimension::length) +
                (self.surface.periodic ? ", periodic" : ", not periodic") + ")";
       });
@@ -148,25 +165,29 @@ Examples
 }
 
 void bind_height_statistics(nb::module_& m) {
-  nb::class_<HeightStatistics>(m, "HeightStatistics",
-                               "Moments of the height distribution over all defined points; no filter is applied.")
+  nb::class_<HeightStatistics>(
+      m, "HeightStatistics",
+      "Moments of the height distribution over all defined points; no filter is applied.")
       .def_ro("defined_points", &HeightStatistics::defined_points, "Number of defined points.")
       .def_ro("minimum", &HeightStatistics::minimum, "m")
       .def_ro("maximum", &HeightStatistics::maximum, "m")
       .def_ro("mean", &HeightStatistics::mean, "⟨h⟩, m")
       .def_ro("rms_height", &HeightStatistics::rms_height, "√⟨(h − ⟨h⟩)²⟩, m")
       .def_ro("skewness", &HeightStatistics::skewness, "NaN for a flat surface.")
-      .def_ro("kurtosis", &HeightStatistics::kurtosis, "3 for a Gaussian surface; NaN for a flat one.")
+      .def_ro("kurtosis", &HeightStatistics::kurtosis,
+              "3 for a Gaussian surface; NaN for a flat one.")
       .def("__repr__", [](const HeightStatistics& s) {
-        return describe("HeightStatistics",
-                        {{"rms_height", s.rms_height}, {"skewness", s.skewness}, {"kurtosis", s.kurtosis}});
+        return describe(
+            "HeightStatistics",
+            {{"rms_height", s.rms_height}, {"skewness", s.skewness}, {"kurtosis", s.kurtosis}});
       });
   m.def(
       "height_statistics",
       [](const BoundSurface& surface) {
         return unlocked([&] { return height_statistics(surface.surface); });
       },
-      nb::arg("surface"), "Moments of the heights; undefined points take no part. Cost: two passes.");
+      nb::arg("surface"),
+      "Moments of the heights; undefined points take no part. Cost: two passes.");
   m.def(
       "spectral_moments",
       [](const BoundSurface& surface) {
@@ -206,7 +227,8 @@ counts with (2 sin(q dx/2)/dx)² in place of q².
       "customary_detrend",
       [](const BoundSurface& surface) { return text_of(customary_detrend(surface.surface)); },
       nb::arg("surface"),
-      "\"plane\" for a measured surface, which carries the tilt of its stage; \"mean\" for a periodic one.");
+      "\"plane\" for a measured surface, which carries the tilt of its stage; \"mean\" for a "
+      "periodic one.");
 }
 
 void bind_summits(nb::module_& m) {
@@ -218,7 +240,9 @@ void bind_summits(nb::module_& m) {
       .def_ro("curvature2", &Summit::curvature2, "The smaller one, 1/m.")
       .def_prop_ro("mean_radius", &Summit::mean_radius, "2/(curvature1 + curvature2), m.")
       .def("__repr__", [](const Summit& s) {
-        return describe("Summit", {{"x", s.x}, {"y", s.y}, {"mean_height", s.height}, {"mean_radius", s.mean_radius()}});
+        return describe(
+            "Summit",
+            {{"x", s.x}, {"y", s.y}, {"mean_height", s.height}, {"mean_radius", s.mean_radius()}});
       });
 
   nb::class_<SummitList> list(m, "SummitList", "The summits of a surface; its columns are views.");
@@ -247,11 +271,14 @@ void bind_summits(nb::module_& m) {
                                "An ensemble of summits as the Greenwood–Williamson theory uses it.")
       .def_ro("density", &SummitStatistics::density, "Summits per searched area, 1/m².")
       .def_ro("mean_height", &SummitStatistics::mean_height, "From the zero of the heights, m.")
-      .def_ro("rms_height", &SummitStatistics::rms_height, "Standard deviation of the summit heights, m.")
+      .def_ro("rms_height", &SummitStatistics::rms_height,
+              "Standard deviation of the summit heights, m.")
       .def_ro("mean_radius", &SummitStatistics::mean_radius, "1/⟨mean curvature⟩, m.")
       .def("__repr__", [](const SummitStatistics& s) {
-        return describe("SummitStatistics", {{"density", s.density}, {"mean_height", s.mean_height},
-                                             {"rms_height", s.rms_height}, {"mean_radius", s.mean_radius}});
+        return describe("SummitStatistics", {{"density", s.density},
+                                             {"mean_height", s.mean_height},
+                                             {"rms_height", s.rms_height},
+                                             {"mean_radius", s.mean_radius}});
       });
   m.def(
       "find_summits",
@@ -271,7 +298,8 @@ Neighbours wrap where the surface is periodic; elsewhere the border is not searc
       .def_ro("ix", &Peak::ix)
       .def_ro("iy", &Peak::iy)
       .def_ro("height", &Peak::height, "m")
-      .def_ro("prominence", &Peak::prominence, "Above the highest saddle that leads to a higher peak, m.")
+      .def_ro("prominence", &Peak::prominence,
+              "Above the highest saddle that leads to a higher peak, m.")
       .def_ro("mean_curvature", &Peak::mean_curvature, "1/m");
   m.def(
       "significant_peaks",
@@ -279,12 +307,14 @@ Neighbours wrap where the surface is periodic; elsewhere the border is not searc
         return unlocked([&] { return significant_peaks(surface.surface, least_prominence); });
       },
       nb::arg("surface"), nb::arg("least_prominence"),
-      "Peaks that stand at least `least_prominence` (m) above the saddle to a higher one: Wolf's pruning of ISO 25178-2.");
+      "Peaks that stand at least `least_prominence` (m) above the saddle to a higher one: Wolf's "
+      "pruning of ISO 25178-2.");
 }
 
 void bind_areal_parameters(nb::module_& m) {
-  nb::class_<ArealParameters> areal(m, "ArealParameters",
-                                    "Areal parameters by the definitions of ISO 25178-2, under their names there.");
+  nb::class_<ArealParameters> areal(
+      m, "ArealParameters",
+      "Areal parameters by the definitions of ISO 25178-2, under their names there.");
 #define SALEBRA_AREAL(name, text) areal.def_ro(#name, &ArealParameters::name, text)
   SALEBRA_AREAL(Sa, "⟨|h|⟩, m");
   SALEBRA_AREAL(Sq, "√⟨h²⟩, m");
@@ -293,7 +323,9 @@ void bind_areal_parameters(nb::module_& m) {
   SALEBRA_AREAL(Sp, "Highest peak, m.");
   SALEBRA_AREAL(Sv, "Deepest pit, > 0, m.");
   SALEBRA_AREAL(Sz, "Sp + Sv, m.");
-  SALEBRA_AREAL(Sal, "Shortest distance at which the autocorrelation has fallen to 0.2, m; NaN where it does not.");
+  SALEBRA_AREAL(Sal,
+                "Shortest distance at which the autocorrelation has fallen to 0.2, m; NaN where it "
+                "does not.");
   SALEBRA_AREAL(Str, "Sal over the longest such distance, 0 … 1.");
   SALEBRA_AREAL(Std, "Direction of the greatest angular spectrum, [0, π) rad.");
   SALEBRA_AREAL(Sdq, "Root mean square gradient.");
@@ -312,7 +344,8 @@ void bind_areal_parameters(nb::module_& m) {
         return unlocked([&] { return areal_parameters(surface.surface); });
       },
       nb::arg("surface"),
-      "ISO 25178-2 parameters of the surface as it is given: form is removed by :meth:`Surface.detrended` alone, no S- or "
+      "ISO 25178-2 parameters of the surface as it is given: form is removed by "
+      ":meth:`Surface.detrended` alone, no S- or "
       "L-filter is applied.");
 }
 

@@ -17,29 +17,39 @@ void bind_theories(nb::module_& m) {
   m.def(
       "bearing_area_fraction",
       [](const Numbers& mean_gap, double rms_height) {
-        return for_each_number(mean_gap, [&](double gap) { return bearing_area_fraction(gap, rms_height); });
+        return for_each_number(mean_gap,
+                               [&](double gap) { return bearing_area_fraction(gap, rms_height); });
       },
       nb::arg("mean_gap"), nb::arg("rms_height"),
-      nb::sig("def bearing_area_fraction(mean_gap: numpy.typing.ArrayLike, rms_height: float) -> typing.Any"),
-      "Fraction of a Gaussian surface above a plane, ½ erfc(ū/(√2 h_rms)): geometry alone. Lengths in m.");
+      nb::sig("def bearing_area_fraction(mean_gap: numpy.typing.ArrayLike, rms_height: float) -> "
+              "typing.Any"),
+      "Fraction of a Gaussian surface above a plane, ½ erfc(ū/(√2 h_rms)): geometry alone. Lengths "
+      "in m.");
   m.def(
       "bgt_area_fraction",
       [](const Numbers& pressure, double contact_modulus, double rms_slope) {
         cite({"bush_gibson_thomas1975"});
-        return for_each_number(pressure, [&](double p) { return bgt_area_fraction(p, contact_modulus, rms_slope); });
+        return for_each_number(
+            pressure, [&](double p) { return bgt_area_fraction(p, contact_modulus, rms_slope); });
       },
       nb::arg("pressure"), nb::arg("contact_modulus"), nb::arg("rms_slope"),
-      nb::sig("def bgt_area_fraction(pressure: numpy.typing.ArrayLike, contact_modulus: float, rms_slope: float) -> typing.Any"),
-      "Bush, Gibson and Thomas, doi:10.1016/0043-1648(75)90145-3: A/A0 = √(2π) p/(E*h'), the limit of small pressures (Pa).");
+      nb::sig("def bgt_area_fraction(pressure: numpy.typing.ArrayLike, contact_modulus: float, "
+              "rms_slope: float) -> typing.Any"),
+      "Bush, Gibson and Thomas, doi:10.1016/0043-1648(75)90145-3: A/A0 = √(2π) p/(E*h'), the limit "
+      "of small pressures (Pa).");
   m.def(
       "persson_area_fraction",
       [](const Numbers& pressure, double contact_modulus, double rms_slope) {
         cite({"persson2001"});
-        return for_each_number(pressure, [&](double p) { return persson_area_fraction(p, contact_modulus, rms_slope); });
+        return for_each_number(pressure, [&](double p) {
+          return persson_area_fraction(p, contact_modulus, rms_slope);
+        });
       },
       nb::arg("pressure"), nb::arg("contact_modulus"), nb::arg("rms_slope"),
-      nb::sig("def persson_area_fraction(pressure: numpy.typing.ArrayLike, contact_modulus: float, rms_slope: float) -> typing.Any"),
-      "Persson, doi:10.1063/1.1388626: A/A0 = erf(√2 p/(E*h')), of slope √(8/π) at small pressures (Pa).");
+      nb::sig("def persson_area_fraction(pressure: numpy.typing.ArrayLike, contact_modulus: float, "
+              "rms_slope: float) -> typing.Any"),
+      "Persson, doi:10.1063/1.1388626: A/A0 = erf(√2 p/(E*h')), of slope √(8/π) at small pressures "
+      "(Pa).");
 
   nb::class_<RoughnessShell>(m, "RoughnessShell", "A narrow ring of a spectrum.")
       .def(
@@ -53,12 +63,14 @@ void bind_theories(nb::module_& m) {
   m.def(
       "roughness_shells",
       [](const IsotropicSpectrum& spectrum, double lowest, double highest, int count) {
-        return roughness_shells([&](double q) { return spectrum.radial_density(q); }, lowest, highest, count);
+        return roughness_shells([&](double q) { return spectrum.radial_density(q); }, lowest,
+                                highest, count);
       },
       nb::arg("spectrum"), nb::arg("lowest"), nb::arg("highest"), nb::arg("count") = 1000,
       "`count` shells of equal ratio of an isotropic spectrum between two wave numbers, rad/m.");
 
-  nb::class_<PerssonTheory::Asymptote>(m, "PerssonAsymptote", "p = factor·E*·exp(−ū/decay_length), the limit of small pressures.")
+  nb::class_<PerssonTheory::Asymptote>(
+      m, "PerssonAsymptote", "p = factor·E*·exp(−ū/decay_length), the limit of small pressures.")
       .def_ro("decay_length", &PerssonTheory::Asymptote::decay_length, "u0, m; K/A0 = p/u0.")
       .def_ro("factor", &PerssonTheory::Asymptote::factor, "β.");
   nb::class_<PerssonTheory>(m, "PerssonTheory", R"(Mean gap and stiffness by Persson's theory.
@@ -75,7 +87,8 @@ contact_modulus : float
 energy_factor : float
     γ in (0, 1]: 0.4 to 0.5 agrees with simulations.
 )")
-      .def(nb::init<std::vector<RoughnessShell>, double, double>(), nb::arg("shells"), nb::arg("contact_modulus"),
+      .def(nb::init<std::vector<RoughnessShell>, double, double>(), nb::arg("shells"),
+           nb::arg("contact_modulus"),
            nb::arg("energy_factor") = PerssonTheory::usual_energy_factor)
       .def(
           "mean_gap",
@@ -83,40 +96,49 @@ energy_factor : float
             cite({"persson2007", "yang_persson2008"});
             return for_each_number(pressure, [&](double p) { return self.mean_gap(p); });
           },
-          nb::arg("pressure"), nb::sig("def mean_gap(self, pressure: numpy.typing.ArrayLike) -> typing.Any"), "ū, m.")
+          nb::arg("pressure"),
+          nb::sig("def mean_gap(self, pressure: numpy.typing.ArrayLike) -> typing.Any"), "ū, m.")
       .def(
           "stiffness_per_area",
           [](const PerssonTheory& self, const Numbers& pressure) {
             cite({"persson2007", "yang_persson2008"});
             return for_each_number(pressure, [&](double p) { return self.stiffness_per_area(p); });
           },
-          nb::arg("pressure"), nb::sig("def stiffness_per_area(self, pressure: numpy.typing.ArrayLike) -> typing.Any"),
+          nb::arg("pressure"),
+          nb::sig("def stiffness_per_area(self, pressure: numpy.typing.ArrayLike) -> typing.Any"),
           "K/A0 = −dp/dū, Pa/m.")
       .def(
           "contact_area_fraction",
           [](const PerssonTheory& self, const Numbers& pressure) {
             cite({"persson2001"});
-            return for_each_number(pressure, [&](double p) { return self.contact_area_fraction(p); });
+            return for_each_number(pressure,
+                                   [&](double p) { return self.contact_area_fraction(p); });
           },
-          nb::arg("pressure"), nb::sig("def contact_area_fraction(self, pressure: numpy.typing.ArrayLike) -> typing.Any"), "A/A0.")
+          nb::arg("pressure"),
+          nb::sig(
+              "def contact_area_fraction(self, pressure: numpy.typing.ArrayLike) -> typing.Any"),
+          "A/A0.")
       .def(
           "pressure",
           [](const PerssonTheory& self, const Numbers& mean_gap) {
             return for_each_number(mean_gap, [&](double gap) { return self.pressure(gap); });
           },
-          nb::arg("mean_gap"), nb::sig("def pressure(self, mean_gap: numpy.typing.ArrayLike) -> typing.Any"),
+          nb::arg("mean_gap"),
+          nb::sig("def pressure(self, mean_gap: numpy.typing.ArrayLike) -> typing.Any"),
           "The inverse of mean_gap, for ū > 0, Pa.")
       .def_prop_ro("asymptote", &PerssonTheory::asymptote, "The limit of small pressures.")
       .def_prop_ro("rms_height", &PerssonTheory::rms_height, "m")
       .def_prop_ro("rms_slope", &PerssonTheory::rms_slope);
   m.def(
       "persson_curve",
-      [](const PerssonTheory& theory, const Material& material, double nominal_area, const Values& pressures) {
+      [](const PerssonTheory& theory, const Material& material, double nominal_area,
+         const Values& pressures) {
         cite({"persson2007", "yang_persson2008"});
         return persson_curve(theory, material, nominal_area, pressures.values);
       },
       nb::arg("theory"), nb::arg("material"), nb::arg("nominal_area"), nb::arg("pressures"),
-      "Samples at the given pressures (> 0, Pa), lowest first; K_t = (G*/E*)K where G* is known. nominal_area in m².");
+      "Samples at the given pressures (> 0, Pa), lowest first; K_t = (G*/E*)K where G* is known. "
+      "nominal_area in m².");
 }
 
 }  // namespace salebra::python

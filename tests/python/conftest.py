@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import pytest
@@ -33,8 +32,4 @@ def material() -> salebra.Material:
 @pytest.fixture(scope="session")
 def measured() -> Path:
     """The AFM scan of the README."""
-    shared = Path(os.environ.get("SALEBRA_SHARED", ROOT.parent / "shared"))
-    file = shared / "surfaces" / "matrix-3.txt"
-    if not file.exists():
-        pytest.skip("no measured surface")
-    return file
+    return ROOT / "data" / "surfaces" / "afm-scan.txt"

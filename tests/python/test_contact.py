@@ -136,7 +136,7 @@ def test_the_curve_of_the_user_becomes_a_law() -> None:
     law = salebra.TabulatedLaw(curve, 0.8)
     # ln F is straight: the interpolation is exact.
     assert law.force(5.05e-8) == pytest.approx(2.0 * math.exp(5.05e-8 / 3e-8), rel=1e-12)
-    with pytest.raises(salebra.InvalidInput, match="mean_gap: 3 values"):
+    with pytest.raises(salebra.InvalidInput, match="force: 40 values, unlike"):
         salebra.ForceCurve(1e-6, force=force, mean_gap=[1.0, 2.0, 3.0])
 
 

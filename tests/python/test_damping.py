@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import salebra
+from conftest import ROOT
 from salebra import closed_form
 
 DRAG = salebra.Drag(normal_amplitude=1e-9, drag_velocity=1e-3, angular_frequency=2 * math.pi * 20e3)
@@ -114,7 +116,7 @@ def test_a_study_from_text_writes_what_it_computed(tmp_path: Path) -> None:
         rolloff = "250um"
         short_cutoff = "125um"
         rms_height = "1um"
-        seeds = 2
+        seeds = [1, 2]
         [material]
         contact_modulus = "1GPa"
         poisson = 0.3
@@ -156,3 +158,12 @@ def test_measured_surface_to_damping_constant(measured: Path) -> None:
     # With (G*/E*)K for K_t: `salebra study --no-stick`.
     assert salebra.relaxation_damping(law, DRAG, force=force).converged
     assert {"popov2015", "polonsky_keer1999"} <= {citation.key for citation in salebra.citations()}
+
+
+@pytest.mark.parametrize(("page", "file"), [("README.md", "data/surfaces/afm-scan.txt"), ("docs/python.md", "scan.txt")])
+def test_the_examples_of_the_pages_run(page: str, file: str, measured: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    blocks = re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(), re.DOTALL)
+    assert len(blocks) == 1
+    assert f'"{file}"' in blocks[0]
+    exec(blocks[0].replace(f'"{file}"', repr(str(measured))), {})
+    assert capsys.readouterr().out

@@ -25,7 +25,7 @@ def test_errors_are_those_that_python_users_catch() -> None:
     assert issubclass(salebra.InvalidInput, ValueError) and issubclass(salebra.InvalidInput, salebra.Error)
     assert issubclass(salebra.IoError, OSError) and issubclass(salebra.IoError, salebra.Error)
     assert issubclass(salebra.NotConverged, RuntimeError) and issubclass(salebra.NotConverged, salebra.Error)
-    with pytest.raises(ValueError, match="nominal_pressure: -1 must be > 0"):
+    with pytest.raises(ValueError, match="nominal_pressure: -1 must be"):
         salebra.press_to_pressure(generated(), 1e9, -1.0)
     with pytest.raises(ValueError, match="no-such-file"):
         salebra.read_surface("no-such-file.h5")

@@ -82,7 +82,7 @@ def test_heights_of_a_generated_surface_are_a_view_that_keeps_it() -> None:
 def test_the_shape_is_checked_and_named() -> None:
     with pytest.raises(TypeError):
         salebra.Surface(np.zeros(8), 1.0, 1.0)
-    with pytest.raises(salebra.InvalidInput, match="lx: -1"):
+    with pytest.raises(salebra.InvalidInput, match="size_x: -1 must be"):
         salebra.Surface(np.zeros((8, 8)), -1.0, 1.0)
 
 

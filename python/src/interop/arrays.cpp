@@ -40,9 +40,7 @@ nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu> doubles(
 const double* FieldArgument::data() const { return doubles(array).data(); }
 Index FieldArgument::rows() const { return static_cast<Index>(doubles(array).shape(0)); }
 Index FieldArgument::columns() const { return static_cast<Index>(doubles(array).shape(1)); }
-Field FieldArgument::copy() const {
-  return Eigen::Map<const Field>(data(), rows(), columns());
-}
+Field FieldArgument::copy() const { return Eigen::Map<const Field>(data(), rows(), columns()); }
 
 bool adopt_memory(Field& field, const double* data, Index rows, Index columns) {
   static const bool known = layout_is_known();
@@ -80,17 +78,17 @@ Array1 view(const std::vector<double>& values, nb::handle owner) {
 }
 Counts1 view(const std::vector<Index>& values, nb::handle owner) {
   static_assert(sizeof(Index) == sizeof(std::int64_t));
-  return {reinterpret_cast<std::int64_t*>(const_cast<Index*>(values.data())),
-          {values.size()},
-          owner};
+  return {
+      reinterpret_cast<std::int64_t*>(const_cast<Index*>(values.data())), {values.size()}, owner};
 }
 
 nb::object array_of(std::vector<double> values) {
   auto owned = std::make_unique<std::vector<double>>(std::move(values));
   double* data = owned->data();
   const std::size_t size = owned->size();
-  nb::capsule owner(owned.release(),
-                    [](void* pointer) noexcept { delete static_cast<std::vector<double>*>(pointer); });
+  nb::capsule owner(owned.release(), [](void* pointer) noexcept {
+    delete static_cast<std::vector<double>*>(pointer);
+  });
   return nb::cast(Array1(data, {size}, owner));
 }
 nb::object array_of(Field field) {
@@ -119,20 +117,23 @@ namespace nanobind::detail {
 
 bool as_array(handle source, const char* type, bool contiguous, object& array) noexcept {
   // numpy reads texts, None and what has no numbers as objects or fails; none of them is an argument of ours.
-  if (source.is_none() || PyUnicode_Check(source.ptr()) || PyBytes_Check(source.ptr())) return false;
+  if (source.is_none() || PyUnicode_Check(source.ptr()) || PyBytes_Check(source.ptr()))
+    return false;
   try {
     const module_ numpy = module_::import_("numpy");
-    array = contiguous ? numpy.attr("asarray")(source, type, "C") : numpy.attr("asarray")(source, type);
+    array =
+        contiguous ? numpy.attr("asarray")(source, type, "C") : numpy.attr("asarray")(source, type);
     return true;
-  } catch (python_error&) {
-    return false;  // destroys the Python error, and nanobind reports the types that the function takes
+  } catch (python_error& error) {
+    // nanobind reports the types that the function takes; but a Ctrl-C that came now is not to be lost.
+    if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();
+    return false;
   }
 }
 
 bool type_caster<salebra::python::FieldArgument>::from_python(handle source, uint32_t,
                                                               cleanup_list*) noexcept {
-  return as_array(source, "float64", true, value.array) &&
-         cast<int>(value.array.attr("ndim")) == 2;
+  return as_array(source, "float64", true, value.array) && cast<int>(value.array.attr("ndim")) == 2;
 }
 
 bool type_caster<salebra::python::ContactArgument>::from_python(handle source, uint32_t,

@@ -53,12 +53,12 @@ std::string text_of(Enum value) {
   return {};
 }
 
-#define SALEBRA_TEXTS(Enum, literal, ...)                                        \
-  template <>                                                                    \
-  struct Texts<Enum> {                                                           \
+#define SALEBRA_TEXTS(Enum, literal, ...)                                               \
+  template <>                                                                           \
+  struct Texts<Enum> {                                                                  \
     static constexpr auto Name = nb::detail::const_name("typing.Literal[" literal "]"); \
-    static constexpr auto values =                                               \
-        std::to_array<std::pair<Enum, std::string_view>>({__VA_ARGS__});         \
+    static constexpr auto values =                                                      \
+        std::to_array<std::pair<Enum, std::string_view>>({__VA_ARGS__});                \
   }
 
 SALEBRA_TEXTS(Boundary, "'periodic', 'free'", {Boundary::periodic, "periodic"},
@@ -66,7 +66,8 @@ SALEBRA_TEXTS(Boundary, "'periodic', 'free'", {Boundary::periodic, "periodic"},
 SALEBRA_TEXTS(Precision, "'mixed', 'full'", {Precision::mixed, "mixed"}, {Precision::full, "full"});
 SALEBRA_TEXTS(Axis, "'x', 'y'", {Axis::x, "x"}, {Axis::y, "y"});
 SALEBRA_TEXTS(Detrend, "'none', 'mean', 'plane', 'quadratic'", {Detrend::none, "none"},
-              {Detrend::mean, "mean"}, {Detrend::plane, "plane"}, {Detrend::quadratic, "quadratic"});
+              {Detrend::mean, "mean"}, {Detrend::plane, "plane"},
+              {Detrend::quadratic, "quadratic"});
 SALEBRA_TEXTS(Window, "'customary', 'none', 'hann', 'blackman', 'radial_hann'",
               {Window::customary, "customary"}, {Window::none, "none"}, {Window::hann, "hann"},
               {Window::blackman, "blackman"}, {Window::radial_hann, "radial_hann"});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <nanobind/nanobind.h>
+
 #include <salebra/damping/cycle.hpp>
 
 namespace salebra::python {
@@ -11,4 +13,25 @@ struct BoundLevels {
   Grid2D grid;
 };
 
+/// A Python function of the indentation that returns a contact set and a force.
+struct LevelFunction {
+  nanobind::object function;
+};
+
 }  // namespace salebra::python
+
+namespace nanobind::detail {
+
+template <>
+struct type_caster<salebra::python::LevelFunction> {
+  NB_TYPE_CASTER(
+      salebra::python::LevelFunction,
+      const_name("collections.abc.Callable[[float], tuple[numpy.typing.ArrayLike, float]]"))
+  bool from_python(handle source, uint32_t, cleanup_list*) noexcept {
+    if (!PyCallable_Check(source.ptr())) return false;
+    value.function = borrow(source);
+    return true;
+  }
+};
+
+}  // namespace nanobind::detail

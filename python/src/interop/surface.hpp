@@ -51,7 +51,8 @@ void result_methods(nb::class_<Bound>& bound, bool plots) {
         return nb::module_::import_("salebra._results").attr("to_xarray")(self);
       },
       nb::sig("def to_xarray(self) -> xarray.Dataset"),
-      "The result as an xarray.Dataset; every variable has `units` (SI) and `long_name`. Needs xarray.");
+      "The result as an xarray.Dataset; every variable has `units` (SI) and `long_name`. Needs "
+      "xarray.");
   if (plots)
     bound.def(
         "plot",
@@ -60,7 +61,8 @@ void result_methods(nb::class_<Bound>& bound, bool plots) {
         },
         nb::sig("def plot(self, ax: matplotlib.axes.Axes | None = None, **kwargs: typing.Any) -> "
                 "matplotlib.axes.Axes"),
-        "Draws the result with matplotlib, which is imported now, on `ax` or on new axes, and returns the axes.");
+        "Draws the result with matplotlib, which is imported now, on `ax` or on new axes, and "
+        "returns the axes.");
 }
 
 }  // namespace salebra::python

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a user who checks types writes; mypy --strict and pyright must find nothing, and it must run."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+import salebra
+from salebra import closed_form
+
+
+def decay_lengths(surface: salebra.Surface, material: salebra.Material, pressures: npt.NDArray[np.float64]) -> list[float]:
+    """Decay length of boundary elements and of Greenwood–Williamson's model."""
+    curves: list[salebra.ForceCurve] = [salebra.sweep_pressures(surface, material, pressures, boundary="periodic")]
+    model: salebra.AsperityModel = salebra.DeterministicSummits(salebra.find_summits(surface), material, surface.area)
+    curves.append(salebra.curve_at_pressures(model, pressures))
+    return [salebra.fit_exponential(curve, (float(pressures[0]), float(pressures[-1]))).decay_length for curve in curves]
+
+
+def told(report: salebra.ProgressReport) -> bool:
+    return report.fraction <= 1.0
+
+
+def main() -> None:
+    grid = salebra.Grid2D(64, 64, 1e-3, 1e-3)
+    spectrum = salebra.SelfAffineSpectrum(hurst=0.8, rolloff=2.5e-4, short_cutoff=1.25e-4, rms_height=1e-6)
+    surface = salebra.filtered_noise(grid, spectrum, seed=1)
+    heights: npt.NDArray[np.float64] = surface.heights
+    again = salebra.Surface(heights, grid.lx, grid.ly, periodic=True, origin="user")
+    material = salebra.Material.of_bodies(salebra.ElasticBody(210e9, 0.3))
+    pressures = np.geomspace(1e-3, 1e-1, 8) * material.contact_modulus * again.moments.rms_slope
+    lengths = decay_lengths(again, material, pressures)
+
+    state = salebra.press_to_pressure(again, material.contact_modulus, float(pressures[3]), progress=told)
+    field: npt.NDArray[np.float64] = state.pressure
+    spots = salebra.contact_spots(state)
+    stick = salebra.stick_stiffness(field > 0, state.grid, material)
+    print(len(spots), stick.xx, state.converged)
+
+    law: salebra.ContactLaw = salebra.ExponentialLaw(0.1, lengths[0], material.modulus_ratio)
+    motion = salebra.EqualFrequency(normal_amplitude=1e-9, tangential_amplitude=1e-9, phase=math.pi / 2)
+    result = salebra.relaxation_damping(law, motion, force=0.1, hold="force")
+    small = closed_form.work_per_cycle(law.modulus_ratio, float(law.curvature(0.0)), motion)
+    print(result.work_per_cycle / small, Path(__file__).name)
+
+    try:
+        salebra.read_surface("nowhere.h5")
+    except salebra.InvalidInput as error:
+        print(error)
+    for citation in salebra.citations():
+        print(citation.doi or citation.text)
+
+
+if __name__ == "__main__":
+    main()

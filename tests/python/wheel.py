@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""wheel.py SURFACE: the README's example with an installed wheel, and where each of its libraries comes from."""
+
+import math
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import salebra
+
+package = Path(salebra.__file__).resolve().parent
+if "site-packages" not in package.parts:
+    sys.exit(f"{package} is no installed package")
+
+surface = salebra.read_surface(sys.argv[1]).detrended()
+material = salebra.Material(115e9, poisson=0.3)
+pressures = np.geomspace(5e-4, 0.2, 12) * material.contact_modulus * surface.moments.rms_slope
+curve = salebra.sweep_pressures(surface, material, pressures, tolerance=1e-8)
+motion = salebra.Drag(normal_amplitude=1e-9, drag_velocity=1e-3, angular_frequency=2 * math.pi * 20e3)
+law = salebra.TabulatedLaw(curve, material.modulus_ratio)
+damping = salebra.relaxation_damping(law, motion, force=float(curve.force[6]))
+if not damping.converged or not damping.damping_constant > 0:
+    sys.exit(f"no damping constant: {damping}")
+
+# Everything that this process has mapped beside the C library and the interpreter comes from the environment.
+allowed = re.compile(r"/(ld-linux|libc|libm|libdl|libpthread|librt|libutil|libgcc_s|libstdc\+\+|libz|libpython|libexpat|libffi|libssl|libcrypto"
+                     r"|libuuid|liblzma|libbz2|libsqlite|libreadline|libtinfo|libncurses|libnss_\w+|libb2)[-.\d]")  # fmt: skip
+mapped = {line.split(maxsplit=5)[5].strip() for line in open("/proc/self/maps") if ".so" in line}
+foreign = sorted(
+    library for library in mapped
+    if not library.startswith(str(Path(sys.prefix).resolve())) and "lib-dynload" not in library and not allowed.search(library)
+)  # fmt: skip
+if foreign:
+    sys.exit(f"libraries that the wheel does not bring: {foreign}")
+brought = sorted(Path(library).name for library in mapped if "salebra.libs" in library)
+if not any(name.startswith("libgsl") for name in brought):
+    sys.exit(f"the wheel brings {brought}, no GSL among them")
+print(f"salebra {salebra.__version__}: damping constant {damping.damping_constant:.4g} N s/m with {len(brought)} libraries of the wheel")
