@@ -39,7 +39,7 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
   stiffness.y = {.label = "stiffness K h_{rms}/F"};
   damping.x = {.label = "normal force F", .unit = "N", .logarithmic = true};
   damping.y = {.label = "damping constant γ", .unit = "N s/m", .logarithmic = true};
-  stiffness.legend = PlotLegend::bottom_left;
+  gaps.legend = PlotLegend::bottom_left;
   damping.legend = PlotLegend::top_left;
   for (const StudyModel& model : result.models()) {
     const auto scaled = [&](auto value) {
@@ -70,7 +70,9 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
   }
   // The window of the fit, and what the theories of vanishing load say.
   if (!result.configuration.window) gaps.lines = {{.at = 1}, {.at = 2.5}};
-  areas.lines = {{.at = bgt_slope, .name = "BGT"}, {.at = persson_slope, .name = "Persson"}};
+  areas.lines = {{.at = bgt_slope, .name = "BGT"}};
+  if (!result.configuration.has(ContactModel::persson))
+    areas.lines.push_back({.at = persson_slope, .name = "Persson"});
   PlotCurve edge = band("boundary elements, less the edge", loads,
                         at_pressures(result, [&](const Realisation& r, std::size_t k) {
                           return r.spots[k].corrected_area_fraction / result.pressures[k] *

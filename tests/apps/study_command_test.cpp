@@ -110,6 +110,38 @@ TEST_CASE("An interrupted study keeps the surfaces that it has finished and says
   check_refused(test.run("study study.toml --resume"), "--output");
 }
 
+TEST_CASE("A comparison of chosen models draws every point of the ensemble", "[study]") {
+  const ProgramTest test;
+  std::string text = study;
+  text.replace(text.find("hurst = 0.8\n"), 12, "");
+  test.write("study.toml", text + "[ensemble]\nhurst = [0.5, 0.8]\n");
+  const std::string command = "compare study.toml --json --no-stick --models gw_moments,persson ";
+  const auto result = test.run(command + "--plot all.svg");
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  for (const auto& point : result.json()["points"])
+    CHECK(keys(point["models"]) == std::set<std::string>{"bem", "gw_moments", "persson"});
+  const std::string picture = test.read("all.svg");
+  const auto occurrences = [&](const std::string& words) {
+    int count = 0;
+    for (auto at = picture.find(words); at != std::string::npos; at = picture.find(words, at + 1))
+      ++count;
+    return count;
+  };
+  // A column for each point, whose title stands once; the legend is in the first.
+  CHECK(occurrences("H = 0.5") == 1);
+  CHECK(occurrences("H = 0.8") == 1);
+  CHECK(occurrences("mean gap") == 2);
+  CHECK(occurrences("damping constant") == 2);
+  CHECK(occurrences("<title>GW, summits from spectral moments") == 1);
+  CHECK(occurrences("Eq. (16), fitted l") >= 1);
+  CHECK(occurrences("BGT") == 2);
+  // Whoever asks for one model gets no line of another.
+  CHECK(occurrences("interacting") == 0);
+  check_refused(test.run("compare study.toml --models gw"), "'gw' is not known");
+  check_refused(test.run("compare study.toml --plot all.svg"), "exists");
+}
+
 TEST_CASE("A comparison has every model, its ratios and the theories", "[study]") {
   const ProgramTest test;
   std::string text = study;
