@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -162,6 +163,37 @@ TEST_CASE("Spacing weights make l a property of the curve, not of where it was s
   // A bend is a bend with any weights.
   for (const FitWeights weights : {FitWeights::spacing, FitWeights::equal, FitWeights::force})
     CHECK(test_exponential(curve_at(21, 2), {}, weights).quadratic == Approx(-0.1).epsilon(1e-9));
+}
+
+TEST_CASE("The interval of a weighted fit follows from how it answers each value", "[fit]") {
+  const std::vector<double> gaps{0, 0.3, 0.5, 1.2, 1.4, 2.6, 3},
+      log_pressure{0, -1.6, -2.3, -6.4, -6.9, -13.2, -15};
+  const std::size_t n = gaps.size();
+  std::vector<double> x;
+  for (const double gap : gaps) x.push_back(-gap);
+  const ExponentialFit fit = fit_exponential(curve_of(x, log_pressure));
+  // The fit is linear in ln p: differences are derivatives, of the slope −1/l and of each residual.
+  double squares = 0, trace = 0, variance = 0;
+  for (std::size_t j = 0; j < n; ++j) {
+    std::vector<double> changed = log_pressure;
+    changed[j] += 1;
+    const ExponentialFit other = fit_exponential(curve_of(x, changed));
+    const double slope = 1 / fit.decay_length - 1 / other.decay_length;
+    const double intercept = std::log(other.reference_pressure / fit.reference_pressure);
+    variance += slope * slope;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double weight = gaps[std::min(i + 1, n - 1)] - gaps[i > 0 ? i - 1 : 0];
+      const double answer = (i == j ? 1 : 0) - intercept - slope * gaps[i];
+      trace += weight * answer * answer;
+      if (j > 0) continue;
+      const double residual =
+          log_pressure[i] - std::log(fit.reference_pressure) + gaps[i] / fit.decay_length;
+      squares += weight * residual * residual;
+    }
+  }
+  // t(5) = 2.570582; s² from Σw r², whose expectation is s² times the trace.
+  CHECK(1 / fit.decay_length_low - 1 / fit.decay_length ==
+        Approx(2.570582 * std::sqrt(variance * squares / trace)).epsilon(1e-6));
 }
 
 TEST_CASE("Force weights are those of errors of one size in p", "[fit]") {
