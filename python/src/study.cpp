@@ -25,8 +25,8 @@ namespace {
 ModelResult Realisation::*model_of(const std::string& name) {
   std::string known;
   for (const StudyModel& model : study_models) {
-    if (model.name == name) return model.result;
-    known += (known.empty() ? "" : ", ") + std::string(model.name);
+    if (name_of(model.model) == name) return model.result;
+    known += (known.empty() ? "" : ", ") + std::string(name_of(model.model));
   }
   throw InvalidInput("model: '" + name + "' is none of " + known + "; choose one of them");
 }
@@ -164,7 +164,7 @@ void bind_result(nb::module_& m) {
           "models",
           [](const StudyResult& self) {
             std::vector<std::string> names;
-            for (const StudyModel& model : self.models()) names.emplace_back(model.name);
+            for (const StudyModel& model : self.models()) names.emplace_back(name_of(model.model));
             return names;
           },
           "Names of the models that were asked for.")
