@@ -190,7 +190,7 @@ lx, ly : float
       .def_prop_ro("moment2", &SpectralMoments::moment2, "m2, mean of both axes.")
       .def_prop_ro("moment4", &SpectralMoments::moment4, "m4, mean of both axes, 1/m².")
       .def_prop_ro("rms_height", &SpectralMoments::rms_height, "√m0, m.")
-      .def_prop_ro("rms_slope", &SpectralMoments::rms_slope, "√⟨|∇h|²⟩ = √(2 m2).")
+      .def_prop_ro("rms_slope", &SpectralMoments::rms_slope, "``√⟨|∇h|²⟩`` = √(2 m2).")
       .def_prop_ro("nayak", &SpectralMoments::nayak,
                    "α = m0 m4/m2²; at least 1.5 for a Gaussian isotropic surface.")
       .def("__repr__", [](const SpectralMoments& moments) {

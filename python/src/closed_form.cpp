@@ -39,10 +39,11 @@ void bind_closed_form(nb::module_& parent) {
   m.def("spring_energy", &cf::spring_energy, nb::arg("tangential_modulus"),
         nb::arg("released_distance"), nb::arg("spring_width"),
         "Eq. (8): energy ½G*s²Δx of one spring, J.");
-  m.def("intermittent_contact", &cf::intermittent_contact, nb::arg("level"),
-        nb::arg("normal_amplitude"),
-        "Eq. (9): −|u_z| < z0 < |u_z|, the points that are in contact during a part of the cycle "
-        "only.");
+  m.def(
+      "intermittent_contact", &cf::intermittent_contact, nb::arg("level"),
+      nb::arg("normal_amplitude"),
+      "Eq. (9): ``−|u_z| < z0 < |u_z|``, the points that are in contact during a part of the cycle "
+      "only.");
   m.def(
       "work_per_cycle_by_slope",
       [](double tangential_modulus, double edge_slope, const Oscillation& motion) {

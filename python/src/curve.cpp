@@ -209,7 +209,7 @@ The interval holds for independent errors of ln p. With a computed curve it meas
       .def_ro("quadratic", &ExponentialTest::quadratic, "c, 1/m²; > 0 where l grows with ū.")
       .def_ro("standard_error", &ExponentialTest::standard_error, "Of c, 1/m².")
       .def_ro("significance", &ExponentialTest::significance,
-              "Probability of so large a |c| if the law held.")
+              "Probability of so large a c, of either sign, if the law held.")
       .def_ro("decay_length_closest", &ExponentialTest::decay_length_closest,
               "At the least ū of the window, m.")
       .def_ro("decay_length_farthest", &ExponentialTest::decay_length_farthest,

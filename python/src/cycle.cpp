@@ -325,7 +325,7 @@ void bind_friction(nb::module_& m) {
       nb::arg("boundary") = "periodic", nb::arg("progress") = false,
       R"(Direct three-dimensional simulation of a surface with Coulomb friction through one oscillation.
 
-Each step solves |τ| <= μp in every cell. Without drift the permanent contact settles within two or three periods; a drag goes on until
+Each step solves ``|τ| <= μp`` in every cell. Without drift the permanent contact settles within two or three periods; a drag goes on until
 all of it slides: raise max_periods, and look at `steady`. Arguments as :func:`simulate_cycle`; friction: μ.
 )");
   m.def(

@@ -212,7 +212,7 @@ merge_tolerance : float
 table_tolerance : float
     Relative, of the table of K_t that stands for the law.
 tangential_range : float
-    Largest |x − x'| of the motion, m; needed where friction is finite.
+    Largest distance of two positions x of the motion, m; needed where friction is finite.
 )")
       .def(
           "__init__",

@@ -42,7 +42,7 @@ The mode of wave vector q = 2π(i/lx, j/ly) has the mean power C(q)·(2π)²/(lx
            "carries.")
       .def("__repr__", &Spectrum::description);
   nb::class_<IsotropicSpectrum, Spectrum>(m, "IsotropicSpectrum",
-                                          "A spectrum that depends on |q| alone.")
+                                          "A spectrum that depends on ``|q|`` alone.")
       .def(
           "radial_density",
           [](const IsotropicSpectrum& self, const Numbers& q) {
@@ -50,7 +50,7 @@ The mode of wave vector q = 2π(i/lx, j/ly) has the mean power C(q)·(2π)²/(lx
           },
           nb::arg("q"),
           nb::sig("def radial_density(self, q: numpy.typing.ArrayLike) -> typing.Any"),
-          "C(|q|), m⁴, for |q| > 0 in rad/m; a number or an array.");
+          "C, m⁴, at wave numbers > 0, rad/m; a number or an array.");
   nb::class_<SelfAffineSpectrum, IsotropicSpectrum>(m, "SelfAffineSpectrum",
                                                     R"(Self-affine spectrum with a plateau.
 
@@ -72,7 +72,7 @@ short_cutoff : float
 rms_height : float, optional
     m; exactly one of rms_height and rms_slope.
 rms_slope : float, optional
-    √⟨|∇h|²⟩.
+    ``√⟨|∇h|²⟩``.
 )")
       .def(
           "__init__",
@@ -100,7 +100,8 @@ rms_slope : float, optional
           nb::arg("wavenumbers"), nb::arg("densities"));
   nb::class_<FunctionSpectrum, IsotropicSpectrum>(
       m, "FunctionSpectrum",
-      "Any function C(|q|) in m⁴ between two wave numbers, rad/m, and 0 outside of them. A Python "
+      "Any function ``C(|q|)`` in m⁴ between two wave numbers, rad/m, and 0 outside of them. A "
+      "Python "
       "function is slow: one call "
       "for each wave; :class:`TabulatedSpectrum` is not.")
       .def(nb::init<std::function<double(double)>, double, double, std::string>(),
@@ -183,7 +184,7 @@ InvalidInput
         return new_surface(unlocked([&] { return random_phase(grid, spectrum, seed); }));
       },
       nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"),
-      R"(A periodic surface in which chance decides on phases only: |a(q)|² = C(q)·(2π)²/(lx ly) exactly.
+      R"(A periodic surface in which chance decides on phases only: ``|a(q)|² = C(q)·(2π)²/(lx ly)`` exactly.
 
 rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for each seed. Arguments and errors as
 :func:`filtered_noise`.
@@ -268,7 +269,7 @@ void bind_non_gaussian(nb::module_& m) {
       .def_prop_ro(
           "spectrum_mismatch",
           [](const BoundNonGaussian& self) { return self.result.spectrum_mismatch; },
-          "√(Σ(|a| − a_target)²/Σa_target²) over all modes.")
+          "``√(Σ(|a| − a_target)²/Σa_target²)`` over all modes.")
       .def_prop_ro(
           "converged", [](const BoundNonGaussian& self) { return self.result.converged; },
           "The mismatch has stopped falling.")
@@ -318,7 +319,7 @@ void bind_profiles(nb::module_& m) {
   view_property(profile, "heights", &Profile::heights, "m");
   nb::class_<ProfileSpectrum>(m, "ProfileSpectrum",
                               "Power spectral density C₁(q) of a random profile, h_rms² = ∫C₁ dq.")
-      .def("density", &ProfileSpectrum::density, nb::arg("q"), "C₁(|q|), m³.")
+      .def("density", &ProfileSpectrum::density, nb::arg("q"), "``C₁(|q|)``, m³.")
       .def_prop_ro("moments", &ProfileSpectrum::moments)
       .def("__repr__", &ProfileSpectrum::description);
   nb::class_<SelfAffineProfileSpectrum, ProfileSpectrum>(

@@ -57,7 +57,7 @@ Functions take a number or an array of radii, m, up to `largest_radius`.
 
   m.def(
       "cone_profile", [](double angle) { return shared(cone_profile(angle)); }, nb::arg("angle"),
-      "f = r tanθ: g = (π/2) tanθ |x|, Eqs (4), (5). angle: θ between flank and plane, rad.");
+      "f = r tanθ: g = (π/2) tanθ x, Eqs (4), (5). angle: θ between flank and plane, rad.");
   m.def(
       "paraboloid_profile", [](double radius) { return shared(paraboloid_profile(radius)); },
       nb::arg("radius"), "f = r²/2R: g = x²/R. radius: R, m.");
@@ -66,7 +66,7 @@ Functions take a number or an array of radii, m, up to `largest_radius`.
       [](double coefficient, double exponent) {
         return shared(power_profile(coefficient, exponent));
       },
-      nb::arg("coefficient"), nb::arg("exponent"), "f = B rⁿ, n > 0: g = κ_n B |x|ⁿ.");
+      nb::arg("coefficient"), nb::arg("exponent"), "f = B rⁿ, n > 0: g = κ_n B xⁿ.");
   m.def(
       "sphere_profile", [](double radius) { return shared(sphere_profile(radius)); },
       nb::arg("radius"), "f = R − √(R² − r²), exactly: g = x artanh(x/R). radius: R, m.");

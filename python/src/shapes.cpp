@@ -71,7 +71,7 @@ void bind_shapes(nb::module_& m) {
       [](const Grid2D& grid, double angle, std::optional<Point> at) {
         return new_surface(wedge_surface(grid, angle, center_of(at)));
       },
-      nb::arg("grid"), nb::arg("angle"), center(), "h = −|x| tan(angle): an edge along y.");
+      nb::arg("grid"), nb::arg("angle"), center(), "``h = −|x| tan(angle)``: an edge along y.");
   m.def(
       "ridge_surface",
       [](const Grid2D& grid, double radius, std::optional<Point> at) {
@@ -101,7 +101,8 @@ void bind_shapes(nb::module_& m) {
       },
       nb::arg("grid"), nb::arg("count_x"), nb::arg("count_y"), nb::arg("angle"),
       nb::arg("shift") = nb::make_tuple(0.0, 0.0),
-      "count_x × count_y equal pyramids side by side, h = −tan(angle)·max(|x|, |y|). Periodic.");
+      "count_x × count_y equal pyramids side by side, ``h = −tan(angle)·max(|x|, |y|)``. "
+      "Periodic.");
   m.def(
       "sinusoid_surface",
       [](const Grid2D& grid, double amplitude, Index waves_x, Index waves_y, const Point& shift) {

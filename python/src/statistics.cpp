@@ -70,7 +70,7 @@ window : {"customary", "none", "hann", "blackman", "radial_hann"}
 
   nb::class_<RadialSpectrum> radial(m, "RadialSpectrum", "C averaged over rings of wave vectors.");
   view_property(radial, "wavenumber", &RadialSpectrum::wavenumber,
-                "Mean |q| of the modes in the bin, rad/m.");
+                "Mean wave number of the modes in the bin, rad/m.");
   view_property(radial, "density", &RadialSpectrum::density, "Mean C, m⁴.");
   view_property(radial, "modes", &RadialSpectrum::modes, "In the bin, of the full spectrum.");
   result_methods(radial, true);

@@ -116,7 +116,7 @@ void bind_sliding(nb::module_& m) {
       m, "SlidingContact",
       R"(A rough contact with friction that remembers where each of its cells has been drawn to.
 
-Increments of pressures and of a tangential move, each solved implicitly with |τ| <= μp in every cell.
+Increments of pressures and of a tangential move, each solved implicitly with ``|τ| <= μp`` in every cell.
 
 Parameters
 ----------

@@ -206,8 +206,8 @@ void bind_result(nb::module_& m) {
             return self.damping(damping_quantity(quantity), model_of(model));
           },
           nb::arg("quantity") = "curve_damping_constant", nb::arg("model") = "bem",
-          "Mean at each pressure of \"law_…\" (Eq. (16)), \"small_…\" or "
-          "\"curve_damping_constant\", or of \"…_work\".")
+          "Mean at each pressure of law_damping_constant (Eq. (16)), small_damping_constant or "
+          "curve_damping_constant, or of law_work, small_work or curve_work.")
       .def(
           "damping_deviation",
           [](const StudyResult& self, const std::string& model) {

@@ -316,7 +316,7 @@ void bind_areal_parameters(nb::module_& m) {
       m, "ArealParameters",
       "Areal parameters by the definitions of ISO 25178-2, under their names there.");
 #define SALEBRA_AREAL(name, text) areal.def_ro(#name, &ArealParameters::name, text)
-  SALEBRA_AREAL(Sa, "⟨|h|⟩, m");
+  SALEBRA_AREAL(Sa, "``⟨|h|⟩``, m");
   SALEBRA_AREAL(Sq, "√⟨h²⟩, m");
   SALEBRA_AREAL(Ssk, "Skewness.");
   SALEBRA_AREAL(Sku, "Kurtosis.");
