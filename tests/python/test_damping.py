@@ -148,13 +148,19 @@ def test_measured_surface_to_damping_constant(measured: Path) -> None:
     pressures = material.contact_modulus * surface.moments.rms_slope * np.geomspace(5e-4, 0.2, 16)
     curve = salebra.sweep_pressures(surface, material, pressures, tolerance=1e-8)
     fit = salebra.fit_exponential(curve)
-    assert fit.decay_length == pytest.approx(29.51e-9, rel=1e-3)
+    page = (ROOT / "README.md").read_text()
+    printed = re.search(r"boundary elements +([\d.]+) nm", page)
+    assert printed
+    # Four digits are printed.
+    assert fit.decay_length == pytest.approx(float(printed[1]) * 1e-9, rel=1e-3)
     law = salebra.TabulatedLaw(curve, material.modulus_ratio)
     force = float(curve.force[8])
     by_law = closed_form.damping_constant(
         closed_form.work_per_cycle_rough(material.modulus_ratio, force, fit.decay_length, DRAG), DRAG
     )
-    assert by_law == pytest.approx(379.8e-3, rel=1e-3)
+    row = re.search(rf"{salebra.format_quantity(float(curve.pressure[8]), 'pressure')} +\S+ mN +([\d.]+) mN s/m", page)
+    assert row
+    assert by_law == pytest.approx(float(row[1]) * 1e-3, rel=1e-3)
     # With (G*/E*)K for K_t: `salebra study --no-stick`.
     assert salebra.relaxation_damping(law, DRAG, force=force).converged
     assert {"popov2015", "polonsky_keer1999"} <= {citation.key for citation in salebra.citations()}
