@@ -58,7 +58,25 @@ def _formula(translator, node, as_block):
     raise nodes.SkipNode
 
 
+# Docstrings are written to be read by help(): |q| there is a modulus and no substitution, F_ no reference.
+def _plain_text(app, what, name, subject, options, lines):
+    in_math = None
+    for i, line in enumerate(lines):
+        inset = len(line) - len(line.lstrip())
+        if line.lstrip().startswith(".. math::"):
+            in_math = inset
+        elif in_math is not None and (not line.strip() or inset > in_math):
+            continue
+        else:
+            in_math = None
+            pieces = re.split(r"(:math:`[^`]*`|``[^`]*``)", line)
+            pieces[::2] = [re.sub(r"(?<!\\)(\||(?<=\w)_(?!\w))", r"\\\1", piece) for piece in pieces[::2]]
+            lines[i] = "".join(pieces)
+
+
 def setup(app):
+    if "sphinx.ext.autodoc" in extensions:
+        app.connect("autodoc-process-docstring", _plain_text, priority=400)
     app.add_html_math_renderer(
         "mathml",
         (lambda translator, node: _formula(translator, node, False), None),

@@ -2,6 +2,7 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/io/write_surface.hpp>
+#include <salebra/surface/fill.hpp>
 
 #include "options.hpp"
 #include "program.hpp"
@@ -12,6 +13,7 @@ namespace {
 struct ConvertArguments {
   SurfaceOptions surface;
   std::string to;
+  bool fill = false;
 };
 
 void run(ConvertArguments& arguments, Session& session) {
@@ -19,9 +21,14 @@ void run(ConvertArguments& arguments, Session& session) {
           "is not for this command; name the new file as its second argument");
   require_output(arguments.to, session.write_options());
   if (arguments.surface.detrend.empty()) arguments.surface.detrend = "none";
-  write_surface(arguments.to, arguments.surface.read(), session.provenance(),
-                session.write_options());
-  session.answer({{"file", arguments.to}});
+  Surface surface = arguments.surface.read();
+  Json answer{{"file", arguments.to}};
+  if (arguments.fill) {
+    answer["filled_points"] = surface.undefined_points();
+    surface = filled(std::move(surface));
+  }
+  write_surface(arguments.to, surface, session.provenance(), session.write_options());
+  session.answer(answer);
 }
 
 }  // namespace
@@ -31,12 +38,15 @@ void add_convert_command(Program& program) {
   CLI::App& command = program.add_command(
       "convert", "write a surface in another format",
       {"salebra convert scan.txt scan.h5",
+       "salebra convert scan.sur filled.h5 --fill",
        "salebra convert heights.npy rough.h5 --size-x 10um --size-y 10um --detrend plane"},
       [arguments](Session& session) { run(*arguments, session); });
   arguments->surface.add_to(command);
   command.add_option("OUT", arguments->to, "new file; its extension decides on the format")
       ->required()
       ->type_name("FILE");
+  command.add_flag("--fill", arguments->fill,
+                   "fill undefined points by the smoothest surface through the others, for contacts");
 }
 
 }  // namespace salebra::cli

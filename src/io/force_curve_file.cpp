@@ -58,9 +58,18 @@ ForceCurve read_force_curve(const ResultReader& reader, const std::string& group
   curve.model = reader.text_attribute(group, "model").value_or("");
   curve.nominal_area = reader.number_attribute(group, "nominal_area").value_or(0);
   curve.rms_height = reader.number_attribute(group, "rms_height").value_or(ForceSample::unknown);
-  bool first = true;
+  bool first = true, study = false;
   const auto column = [&](const std::string& name) {
-    const std::vector<double> values = reader.numbers(group + "/" + name);
+    std::vector<double> values = reader.numbers(group + "/" + name);
+    const std::vector<Index> shape = reader.shape(group + "/" + name);
+    if (shape.size() == 3) {  // a study's: model, realisation, pressure
+      if (shape[0] < 1 || shape[1] != 1)
+        detail::refuse(reader.file(), "holds the curves of " + std::to_string(shape[1]) +
+                                          " surfaces in " + group +
+                                          "; give the file of a study of one surface");
+      values.resize(static_cast<std::size_t>(shape[2]));
+      study = true;
+    }
     if (first) curve.samples.resize(values.size());
     if (values.size() != curve.samples.size())
       detail::refuse(reader.file(), "has datasets of different length in " + group);
@@ -72,6 +81,14 @@ ForceCurve read_force_curve(const ResultReader& reader, const std::string& group
     if (!reader.has(group + "/" + name)) continue;
     const std::vector<double> values = column(name);
     for (std::size_t i = 0; i < values.size(); ++i) curve.samples[i].*quantity.member = values[i];
+  }
+  if (study) {
+    if (const auto models = reader.labels(group + "/model"); !models.empty())
+      curve.model = models.front();
+    curve.nominal_area = reader.number_attribute("surface", "size_x").value_or(0) *
+                         reader.number_attribute("surface", "size_y").value_or(0);
+    if (const auto heights = reader.numbers("surface/rms_height"); !heights.empty())
+      curve.rms_height = heights.front();
   }
   if (curve.samples.empty())
     detail::refuse(reader.file(), "holds no force curve in its group " + group);

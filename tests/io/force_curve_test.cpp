@@ -41,6 +41,43 @@ TEST_CASE("A force curve survives its file, unknown quantities and all", "[curve
   CHECK_THROWS_WITH(write_force_curve(scratch / name, curve), Contains("exists"));
 }
 
+TEST_CASE("The file of a study of one surface holds a force curve, of several it does not",
+          "[curve file]") {
+  const Scratch scratch;
+  const Index surfaces = GENERATE(1, 2);
+  const std::vector<double> pressures{1e6, 2e6, 4e6, 8e6};
+  std::vector<double> gaps;  // of two models
+  for (Index i = 0; i < 2 * surfaces * 4; ++i) gaps.push_back(1e-6 / double(i + 1));
+  {
+    ResultFile file(scratch / "study.h5", {}, {});
+    ResultGroup surface = file.group("surface");
+    surface.index("realisation", std::size_t(surfaces), "number");
+    surface.dataset("rms_height", std::vector<double>(std::size_t(surfaces), 3e-8), {"realisation"},
+                    "m", "rms height");
+    surface.attribute("size_x", 2e-3);
+    surface.attribute("size_y", 1e-3);
+    ResultGroup curve = file.group("curve");
+    curve.labels("model", {"bem", "gw"}, "contact model");
+    curve.index("realisation", std::size_t(surfaces), "number");
+    curve.coordinate("pressure", pressures, "Pa", "pressure");
+    curve.dataset("mean_gap", gaps, {"model", "realisation", "pressure"}, "m", "mean gap");
+    file.commit();
+  }
+  if (surfaces > 1) {
+    CHECK_THROWS_WITH(read_force_curve(scratch / "study.h5"), Contains("2 surfaces"));
+    return;
+  }
+  const ForceCurve read = read_force_curve(scratch / "study.h5");
+  CHECK(read.model == "bem");
+  CHECK(read.nominal_area == Approx(2e-6).epsilon(1e-15));
+  CHECK(read.rms_height == 3e-8);
+  REQUIRE(read.samples.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    CHECK(read.samples[i].pressure == pressures[i]);
+    CHECK(read.samples[i].mean_gap == gaps[i]);
+  }
+}
+
 TEST_CASE("A curve in a table is read with its units, in the order of rising force",
           "[curve file]") {
   const Scratch scratch;

@@ -15,7 +15,8 @@ namespace salebra {
 /// rms_height.
 void write_force_curve(ResultGroup& group, const ForceCurve& curve);
 
-/// Reads it back from that group. Throws InvalidInput if it holds no curve.
+/// Reads it back from that group, or the first model's curve (the boundary elements') from that group of a study of one surface.
+/// Throws InvalidInput if it holds no curve, or those of several surfaces.
 ForceCurve read_force_curve(const ResultReader& reader, const std::string& group = "curve");
 
 /// A file with one curve: .h5 and .hdf5 with the group `curve`, .csv and .txt as text in the form that read_force_curve takes.
