@@ -22,8 +22,8 @@ MODULES = {
 }
 
 
-PYTHON = """Python package
-==============
+PYTHON = """Python reference
+================
 
 .. automodule:: salebra
    :members:
