@@ -39,8 +39,8 @@ int main(int argc, char** argv) try {
     pressures.push_back(contact_modulus * rms_slope * 5e-4 * std::pow(400.0, i / 15.0));
   SweepOptions options;
   options.stiffness = false;
-  const ForceCurve curve = sweep_pressures(
-      surface, Material::of_contact_modulus(contact_modulus), pressures, options);
+  const ForceCurve curve =
+      sweep_pressures(surface, Material::of_contact_modulus(contact_modulus), pressures, options);
   std::printf("%12s %12s %10s\n", "pressure", "mean gap", "area");
   for (const ForceSample& sample : curve.samples)
     std::printf("%12s %12s %8.2f %%\n",

@@ -102,7 +102,9 @@ void add_fit_command(Program& program) {
       "fit", "decay length l of p = p0 exp(-mean gap/l) from a curve",
       {"salebra fit curve.h5", "salebra fit curve.h5 --pressure-window 1MPa,50MPa --json"},
       [arguments](Session& session) { run(*arguments, session); });
-  command.add_option("CURVE", arguments->curve, "file of sweep, gw or a study of one surface, or a text table")
+  command
+      .add_option("CURVE", arguments->curve,
+                  "file of sweep, gw or a study of one surface, or a text table")
       ->required()
       ->type_name("FILE");
   add_values(command, "--pressure-window", arguments->window, Dimension::pressure,

@@ -90,7 +90,8 @@ void LawOptions::add_to(CLI::App& command) {
   const std::string group = "Law";
   add_choice(command, "--law", law, {"exponential", "cone", "parabola", "power"}, "F(indentation)")
       ->group(group);
-  command.add_option("--curve", curve, "file of sweep, gw or a study of one surface, instead of --law")
+  command
+      .add_option("--curve", curve, "file of sweep, gw or a study of one surface, instead of --law")
       ->type_name("FILE")
       ->group(group);
   add_quantity(command, "--decay-length", decay_length, Dimension::length,

@@ -34,7 +34,8 @@ void Surface::require_complete(const std::string& purpose) const {
   if (wrong == 0) return;
   const Index undefined = undefined_points();
   require(undefined == 0, "heights", undefined,
-          "undefined points cannot be used in " + purpose + "; fill them (salebra convert --fill) or crop them first");
+          "undefined points cannot be used in " + purpose +
+              "; fill them (salebra convert --fill) or crop them first");
   require(false, "heights", "infinity", "cannot be used in " + purpose);
 }
 

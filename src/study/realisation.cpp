@@ -29,7 +29,8 @@ Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed) {
 }
 
 Surface read(const MeasuredSurface& recipe) {
-  require(!recipe.file.empty(), "surface", "none", "is given; name a file by --surface, or add a table [surface]");
+  require(!recipe.file.empty(), "surface", "none",
+          "is given; name a file by --surface, or add a table [surface]");
   ReadOptions options;
   options.size_x = recipe.size_x;
   options.size_y = recipe.size_y;
