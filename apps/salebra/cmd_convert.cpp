@@ -37,7 +37,7 @@ void add_convert_command(Program& program) {
   auto arguments = std::make_shared<ConvertArguments>();
   CLI::App& command = program.add_command(
       "convert", "write a surface in another format",
-      {"salebra convert scan.txt scan.h5", "salebra convert scan.sur filled.h5 --fill",
+      {"salebra convert scan.sur scan.h5 --fill",
        "salebra convert heights.npy rough.h5 --size-x 10um --size-y 10um --detrend plane"},
       [arguments](Session& session) { run(*arguments, session); });
   arguments->surface.add_to(command);
