@@ -25,7 +25,7 @@ if not damping.converged or not damping.damping_constant > 0:
     sys.exit(f"no damping constant: {damping}")
 
 # Everything that this process has mapped beside the C library and the interpreter comes from the environment.
-allowed = re.compile(r"/(ld-linux|libc|libm|libdl|libpthread|librt|libutil|libgcc_s|libstdc\+\+|libz|libpython|libexpat|libffi|libssl|libcrypto"
+allowed = re.compile(r"/(ld-linux|libc|libm|libdl|libpthread|librt|libutil|libresolv|libgcc_s|libstdc\+\+|libz|libpython|libexpat|libffi|libssl|libcrypto"
                      r"|libuuid|liblzma|libbz2|libsqlite|libreadline|libtinfo|libncurses|libnss_\w+|libb2)[-.\d]")  # fmt: skip
 mapped = {line.split(maxsplit=5)[5].strip() for line in open("/proc/self/maps") if ".so" in line}
 foreign = sorted(
