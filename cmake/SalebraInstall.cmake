@@ -1,14 +1,50 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The installed package: libraries with their headers, the program, and what find_package(salebra) needs.
+# The installed package in two components: `program` with its manual, study files and documentation, and `development` with the
+# libraries, their headers, and what find_package(salebra) needs.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/salebra)
 
 get_property(libraries GLOBAL PROPERTY SALEBRA_LIBRARIES)
-install(TARGETS ${libraries} EXPORT salebraTargets FILE_SET HEADERS)
-install(EXPORT salebraTargets NAMESPACE salebra:: DESTINATION ${package_dir})
+install(TARGETS ${libraries} EXPORT salebraTargets COMPONENT development FILE_SET HEADERS COMPONENT development)
+install(EXPORT salebraTargets NAMESPACE salebra:: DESTINATION ${package_dir} COMPONENT development)
 configure_package_config_file(cmake/salebraConfig.cmake.in ${PROJECT_BINARY_DIR}/salebraConfig.cmake
   INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/salebraConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/salebraConfig.cmake ${PROJECT_BINARY_DIR}/salebraConfigVersion.cmake
-  DESTINATION ${package_dir})
+  DESTINATION ${package_dir} COMPONENT development)
+
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()
+endif()
+
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program FILES_MATCHING PATTERN "*.md"
+  PATTERN images EXCLUDE PATTERN static EXCLUDE)
+install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT program FILES_MATCHING PATTERN "*.toml" PATTERN "*.txt" PATTERN "*.md"
+  PATTERN reference EXCLUDE)
+
+# cpack -G DEB: salebra and libsalebra-dev, whose dependencies dpkg-shlibdeps reads from the program.
+set(CPACK_PACKAGE_NAME salebra)
+set(CPACK_PACKAGE_VENDOR "The salebra developers")
+set(CPACK_PACKAGE_CONTACT "The salebra developers <developers@salebra.invalid>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_GENERATOR DEB)
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME salebra)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+  "Generates and measures rough surfaces, presses them by boundary elements and by Greenwood-Williamson's\n model, and computes the relaxation damping of oscillating contacts.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsalebra-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+  "libeigen3-dev, libfftw3-dev, libfmt-dev, libgsl-dev, libhdf5-dev, libpugixml-dev, libzip-dev, libtomlplusplus-dev, nlohmann-json3-dev, pkg-config")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Libraries and headers of salebra, for CMake's find_package(salebra).")
+include(CPack)

@@ -74,8 +74,9 @@ def help_of(program, *command):
 def command_reference(program):
     """docs/cli.md: --help of the program and of each command that it lists."""
     overview = help_of(program)
-    listed = overview.split("Subcommands:", 1)[1].splitlines()
-    names = [line.split()[0] for line in listed if line.startswith("  ") and not line.startswith("   ")]
+    # Commands stand under the headings of their kinds, options begin with a dash, and first steps come last.
+    listed = overview.split("First steps:", 1)[0].splitlines()
+    names = [line.split()[0] for line in listed if line.startswith("  ") and line[2].islower()]
     if len(names) < 10:
         sys.exit(f"stage.py: the help of {program} lists {len(names)} commands; has its form changed?")
     text = "# Commands\n\nWhat `salebra --help` and `salebra <command> --help` print.\n\n"

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "compare_figure.hpp"
+#include "dry_run.hpp"
 #include "program.hpp"
 #include "study_command.hpp"
 #include "text.hpp"
@@ -232,6 +233,7 @@ void run(const CompareArguments& arguments, Session& session) {
   StudyConfiguration configuration = arguments.study.study();
   configuration.models =
       arguments.models.empty() ? configuration.compared_models : contact_models(arguments.models);
+  if (arguments.study.dry_run) return answer_dry_run(configuration, session);
   const std::vector<StudyResult> results =
       run_and_keep(configuration, arguments.study.resume, session);
   if (results.empty()) return;

@@ -8,6 +8,7 @@
 #include <salebra/base/units.hpp>
 #include <salebra/study/study.hpp>
 
+#include "dry_run.hpp"
 #include "program.hpp"
 #include "study_command.hpp"
 #include "text.hpp"
@@ -104,6 +105,7 @@ std::string study_text(const StudyResult& result, const std::string& file) {
 
 void run(const StudyArguments& arguments, Session& session) {
   const StudyConfiguration configuration = arguments.study();
+  if (arguments.dry_run) return answer_dry_run(configuration, session);
   const std::vector<StudyResult> results = run_and_keep(configuration, arguments.resume, session);
   if (results.empty()) return;
   const std::string file = session.has_output() ? session.output().string() : "";

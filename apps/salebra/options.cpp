@@ -5,6 +5,7 @@
 
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/base/suggestion.hpp>
 #include <salebra/io/read_surface.hpp>
 
 namespace salebra::cli {
@@ -43,7 +44,8 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, std::string& tar
       ->check([name, choices](const std::string& text) {
         return std::ranges::find(choices, text) != choices.end()
                    ? std::string()
-                   : fmt::format("'{}' is not one of {}", text, fmt::join(choices, ", "));
+                   : fmt::format("'{}' is not one of {}{}", text, fmt::join(choices, ", "),
+                                 did_you_mean(text, choices));
       });
 }
 

@@ -2,6 +2,7 @@
 #include "program.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -9,7 +10,11 @@
 #include <new>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/base/suggestion.hpp>
 #include <salebra/base/version.hpp>
+
+#include "help_text.hpp"
+#include "terminal.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -17,7 +22,8 @@ namespace {
 int fail(int status, std::string_view message) {
   std::string line(message);
   std::ranges::replace(line, '\n', ' ');
-  fmt::print(stderr, "salebra: error: {}\n", line);
+  fmt::print(stderr, "salebra: {} {}\n", emphasised("error:", Emphasis::error, STDERR_FILENO),
+             line);
   return status;
 }
 
@@ -37,6 +43,32 @@ std::string help_hint(const CLI::App& app) {
                         : "see salebra " + chosen.front()->get_name() + " --help";
 }
 
+/// What is wrong with a command line that CLI11 refused. A misspelt option is told before what it may have caused, such as the lack of
+/// the right one.
+std::string describe(const CLI::App& app, const CLI::ParseError& error) {
+  const auto chosen = app.get_subcommands();
+  const std::vector<std::string> words = app.remaining(true);
+  if (chosen.empty() || words.empty()) return error.what();
+  const auto option = std::ranges::find_if(words, [](const auto& word) { return word[0] == '-'; });
+  if (option == words.end()) {
+    const bool extra = dynamic_cast<const CLI::ExtrasError*>(&error);
+    return extra ? words.front() + ": is one argument too many" : error.what();
+  }
+  std::vector<std::string> options;
+  for (const CLI::Option* known : chosen.front()->get_options())
+    for (const std::string& name : known->get_lnames()) options.push_back("--" + name);
+  const std::string name = option->substr(0, option->find('='));
+  return fmt::format("{}: is not an option of salebra {}{}", name, chosen.front()->get_name(),
+                     did_you_mean(name, options));
+}
+
+/// Commands under the headings of their kinds; what is not described stays under CLI11's own.
+void group_commands(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (const CommandHelp* help = find_help(command->get_name()))
+      command->group(std::string(help->group));
+}
+
 }  // namespace
 
 CLI::App& Program::add_command(const std::string& name, const std::string& what,
@@ -50,7 +82,9 @@ CLI::App& Program::add_command(const std::string& name, const std::string& what,
   const std::string group = "Common options";
   command->add_flag("--json", common->json, "print exactly one JSON object, in SI units")
       ->group(group);
-  command->add_option("-o,--output", common->output, "file to write")->group(group);
+  command->add_option("-o,--output", common->output, "file to write")
+      ->type_name("FILE")
+      ->group(group);
   if (!picture.empty())
     command->add_option("--plot", common->plot, "picture to draw, .png or .svg: " + picture)
         ->type_name("FILE")
@@ -84,17 +118,23 @@ int run_program(int argc, char** argv) {
   CLI::App app("Statistics of rough-surface contact and its relaxation damping.", "salebra");
   app.set_version_flag("--version", "salebra " + std::string(version()));
   app.require_subcommand(1);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.get_formatter()->column_width(34);
+  app.footer(std::string(first_steps()));
   Program program(app, join(argc, argv));
 #define SALEBRA_COMMAND(name) add_##name##_command(program);
 #include "command_list.inc"
 #undef SALEBRA_COMMAND
+  group_commands(app);
 
   if (argc < 2) return fail(2, "command: none is given; see salebra --help");
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
   const std::string word = argv[1];
   if (word[0] != '-' && std::ranges::find(commands, word, &CLI::App::get_name) == commands.end()) {
-    return fail(2, fmt::format("{}: is not a command; see salebra --help", word));
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands) names.push_back(command->get_name());
+    return fail(2, fmt::format("{}: is not a command{}; see salebra --help", word,
+                               did_you_mean(word, names)));
   }
   try {
     app.parse(argc, argv);
@@ -102,7 +142,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::Success& request) {
     return app.exit(request);
   } catch (const CLI::ParseError& error) {
-    return fail(2, fmt::format("{}; {}", error.what(), help_hint(app)));
+    return fail(2, fmt::format("{}; {}", describe(app, error), help_hint(app)));
   } catch (const InvalidInput& error) {
     return fail(2, error.what());
   } catch (const Interrupted& error) {

@@ -28,6 +28,9 @@ class Program {
                         const std::array<std::string, 2>& examples, Action action,
                         const std::string& picture = "", OutputCheck check = OutputCheck::at_start);
 
+  /// All commands and options, for what is made of them: completion, manual pages.
+  const CLI::App& app() const { return app_; }
+
  private:
   CLI::App& app_;
   std::string command_line_;

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <salebra/base/error.hpp>
 
+#include "terminal.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {
@@ -72,7 +73,8 @@ void Session::note(std::string_view text) {
 
 void Session::warn(std::string_view text) {
   bar_.clear();
-  fmt::print(stderr, "salebra: warning: {}\n", text);
+  fmt::print(stderr, "salebra: {} {}\n", emphasised("warning:", Emphasis::warning, STDERR_FILENO),
+             text);
 }
 
 void Session::answer(const Json& object, const std::string& text) {

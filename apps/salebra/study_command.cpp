@@ -12,19 +12,13 @@
 #include <salebra/base/units.hpp>
 #include <salebra/study/study_file.hpp>
 
+#include "dry_run.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-std::string duration(double seconds) {
-  const auto whole = std::llround(std::max(seconds, 0.0));
-  if (whole >= 3600) return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
-  if (whole >= 60) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
-  return fmt::format("{} s", whole);
-}
 
 /// Rate and remaining time of a study, judged by what was computed in this run.
 class Pace {
@@ -38,7 +32,7 @@ class Pace {
     std::string text;
     if (finished > restored_)
       text = fmt::format(", {:.3g}/min", 60 * double(finished - restored_) / elapsed);
-    return text + ", " + duration(elapsed * (1 - fraction) / (fraction - begun)) + " left";
+    return text + ", " + format_duration(elapsed * (1 - fraction) / (fraction - begun)) + " left";
   }
 
  private:
@@ -63,6 +57,8 @@ void StudyArguments::add_to(CLI::App& command) {
   command.add_flag(
       "--no-stick", no_stick,
       "K_t = (G*/E*)K in place of a stick solve on each contact: faster, exact at nu = 0");
+  command.add_flag("--dry-run", dry_run,
+                   "tell what would run, with its time and memory, and run nothing");
   command.add_flag("--resume", resume,
                    "go on with what an interrupted run has left beside the output file");
 }

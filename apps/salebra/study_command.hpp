@@ -21,6 +21,7 @@ struct StudyArguments {
   std::optional<double> precision;
   bool no_stick = false;
   bool resume = false;
+  bool dry_run = false;
 
   void add_to(CLI::App& command);
   /// The study file, or what a measured surface needs without one, with the options in place of what either says.

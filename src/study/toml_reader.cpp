@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <salebra/base/error.hpp>
+#include <salebra/base/suggestion.hpp>
 #include <sstream>
 
 namespace salebra::detail {
@@ -100,7 +101,8 @@ std::optional<std::size_t> TomlTable::choice(std::string_view key,
   if (!given) return {};
   const auto found = std::ranges::find(names, *given);
   check(found != names.end(), key,
-        fmt::format("'{}' is not known; write one of {}", *given, fmt::join(names, ", ")));
+        fmt::format("'{}' is not known{}; write one of {}", *given, did_you_mean(*given, names),
+                    fmt::join(names, ", ")));
   return std::size_t(found - names.begin());
 }
 
@@ -127,6 +129,10 @@ std::optional<double> TomlTable::quantity(std::string_view key, Dimension dimens
 double TomlTable::required_quantity(std::string_view key, Dimension dimension) {
   const auto value = quantity(key, dimension);
   if (!value) {
+    // A misspelt key is no other than the missing one.
+    for (const auto& [name, node] : *table_)
+      if (!nearest_name(name.str(), {std::string(key)}).empty())
+        fail(name.str(), fmt::format("this key is not known (did you mean {}?)", key));
     throw InvalidInput(
         fmt::format("{}:{}: {}: is missing; add it to [{}]", file_, line_, path_of(key), path_));
   }
@@ -173,7 +179,9 @@ void TomlTable::require_no_other_keys() const {
   for (const auto& [name, node] : *table_) {
     const std::string key(name.str());
     if (!asked_.contains(key)) {
-      fail(key, fmt::format("this key is not known; known here are {}", fmt::join(asked_, ", ")));
+      const std::vector<std::string> known(asked_.begin(), asked_.end());
+      fail(key, fmt::format("this key is not known{}; known here are {}", did_you_mean(key, known),
+                            fmt::join(known, ", ")));
     }
   }
 }

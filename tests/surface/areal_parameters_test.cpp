@@ -8,6 +8,8 @@
 #include <salebra/generators/radial_spectrum.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/surface/areal_parameters.hpp>
+#include <salebra/surface/bearing.hpp>
+#include <salebra/surface/moments.hpp>
 #include <salebra/surface/peaks.hpp>
 
 #include "test_surfaces.hpp"
@@ -64,13 +66,41 @@ TEST_CASE("A stretched Gaussian correlation has the lengths, aspect and directio
 
 TEST_CASE("The texture direction of one wave is its own", "[areal]") {
   const int i = GENERATE(7, -7), j = GENERATE(0, 3);
-  const Surface wave = sampled({64, 64, 1.0, 2.0}, true, [&](double x, double y) {
-    return std::cos(2 * pi * (i * x + j * y / 2) + 0.3);
+  const double lx = GENERATE(1.0, 2.0), ly = 3 - lx;
+  const Surface wave = sampled({64, 64, lx, ly}, true, [&](double x, double y) {
+    return std::cos(2 * pi * (i * x / lx + j * y / ly) + 0.3);
   });
-  const double exact = j == 0 ? 0 : std::atan2(j / 2.0, i);
+  const double exact = j == 0 ? 0 : std::atan2(j / ly, i / lx);
   // To the quarter of a degree between rays, and the steps of half a mode along them.
   CHECK(areal_parameters(wave).Std ==
         Approx(exact < 0 ? exact + pi : exact).margin(1.5 * pi / 180));
+}
+
+TEST_CASE("A direction is as strong as the power in its sector, which widens with the wave number",
+          "[areal]") {
+  // Twice the wave number along y, 0.64 of the power: 1.28 of what lies in the sector along x.
+  const Surface waves = sampled({64, 64, 1.0, 1.0}, true, [](double x, double y) {
+    return std::cos(2 * pi * 6 * x) + 0.8 * std::cos(2 * pi * 12 * y);
+  });
+  CHECK(areal_parameters(waves).Std == Approx(pi / 2).margin(1.5 * pi / 180));
+}
+
+TEST_CASE("The parameters of heights are those of their statistics and bearing curve", "[areal]") {
+  // Skewed, so that hills and valleys differ.
+  Surface surface = white({30, 20, 1, 1}, false);
+  surface.heights = surface.heights.exp();
+  const ArealParameters p = areal_parameters(surface);
+  const CoreParameters core = core_parameters(BearingCurve(surface));
+  CHECK(p.Smr1 == core.peak_fraction);
+  CHECK(p.Smr2 == core.core_fraction);
+  CHECK(p.Smr1 < 0.5);
+  CHECK(p.Smr2 > 0.5);
+  CHECK(p.Spk == core.peak_height);
+  CHECK(p.Svk == core.valley_depth);
+  const HeightStatistics heights = height_statistics(surface);
+  CHECK(p.Ssk == heights.skewness);
+  CHECK(p.Sku == heights.kurtosis);
+  CHECK(p.Ssk > 0.1);
 }
 
 TEST_CASE("Hills in a chain of known saddles are pruned in the order of their prominence",
@@ -110,6 +140,14 @@ TEST_CASE("An egg box has one peak to a hill, with the curvature of a cosine", "
     return 2 * (1 - std::cos(2 * pi * waves * step / l)) / (step * step);
   };
   CHECK(p.Spc == Approx(amplitude * (second(3) + second(5)) / 2).epsilon(1e-9));
+}
+
+TEST_CASE("Peaks count from a twentieth of the height range on", "[areal]") {
+  Surface plain{{40, 40, 1, 1}, Field::Zero(40, 40), false, "plain"};
+  plain.heights(10, 10) = 100;
+  plain.heights(20, 20) = 5.1;
+  plain.heights(30, 30) = 4.9;
+  CHECK(areal_parameters(plain).Spd == 2);
 }
 
 TEST_CASE("Undefined points and flat surfaces have the parameters that exist", "[areal]") {

@@ -101,6 +101,36 @@ TEST_CASE("The structure function of a periodic surface is twice what its correl
   CHECK(rings.distance.back() <= 0.375 * (1 + 1e-12));
 }
 
+TEST_CASE("Rings weigh each distance with its pairs", "[correlation]") {
+  // On a surface that is not periodic a distance along x has fewer pairs than the same across.
+  Surface surface = white({24, 60, 1.0, 2.5}, false);
+  surface.heights(3, 3) = std::numeric_limits<double>::quiet_NaN();
+  const CorrelationMap map = correlation_map(surface);
+  const Correlation rings = radial_correlation(map, 2);
+  double pairs = 0, distance = 0, structure = 0, product = 0;
+  for (std::size_t k = 0; k < rings.pairs.size(); ++k) {
+    pairs += rings.pairs[k];
+    distance += rings.pairs[k] * rings.distance[k];
+    structure += rings.pairs[k] * rings.structure[k];
+    product += rings.pairs[k] * rings.autocorrelation[k];
+  }
+  for (Index row = 0; row < map.pairs.rows(); ++row) {
+    for (Index column = 0; column < map.pairs.cols(); ++column) {
+      const double r = std::hypot(map.lag_x(row), map.lag_y(column));
+      if (r > 0.5 * (1 + 1e-9)) continue;
+      pairs -= map.pairs(row, column);
+      distance -= map.pairs(row, column) * r;
+      structure -= map.pairs(row, column) * map.structure(row, column);
+      product -= map.pairs(row, column) * map.autocorrelation(row, column);
+    }
+  }
+  // What is left of sums of 1e5 to 1e6.
+  CHECK(pairs == 0);
+  CHECK(std::abs(distance) < 1e-8);
+  CHECK(std::abs(structure) < 1e-8);
+  CHECK(std::abs(product) < 1e-8);
+}
+
 TEST_CASE("The structure function of a self-affine surface grows with twice the Hurst exponent",
           "[correlation]") {
   const double hurst = GENERATE(0.3, 0.7);

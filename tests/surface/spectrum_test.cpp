@@ -79,6 +79,52 @@ TEST_CASE("The PSD of a generated surface is the one asked, with a window too", 
   }
 }
 
+TEST_CASE(
+    "Under a window the spectrum holds the mean square of the weighted heights about their "
+    "weighted mean",
+    "[psd]") {
+  // A parabola along x, so that the weighted mean is not the mean; a cell that is longer along y than along x.
+  Surface surface = white({24, 30, 1.0, 2.0}, false);
+  for (Index ix = 0; ix < 24; ++ix) surface.heights.row(ix) += 0.01 * double(ix * ix);
+  const auto at_edges = [](Index i, Index n) { return 2 * pi * (double(i) + 0.5) / double(n); };
+  const auto hann = [&](Index i, Index n) { return 0.5 - 0.5 * std::cos(at_edges(i, n)); };
+  const auto blackman = [&](Index i, Index n) {
+    return 0.42 - 0.5 * std::cos(at_edges(i, n)) + 0.08 * std::cos(2 * at_edges(i, n));
+  };
+  const auto mean_square = [](const Field& weights, const Field& heights) {
+    const double mean = (weights * heights).sum() / weights.sum();
+    return (weights * (heights - mean)).square().sum() / weights.square().sum();
+  };
+  const Window window = GENERATE(Window::hann, Window::blackman, Window::radial_hann);
+  Field weights(24, 30);
+  for (Index ix = 0; ix < 24; ++ix) {
+    for (Index iy = 0; iy < 30; ++iy) {
+      const double r = std::hypot(double(ix - 12) / 24, double(iy - 15) / 15);
+      weights(ix, iy) = window == Window::hann       ? hann(ix, 24) * hann(iy, 30)
+                        : window == Window::blackman ? blackman(ix, 24) * blackman(iy, 30)
+                        : r < 0.5                    ? 0.5 + 0.5 * std::cos(2 * pi * r)
+                                                     : 0;
+    }
+  }
+  const PowerSpectrum spectrum = power_spectrum(surface, window);
+  CHECK(integral(spectrum) == Approx(mean_square(weights, surface.heights)).epsilon(1e-12));
+  const double w4 = weights.square().square().mean(), w2 = weights.square().mean();
+  CHECK(spectrum.correlated_modes == Approx(w4 / (w2 * w2)).epsilon(1e-12));
+
+  if (window == Window::radial_hann) return;
+  const ProfilePsd profiles = profile_psd(surface, Axis::x, window);
+  double sum = 0, expected = 0;
+  for (std::size_t k = 0; k < profiles.density.size(); ++k)
+    sum += double(profiles.modes[k]) * profiles.density[k] * profiles.step() / 30;
+  for (Index iy = 0; iy < 30; ++iy) {
+    Field line = surface.heights.col(iy), line_weights(24, 1);
+    for (Index ix = 0; ix < 24; ++ix)
+      line_weights(ix, 0) = window == Window::hann ? hann(ix, 24) : blackman(ix, 24);
+    expected += mean_square(line_weights, line) / 30;
+  }
+  CHECK(sum == Approx(expected).epsilon(1e-12));
+}
+
 TEST_CASE("A spectrum needs every height", "[psd]") {
   Surface surface = white({8, 8, 1, 1}, false);
   surface.heights(2, 2) = std::nan("");

@@ -23,7 +23,7 @@ namespace salebra::detail {
 namespace {
 
 constexpr int rehearsals_of_a_child = 2000;  // HDF5 leaves memory behind where a file is damaged
-constexpr int patience = 10000;              // milliseconds
+constexpr int patience = 2000;               // milliseconds
 
 /// Memory that both processes see: the report of a sanitizer in the child.
 char* report() {

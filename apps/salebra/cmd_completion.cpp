@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+#include <salebra/base/error.hpp>
+
+#include "command_options.hpp"
+#include "options.hpp"
+#include "program.hpp"
+#include "written_text.hpp"
+
+namespace salebra::cli {
+namespace {
+
+std::string command_names(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* command : commands_of(app))
+    names += (names.empty() ? "" : " ") + command->get_name();
+  return names;
+}
+
+std::string bash_script(const CLI::App& app) {
+  std::string options, choices;
+  for (const CLI::App* command : commands_of(app)) {
+    std::vector<std::string> names;
+    for (const OptionDescription& option : options_of(*command)) {
+      if (option.positional && option.choices.empty()) continue;
+      if (option.positional) {
+        choices += fmt::format("    '{} ') choices='{}' ;;\n", command->get_name(),
+                               fmt::join(option.choices, " "));
+        continue;
+      }
+      names.insert(names.end(), option.names.begin(), option.names.end());
+      if (!option.choices.empty())
+        choices += fmt::format("    '{} {}') choices='{}' ;;\n", command->get_name(),
+                               option.names.back(), fmt::join(option.choices, " "));
+    }
+    options += fmt::format("    {}) options='{}' ;;\n", command->get_name(), fmt::join(names, " "));
+  }
+  return fmt::format(R"(# Completion of salebra for bash, made by: salebra completion bash
+_salebra() {{
+  local word=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}}
+  local command= options= choices= i
+  for ((i = 1; i < COMP_CWORD; ++i)); do
+    if [[ ${{COMP_WORDS[i]}} != -* ]]; then command=${{COMP_WORDS[i]}}; break; fi
+  done
+  if [[ -z $command ]]; then
+    COMPREPLY=($(compgen -W '{} --help --version' -- "$word"))
+    return
+  fi
+  case $command in
+{}  esac
+  [[ $previous == -* ]] || previous=
+  case "$command $previous" in
+{}  esac
+  if [[ $word == -* ]]; then
+    COMPREPLY=($(compgen -W "$options" -- "$word"))
+  elif [[ -n $choices ]]; then
+    COMPREPLY=($(compgen -W "$choices" -- "$word"))
+  else
+    compopt -o filenames 2>/dev/null
+    COMPREPLY=($(compgen -f -- "$word"))
+  fi
+}}
+complete -F _salebra salebra
+)",
+                     command_names(app), options, choices);
+}
+
+/// For a word of zsh between single quotes, inside the brackets of _arguments.
+std::string zsh_text(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '[' || c == ']' || c == ':' || c == '\\') result += '\\';
+    result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  }
+  return result;
+}
+
+std::string zsh_argument(const OptionDescription& option) {
+  // A number has nothing to complete, which a blank says.
+  std::string action = option.positional || option.value == "FILE" ? "_files" : " ";
+  if (!option.choices.empty()) action = fmt::format("({})", fmt::join(option.choices, " "));
+  if (option.positional) return fmt::format("'::{}:{}'", zsh_text(option.names.front()), action);
+  std::string argument;
+  for (const std::string& name : option.names) {
+    argument += fmt::format("{}'*{}[{}]", argument.empty() ? "" : " ", name, zsh_text(option.what));
+    if (!option.value.empty()) argument += fmt::format(":{}:{}", zsh_text(option.value), action);
+    argument += "'";
+  }
+  return argument;
+}
+
+std::string zsh_script(const CLI::App& app) {
+  std::string commands, options;
+  for (const CLI::App* command : commands_of(app)) {
+    commands +=
+        fmt::format("    '{}:{}'\n", command->get_name(), zsh_text(command->get_description()));
+    options += fmt::format("      {}) _arguments", command->get_name());
+    for (const OptionDescription& option : options_of(*command))
+      options += " \\\n        " + zsh_argument(option);
+    options += " ;;\n";
+  }
+  return fmt::format(R"(#compdef salebra
+# Completion of salebra for zsh, made by: salebra completion zsh
+_salebra() {{
+  local state
+  local -a commands
+  commands=(
+{}  )
+  _arguments '--help[print a help message]' '--version[print the version]' '1:command:->command' '*::argument:->argument'
+  case $state in
+    command) _describe -t commands command commands ;;
+    argument)
+      case $words[1] in
+{}      esac ;;
+  esac
+}}
+if [[ $funcstack[1] == _salebra ]]; then _salebra "$@"; else compdef _salebra salebra; fi
+)",
+                     commands, options);
+}
+
+}  // namespace
+
+void add_completion_command(Program& program) {
+  auto name = std::make_shared<std::string>();
+  CLI::App& command = program.add_command(
+      "completion", "the script with which a shell completes commands and options",
+      {"salebra completion bash -o ~/.local/share/bash-completion/completions/salebra",
+       "salebra completion zsh"},
+      [name, &program_app = program.app()](Session& session) {
+        answer_text(*name == "bash" ? bash_script(program_app) : zsh_script(program_app), session);
+      });
+  add_choice(command, "SHELL", *name, {"bash", "zsh"}, "the shell")->required();
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
+#include <salebra/io/output.hpp>
+#include <salebra/surface/moments.hpp>
+
+#include "options.hpp"
+#include "program.hpp"
+
+namespace salebra::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view conventions =
+    R"(# Quantities are numbers in SI units or strings with a unit: "10um", "115GPa", "20kHz", "90deg".
+# A line that begins with "# " and a key is a choice that was not made: take the sign away to make it.
+
+)";
+
+constexpr std::string_view generated_surface =
+    R"([surface]                    # self-affine random surfaces, one for each seed
+points = 512                 # cells along x and y; [nx, ny] for a rectangle
+size_x = "10um"              # the period
+# size_y = "10um"            # without it cells are square
+hurst = 0.8                  # Hurst exponent: C(q) ~ q^(-2 - 2H) between roll-off and cut-off
+rolloff = "1.25um"           # wavelength where the plateau ends; at most an eighth of the size, or surfaces scatter much
+# long_cutoff = "10um"       # longest wavelength; without it the plateau reaches the size
+short_cutoff = "156.25nm"    # shortest wavelength: eight cells, fewer make the contact area too large
+rms_height = "30nm"
+# rms_slope = 0.2            # instead of rms_height
+method = "filtered-noise"    # Gaussian surfaces; "random-phase" has the same rms height for every seed
+seed_count = 4               # 20 and more for intervals that one may publish
+first_seed = 1
+# seeds = [1, 2, 3, 4]       # instead of seed_count and first_seed
+
+# [ensemble]                 # lists take the place of a key of [surface]: every combination, with all seeds
+# hurst = [0.3, 0.5, 0.8]    # also: rolloff, short_cutoff, size_x (cells keep their size), points (the surface keeps its size)
+# precision = "2%"           # enough surfaces where the 95 % intervals of l/h_rms and of the area slope are so narrow
+# least_realisations = 8     # before the precision is looked at
+)";
+
+constexpr std::string_view measured_surface =
+    R"([surface]
+file = {file}
+{size_x}
+{size_y}
+{height_unit}
+{detrend}
+# A measured surface is continued periodically after its plane is removed; the study says how high the step at the seam is.
+)";
+
+constexpr std::string_view rest = R"(
+[material]
+contact_modulus = "115GPa"   # E* of both bodies together: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2; this is steel on steel
+poisson = 0.3                # of one elastic body on a rigid one, for G*
+# tangential_modulus = "95GPa"  # G*, instead of poisson
+# young = ["210GPa", "70GPa"]   # instead of contact_modulus; then poisson = [0.3, 0.33]
+
+[contact]
+relative_pressures = "5e-4:0.2:16"   # from, to, how many (evenly in the logarithm), in units of E* times the rms slope
+# pressures = "10MPa:1GPa:16"        # instead, nominal pressures
+tolerance = 1e-8                     # of each contact: gap times pressure over mean pressure and rms height
+tangential_stiffness = "stick"       # K_t by a solve on each contact; "proportional": (G*/E*)K, faster, exact at nu = 0
+
+# [fit]
+# pressure_window = ["50MPa", "500MPa"]  # of the exponential law; without it mean gaps from 1 to 2.5 rms heights
+
+# [compare]
+# models = ["gw_moments", "gw_deterministic", "gw_monte_carlo", "gw_interacting", "persson"]  # of salebra compare
+
+[damping]
+mode = "drag"                # slow tangential motion under a normal oscillation, Eqs (13) to (16)
+normal_amplitude = {amplitude}     # small against the decay length l (about half the rms height) for Eq. (16) to hold
+drag_velocity = "1mm/s"
+frequency = "20kHz"
+# angular_frequency = 125664   # rad/s, instead of frequency
+# mode = "equal-frequency"     # both directions oscillate, Eq. (12); then, instead of drag_velocity:
+# tangential_amplitude = "1nm"
+# phase = "90deg"
+hold = "indentation"         # of the mean indentation; "force" for a dead weight
+)";
+
+/// What to do with the file, at its head.
+std::string heading(const std::string& file) {
+  const std::string stem = fs::path(file).stem().string();
+  const std::pair<std::string, const char*> commands[] = {
+      {"salebra study " + file + " --dry-run", "what this would cost"},
+      {"salebra study " + file + " -o " + stem + ".h5", "run it; --resume goes on after Ctrl-C"},
+      {"salebra compare " + file + " -o " + stem + ".h5", "the same with every contact model"}};
+  std::size_t longest = 0;
+  for (const auto& [command, what] : commands) longest = std::max(longest, command.size());
+  std::string text = "# A study of salebra: from surfaces through contact to relaxation damping.\n";
+  for (const auto& [command, what] : commands)
+    text += fmt::format("#   {:<{}}   {}\n", command, longest, what);
+  return text + std::string(conventions);
+}
+
+/// A TOML string, whatever is in the name of a file.
+std::string toml_string(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (static_cast<unsigned char>(c) < 0x20)
+      result += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+    else
+      result += c;
+  }
+  return result + '"';
+}
+
+std::string length(double metres) { return toml_string(fmt::format("{:.12g}nm", 1e9 * metres)); }
+
+/// The key as it is where a value was given, else as a choice that was not made.
+std::string key_or_choice(std::string_view key, const std::string& value, std::string_view example,
+                          std::string_view remark) {
+  return value.empty() ? fmt::format("# {} = {}  # {}", key, example, remark)
+                       : fmt::format("{} = {}  # {}", key, value, remark);
+}
+
+struct Arguments {
+  std::string file = "study.toml";
+  SurfaceOptions surface;
+};
+
+/// Also reads the surface: what study would refuse is refused here, and its roughness sets the amplitude.
+std::string measured(const Arguments& arguments, std::string& amplitude) {
+  const SurfaceOptions& given = arguments.surface;
+  const Surface surface = given.read();
+  const double rms_height = height_statistics(surface).rms_height;
+  require(rms_height > 0, "--surface", given.file, "is flat; there is no roughness to study");
+  // A thirtieth of the rms height, to one digit.
+  const double wanted = rms_height / 30, digit = std::pow(10, std::floor(std::log10(wanted)));
+  amplitude = length(std::round(wanted / digit) * digit);
+  // The study file's own folder is where its relative names begin.
+  const fs::path folder = fs::absolute(arguments.file).parent_path();
+  const fs::path found = fs::absolute(given.file);
+  fs::path name = fs::relative(found, folder);
+  if (name.empty()) name = found;
+  const auto size = [](const std::optional<double>& value) {
+    return value ? length(*value) : std::string();
+  };
+  const auto text = [](const std::string& value) {
+    return value.empty() ? value : toml_string(value);
+  };
+  return fmt::format(fmt::runtime(measured_surface),
+                     fmt::arg("file", toml_string(name.string()) + "  # from this file's folder"),
+                     fmt::arg("size_x", key_or_choice("size_x", size(given.size_x), "\"10um\"",
+                                                      "where the file does not know its size")),
+                     fmt::arg("size_y", key_or_choice("size_y", size(given.size_y), "\"10um\"",
+                                                      "without it cells are square")),
+                     fmt::arg("height_unit", key_or_choice("height_unit", text(given.height_unit),
+                                                           "\"nm\"", "where the file names none")),
+                     fmt::arg("detrend", key_or_choice("detrend", text(given.detrend), "\"plane\"",
+                                                       "none, mean, plane or quadratic")));
+}
+
+void run(Arguments arguments, Session& session) {
+  if (session.has_output()) arguments.file = session.output().string();
+  require_output(arguments.file, session.write_options());
+  std::string amplitude = toml_string("1nm");
+  const std::string surface =
+      arguments.surface.given() ? measured(arguments, amplitude) : std::string(generated_surface);
+  std::ofstream stream(arguments.file, std::ios::binary);
+  stream << heading(fs::path(arguments.file).filename().string()) << surface
+         << fmt::format(fmt::runtime(rest), fmt::arg("amplitude", amplitude));
+  stream.close();
+  if (!stream) throw IoError(arguments.file + ": cannot be written; check the folder and the disk");
+  session.answer({{"file", arguments.file}},
+                 fmt::format("{0} is written, each key with a remark. Next:\n"
+                             "  salebra study {0} --dry-run\n  salebra study {0} -o {1}.h5\n",
+                             arguments.file, fs::path(arguments.file).stem().string()));
+}
+
+}  // namespace
+
+void add_init_command(Program& program) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App& command =
+      program.add_command("init", "write a study file in which every key is explained",
+                          {"salebra init study.toml",
+                           "salebra init scan.toml --surface scan.txt --size-x 10um --size-y 10um"},
+                          [arguments](Session& session) { run(*arguments, session); });
+  command.add_option("FILE", arguments->file, "study file to write, study.toml by default")
+      ->type_name("FILE");
+  arguments->surface.add_to(command, false, "--surface");
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+#include <salebra/base/error.hpp>
+#include <salebra/base/suggestion.hpp>
+#include <salebra/base/version.hpp>
+
+#include "command_options.hpp"
+#include "help_text.hpp"
+#include "program.hpp"
+#include "written_text.hpp"
+
+namespace salebra::cli {
+namespace {
+
+constexpr std::string_view exit_status =
+    ".SH EXIT STATUS\n0: done. 1: failed while running. 2: bad usage or input. 130: interrupted.\n";
+
+/// Text in which roff finds no requests of its own.
+std::string roff(std::string_view text) {
+  std::string result;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const char c = text[k];
+    const bool begins = k == 0 || text[k - 1] == '\n';
+    if (begins && (c == '.' || c == '\'')) result += "\\&";
+    if (c == '\\')
+      result += "\\e";
+    else if (c == '-')
+      result += "\\-";
+    else
+      result += c;
+  }
+  return result;
+}
+
+/// Paragraphs; one whose lines are indented keeps its lines.
+std::string paragraphs(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const auto end = text.find("\n\n");
+    const std::string_view paragraph = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 2);
+    const bool indented = paragraph.find("\n  ") != std::string_view::npos;
+    result += ".PP\n" + std::string(indented ? ".nf\n" : "") + roff(paragraph) +
+              std::string(indented ? "\n.fi\n" : "\n");
+  }
+  return result;
+}
+
+std::string title(const std::string& page) {
+  std::string upper = page;
+  std::ranges::transform(upper, upper.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return fmt::format(".TH \"{}\" 1 \"\" \"salebra {}\" \"Manual of salebra\"\n", roff(upper),
+                     version());
+}
+
+std::string option_list(const std::vector<OptionDescription>& options) {
+  std::string result;
+  for (const OptionDescription& option : options) {
+    std::string names;
+    for (const std::string& name : option.names)
+      names += fmt::format("{}\\fB{}\\fR", names.empty() ? "" : ", ", roff(name));
+    if (!option.value.empty() && !option.positional)
+      names += fmt::format(" \\fI{}\\fR", roff(option.value));
+    const bool listed = option.what.find(" | ") != std::string::npos;
+    result += fmt::format(".TP\n{}\n{}\n", names, roff(option.what));
+    if (!option.choices.empty() && !listed)
+      result +=
+          fmt::format("One of {}.\n", roff(fmt::format("{}", fmt::join(option.choices, ", "))));
+  }
+  return result;
+}
+
+std::string command_page(const CLI::App& command) {
+  const std::string name = command.get_name();
+  std::string page = title("salebra-" + name) +
+                     fmt::format(".SH NAME\nsalebra\\-{} \\- {}\n.SH SYNOPSIS\n.B salebra {}\n",
+                                 name, roff(command.get_description()), name);
+  const std::vector<OptionDescription> options = options_of(command);
+  std::vector<std::string> groups;
+  std::vector<OptionDescription> arguments;
+  for (const OptionDescription& option : options) {
+    if (option.positional) {
+      const std::string argument = fmt::format("\\fI{}\\fR", option.names.front());
+      page += (option.required ? argument : "[" + argument + "]") + "\n";
+      arguments.push_back(option);
+    } else if (std::ranges::find(groups, option.group) == groups.end()) {
+      groups.push_back(option.group);
+    }
+  }
+  page += "[\\fIOPTIONS\\fR]\n.SH DESCRIPTION\n";
+  if (const CommandHelp* help = find_help(name)) page += paragraphs(help->text);
+  page += ".PP\nValues take units (10um, 20kHz, 115GPa, 90deg); a bare number is SI.\n";
+  if (!arguments.empty()) page += ".SH ARGUMENTS\n" + option_list(arguments);
+  page += ".SH OPTIONS\n";
+  for (const std::string& group : groups) {
+    std::vector<OptionDescription> members;
+    for (const OptionDescription& option : options)
+      if (!option.positional && option.group == group) members.push_back(option);
+    if (group != "Options") page += ".SS " + roff(group) + "\n";
+    page += option_list(members);
+  }
+  const std::string footer = command.get_footer();
+  if (const auto examples = footer.find("Examples:\n"); examples != std::string::npos)
+    page += ".SH EXAMPLES\n.nf\n" + roff(footer.substr(examples + 10)) + "\n.fi\n";
+  return page + std::string(exit_status) + ".SH SEE ALSO\n.BR salebra (1)\n";
+}
+
+std::string program_page(const CLI::App& app) {
+  std::string page =
+      title("salebra") + fmt::format(
+                             ".SH NAME\nsalebra \\- {}\n.SH SYNOPSIS\n.B salebra\n"
+                             "\\fICOMMAND\\fR [\\fIARGUMENTS\\fR] [\\fIOPTIONS\\fR]\n"
+                             ".SH DESCRIPTION\n",
+                             roff("statistics of rough-surface contact and relaxation damping"));
+  page += paragraphs(first_steps());
+  page += ".SH COMMANDS\n";
+  std::string also;
+  for (const CLI::App* command : commands_of(app)) {
+    page += fmt::format(".TP\n\\fB{}\\fR\n{}\n", roff(command->get_name()),
+                        roff(command->get_description()));
+    also += fmt::format("{}.BR salebra\\-{} (1)", also.empty() ? "" : ",\n", command->get_name());
+  }
+  return page + std::string(exit_status) + ".SH SEE ALSO\n" + also + "\n";
+}
+
+std::string page_of(const CLI::App& app, const std::string& name) {
+  if (name.empty()) return program_page(app);
+  std::vector<std::string> names;
+  for (const CLI::App* command : commands_of(app)) {
+    if (command->get_name() == name) return command_page(*command);
+    names.push_back(command->get_name());
+  }
+  throw InvalidInput(fmt::format("COMMAND: {} is not a command{}; see salebra --help", name,
+                                 did_you_mean(name, names)));
+}
+
+}  // namespace
+
+void add_manual_command(Program& program) {
+  auto name = std::make_shared<std::string>();
+  CLI::App& command =
+      program.add_command("manual", "a manual page of the program or of one command",
+                          {"salebra manual study | man -l -", "salebra manual -o salebra.1"},
+                          [name, &program_app = program.app()](Session& session) {
+                            answer_text(page_of(program_app, *name), session);
+                          });
+  command.add_option("COMMAND", *name, "the command; without it the program")->type_name("NAME");
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dry_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/units.hpp>
+#include <salebra/study/cost.hpp>
+#include <salebra/study/realisation.hpp>
+
+namespace salebra::cli {
+namespace {
+
+/// To one or two digits: more would claim what an estimate does not know.
+std::string about(double seconds) {
+  if (seconds < 1) return "a second";
+  const double unit = std::pow(10, std::floor(std::log10(seconds)) - (seconds < 100 ? 0 : 1));
+  return format_duration(std::round(seconds / unit) * unit);
+}
+
+std::string megabytes(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", 1e-6 * bytes)
+                     : fmt::format("{:.1f} GB", 1e-9 * bytes);
+}
+
+std::string describe(const PointCost& point) {
+  const Grid2D& grid = point.grid;
+  std::string origin = "measured";
+  if (const auto* generated = std::get_if<GeneratedSurfaces>(&point.configuration.surfaces)) {
+    const auto [least, greatest] = std::ranges::minmax(generated->seeds);
+    origin =
+        generated->method == GenerationMethod::filtered_noise ? "filtered noise" : "random phase";
+    origin += least == greatest ? fmt::format(", seed {}", least)
+                                : fmt::format(", seeds {} to {}", least, greatest);
+  }
+  return fmt::format(
+      "  surfaces  {} of {} x {} points, {} x {} ({})\n  loads     {} from {} to {}, {:.2g} to "
+      "{:.2g} E*h'\n",
+      point.surfaces, grid.nx, grid.ny, format_quantity(grid.lx, Dimension::length),
+      format_quantity(grid.ly, Dimension::length), origin, point.pressures.size(),
+      format_quantity(point.pressures.front(), Dimension::pressure),
+      format_quantity(point.pressures.back(), Dimension::pressure),
+      point.pressures.front() / point.contact_scale, point.pressures.back() / point.contact_scale);
+}
+
+Json to_json(const StudyCost& cost, const std::string& file) {
+  Json points = Json::array();
+  for (const PointCost& point : cost.points)
+    points.push_back({{"surfaces", point.surfaces},
+                      {"nx", point.grid.nx},
+                      {"ny", point.grid.ny},
+                      {"pressure", point.pressures},
+                      {"seconds_of_one_thread", point.seconds},
+                      {"warnings", point.warnings}});
+  return {{"dry_run", true},
+          {"points", points},
+          {"surfaces", cost.surfaces()},
+          {"contacts", cost.contacts()},
+          {"threads", cost.threads},
+          {"seconds", cost.seconds},
+          {"memory_bytes", cost.memory},
+          {"available_memory_bytes", cost.available},
+          {"files", {{"results", file.empty() ? Json() : Json(file)}}}};
+}
+
+}  // namespace
+
+std::string format_duration(double seconds) {
+  const auto whole = std::llround(std::max(seconds, 0.0));
+  if (whole >= 3600) return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+  if (whole >= 60) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} s", whole);
+}
+
+void answer_dry_run(const StudyConfiguration& configuration, Session& session) {
+  const StudyCost cost = estimate_cost(configuration);
+  const std::string file = session.has_output() ? session.output().string() : "";
+  std::string text = "This would run, and nothing of it has been run:\n";
+  for (const PointCost& point : cost.points) {
+    if (!configuration.ensemble.empty())
+      text += "== " + describe_point(configuration.ensemble, point.configuration) + " ==\n";
+    text += describe(point);
+    for (const std::string& warning : point.warnings) text += "  mind      " + warning + "\n";
+  }
+  std::string models;
+  for (const StudyModel& model : models_of(configuration))
+    models += (models.empty() ? "" : ", ") + std::string(model.title);
+  text += fmt::format(
+      "\ncontacts  {} solves, with K{}\nmodels    {}\ntime      {}about {} with {} threads on an "
+      "idle "
+      "machine, give or take a factor of {}\nmemory    about {}{}\n",
+      cost.contacts(),
+      stick_solves(configuration) ? " and K_t by a stick solve" : "; K_t = (G*/E*)K", models,
+      configuration.precision > 0 ? "at most " : "", about(cost.seconds), cost.threads,
+      configuration.has(ContactModel::gw_interacting) ? "three" : "two", megabytes(cost.memory),
+      cost.available > 0 ? fmt::format(" of {} that are free", megabytes(cost.available)) : "");
+  text += file.empty() ? "files     none; add --output FILE to keep the results\n"
+                       : fmt::format("files     {}; while it runs, finished surfaces in {}.parts\n",
+                                     file, file);
+  if (cost.available > 0 && cost.memory > cost.available)
+    session.warn("the memory that is free does not suffice; use fewer points or fewer --threads");
+  session.answer(to_json(cost, file), text);
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/study/configuration.hpp>
+
+#include "session.hpp"
+
+namespace salebra::cli {
+
+/// Answers what a study would do, what it would cost and where it would write, and does nothing of it.
+void answer_dry_run(const StudyConfiguration& configuration, Session& session);
+
+/// "12 s", "3 min 05 s", "2 h 10 min".
+std::string format_duration(double seconds);
+
+}  // namespace salebra::cli

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "help_text.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+
+#include "terminal.hpp"
+
+namespace salebra::cli {
+namespace {
+
+constexpr std::string_view start = "Start here", surfaces = "Surfaces", contact = "Contact",
+                           damping = "Damping", shell = "For the shell";
+
+constexpr std::array descriptions{
+    CommandHelp{
+        "init", start,
+        "Writes a study file in which every key is explained: of generated surfaces, or of the\n"
+        "measured one that --surface names. It runs as it is; edit it to ask your own question.\n\n"
+        "Next: salebra study FILE --dry-run tells what it will cost, salebra study FILE runs it."},
+    CommandHelp{
+        "study", start,
+        "Takes each surface of a study file (or one measured surface) through statistics,\n"
+        "boundary elements, Greenwood-Williamson, the fit of F ~ exp(-gap/l) and relaxation\n"
+        "damping, and gives means with 95 % intervals. Surfaces run side by side, one on each\n"
+        "thread; with --output a run that was stopped goes on with --resume.\n\n"
+        "New here? salebra init writes a file to begin with, --dry-run tells the cost."},
+    CommandHelp{
+        "report", start,
+        "Makes one offline HTML page of the results of a study: figures, tables, settings."},
+    CommandHelp{"verify", start,
+                "Solves problems whose solutions are known and compares: a few seconds after an\n"
+                "installation or an update. Exit status 1 where one is off."},
+    CommandHelp{
+        "generate", surfaces,
+        "Makes a rough surface with a given power spectrum, a profile, or an analytic shape. One\n"
+        "seed gives one surface on any grid and any number of threads. It tells what was asked\n"
+        "for, what the grid holds in the mean, and what came out, and warns where a grid cannot\n"
+        "carry the spectrum.\n\n"
+        "Next: salebra info and statistics measure it, salebra sweep presses it."},
+    CommandHelp{
+        "info", surfaces,
+        "Size, roughness, moments, summits and Hurst exponent of a surface in any readable file.\n"
+        "A file that does not know its size needs --size-x and --size-y.\n\n"
+        "Next: salebra statistics for spectra and ISO 25178-2 parameters."},
+    CommandHelp{
+        "statistics", surfaces,
+        "Power spectra, correlation, structure function, slope and curvature by scale, bearing\n"
+        "curve, ISO 25178-2 parameters, and the self-affine law fitted to the spectrum, with the\n"
+        "shortest wavelength that the instrument leaves reliable. Nothing but the trend\n"
+        "(--detrend) is removed, and holes are filled on request only (--fill)."},
+    CommandHelp{"convert", surfaces,
+                "Reads a surface and writes it in the format that the extension of OUT names: .h5 "
+                ".nc .npy\n"
+                ".x3p .gsf .gxyzf .xyz .txt. What each format keeps is told in docs/formats.md."},
+    CommandHelp{
+        "contact", contact,
+        "Presses one surface by boundary elements to a pressure, a mean gap, an indentation or a\n"
+        "force: area, gap, pressure, energy, and the stiffness on request. Periodic surfaces fill\n"
+        "the plane; --boundary free takes a surface by itself.\n\n"
+        "Next: salebra sweep for a whole force-gap curve."},
+    CommandHelp{
+        "sweep", contact,
+        "The force-gap curve of a surface by boundary elements, over a range of pressures; each\n"
+        "contact starts from the last. With --stiffness also K and K_t, which damping needs.\n\n"
+        "Next: salebra fit for the decay length, salebra damping --curve for the damping."},
+    CommandHelp{
+        "gw", contact,
+        "The force-gap curve of Greenwood and Williamson, of a surface's moments, of its own\n"
+        "summits, or of parameters. Fast, and good at light loads only: salebra compare tells\n"
+        "how good on your surface."},
+    CommandHelp{
+        "fit", contact,
+        "The decay length l of p = p0 exp(-gap/l) of a curve in a file, with its interval, and\n"
+        "whether the law holds at all."},
+    CommandHelp{
+        "compare", contact,
+        "Boundary elements, four kinds of Greenwood-Williamson and Persson's theory on the same\n"
+        "surfaces, from the force-gap curve to the damping constant, with intervals. It takes "
+        "what\n"
+        "study takes, and about twice its time: --dry-run tells."},
+    CommandHelp{
+        "damping", damping,
+        "Relaxation damping of any contact law or curve: the energy that a contact without slip\n"
+        "loses in a cycle, by Eqs (12), (15), (16) for small amplitudes and by the theorem at "
+        "any.\n"
+        "One quantity may be a range, and is then drawn by --plot."},
+    CommandHelp{
+        "mdr", damping,
+        "An axisymmetric contact by the method of dimensionality reduction: force, stiffness,\n"
+        "stresses, and losses with and without friction, along any trajectory."},
+    CommandHelp{
+        "damper", damping,
+        "The contact as a damper that one tunes by its amplitude: decay of an oscillator, and\n"
+        "sliding that it keeps from stick-slip."},
+    CommandHelp{
+        "oscillate", damping,
+        "The direct experiment in three dimensions: a contact is moved through its cycle and the\n"
+        "work is counted, by time steps or by contact levels; with finite friction and with\n"
+        "coupled directions where asked. Minutes, not seconds."},
+    CommandHelp{
+        "figure3", damping,
+        "The paper's Fig. 3 in one run: the direct simulation of four shapes beside Eq. (12)."},
+    CommandHelp{
+        "completion", shell,
+        "Prints the script that lets a shell complete commands, options, and their choices with\n"
+        "the Tab key. An installed package has it in place; for a build of your own:\n"
+        "  bash: source <(salebra completion bash)\n"
+        "  zsh:  salebra completion zsh > \"${fpath[1]}/_salebra\""},
+    CommandHelp{
+        "manual", shell,
+        "Prints a manual page in roff: of the program, or of the command that is named. It says\n"
+        "what --help says."},
+};
+
+}  // namespace
+
+const CommandHelp* find_help(std::string_view command) {
+  const auto found = std::ranges::find(descriptions, command, &CommandHelp::name);
+  return found == descriptions.end() ? nullptr : &*found;
+}
+
+std::string_view first_steps() {
+  return "First steps:\n"
+         "  salebra verify                          does this installation compute rightly?\n"
+         "  salebra init study.toml                 a study file with every key explained\n"
+         "  salebra study study.toml --dry-run      what it would cost\n"
+         "  salebra study study.toml -o study.h5    surfaces, contact, damping, with intervals\n"
+         "  salebra info scan.x3p                   what is in a measured surface\n"
+         "  salebra init --surface scan.x3p         a study file for it\n\n"
+         "salebra COMMAND --help explains a command and ends with two examples.\n"
+         "Exit status: 0 done, 1 failed while running, 2 bad usage or input, 130 interrupted.";
+}
+
+std::string HelpFormatter::make_description(const CLI::App* app) const {
+  std::string description = CLI::Formatter::make_description(app);
+  if (const CommandHelp* help = app->get_parent() ? find_help(app->get_name()) : nullptr)
+    description += "\n" + std::string(help->text) + "\n\n";
+  return description;
+}
+
+std::string HelpFormatter::make_group(std::string group, bool is_positional,
+                                      std::vector<const CLI::Option*> options) const {
+  return CLI::Formatter::make_group(emphasised(group, Emphasis::heading, STDOUT_FILENO),
+                                    is_positional, std::move(options));
+}
+
+}  // namespace salebra::cli

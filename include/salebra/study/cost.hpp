@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/study/configuration.hpp>
+#include <string>
+#include <vector>
+
+namespace salebra {
+
+/// What one point of a study's parameter grid would do.
+struct PointCost {
+  StudyConfiguration configuration;  ///< its ensemble lists are empty
+  Grid2D grid;
+  double contact_scale = 0;       ///< E*h'_rms, Pa
+  std::vector<double> pressures;  ///< Pa
+  std::size_t surfaces = 0;
+  double seconds = 0;                 ///< of one thread, all surfaces
+  double memory = 0;                  ///< of one surface, bytes
+  std::vector<std::string> warnings;  ///< of the generator: what the grid does to the spectrum
+};
+
+/// What a study would cost on this machine, before anything of it is computed.
+struct StudyCost {
+  std::vector<PointCost> points;
+  int threads = 1;
+  double seconds =
+      0;  ///< wall time with these threads on an idle machine; with a precision, the most
+  double memory = 0;     ///< peak, bytes: of the surfaces that are side by side, and of the program
+  double available = 0;  ///< memory of the machine, bytes; 0 where it does not say
+
+  std::size_t surfaces() const;
+  std::size_t contacts() const;
+};
+
+/// Counts what run_ensembles() would do, and multiplies it with what a contact costs for each cell: measured once on a server, for
+/// surfaces of 256² to 1024² points and loads up to 0.2 E*h', and scaled by how long one Fourier transform takes here. Good to a factor of
+/// two for studies, of three with interacting summits.
+/// throws  as grid_points(), and as readers do for a measured surface, which is read
+/// cost    some milliseconds, and the reading of a measured surface
+StudyCost estimate_cost(const StudyConfiguration& configuration);
+
+}  // namespace salebra

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <salebra/base/suggestion.hpp>
+
+namespace salebra {
+namespace {
+
+std::size_t edits(std::string_view a, std::string_view b) {
+  // Rows of the table of distances between beginnings: the last, and the one before it for swaps.
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    std::swap(before, last);
+    std::swap(last, row);
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
+  // Shorter beginnings say too little, and words of two letters are all alike.
+  constexpr std::size_t least_beginning = 3;
+  const std::size_t limit = word.size() / 3;
+  std::size_t least = limit + 1;
+  std::string nearest;
+  for (const std::string& name : names) {
+    const bool begun =
+        word.size() >= least_beginning && name.size() > word.size() && name.starts_with(word);
+    const std::size_t distance = begun ? 1 : edits(word, name);
+    if (distance == 0 || distance >= least) continue;
+    least = distance;
+    nearest = name;
+  }
+  return nearest;
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
+  const std::string nearest = nearest_name(word, names);
+  return nearest.empty() ? "" : " (did you mean " + nearest + "?)";
+}
+
+}  // namespace salebra

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What meets a person at the keyboard: the first study file, the cost of a run before it is run, suggestions, help, completion, manual
+// pages, colours.
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <regex>
+#include <sstream>
+
+#include "run_program.hpp"
+
+using Catch::Contains;
+
+namespace {
+
+/// Keys that a table of a study file knows, as the reader itself tells them of a key that it does not know.
+std::vector<std::string> known_keys(const ProgramTest& test, const std::string& table,
+                                    const std::string& others) {
+  test.write("unknown.toml", others + "[" + table + "]\nno_such_key = 1\n");
+  const std::string error = test.run("study unknown.toml").err;
+  INFO(error);
+  const auto list = error.find("known here are ");
+  REQUIRE(list != std::string::npos);
+  std::vector<std::string> keys;
+  std::istringstream words(error.substr(list + 15));
+  for (std::string word; words >> word;) keys.push_back(word.substr(0, word.find_first_of(",\n")));
+  return keys;
+}
+
+/// All that the program writes to a terminal as its standard streams.
+std::string on_a_terminal(const std::string& arguments, const std::string& environment) {
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    const std::string command = environment + " exec '" + SALEBRA_PROGRAM + "' " + arguments;
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  std::string text;
+  char part[4096];
+  for (ssize_t count; (count = read(terminal, part, sizeof part)) > 0;)
+    text.append(part, static_cast<std::size_t>(count));
+  close(terminal);
+  waitpid(child, nullptr, 0);
+  return text;
+}
+
+const std::string small_study = R"([surface]
+points = 64
+size_x = "10um"
+hurst = 0.8
+rolloff = "5um"
+short_cutoff = "1250nm"
+rms_height = "30nm"
+seeds = [3, 4, 5]
+[material]
+contact_modulus = "115GPa"
+poisson = 0.3
+[contact]
+relative_pressures = "1e-3:0.1:5"
+[damping]
+normal_amplitude = "1nm"
+drag_velocity = "1mm/s"
+frequency = "20kHz"
+)";
+
+}  // namespace
+
+TEST_CASE("A study file made by init is run by study as it is, and names every key", "[init]") {
+  const ProgramTest test;
+  const auto made = test.run("init my.toml");
+  CHECK(made.status == 0);
+  CHECK_THAT(made.out, Contains("salebra study my.toml"));
+  const std::string text = test.read("my.toml");
+  // What stands before a table is read before it.
+  const std::string material = "[material]\ncontact_modulus = 1e9\npoisson = 0.3\n";
+  const std::string loads = "[contact]\npressures = [1e5, 2e5, 3e5, 4e5]\n";
+  for (const auto& [table, others] : {std::pair<std::string, std::string>{"ensemble", ""},
+                                      {"fit", material + loads},
+                                      {"compare", material + loads}}) {
+    for (const std::string& key : known_keys(test, table, others)) {
+      INFO(table << "." << key);
+      CHECK(std::regex_search(text, std::regex("\n(# )?" + key + " = |also: [^\n]*" + key)));
+    }
+  }
+  for (const char* key : {"points",
+                          "size_x",
+                          "size_y",
+                          "hurst",
+                          "rolloff",
+                          "long_cutoff",
+                          "short_cutoff",
+                          "rms_height",
+                          "rms_slope",
+                          "method",
+                          "seeds",
+                          "seed_count",
+                          "first_seed",
+                          "young",
+                          "contact_modulus",
+                          "tangential_modulus",
+                          "pressures",
+                          "relative_pressures",
+                          "tolerance",
+                          "tangential_stiffness",
+                          "mode",
+                          "tangential_amplitude",
+                          "phase",
+                          "angular_frequency",
+                          "hold"})
+    CHECK(std::regex_search(text, std::regex("\n(# )?" + std::string(key) + " = ")));
+  // The file of init at 128² points: seconds, by the same text.
+  std::string quick = std::regex_replace(text, std::regex("points = 512 "), "points = 128 ");
+  quick = std::regex_replace(quick, std::regex("156.25nm"), "625nm");
+  quick = std::regex_replace(quick, std::regex("1.25um"), "2.5um");
+  test.write("quick.toml", quick);
+  const auto run = test.run("study quick.toml --json --quiet");
+  INFO(run.err);
+  CHECK(run.status == 0);
+  CHECK(run.json()["realisations"] == 4);
+  check_refused(test.run("init my.toml"), "my.toml");
+  CHECK(test.run("init my.toml --force").status == 0);
+}
+
+TEST_CASE("init for a measured surface names it from where the study file lies", "[init]") {
+  const ProgramTest test;
+  REQUIRE(test.run("generate --points 32 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff "
+                   "125nm --rms-height "
+                   "9nm --seed 2 -o scan.npy --quiet")
+              .status == 0);
+  REQUIRE(test.run("init -o scan.toml --surface scan.npy").status == 0);
+  const std::string text = test.read("scan.toml");
+  CHECK_THAT(text, Contains("\nfile = \"scan.npy\""));
+  // A thirtieth of about 9 nm, to one digit.
+  CHECK_THAT(text, Contains("normal_amplitude = \"0.3nm\""));
+  const auto run = test.run("study scan.toml --dry-run --json");
+  INFO(run.err);
+  CHECK(run.status == 0);
+  CHECK(run.json()["points"][0]["nx"] == 32);
+  check_refused(test.run("init other.toml --surface absent.txt"), "absent.txt");
+  CHECK(test.files().count("other.toml") == 0);
+}
+
+TEST_CASE("A dry run tells what would run and does nothing of it", "[dry-run]") {
+  const ProgramTest test;
+  test.write("small.toml", small_study);
+  const auto run = test.run("study small.toml --dry-run --json -o small.h5 --threads 1");
+  INFO(run.err);
+  CHECK(run.status == 0);
+  const auto answer = run.json();
+  CHECK(answer["surfaces"] == 3);
+  CHECK(answer["contacts"] == 15);
+  CHECK(answer["threads"] == 1);
+  CHECK(answer["points"][0]["pressure"].size() == 5);
+  CHECK(answer["seconds"] > 0);
+  CHECK(answer["memory_bytes"] > 64 * 64 * 80);
+  CHECK(test.files() == std::set<std::string>{"small.toml"});
+
+  // Four times the cells: a little more than four times the time, for each route; two lists multiply the points.
+  const auto seconds = [&](const std::string& options) {
+    return test.run("study small.toml --dry-run --json --threads 1 " + options).json();
+  };
+  CHECK(seconds("")["points"].size() == 1);
+  test.write("grid.toml", "[ensemble]\nhurst = [0.5, 0.8]\npoints = [64, 128]\n" +
+                              std::regex_replace(small_study, std::regex("hurst = 0.8\n"), ""));
+  const auto grid = test.run("study grid.toml --dry-run --json --threads 1").json();
+  REQUIRE(grid["points"].size() == 4);
+  CHECK(grid["surfaces"] == 12);
+  const double ratio = double(grid["points"][1]["seconds_of_one_thread"]) /
+                       double(grid["points"][0]["seconds_of_one_thread"]);
+  CHECK(ratio > 4);
+  CHECK(ratio < 5);
+
+  const auto compared = test.run("compare small.toml --dry-run --threads 1");
+  CHECK(compared.status == 0);
+  CHECK_THAT(compared.out, Contains("Persson") && Contains("15 solves"));
+  CHECK_THAT(test.run("study small.toml --dry-run --no-stick").out, Contains("(G*/E*)K"));
+}
+
+TEST_CASE("What is misspelt is told with what was probably meant", "[suggestion]") {
+  const ProgramTest test;
+  check_refused(test.run("statistcs a.txt"), "did you mean statistics?");
+  check_refused(test.run("generate --short-cutof 1"), "did you mean --short-cutoff?");
+  check_refused(test.run("generate --short-cutof=1"), "did you mean --short-cutoff?");
+  check_refused(test.run("info a.txt b.txt"), "b.txt");
+  test.write("typo.toml", std::regex_replace(small_study, std::regex("hurst"), "hirst"));
+  check_refused(test.run("study typo.toml"), "did you mean hurst?");
+  test.write("typo.toml",
+             std::regex_replace(small_study, std::regex("tolerance|poisson"), "poison"));
+  check_refused(test.run("study typo.toml"), "did you mean poisson?");
+  check_refused(test.run("manual stdy"), "did you mean study?");
+  // Nothing is near: nothing is suggested.
+  const auto far = test.run("polish");
+  check_refused(far, "polish");
+  CHECK_THAT(far.err, !Contains("did you mean"));
+}
+
+TEST_CASE("The program's help lists the commands by what they are for", "[help]") {
+  const std::string help = ProgramTest().run("--help").out;
+  for (const char* heading : {"Start here:", "Surfaces:", "Contact:", "Damping:", "First steps:"})
+    CHECK_THAT(help, Contains(heading));
+  CHECK(help.find("Start here:") < help.find("Surfaces:"));
+  // No command is without a heading of its own.
+  CHECK_THAT(help, !Contains("Subcommands:"));
+  CHECK_THAT(ProgramTest().run("sweep --help").out, Contains("salebra fit for the decay length"));
+}
+
+TEST_CASE("bash completes commands, options and their choices", "[completion]") {
+  const ProgramTest test;
+  const auto script = test.run("completion bash -o salebra.bash");
+  CHECK(script.status == 0);
+  const auto complete = [&](const std::string& words, int place) {
+    test.write("complete.sh", "source salebra.bash\nCOMP_WORDS=(" + words +
+                                  ")\nCOMP_CWORD=" + std::to_string(place) +
+                                  "\n_salebra\nprintf '%s\\n' \"${COMPREPLY[@]}\" >answer\n");
+    const std::string command = "cd '" + test.folder().string() + "' && bash complete.sh 2>errors";
+    CHECK(std::system(command.c_str()) == 0);
+    CHECK(test.read("errors").empty());
+    return test.read("answer");
+  };
+  CHECK(complete("salebra stat", 1) == "statistics\n");
+  CHECK(complete("salebra generate --short", 2) == "--short-cutoff\n");
+  CHECK(complete("salebra verify --progress al", 3) == "always\n");
+  CHECK(complete("salebra study comp", 2) == "complete.sh\n");
+  CHECK_THAT(test.run("completion zsh").out,
+             Contains("#compdef salebra") && Contains("'*--short-cutoff[") && !Contains("{}"));
+  check_refused(test.run("completion fish"), "fish");
+}
+
+TEST_CASE("Manual pages say what the help says", "[manual]") {
+  const ProgramTest test;
+  const auto page = test.run("manual sweep");
+  CHECK(page.status == 0);
+  CHECK_THAT(page.out, Contains(".TH \"SALEBRA\\-SWEEP\" 1") &&
+                           Contains("\\fB\\-\\-stiffness\\fR") && Contains(".SH EXAMPLES") &&
+                           Contains("salebra sweep"));
+  // A line of text that begins with a point would be a request of roff.
+  std::istringstream lines(page.out);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("."))
+      CHECK(std::regex_search(line, std::regex("^\\.(TH|SH|SS|PP|TP|nf|fi|B|BR)\\b")));
+  CHECK_THAT(test.run("manual").out, Contains("salebra\\-sweep"));
+}
+
+TEST_CASE("Colours are for terminals, and for those who want them", "[colour]") {
+  CHECK(ProgramTest().run("polish", "TERM=xterm").err.find('\033') == std::string::npos);
+  CHECK_THAT(on_a_terminal("polish", "TERM=xterm NO_COLOR="), Contains("\033[1;31merror:\033[0m"));
+  CHECK_THAT(on_a_terminal("polish", "TERM=xterm NO_COLOR=1"),
+             Contains("salebra: error:") && !Contains("\033"));
+  CHECK_THAT(on_a_terminal("polish", "TERM=dumb NO_COLOR="), !Contains("\033"));
+  CHECK_THAT(on_a_terminal("verify --help", "TERM=xterm NO_COLOR=1"), !Contains("\033"));
+}

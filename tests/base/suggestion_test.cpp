@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <salebra/base/suggestion.hpp>
+
+using namespace salebra;
+
+TEST_CASE("A misspelt name is told from the right one by its nearest neighbour", "[suggestion]") {
+  const std::vector<std::string> keys{"points", "size_x",     "size_y",    "hurst",
+                                      "seeds",  "rms_height", "rms_slope", "short_cutoff"};
+  CHECK(nearest_name("pionts", keys) == "points");  // a swap is one edit
+  CHECK(nearest_name("hursts", keys) == "hurst");   // one letter too many
+  CHECK(nearest_name("short-cutoff", keys) == "short_cutoff");
+  CHECK(nearest_name("rms_hight", keys) == "rms_height");  // one too few
+  CHECK(nearest_name("seds", keys) == "seeds");
+  CHECK(nearest_name("rms", keys) == "rms_height");  // begun: the first that goes on so
+}
+
+TEST_CASE("Where no name is near, none is suggested", "[suggestion]") {
+  const std::vector<std::string> keys{"points", "hurst", "seeds"};
+  CHECK(nearest_name("temperature", keys).empty());
+  CHECK(nearest_name("", keys).empty());
+  CHECK(nearest_name("pt", keys).empty());
+  CHECK(nearest_name("hurst", {"hurst"}).empty());  // it is not misspelt
+  CHECK(nearest_name("hurst", {}).empty());
+  CHECK(did_you_mean("temperature", keys).empty());
+  CHECK(did_you_mean("hirst", keys) == " (did you mean hurst?)");
+}
