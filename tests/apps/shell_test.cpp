@@ -79,9 +79,11 @@ TEST_CASE("A study file made by init is run by study as it is, and names every k
   // What stands before a table is read before it.
   const std::string material = "[material]\ncontact_modulus = 1e9\npoisson = 0.3\n";
   const std::string loads = "[contact]\npressures = [1e5, 2e5, 3e5, 4e5]\n";
+  const std::string motion =
+      "[damping]\nnormal_amplitude = 1e-9\ndrag_velocity = 1e-3\nfrequency = 1e4\n";
   for (const auto& [table, others] : {std::pair<std::string, std::string>{"ensemble", ""},
                                       {"fit", material + loads},
-                                      {"compare", material + loads}}) {
+                                      {"compare", material + loads + motion}}) {
     for (const std::string& key : known_keys(test, table, others)) {
       INFO(table << "." << key);
       CHECK(std::regex_search(text, std::regex("\n(# )?" + key + " = |also: [^\n]*" + key)));

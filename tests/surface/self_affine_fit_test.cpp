@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 #include <salebra/generators/composite.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/random_phase.hpp>
@@ -86,4 +87,43 @@ TEST_CASE("A law without a plateau has no roll-off, and white heights no cut-off
   const SelfAffineFit none = fit_self_affine(power_spectrum(white({64, 64, 1, 1}, true)));
   CHECK_FALSE(none.rolloff.found());
   CHECK_FALSE(none.short_cutoff.found());
+}
+
+TEST_CASE("Neighbours that a window has made alike widen the interval of the roll-off",
+          "[self_affine]") {
+  const SelfAffineSpectrum target(
+      {.hurst = 0.8, .rolloff = 0.08, .short_cutoff = 4.0 / 256, .rms_height = 1});
+  Surface surface = filtered_noise({256, 256, 1, 1}, target, 4);
+  surface.periodic = false;
+  PowerSpectrum spectrum = power_spectrum(surface);
+  REQUIRE(spectrum.correlated_modes > 3);
+  const auto honest = fit_self_affine(spectrum).rolloff;
+  spectrum.correlated_modes = 1;
+  const auto careless = fit_self_affine(spectrum).rolloff;
+  REQUIRE((honest.found() && careless.found()));
+  CHECK(honest.value == careless.value);
+  CHECK(honest.high - honest.low > 1.5 * (careless.high - careless.low));
+}
+
+TEST_CASE("The fitted range of H leaves out the waves that a window mixes, and counts its modes",
+          "[self_affine]") {
+  const SelfAffineSpectrum target(
+      {.hurst = 0.8, .rolloff = 1, .short_cutoff = 4.0 / 128, .rms_height = 1});
+  Surface surface = filtered_noise({128, 128, 1, 1}, target, 2);
+  surface.periodic = GENERATE(true, false);
+  const PowerSpectrum spectrum = power_spectrum(surface);
+  const HurstEstimate fit = estimate_hurst(spectrum);
+  REQUIRE(fit.found());
+  const double longest = 2 * std::numbers::pi;
+  if (!surface.periodic) CHECK(fit.wavenumber_min > 3 * longest);
+  Index modes = 0;
+  for (Index i = 0; i < 128; ++i) {
+    for (Index j = 0; j < spectrum.density.cols(); ++j) {
+      const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
+      // The limits are those of the outermost modes.
+      if (q > fit.wavenumber_min * (1 - 1e-9) && q < fit.wavenumber_max * (1 + 1e-9))
+        modes += static_cast<Index>(spectrum.multiplicity(j));
+    }
+  }
+  CHECK(fit.modes == modes);
 }
