@@ -183,6 +183,17 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
   const auto unity = result.over_bem(&Realisation::bem, &ForceSample::mean_gap);
   CHECK(unity[3].mean == 1);
   CHECK(result.damping_over_bem(&Realisation::bem, &DampingPoint::curve_work)[5].mean == 1);
+  // And of another model the mean of what each surface says.
+  double stiffness = 0, work = 0;
+  for (const Realisation& r : result.realisations) {
+    stiffness +=
+        r.persson.curve.samples[3].normal_stiffness / r.bem.curve.samples[3].normal_stiffness / 2;
+    work += r.gw_deterministic.damping[5].law_work / r.bem.damping[5].curve_work / 2;
+  }
+  CHECK(result.over_bem(&Realisation::persson, &ForceSample::normal_stiffness)[3].mean ==
+        Approx(stiffness).epsilon(1e-14));
+  CHECK(result.damping_over_bem(&Realisation::gw_deterministic, &DampingPoint::law_work)[5].mean ==
+        Approx(work).epsilon(1e-14));
   // Spots by size are all spots, and their area is the contact area.
   const Realisation& first = result.realisations.front();
   double spots = 0;
