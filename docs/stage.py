@@ -151,7 +151,7 @@ def main(program, doxygen, folder):
         kept.add(put(folder / "docs/python_reference.rst", PYTHON))
     # Pages that not every tree has.
     index = folder / "docs/index.md"
-    missing = [name for name in ("python", "python_reference", "report") if not list(folder.glob(f"docs/{name}.*"))]
+    missing = [name for name in ("python", "python_reference", "report") if name not in {page.stem for page in kept}]
     put(index, re.sub(rf"^({'|'.join(missing)})\n" if missing else "$^", "", index.read_text(), flags=re.M))
     kept.add(put(folder / "docs/cli.md", command_reference(program)))
     for module, text in module_pages():
