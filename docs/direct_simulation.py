@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rewrites the tables of direct_simulation.md from runs of the program.
 
-Usage: docs/direct_simulation.py PROGRAM [--tables shapes,convergence,rough] [--jobs N] [--measured FILE --measured-name TEXT]
+Usage: docs/direct_simulation.py PROGRAM [--tables shapes,convergence,rough,mindlin,slip] [--jobs N] [--measured FILE --measured-name TEXT]
 Each table stands between a line `<!-- NAME -->` and a line `<!-- end of NAME -->`. Only Python's own library is needed.
 """
 import argparse
@@ -48,6 +48,15 @@ def percent(value):
     return f"{100 * value:+.2f} %"
 
 
+ROUTES = ["levels against steps", "stated by the levels", "stated by the steps", "agree"]
+
+
+def routes(a):
+    w = a["work_per_cycle"]
+    return [percent(a["work_by_levels"] / w - 1), f"{100 * a['work_by_levels_error'] / w:.2f} %",
+            f"{100 * a['error_estimate'] / w:.2f} %", "yes" if a["routes_agree"] else "**no**"]
+
+
 def shapes(runs, _):
     """Ratios of Fig. 3's shapes."""
     cases = [("90deg", 128), ("45deg", 128), ("b", 256)]
@@ -63,12 +72,15 @@ def shapes(runs, _):
         lost = a["ratio_finite"] is not None
         rows.append([shape, "(b)" if case == "b" else f"(a) {case[:2]}°", f"{points}²", str(poisson),
                      f"{a['ratio']:.4f}" if lost else "no loss", f"{a['ratio_finite']:.4f}" if lost else "no loss",
-                     f"{100 * a['error_estimate'] / w:.2f} %" if lost else "",
-                     percent(a["work_by_levels"] / w - 1) if lost else "",
+                     *(routes(a) if lost else [""] * 4),
                      f"{abs(a['released_energy'] / w - 1):.0e}" if lost else "",
                      f"{a['work_over_elastic_energy']:.0e}" if not lost else ""])
-    return table(["shape", "case", "cells", "ν", "W over Eq. (12), (15)", "W over finite amplitude", "stated error",
-                  "levels against steps", "released energy off by", "W/(½K_t u²)"], rows)
+    return table(["shape", "case", "cells", "ν", "W over Eq. (12), (15)", "W over finite amplitude", *ROUTES,
+                  "released energy off by", "W/(½K_t u²)"], rows)
+
+
+def with_error(answer, work, error, exact):
+    return f"{percent(answer[work] / exact - 1)[:-2]} ± {100 * answer[error] / exact:.2f} %"
 
 
 def paraboloid(case, ratio):
@@ -103,11 +115,9 @@ def convergence(runs, _):
         exact = paraboloid(case, ratio)
         for n in points:
             row = ["(b)" if case == "b" else "(a) 45°", f"{n}²"]
-            row += [percent(answers[case, n, k]["work_per_cycle"] / exact - 1) for k in steps]
-            last = answers[case, n, 128]
-            rows.append(row + [percent(last["work_by_levels"] / exact - 1),
-                               f"{100 * last['error_estimate'] / exact:.2f} %"])
-    return table(["case", "cells", *(f"{k} steps" for k in steps), "levels", "stated error of the levels"], rows)
+            row += [with_error(answers[case, n, k], "work_per_cycle", "error_estimate", exact) for k in steps]
+            rows.append(row + [with_error(answers[case, n, 128], "work_by_levels", "work_by_levels_error", exact)])
+    return table(["case", "cells", *(f"{k} steps" for k in steps), "levels"], rows)
 
 
 def rough(runs, arguments):
@@ -145,27 +155,89 @@ def rough(runs, arguments):
         for (name, _, _, _, load, k, case), a in zip(keys, runs.all(run, keys)):
             w = a["work_per_cycle"]
             rows.append([name, str(load), str(k), "(b)" if case == "b" else "(a) 45°",
-                         percent(a["work_by_levels"] / w - 1), f"{100 * a['error_estimate'] / w:.2f} %",
-                         percent(a["predicted_finite"] / w - 1), percent(a["predicted"] / w - 1),
+                         *routes(a), percent(a["predicted_finite"] / w - 1), percent(a["predicted"] / w - 1),
                          percent(a["predicted_exponential"] / w - 1),
                          percent(a["predicted_exponential_finite"] / w - 1),
                          f"{abs(a['released_energy'] / w - 1):.0e}"])
-        return table(["surface", "p/(E*h')", "u_z/l", "case", "levels with K_t", "stated error", "levels with (G*/E*)K",
+        return table(["surface", "p/(E*h')", "u_z/l", "case", *ROUTES, "levels with (G*/E*)K",
                       "Eqs (12), (15) with F''", "Eq. (16) with l", "exponential law, finite u_z",
                       "released energy"], rows)
+
+
+def mindlin(runs, _):
+    """A sphere under constant load against Mindlin's loop, by what is left of it at u_z = 1e-6 of the indentation."""
+    modulus, radius, friction, depth = 1e9, 4e-3, 0.4, 20e-6
+    keys = [(n, k) for n in (32, 64, 128) for k in (16, 32, 64)]
+    amplitude = 0.7 * friction * depth
+
+    def run(n, k):
+        return runs.answer("oscillate", "--shape", "parabola", "--points", n, "--steps", k, "--levels", 4,
+                           "--contact-modulus", modulus, "--poisson", 0, "--friction", friction, "--phase", "90deg",
+                           "--normal-amplitude", 1e-6 * depth, "--tangential-amplitude", amplitude)
+
+    rows = []
+    for (n, k), a in zip(keys, runs.all(run, keys)):
+        f = a["friction"]
+        force = a["force"]
+        contact = (3 * force * radius / (4 * modulus)) ** (1 / 3)
+        q = amplitude / (friction * contact**2 / radius)  # G* = E* at ν = 0
+
+        def initial(s):
+            return friction * force * (1 - (1 - s) ** 1.5)
+
+        # Masing's rule for the way back; the loop is the area between it and its mirror image.
+        pieces = 4000
+        loop = 0
+        for i in range(pieces):
+            part = (i + 0.5) / pieces
+            loop -= 2 * (initial(q) - 2 * initial(q * part)) * 2 * amplitude / pieces
+        greatest = max(abs(x) for x in f["tangential_force"])
+        rows.append([f"{n}²", str(k), percent(f["dissipated"] / loop - 1), percent(greatest / initial(q) - 1),
+                     f"{abs(f['balance']):.0e}"])
+    return table(["cells", "steps", "loop against Mindlin's", "greatest F_x", "balance"], rows)
+
+
+def slip(runs, _):
+    """A rough surface from sliding to full stick."""
+    modulus, slope, points = 1e9, 0.1, 64
+    with tempfile.TemporaryDirectory() as folder:
+        file = f"{folder}/1.h5"
+        runs.answer("generate", "--points", points, "--size-x", "10um", "--hurst", 0.8, "--rolloff", "2.5um",
+                    "--short-cutoff", f"{8 * 10 / points}um", "--rms-slope", slope, "--seed", 1, "-o", file)
+        keys = [(m, k) for m in (0.01, 0.1, 0.3, 1, 3, 10) for k in (32, 64)]
+        modulus_ratio = 2 * 0.7 / 1.7
+
+        def run(number, k):
+            return runs.answer("oscillate", "--surface", file, "--pressure", 0.05 * modulus * slope, "--contact-modulus",
+                               modulus, "--poisson", 0.3, "--phase", "90deg", "--normal-amplitude", "6nm",
+                               "--tangential-amplitude", "6nm", "--friction", number * modulus_ratio, "--steps", k,
+                               "--max-periods", 20)
+
+        rows = []
+        for (number, k), a in zip(keys, runs.all(run, keys)):
+            f = a["friction"]
+            sliding = number * modulus_ratio * a["force"] * 4 * 6e-9
+            rows.append([str(number), str(k), f"{f['over_stick']:.4f}", f"{f['dissipated'] / sliding:.4f}",
+                         f"{f['relaxation_work'] / f['dissipated']:.3f}", f"{abs(f['balance']):.0e}",
+                         str(f["periods"]) + ("" if f["steady"] else ", not steady")])
+        return table(["M = μE*u_z/(G*u_x)", "steps", "W over no slip", "W over μF·4u_x", "part by cells that open",
+                      "balance", "periods"], rows)
+
+
+TABLES = {"shapes": shapes, "convergence": convergence, "rough": rough, "mindlin": mindlin, "slip": slip}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
-    parser.add_argument("--tables", default="shapes,convergence,rough")
+    parser.add_argument("--tables", default="shapes,convergence,rough,mindlin,slip")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--measured")
     parser.add_argument("--measured-name", default="measured")
     arguments = parser.parse_args()
     runs = Runs(arguments.program, arguments.jobs)
     for name in arguments.tables.split(","):
-        lines = {"shapes": shapes, "convergence": convergence, "rough": rough}[name](runs, arguments)
+        lines = TABLES[name](runs, arguments)
         text = PAGE.read_text(encoding="utf-8")
         begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->"
         before, rest = text.split(begin)

@@ -107,11 +107,10 @@ void check(const OscillateArguments& arguments, const Session& session) {
   friction.check();
   require(simulate || !friction.given(), "--method", arguments.method,
           "steps through no cycle: leave out " + friction.name());
-  require(!friction.given() || (arguments.record.checkpoint.empty() &&
-                                arguments.record.fields.empty() && !session.has_plot()),
-          friction.name(), "given",
-          "beside --checkpoint, --fields or --plot, which know only the cycle without slip; "
-          "leave them out");
+  require(
+      !friction.coupled || (arguments.record.checkpoint.empty() && arguments.record.fields.empty()),
+      "--coupled", "given",
+      "beside --checkpoint or --fields, which do not know the coupled cycle; leave them out");
   require(!arguments.relative_error || arguments.levels == 0, "--levels", arguments.levels,
           "cannot stand beside --relative-error, which chooses them; give one");
 }
@@ -147,8 +146,11 @@ void finish(const OscillationOutcome& outcome, const std::optional<FrictionOutco
     if (friction) write_friction(file, *friction, outcome.run.body.surface.grid);
     file.commit();
   }
-  if (session.has_plot())
-    session.plot({.panels = {contact_panel(outcome, "contact"), work_panel(outcome, "work")}});
+  if (session.has_plot()) {
+    Figure figure{.panels = {contact_panel(outcome, "contact"), work_panel(outcome, "work")}};
+    if (friction) figure.panels.push_back(loop_panel(*friction, outcome));
+    session.plot(figure);
+  }
   Json object = to_json(outcome);
   if (arguments.decay_length) add_exponential_law(object, outcome, *arguments.decay_length);
   const bool converged = outcome.converged() && (!friction || friction->converged());
@@ -200,19 +202,27 @@ void run(const OscillateArguments& arguments, Session& session) {
   OscillationOutcome outcome = run_routes(std::move(contact), routes);
 
   if (arguments.method != "levels") {
-    CycleRecorder recorder(arguments.record, outcome.run, routes.cycle, session);
+    CycleRecorder recorder(arguments.record, outcome.run, routes.cycle, arguments.friction,
+                           session);
+    const auto require_finished = [&](bool interrupted) {
+      if (interrupted)
+        throw Interrupted(arguments.record.checkpoint.empty()
+                              ? "oscillate: interrupted; nothing was written"
+                              : "oscillate: interrupted; the same command with --resume goes on");
+    };
     routes.cycle.on_state = [&](const CycleState& state) { recorder(state); };
     routes.cycle.resume = recorder.state();
     outcome.cycle = simulate(outcome.run, routes.cycle);
-    if (outcome.cycle->interrupted)
-      throw Interrupted(arguments.record.checkpoint.empty()
-                            ? "oscillate: interrupted; nothing was written"
-                            : "oscillate: interrupted; the same command with --resume goes on");
+    require_finished(outcome.cycle->interrupted);
     std::optional<FrictionOutcome> friction;
     if (arguments.friction.given()) {
       const double coupling = arguments.friction.coupling(arguments.material, outcome.run.material);
-      friction =
-          run_with_friction(arguments.friction, outcome.run, routes.cycle, coupling, session);
+      const FrictionRecord record{
+          .on_state = [&](const FrictionalCycleState& state) { recorder(state); },
+          .resume = recorder.friction_state()};
+      friction = run_with_friction(arguments.friction, outcome.run, routes.cycle, coupling, record,
+                                   session);
+      require_finished(friction->interrupted());
     }
     finish(outcome, friction, arguments, session);
     recorder.done();
@@ -234,7 +244,7 @@ void add_oscillate_command(Program& program) {
        "0.3 "
        "--mode drag --normal-amplitude 5nm --drag-velocity 1mm/s --frequency 20kHz -o cycle.h5"},
       [arguments](Session& session) { run(*arguments, session); },
-      "contact regions and the work over a cycle");
+      "contact regions and the work over a cycle; with friction the loop too");
   add_choice(command, "--shape", arguments->shape, shape_names(),
              "the rigid body; with defaults for everything but the material");
   arguments->surface.add_to(command, false, "--surface");

@@ -14,7 +14,8 @@ namespace {
 constexpr double default_checkpoint_every = 60;  // s
 
 // Everything that decides the bits of a cycle.
-CycleSettings settings_of(const OscillationCase& run, const CycleOptions& options) {
+CycleSettings settings_of(const OscillationCase& run, const CycleOptions& options,
+                          const FrictionOptions& friction) {
   const Grid2D& grid = run.body.surface.grid;
   CycleSettings settings{{"version", std::string(version())},
                          {"surface", fingerprint(run.body.surface.heights)}};
@@ -44,6 +45,9 @@ CycleSettings settings_of(const OscillationCase& run, const CycleOptions& option
   add("tolerance", options.stick.tolerance);
   settings.emplace_back("boundary", run.body.boundary == Boundary::free ? "free" : "periodic");
   settings.emplace_back("lateral", options.stick.hold_lateral ? "held" : "free");
+  settings.emplace_back("friction",
+                        friction.friction ? fmt::format("{}", *friction.friction) : "none");
+  if (friction.friction) add("max_periods", friction.max_periods);
   return settings;
 }
 
@@ -91,38 +95,66 @@ void RecordOptions::check(const Session& session) const {
 }
 
 CycleRecorder::CycleRecorder(const RecordOptions& record, const OscillationCase& run,
-                             const CycleOptions& options, Session& session)
+                             const CycleOptions& options, const FrictionOptions& friction,
+                             Session& session)
     : run_(run),
       steps_(options.steps),
-      settings_(settings_of(run, options)),
+      settings_(settings_of(run, options, friction)),
       provenance_(session.provenance()),
       checkpoint_(record.checkpoint),
       every_(record.checkpoint_every.value_or(default_checkpoint_every)),
       field_steps_(field_steps_of(record, options.steps)),
       last_(std::chrono::steady_clock::now()) {
-  if (record.resume) state_ = read_cycle_checkpoint(checkpoint_, settings_);
+  if (record.resume) {
+    state_ = read_cycle_checkpoint(checkpoint_, settings_);
+    latest_ = *state_;
+    friction_state_ = read_friction_checkpoint(checkpoint_);
+  }
   if (record.fields.empty()) return;
-  fields_.emplace(record.fields, run.body.surface, provenance_,
-                  record.resume ? WriteOptions{.overwrite = true} : session.write_options());
-  if (state_)
+  const WriteOptions writing =
+      record.resume ? WriteOptions{.overwrite = true} : session.write_options();
+  const auto keep = [&](CycleFields& fields, int last) {
     for (const int step : field_steps_)
-      if (step <= state_->step) fields_->keep(step, time(step));
+      if (step <= last) fields.keep(step, time(step));
+  };
+  fields_.emplace(record.fields, run.body.surface, provenance_, writing);
+  if (state_) keep(*fields_, state_->step);
+  if (!friction.friction) return;
+  friction_fields_.emplace(record.fields + "-friction", run.body.surface, provenance_, writing);
+  // A later period writes each step anew.
+  if (friction_state_)
+    keep(*friction_fields_, friction_state_->period > 0 ? steps_ : friction_state_->step);
+}
+
+bool CycleRecorder::wanted(int step) const {
+  return std::ranges::find(field_steps_, step) != field_steps_.end();
+}
+
+NormalContactState CycleRecorder::normal_at(double indentation) const {
+  if (!(indentation > 0)) return {};
+  return press_to_indentation(run_.body.surface, run_.material.contact_modulus, indentation,
+                              {.boundary = run_.body.boundary});
+}
+
+void CycleRecorder::save(const FrictionalCycleState* friction) {
+  const auto now = std::chrono::steady_clock::now();
+  if (std::chrono::duration<double>(now - last_).count() < every_ && !interrupted()) return;
+  write_cycle_checkpoint(checkpoint_, latest_, settings_, provenance_, friction);
+  last_ = now;
 }
 
 void CycleRecorder::operator()(const CycleState& state) {
-  if (fields_ && std::ranges::find(field_steps_, state.step) != field_steps_.end()) {
-    const double indentation = state.samples.back().indentation;
-    NormalContactState normal;
-    if (indentation > 0)
-      normal = press_to_indentation(run_.body.surface, run_.material.contact_modulus, indentation,
-                                    {.boundary = run_.body.boundary});
-    fields_->write(state, time(state.step), normal);
-  }
+  if (fields_ && wanted(state.step))
+    fields_->write(state, time(state.step), normal_at(state.samples.back().indentation));
   if (checkpoint_.empty()) return;
-  const auto now = std::chrono::steady_clock::now();
-  if (std::chrono::duration<double>(now - last_).count() < every_ && !interrupted()) return;
-  write_cycle_checkpoint(checkpoint_, state, settings_, provenance_);
-  last_ = now;
+  latest_ = state;
+  save(nullptr);
+}
+
+void CycleRecorder::operator()(const FrictionalCycleState& state) {
+  if (friction_fields_ && wanted(state.step))
+    friction_fields_->write(state, time(state.step), normal_at(state.samples.back().indentation));
+  if (!checkpoint_.empty()) save(&state);
 }
 
 void CycleRecorder::done() const {

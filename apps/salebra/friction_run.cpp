@@ -9,6 +9,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/coupling.hpp>
+#include <utility>
 
 namespace salebra::cli {
 namespace {
@@ -48,14 +49,18 @@ Json over(double value, double reference, double uncertain) {
   return std::abs(reference) > uncertain ? Json(value / reference) : Json(nullptr);
 }
 
+// How far the two sums of the loss are apart, J.
+double unbalanced(const FrictionalCycleResult& cycle) {
+  return cycle.dissipated + cycle.gap_work - cycle.work_per_cycle;
+}
+
 // What a cycle with friction says, coupled or not.
 void add_cycle(Json& object, const FrictionalCycleResult& cycle, double uncertain) {
   object["work_per_cycle"] = cycle.work_per_cycle;
   object["relaxation_work"] = cycle.relaxation_work;
   object["slip_work"] = cycle.slip_work;
   object["dissipated"] = cycle.dissipated;
-  object["balance"] =
-      over(cycle.dissipated - cycle.work_per_cycle, cycle.work_per_cycle, uncertain);
+  object["balance"] = over(unbalanced(cycle), cycle.work_per_cycle, uncertain);
   object["stored_energy_change"] = cycle.stored_energy_change;
   object["periods"] = cycle.periods;
   object["steady"] = cycle.steady;
@@ -92,12 +97,18 @@ void warn_of_cycle(const char* which, const FrictionalCycleResult& cycle, double
         "{}: after {} periods the loss still differs from that of the period before by more than "
         "1e-5 of it; raise --max-periods",
         which, cycle.periods));
-  const double balance = cycle.dissipated / cycle.work_per_cycle - 1;
+  const double balance = unbalanced(cycle) / cycle.work_per_cycle;
   if (std::abs(balance) > 0.01)
     session.warn(
         fmt::format("{}: work and dissipation of a period, which should be equal, differ by "
                     "{:.2g} %; more --steps may help",
                     which, 100 * balance));
+  const double gaps = cycle.gap_work / cycle.work_per_cycle;
+  if (std::abs(gaps) > 0.01)
+    session.warn(
+        fmt::format("{}: {:.2g} % of the loss is work across gaps that close and open within a "
+                    "step; more --steps help",
+                    which, 100 * gaps));
 }
 
 }  // namespace
@@ -149,7 +160,8 @@ double FrictionOptions::coupling(const MaterialOptions& bodies, const Material& 
 }
 
 FrictionOutcome run_with_friction(const FrictionOptions& options, const OscillationCase& run,
-                                  const CycleOptions& steps, double coupling, Session& session) {
+                                  const CycleOptions& steps, double coupling,
+                                  const FrictionRecord& record, Session& session) {
   FrictionalCycleOptions cycle;
   cycle.friction = options.friction.value_or(std::numeric_limits<double>::infinity());
   cycle.steps = steps.steps;
@@ -162,17 +174,18 @@ FrictionOutcome run_with_friction(const FrictionOptions& options, const Oscillat
   const NormalContactOptions contact{.boundary = run.body.boundary};
   const Surface& surface = run.body.surface;
   const Trajectory trajectory = trajectory_of(run.motion, run.indentation);
+  FrictionalCycleOptions recorded = cycle;
+  recorded.on_state = record.on_state;
+  recorded.resume = record.resume;
   FrictionOutcome outcome;
   outcome.friction = options.friction;
   outcome.cycle = simulate_frictional_cycle(
       boundary_element_pressures(surface, run.material.contact_modulus, contact), surface.grid,
-      run.material, trajectory, cycle);
+      run.material, trajectory, recorded);
   if (options.coupled && !outcome.cycle.interrupted) {
     outcome.dundurs = dundurs_constant(run.material.contact_modulus, coupling);
     outcome.coupled = simulate_coupled_cycle(surface, run.material, trajectory, cycle, contact);
   }
-  if (outcome.cycle.interrupted || (outcome.coupled && outcome.coupled->interrupted))
-    throw Interrupted("oscillate: interrupted in a cycle with friction; nothing was written");
   return outcome;
 }
 
@@ -191,10 +204,35 @@ void add_friction(Json& object, const FrictionOutcome& outcome, const Oscillatio
   coupling["dundurs"] = outcome.dundurs;
   add_cycle(coupling, coupled, uncertain);
   coupling["normal_work"] = coupled.normal_work;
+  coupling["gap_work"] = coupled.gap_work;
   coupling["work_change"] =
       over(coupled.work_per_cycle - cycle.work_per_cycle, cycle.work_per_cycle, uncertain);
   coupling["force_change"] = change(coupled, cycle, &FrictionalSample::normal_force);
   coupling["tangential_force_change"] = change(coupled, cycle, &FrictionalSample::tangential_force);
+}
+
+PlotPanel loop_panel(const FrictionOutcome& outcome, const OscillationOutcome& stuck) {
+  PlotPanel panel;
+  panel.title = "loop";
+  panel.x = {.label = "x", .unit = "m"};
+  panel.y = {.label = "F_x", .unit = "N"};
+  const auto add = [&](const char* name, std::vector<double> x, std::vector<double> force) {
+    panel.curves.push_back({.name = name, .x = std::move(x), .y = std::move(force)});
+  };
+  std::vector<double> x, force;
+  for (const CycleSample& sample : stuck.cycle->samples) {
+    x.push_back(sample.tangential);
+    force.push_back(sample.tangential_force);
+  }
+  add("no slip", std::move(x), std::move(force));
+  const auto add_cycle = [&](const char* name, const FrictionalCycleResult& cycle) {
+    add(name, column(cycle, &FrictionalSample::tangential),
+        column(cycle, &FrictionalSample::tangential_force));
+  };
+  if (outcome.friction) add_cycle("friction", outcome.cycle);
+  if (outcome.coupled) add_cycle("coupled", *outcome.coupled);
+  panel.legend = PlotLegend::top_left;
+  return panel;
 }
 
 void write_friction(ResultFile& file, const FrictionOutcome& outcome, const Grid2D& grid) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <salebra/damping/frictional_cycle.hpp>
 #include <salebra/io/result_file.hpp>
@@ -36,15 +37,25 @@ struct FrictionOutcome {
   std::optional<FrictionalCycleResult> coupled;
 
   bool converged() const { return cycle.converged && (!coupled || coupled->converged); }
+  bool interrupted() const { return cycle.interrupted || (coupled && coupled->interrupted); }
 };
 
-/// The cycle of `run` once more, from first contact; steps, direction, boundary and lateral are those of `steps`. Throws
-/// Interrupted where a cycle was.
+/// What to do at each step of the cycle without coupling, and the state that it goes on from.
+struct FrictionRecord {
+  std::function<void(const FrictionalCycleState&)> on_state = {};
+  const FrictionalCycleState* resume = nullptr;
+};
+
+/// The cycle of `run` once more, from first contact; steps, direction, boundary and lateral are those of `steps`. A stopped
+/// cycle comes back as it is.
 FrictionOutcome run_with_friction(const FrictionOptions& options, const OscillationCase& run,
-                                  const CycleOptions& steps, double coupling, Session& session);
+                                  const CycleOptions& steps, double coupling,
+                                  const FrictionRecord& record, Session& session);
 
 /// The objects "friction" and, of a coupled cycle, "coupling". `stuck` has the cycle without slip.
 void add_friction(Json& object, const FrictionOutcome& outcome, const OscillationOutcome& stuck);
+/// The loops F_x over x of a cycle with friction, of the coupled one, and without slip.
+PlotPanel loop_panel(const FrictionOutcome& outcome, const OscillationOutcome& stuck);
 /// Groups `friction` and `coupling`: the loop and, on x and y, where it is lost.
 void write_friction(ResultFile& file, const FrictionOutcome& outcome, const Grid2D& grid);
 /// What the numbers alone do not tell: that a loss is not steady yet, or that its two sums differ.

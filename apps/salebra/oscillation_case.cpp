@@ -9,6 +9,9 @@
 namespace salebra::cli {
 namespace {
 
+// Of ½K u²: what is below it is what the solvers leave.
+constexpr double no_loss = 1e-7;
+
 double tangential_scale(const Oscillation& motion) {
   if (const auto* drag = std::get_if<Drag>(&motion))
     return drag->drag_velocity / drag->angular_frequency;
@@ -72,6 +75,17 @@ double OscillationOutcome::work_per_cycle() const {
   return cycle ? cycle->work_per_cycle : levels.work_per_cycle;
 }
 
+double OscillationOutcome::error_estimate() const {
+  if (!cycle) return levels.error_estimate;
+  return cycle->step_error + (choice ? choice->cell_error : 0);
+}
+
+std::vector<std::string> OscillationOutcome::error_contains() const {
+  std::vector<std::string> parts{cycle ? "steps" : "levels"};
+  if (choice && choice->cell_error > 0) parts.emplace_back("cells");
+  return parts;
+}
+
 double OscillationOutcome::elastic_energy() const {
   double stiffness = 0;
   for (const ForceSample& sample : levels.curve.samples)
@@ -83,7 +97,7 @@ double OscillationOutcome::elastic_energy() const {
 
 std::optional<double> OscillationOutcome::over(double reference) const {
   // The quadrature of a contact whose cells do not change sums what its solvers leave.
-  const double uncertain = std::max(levels.error_estimate, 1e-7 * elastic_energy());
+  const double uncertain = std::max(levels.error_estimate, no_loss * elastic_energy());
   if (std::abs(reference) <= uncertain) return {};
   return work_per_cycle() / reference;
 }
@@ -139,8 +153,14 @@ Json to_json(const OscillationOutcome& outcome) {
   const Grid2D& grid = outcome.run.body.surface.grid;
   Json object;
   object["work_per_cycle"] = outcome.work_per_cycle();
+  object["error_estimate"] = outcome.error_estimate();
+  object["error_contains"] = outcome.error_contains();
   object["work_by_levels"] = levels.work_per_cycle;
-  object["error_estimate"] = levels.error_estimate;
+  object["work_by_levels_error"] = levels.error_estimate;
+  if (outcome.cycle)
+    object["routes_agree"] =
+        std::abs(levels.work_per_cycle - outcome.cycle->work_per_cycle) <=
+        levels.error_estimate + outcome.cycle->step_error + no_loss * outcome.elastic_energy();
   object["predicted"] = levels.small_amplitude_work;
   object["ratio"] = or_null(outcome.over(levels.small_amplitude_work));
   object["predicted_finite"] = levels.work_by_force;
@@ -204,7 +224,10 @@ void write_outcome(ResultFile& file, const std::string& prefix, const Oscillatio
     add("work", &CycleSample::work, "J", "work of the tangential force since the start");
     add("released_energy", &CycleSample::released_energy, "J", "energy released since the start");
     add("contact_area", &CycleSample::contact_area, "m^2", "contact area");
+    add("tangential_stiffness", &CycleSample::tangential_stiffness, "N/m",
+        "tangential stiffness in full stick");
     group.attribute("work_per_cycle", cycle.work_per_cycle);
+    group.attribute("error_estimate", cycle.step_error);
     group.attribute("predicted", outcome.levels.small_amplitude_work);
     group.attribute("predicted_finite", outcome.levels.work_by_force);
   }

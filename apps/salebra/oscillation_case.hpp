@@ -50,6 +50,10 @@ struct OscillationOutcome {
   std::optional<CycleResult> cycle;
 
   double work_per_cycle() const;
+  /// Of work_per_cycle(), J: of the steps, or of the levels where there are none; of the cells too where those were refined.
+  double error_estimate() const;
+  /// What is in it: "steps" or "levels", and "cells".
+  std::vector<std::string> error_contains() const;
   /// ½K u² with the greatest stiffness of the sweep and u = u_x or v/ω: what a loss has to be compared with where there is none.
   double elastic_energy() const;
   /// The loss over a reference; empty where the reference is not larger than its own uncertainty.

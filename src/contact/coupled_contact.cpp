@@ -15,7 +15,8 @@ struct CoupledContact::Parts {
   double dundurs;
   NormalTangentialCoupling coupling;
   SlidingContact sliding;
-  double indentation = 0, normal_work = 0;
+  double indentation = 0, normal_work = 0, gap_work = 0;
+  Field gap;  // now
   bool converged = true, interrupted = false;
 
   Parts(const Surface& given, const Material& material, const CoupledContactOptions& wanted)
@@ -27,7 +28,8 @@ struct CoupledContact::Parts {
                                  wanted.coupling ? *wanted.coupling : coupling_constant(material))),
         coupling(given.grid, wanted.coupling ? *wanted.coupling : coupling_constant(material),
                  wanted.contact.boundary),
-        sliding(given.grid, material, wanted.sliding) {}
+        sliding(given.grid, material, wanted.sliding),
+        gap(highest - given.heights) {}
 
   double force() const { return surface.grid.cell_area() * sliding.pressure().sum(); }
 
@@ -40,6 +42,7 @@ struct CoupledContact::Parts {
     if (!(from_first_touch > 0)) {
       NormalContactState apart;
       apart.pressure = Field::Zero(surface.grid.nx, surface.grid.ny);
+      apart.gap = highest - lowered.heights - approach;
       apart.converged = true;
       return apart;
     }
@@ -72,6 +75,7 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   SlidingContact::Increment increment;
   increment.pressure = p.sliding.pressure();
   increment.traction = p.sliding.traction();
+  Field gap;
   bool solved = false;
   // Without a limit a cell at the edge carries traction or not, and may do so in turn: one that has left once too often stays out.
   constexpr int patience = 8;
@@ -91,6 +95,7 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
                           (next.traction.y - increment.traction.y).abs().sum();
     const double total = next.pressure.sum();
     increment = std::move(next);
+    gap = std::move(state.gap);
     solved = state.converged && increment.report.converged;
     report.change = total > 0 ? change / total : 0;
     report.interrupted = state.interrupted || increment.report.interrupted;
@@ -101,6 +106,11 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   report.converged = solved && report.change < p.options.tolerance && !report.interrupted;
   p.converged = p.converged && report.converged;
   p.interrupted = p.interrupted || report.interrupted;
+  const Field &pressure = p.sliding.pressure(), &next_pressure = increment.pressure;
+  const Field across = (pressure <= 0).select(next_pressure * p.gap, 0.0) -
+                       (next_pressure <= 0).select(pressure * gap, 0.0);
+  p.gap_work += p.surface.grid.cell_area() / 2 * across.sum();
+  p.gap = std::move(gap);
   p.sliding.accept(std::move(increment));
   p.normal_work += (force_before + p.force()) / 2 * (indentation - p.indentation);
   p.indentation = indentation;
@@ -111,6 +121,7 @@ const SlidingContact& CoupledContact::sliding() const { return parts_->sliding; 
 double CoupledContact::indentation() const { return parts_->indentation; }
 double CoupledContact::normal_force() const { return parts_->force(); }
 double CoupledContact::normal_work() const { return parts_->normal_work; }
+double CoupledContact::gap_work() const { return parts_->gap_work; }
 bool CoupledContact::converged() const { return parts_->converged; }
 bool CoupledContact::interrupted() const { return parts_->interrupted; }
 

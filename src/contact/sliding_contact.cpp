@@ -54,18 +54,25 @@ SlidingContact::SlidingContact(const Grid2D& grid, const Material& material,
     : cell_area_(grid.cell_area()),
       options_(options),
       solver_(grid, material, options.stick),
-      pressure_(Field::Zero(grid.nx, grid.ny)),
-      contact_(ContactSet::Constant(grid.nx, grid.ny, false)),
-      shift_(zero(grid)),
-      traction_(zero(grid)),
-      displacement_(zero(grid)),
-      loss_(Field::Zero(grid.nx, grid.ny)) {
+      contact_(ContactSet::Constant(grid.nx, grid.ny, false)) {
+  state_.pressure = state_.loss = Field::Zero(grid.nx, grid.ny);
+  state_.shift = state_.traction = state_.displacement = zero(grid);
   validate(options);
 }
 
 void SlidingContact::set_motion_scale(double scale) {
   require_positive(scale, "motion_scale");
   options_.motion_scale = scale;
+}
+
+void SlidingContact::restore(SlidingState state) {
+  for (const Field* field :
+       {&state.pressure, &state.loss, &state.shift.x, &state.shift.y, &state.traction.x,
+        &state.traction.y, &state.displacement.x, &state.displacement.y})
+    require(field->rows() == contact_.rows() && field->cols() == contact_.cols(), "state",
+            field->size(), "cells do not match the grid; resume with the run's own settings");
+  state_ = std::move(state);
+  contact_ = limit_of(state_.pressure, options_.friction) > 0;
 }
 
 void SlidingContact::reserve(const ContactSet& largest) { solver_.reserve(largest); }
@@ -75,7 +82,7 @@ TangentialField SlidingContact::displacement_under(const ContactSet& loaded,
                                                    const TangentialField& shift,
                                                    const ContactSet& where) {
   TangentialField displacement = solver_.displacement(loaded, traction, where);
-  fft_count_ += 2;
+  state_.fft_count += 2;
   displacement.x += where.select(shift.x, 0.0);
   displacement.y += where.select(shift.y, 0.0);
   return displacement;
@@ -86,12 +93,12 @@ TangentialField SlidingContact::displacement_halfway(const TangentialMove& move,
                                                      const TangentialField& shift,
                                                      const ContactSet& entering,
                                                      Increment& increment) {
-  const TangentialField halfway = mean(shift_, shift);
-  TangentialField target = moved(displacement_, move, 0.5, contact_), slip;
+  const TangentialField halfway = mean(state_.shift, shift);
+  TangentialField target = moved(state_.displacement, move, 0.5, contact_), slip;
   target.x -= contact_.select(halfway.x, 0.0);
   target.y -= contact_.select(halfway.y, 0.0);
   const PartialSlipReport report =
-      solver_.solve(limit_of(pressure_, options_.friction), target, options_.motion_scale,
+      solver_.solve(limit_of(state_.pressure, options_.friction), target, options_.motion_scale,
                     increment.traction_halfway, slip);
   count(report);
   increment.report.converged = report.converged;
@@ -102,24 +109,25 @@ TangentialField SlidingContact::displacement_halfway(const TangentialMove& move,
 SlidingContact::Increment SlidingContact::attempt(const Field& pressure, const TangentialMove& move,
                                                   const TangentialField* shift,
                                                   const Increment* guess) {
-  require(pressure.rows() == pressure_.rows() && pressure.cols() == pressure_.cols(), "pressure",
-          pressure.size(), "values do not match the grid; give nx × ny values");
+  require(pressure.rows() == state_.pressure.rows() && pressure.cols() == state_.pressure.cols(),
+          "pressure", pressure.size(), "values do not match the grid; give nx × ny values");
   require((pressure >= 0).all(), "pressure", pressure.minCoeff(), "must be >= 0 in every cell");
   require(options_.stick.hold_lateral || move.y == 0, "move", move.y,
           "along y must be 0 where the lateral displacement is free; turn the surface instead");
   const Field limit = limit_of(pressure, options_.friction);
   const ContactSet contact = limit > 0, entering = contact && !contact_;
   Increment increment{.pressure = pressure,
-                      .shift = shift ? *shift : shift_,
-                      .traction = guess ? guess->traction : traction_,
-                      .traction_halfway = guess ? guess->traction_halfway : traction_,
-                      .displacement = moved(displacement_, move, 1, contact && contact_),
-                      .displacement_before = displacement_,
+                      .shift = shift ? *shift : state_.shift,
+                      .traction = guess ? guess->traction : state_.traction,
+                      .traction_halfway = guess ? guess->traction_halfway : state_.traction,
+                      .displacement = moved(state_.displacement, move, 1, contact && contact_),
+                      .displacement_before = state_.displacement,
                       .slip = {},
                       .move = move,
                       .report = {.converged = true}};
   if (entering.any()) {
-    const TangentialField present = displacement_under(contact_, traction_, shift_, entering);
+    const TangentialField present =
+        displacement_under(contact_, state_.traction, state_.shift, entering);
     increment.displacement_before.x += present.x;
     increment.displacement_before.y += present.y;
     const bool at_rest = !shift && move.x == 0 && move.y == 0;
@@ -151,17 +159,17 @@ SlidingContact::Increment SlidingContact::attempt(const Field& pressure, const T
 }
 
 void SlidingContact::count(const PartialSlipReport& report) {
-  iterations_ += report.iterations;
-  fft_count_ += report.fft_count;
+  state_.iterations += report.iterations;
+  state_.fft_count += report.fft_count;
 }
 
 void SlidingContact::accept(Increment increment) {
-  converged_ = converged_ && increment.report.converged;
+  state_.converged = state_.converged && increment.report.converged;
   interrupted_ = interrupted_ || increment.report.interrupted;
-  slipping_ = increment.report.slipping;
+  state_.slipping = increment.report.slipping;
   const ContactSet contact = limit_of(increment.pressure, options_.friction) > 0;
   const ContactSet leaving = contact_ && !contact, entering = contact && !contact_;
-  const TangentialField middle = mean(traction_, increment.traction);
+  const TangentialField middle = mean(state_.traction, increment.traction);
   // The body's motion as the cells feel it, those that enter from their entry on.
   TangentialField motion{Field::Constant(contact.rows(), contact.cols(), increment.move.x),
                          Field::Constant(contact.rows(), contact.cols(), increment.move.y)};
@@ -171,21 +179,21 @@ void SlidingContact::accept(Increment increment) {
   };
   from_entry(motion.x, increment.displacement_before.x, increment.displacement.x, increment.slip.x);
   from_entry(motion.y, increment.displacement_before.y, increment.displacement.y, increment.slip.y);
-  work_ += cell_area_ * dot(middle, motion).sum();
-  loss_ += cell_area_ * contact.select(dot(middle, increment.slip), 0.0);
+  state_.work += cell_area_ * dot(middle, motion).sum();
+  state_.loss += cell_area_ * contact.select(dot(middle, increment.slip), 0.0);
   if (leaving.any()) {
-    const TangentialField carried = moved(displacement_, increment.move, 1, leaving);
+    const TangentialField carried = moved(state_.displacement, increment.move, 1, leaving);
     const TangentialField relaxed =
         displacement_under(contact, increment.traction, increment.shift, leaving);
     const Field released = cell_area_ * dot(middle, {carried.x - relaxed.x, carried.y - relaxed.y});
-    loss_ += released;
-    released_ += released.sum();
+    state_.loss += released;
+    state_.released += released.sum();
   }
   contact_ = contact;
-  pressure_ = std::move(increment.pressure);
-  shift_ = std::move(increment.shift);
-  traction_ = std::move(increment.traction);
-  displacement_ = std::move(increment.displacement);
+  state_.pressure = std::move(increment.pressure);
+  state_.shift = std::move(increment.shift);
+  state_.traction = std::move(increment.traction);
+  state_.displacement = std::move(increment.displacement);
 }
 
 PartialSlipReport SlidingContact::advance(const Field& pressure, const TangentialMove& move) {
@@ -196,16 +204,17 @@ PartialSlipReport SlidingContact::advance(const Field& pressure, const Tangentia
 }
 
 TangentialMove SlidingContact::tangential_force() const {
-  return {cell_area_ * traction_.x.sum(), cell_area_ * traction_.y.sum()};
+  return {cell_area_ * state_.traction.x.sum(), cell_area_ * state_.traction.y.sum()};
 }
 
 double SlidingContact::stored_energy() const {
-  const TangentialField elastic{displacement_.x - shift_.x, displacement_.y - shift_.y};
-  return cell_area_ / 2 * dot(traction_, elastic).sum();
+  const TangentialField elastic{state_.displacement.x - state_.shift.x,
+                                state_.displacement.y - state_.shift.y};
+  return cell_area_ / 2 * dot(state_.traction, elastic).sum();
 }
 
 double SlidingContact::tangential_energy() const {
-  return cell_area_ / 2 * dot(traction_, displacement_).sum();
+  return cell_area_ / 2 * dot(state_.traction, state_.displacement).sum();
 }
 
 }  // namespace salebra

@@ -74,6 +74,7 @@ AdaptiveQuadratureResult adaptive_level_quadrature(const LevelsOnGrid& levels, c
     }
   }
   result.quadrature.error_estimate = result.error_estimate;
+  result.cell_error = by_grid == unknown ? 0 : by_grid;
   return result;
 }
 

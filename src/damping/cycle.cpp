@@ -33,10 +33,8 @@ class StuckContact {
 
   void reserve(const ContactSet& largest) { solver_.reserve(largest); }
 
-  double tangential_force() const {
-    return cell_area_ *
-           (direction_x_ * state_.traction.x.sum() + direction_y_ * state_.traction.y.sum());
-  }
+  double tangential_force() const { return along_motion(state_.traction); }
+  double tangential_stiffness() const { return along_motion(state_.unit_traction); }
   double stored_energy() const {
     return cell_area_ / 2 * dot(state_.traction, state_.displacement);
   }
@@ -73,6 +71,10 @@ class StuckContact {
   }
 
  private:
+  double along_motion(const TangentialField& traction) const {
+    return cell_area_ * (direction_x_ * traction.x.sum() + direction_y_ * traction.y.sum());
+  }
+
   void count(const StickReport& report) {
     state_.iterations += report.iterations;
     state_.fft_count += report.fft_count;
@@ -124,6 +126,69 @@ class LevelStore {
   double resolution_;
   std::map<long long, ContactLevel> stored_;
 };
+
+// What one takes W for that sees the contact sets at some steps only.
+struct LossInSteps {
+  double lost = 0;
+  double variance = 0;  // since nobody knows where between two of these steps each cell enters
+};
+
+// W = ½∮s² dK_t with the contact sets of every `stride`-th step, as the simulation would find it in steps of that length: what lies
+// between two sets enters and leaves at the middle time. Cells that enter at any time of a step, each by itself, have s² spread evenly
+// between its values at the ends. Of the second of two periods, since the first may begin anywhere.
+LossInSteps loss_in_steps(const std::vector<CycleSample>& samples, const Trajectory& trajectory,
+                          double cell_area, int stride) {
+  struct Band {
+    double top;                  // K_t up to which it reaches
+    double begin, middle, end;   // x while it entered
+    double cells_per_stiffness;  // m/N
+  };
+  const int steps = static_cast<int>(samples.size()) - 1;
+  const double advance = trajectory.tangential(1) - trajectory.tangential(0);
+  const double start = trajectory.tangential(0);
+  std::vector<Band> bands{{samples.front().tangential_stiffness, start, start, start, 1}};
+  LossInSteps loss;
+  for (const double travelled : {0.0, advance}) {
+    loss = {};
+    for (int k = 0, next = 0; k < steps; k = next) {
+      next = std::min(k + stride, steps);
+      const auto at = [&](double step) { return trajectory.tangential(step / steps) + travelled; };
+      const double begin = at(k), middle = at((k + next) / 2.0), end = at(next);
+      const CycleSample &from = samples[static_cast<std::size_t>(k)],
+                        &to = samples[static_cast<std::size_t>(next)];
+      const double stiffness = to.tangential_stiffness;
+      while (!bands.empty() && bands.back().top > stiffness) {
+        Band& band = bands.back();
+        const double below = bands.size() > 1 ? bands[bands.size() - 2].top : 0;
+        const double part = band.top - std::max(below, stiffness);
+        const double spread = std::pow(end - band.begin, 2) - std::pow(begin - band.end, 2);
+        loss.lost += part * std::pow(middle - band.middle, 2) / 2;
+        loss.variance +=
+            std::pow(part * spread / 2, 2) / (12 * std::max(1.0, part * band.cells_per_stiffness));
+        if (below < stiffness) {
+          band.top = stiffness;
+          break;
+        }
+        bands.pop_back();
+      }
+      const double below = bands.empty() ? 0 : bands.back().top;
+      if (below < stiffness) {
+        const double cells = (to.contact_area - from.contact_area) / cell_area;
+        bands.push_back({stiffness, begin, middle, end, cells / (stiffness - below)});
+      }
+    }
+  }
+  return loss;
+}
+
+double step_error_of(const CycleResult& result, const Trajectory& trajectory, double cell_area) {
+  const LossInSteps here = loss_in_steps(result.samples, trajectory, cell_area, 1);
+  const LossInSteps twice = loss_in_steps(result.samples, trajectory, cell_area, 2);
+  // A third of the change is the error of second order; the whole of it leaves room for cells that enter in groups.
+  const double change = std::abs(here.lost - twice.lost);
+  return std::max(change, change / 3 + 2 * std::sqrt(here.variance)) +
+         std::abs(here.lost - result.work_per_cycle);
+}
 
 CycleState at_rest(const Grid2D& grid) {
   const auto zero = [&] {
@@ -234,7 +299,8 @@ CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
                              .normal_force = level.force,
                              .work = state.work,
                              .released_energy = state.released_energy,
-                             .contact_area = contact.contact_area()});
+                             .contact_area = contact.contact_area(),
+                             .tangential_stiffness = contact.tangential_stiffness()});
   };
   const auto begin_period = [&] {
     state.samples.clear();
@@ -286,6 +352,7 @@ CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
     result.contact_area_min = std::min(result.contact_area_min, sample.contact_area);
     result.contact_area_max = std::max(result.contact_area_max, sample.contact_area);
   }
+  if (!result.interrupted) result.step_error = step_error_of(result, trajectory, grid.cell_area());
   result.iterations = state.iterations;
   result.fft_count = state.fft_count;
   result.converged = state.converged && !result.interrupted;

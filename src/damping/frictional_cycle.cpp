@@ -70,8 +70,9 @@ class GivenPressures {
       largest = largest || (pressure > 0);
     }
     contact_.reserve(largest);
-    contact_.advance(pressures_.at(0).pressure);
+    if (!options.resume) contact_.advance(pressures_.at(0).pressure);
   }
+  void restore(const SlidingState& state) { contact_.restore(state); }
   // Returns the normal force.
   double advance(int step, const TangentialMove& move) {
     contact_.advance(pressures_.at(step).pressure, move);
@@ -80,6 +81,7 @@ class GivenPressures {
   const SlidingContact& sliding() const { return contact_; }
   double stored_energy() const { return contact_.stored_energy(); }
   double normal_work() const { return 0; }
+  double gap_work() const { return 0; }
   bool converged() const { return contact_.converged() && pressures_.converged(); }
   bool interrupted() const { return contact_.interrupted(); }
 
@@ -116,6 +118,7 @@ class CoupledPressures {
   const SlidingContact& sliding() const { return contact_.sliding(); }
   double stored_energy() const { return contact_.stored_energy(); }
   double normal_work() const { return contact_.normal_work(); }
+  double gap_work() const { return contact_.gap_work(); }
   bool converged() const { return contact_.converged(); }
   bool interrupted() const { return contact_.interrupted(); }
 
@@ -135,66 +138,101 @@ double motion_scale_of(const Trajectory& trajectory, int steps) {
   return right - left;
 }
 
+void require_state(const FrictionalCycleState& state, const Grid2D& grid,
+                   const FrictionalCycleOptions& options) {
+  require(state.smallest.rows() == grid.nx && state.smallest.cols() == grid.ny, "resume",
+          state.smallest.size(), "cells do not match the grid; resume with the run's own settings");
+  require(state.step >= 0 && state.step <= options.steps && state.period < options.max_periods,
+          "resume", state.step, "is not one of the steps; resume with the run's own settings");
+}
+
+// From period to period until one loses what the last one lost. `state` is where the body is: fresh, or restored.
 template <class Body>
 FrictionalCycleResult follow(Body& body, const Grid2D& grid, const Trajectory& trajectory,
-                             const FrictionalCycleOptions& options) {
+                             const FrictionalCycleOptions& options, FrictionalCycleState state) {
   const int steps = options.steps;
   const double along_x = std::cos(options.direction);
   const double along_y = options.stick.hold_lateral ? std::sin(options.direction) : 0.0;
   const SlidingContact& contact = body.sliding();
+  const double start = trajectory.tangential(0);
   FrictionalCycleResult result;
-  double last_work = 0;
-  for (int period = 0; period < options.max_periods; ++period) {
-    result.samples.clear();
-    result.smallest = contact.pressure() > 0;
-    result.largest = result.smallest;
-    const double energy_at_start = body.stored_energy(), work_at_start = contact.work();
-    const double normal_work_at_start = body.normal_work();
-    const Field loss_at_start = contact.loss();
-    double x = trajectory.tangential(0);
-    const double start = x;
-    for (int k = 0; k <= steps; ++k) {
-      const double t = static_cast<double>(k) / steps, move = trajectory.tangential(t) - x;
-      x += move;
-      const double normal_force = body.advance(k, {move * along_x, move * along_y});
-      const ContactSet in_contact = contact.pressure() > 0;
-      result.smallest = result.smallest && in_contact;
-      result.largest = result.largest || in_contact;
-      const TangentialMove force = contact.tangential_force();
-      result.samples.push_back(
-          {.t = t,
-           .indentation = trajectory.indentation(t),
-           .tangential = x - start,
-           .tangential_force = along_x * force.x + along_y * force.y,
-           .normal_force = normal_force,
-           .work = contact.work() - work_at_start,
-           .dissipated = (contact.loss() - loss_at_start).sum(),
-           .contact_area = grid.cell_area() * static_cast<double>(in_contact.count()),
-           .slip_area = grid.cell_area() * static_cast<double>(contact.slipping())});
-      if (body.interrupted() ||
-          (options.on_progress &&
-           !options.on_progress({"cycle", static_cast<double>(k) / steps, k, 0}))) {
-        result.interrupted = true;
-        break;
-      }
-    }
-    ++result.periods;
-    const Field loss = contact.loss() - loss_at_start;
+
+  const auto begin_period = [&] {
+    state.samples.clear();
+    state.smallest = state.largest = contact.pressure() > 0;
+    state.energy_at_period_start = body.stored_energy();
+    state.work_at_period_start = contact.work();
+    state.normal_work_at_period_start = body.normal_work();
+    state.gap_work_at_period_start = body.gap_work();
+    state.loss_at_period_start = contact.loss();
+    state.tangential = start;
+  };
+  const auto take_step = [&](int k) {
+    const double t = static_cast<double>(k) / steps;
+    const double move = trajectory.tangential(t) - state.tangential;
+    state.tangential += move;
+    const double normal_force = body.advance(k, {move * along_x, move * along_y});
+    const ContactSet in_contact = contact.pressure() > 0;
+    state.smallest = state.smallest && in_contact;
+    state.largest = state.largest || in_contact;
+    state.step = k;
+    const TangentialMove force = contact.tangential_force();
+    state.samples.push_back(
+        {.t = t,
+         .indentation = trajectory.indentation(t),
+         .tangential = state.tangential - start,
+         .tangential_force = along_x * force.x + along_y * force.y,
+         .normal_force = normal_force,
+         .work = contact.work() - state.work_at_period_start,
+         .dissipated = (contact.loss() - state.loss_at_period_start).sum(),
+         .contact_area = grid.cell_area() * static_cast<double>(in_contact.count()),
+         .slip_area = grid.cell_area() * static_cast<double>(contact.slipping())});
+  };
+  const auto finish_period = [&] {
+    const Field loss = contact.loss() - state.loss_at_period_start;
     result.loss = loss / grid.cell_area();
     result.dissipated = loss.sum();
-    result.slip_work = result.smallest.select(loss, 0.0).sum();
-    result.relaxation_work = result.smallest.select(0.0, loss).sum();
-    result.stored_energy_change = body.stored_energy() - energy_at_start;
-    result.normal_work = body.normal_work() - normal_work_at_start;
-    result.work_per_cycle =
-        contact.work() - work_at_start + result.normal_work - result.stored_energy_change;
-    if (result.interrupted) break;
-    const double change = std::abs(result.work_per_cycle - last_work);
+    result.slip_work = state.smallest.select(loss, 0.0).sum();
+    result.relaxation_work = state.smallest.select(0.0, loss).sum();
+    result.stored_energy_change = body.stored_energy() - state.energy_at_period_start;
+    result.normal_work = body.normal_work() - state.normal_work_at_period_start;
+    result.gap_work = body.gap_work() - state.gap_work_at_period_start;
+    result.work_per_cycle = contact.work() - state.work_at_period_start + result.normal_work -
+                            result.stored_energy_change;
+  };
+
+  const bool resumed = options.resume != nullptr;
+  if (!resumed) begin_period();
+  for (int k = resumed ? state.step : 0;;) {
+    if (!resumed || k != options.resume->step || state.period != options.resume->period) {
+      take_step(k);
+      if (options.on_state && !body.interrupted()) {
+        state.contact = contact.state();
+        options.on_state(state);
+      }
+    }
+    if (body.interrupted() ||
+        (options.on_progress &&
+         !options.on_progress({"cycle", static_cast<double>(k) / steps, k, 0}))) {
+      result.interrupted = true;
+      finish_period();
+      break;
+    }
+    if (++k <= steps) continue;
+    finish_period();
+    const double change = std::abs(result.work_per_cycle - state.last_work);
     result.steady =
-        period > 0 && change <= options.steady_tolerance * std::abs(result.work_per_cycle);
-    if (result.steady) break;
-    last_work = result.work_per_cycle;
+        state.period > 0 && change <= options.steady_tolerance * std::abs(result.work_per_cycle);
+    if (result.steady || state.period + 1 == options.max_periods) break;
+    state.last_work = result.work_per_cycle;
+    ++state.period;
+    begin_period();
+    k = 0;
   }
+  result.periods = state.period + 1;
+  result.smallest = state.smallest;
+  result.largest = state.largest;
+  result.samples = state.samples;
   result.contact_area_min = std::numeric_limits<double>::infinity();
   for (const FrictionalSample& sample : result.samples) {
     result.contact_area_min = std::min(result.contact_area_min, sample.contact_area);
@@ -226,8 +264,14 @@ FrictionalCycleResult simulate_frictional_cycle(const PressureLevels& levels, co
   validate(options, trajectory);
   const double range = motion_scale_of(trajectory, options.steps);
   // Without tangential motion nothing is solved for, and any scale will do.
+  if (options.resume) require_state(*options.resume, grid, options);
   GivenPressures body(levels, grid, material, trajectory, options, range > 0 ? range : 1.0);
-  return follow(body, grid, trajectory, options);
+  FrictionalCycleState state;
+  if (options.resume) {
+    state = *options.resume;
+    body.restore(state.contact);
+  }
+  return follow(body, grid, trajectory, options, std::move(state));
 }
 
 FrictionalCycleResult simulate_coupled_cycle(const Surface& surface, const Material& material,
@@ -235,6 +279,8 @@ FrictionalCycleResult simulate_coupled_cycle(const Surface& surface, const Mater
                                              const FrictionalCycleOptions& options,
                                              const NormalContactOptions& contact) {
   validate(options, trajectory);
+  if (options.resume)
+    throw InvalidInput("resume: given; a coupled cycle cannot be resumed, leave it out");
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
   for (int k = 0; k <= options.steps; ++k) {
     const double indentation = trajectory.indentation(static_cast<double>(k) / options.steps);
@@ -249,7 +295,7 @@ FrictionalCycleResult simulate_coupled_cycle(const Surface& surface, const Mater
                std::abs(dundurs_constant(material.contact_modulus, coupling)) * (greatest - least));
   CoupledPressures body(surface, material, trajectory, options, contact, coupling,
                         scale > 0 ? scale : 1.0);
-  return follow(body, surface.grid, trajectory, options);
+  return follow(body, surface.grid, trajectory, options, {});
 }
 
 }  // namespace salebra

@@ -133,6 +133,19 @@ double loss(const Oscillation& motion, const std::vector<Node>& nodes,
   return 4 * std::pow(drag.drag_velocity / drag.angular_frequency, 2) * sum;
 }
 
+// What independent errors of K_t at the nodes, and of the least one, make of W: the square root of the sum of their squares.
+double scatter_of_loss(const Oscillation& motion, const std::vector<Node>& nodes,
+                       const std::vector<double>& errors, double error_of_least) {
+  double sum = std::pow(loss(
+                            motion, nodes, [](std::size_t) { return 0.0; }, error_of_least),
+                        2);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    sum += std::pow(loss(
+                        motion, nodes, [&](std::size_t i) { return i == k ? errors[k] : 0.0; }, 0),
+                    2);
+  return std::sqrt(sum);
+}
+
 double normal_amplitude(const Oscillation& motion) {
   return std::visit([](const auto& m) { return m.normal_amplitude; }, motion);
 }
@@ -266,9 +279,18 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
       [&](std::size_t k) { return modulus_ratio * values[k + 1].sample.normal_stiffness; },
       drag ? modulus_ratio * values.back().sample.normal_stiffness : 0);
   const int degree = static_cast<int>(force.coefficients.size()) - 1;
+  // K of whole cells scatters about F'. Its sum may agree by chance; the scatter tells by how much it could differ.
+  const auto deviation = [&](std::size_t at) {
+    return modulus_ratio *
+           (values[at].sample.normal_stiffness - force.slope(theta[at]) / amplitude);
+  };
+  std::vector<double> deviations;
+  for (std::size_t k = 0; k < nodes.size(); ++k) deviations.push_back(deviation(k + 1));
+  const double cells =
+      scatter_of_loss(motion, nodes, deviations, drag ? deviation(nodes.size() + 1) : 0);
   const double normal_error =
-      std::max(std::abs(by_stiffness - result.work_by_force),
-               std::abs(by_force(fit(normal, degree + 1)) - result.work_by_force));
+      std::max({std::abs(by_stiffness - result.work_by_force),
+                std::abs(by_force(fit(normal, degree + 1)) - result.work_by_force), 2 * cells});
 
   if (ratios.theta.size() >= 2) {
     // Four parameters at most: ρ varies slowly, and what varies fast is noise of the cells.

@@ -11,39 +11,162 @@
 namespace salebra {
 namespace {
 
-struct NumberMember {
+template <class State>
+struct Number {
   const char* name;
-  double CycleState::*value;
+  double State::*value;
   const char* units;
   const char* text;
 };
-constexpr std::array number_members{
-    NumberMember{"tangential", &CycleState::tangential, "m", "tangential position"},
-    NumberMember{"period_start", &CycleState::period_start, "m",
-                 "tangential position at the start of the period"},
-    NumberMember{"work", &CycleState::work, "J", "work of the tangential force in the period"},
-    NumberMember{"released_energy", &CycleState::released_energy, "J",
-                 "energy released in the period"},
-    NumberMember{"energy_at_period_start", &CycleState::energy_at_period_start, "J",
-                 "stored energy at the start of the period"},
-    NumberMember{"last_work", &CycleState::last_work, "J", "loss of the period before"}};
+constexpr std::array cycle_numbers{
+    Number<CycleState>{"tangential", &CycleState::tangential, "m", "tangential position"},
+    Number<CycleState>{"period_start", &CycleState::period_start, "m",
+                       "tangential position at the start of the period"},
+    Number<CycleState>{"work", &CycleState::work, "J",
+                       "work of the tangential force in the period"},
+    Number<CycleState>{"released_energy", &CycleState::released_energy, "J",
+                       "energy released in the period"},
+    Number<CycleState>{"energy_at_period_start", &CycleState::energy_at_period_start, "J",
+                       "stored energy at the start of the period"},
+    Number<CycleState>{"last_work", &CycleState::last_work, "J", "loss of the period before"}};
+constexpr std::array friction_numbers{
+    Number<FrictionalCycleState>{"tangential", &FrictionalCycleState::tangential, "m",
+                                 "tangential position"},
+    Number<FrictionalCycleState>{"energy_at_period_start",
+                                 &FrictionalCycleState::energy_at_period_start, "J",
+                                 "stored energy at the start of the period"},
+    Number<FrictionalCycleState>{"work_at_period_start",
+                                 &FrictionalCycleState::work_at_period_start, "J",
+                                 "work of the tangential force before the period"},
+    Number<FrictionalCycleState>{"normal_work_at_period_start",
+                                 &FrictionalCycleState::normal_work_at_period_start, "J",
+                                 "work of the normal force before the period"},
+    Number<FrictionalCycleState>{"last_work", &FrictionalCycleState::last_work, "J",
+                                 "loss of the period before"}};
+constexpr std::array sliding_numbers{
+    Number<SlidingState>{"work", &SlidingState::work, "J", "work of the tangential force"},
+    Number<SlidingState>{"released", &SlidingState::released, "J", "lost by cells as they opened"}};
 
-struct SampleMember {
+template <class Sample>
+struct Column {
   const char* name;
-  double CycleSample::*value;
+  double Sample::*value;
   const char* units;
 };
-constexpr std::array sample_members{
-    SampleMember{"time", &CycleSample::t, "1"},
-    SampleMember{"indentation", &CycleSample::indentation, "m"},
-    SampleMember{"tangential", &CycleSample::tangential, "m"},
-    SampleMember{"tangential_force", &CycleSample::tangential_force, "N"},
-    SampleMember{"normal_force", &CycleSample::normal_force, "N"},
-    SampleMember{"work", &CycleSample::work, "J"},
-    SampleMember{"released_energy", &CycleSample::released_energy, "J"},
-    SampleMember{"contact_area", &CycleSample::contact_area, "m^2"}};
+constexpr std::array cycle_columns{
+    Column<CycleSample>{"time", &CycleSample::t, "1"},
+    Column<CycleSample>{"indentation", &CycleSample::indentation, "m"},
+    Column<CycleSample>{"tangential", &CycleSample::tangential, "m"},
+    Column<CycleSample>{"tangential_force", &CycleSample::tangential_force, "N"},
+    Column<CycleSample>{"normal_force", &CycleSample::normal_force, "N"},
+    Column<CycleSample>{"work", &CycleSample::work, "J"},
+    Column<CycleSample>{"released_energy", &CycleSample::released_energy, "J"},
+    Column<CycleSample>{"contact_area", &CycleSample::contact_area, "m^2"},
+    Column<CycleSample>{"tangential_stiffness", &CycleSample::tangential_stiffness, "N/m"}};
+constexpr std::array friction_columns{
+    Column<FrictionalSample>{"time", &FrictionalSample::t, "1"},
+    Column<FrictionalSample>{"indentation", &FrictionalSample::indentation, "m"},
+    Column<FrictionalSample>{"tangential", &FrictionalSample::tangential, "m"},
+    Column<FrictionalSample>{"tangential_force", &FrictionalSample::tangential_force, "N"},
+    Column<FrictionalSample>{"normal_force", &FrictionalSample::normal_force, "N"},
+    Column<FrictionalSample>{"work", &FrictionalSample::work, "J"},
+    Column<FrictionalSample>{"dissipated", &FrictionalSample::dissipated, "J"},
+    Column<FrictionalSample>{"contact_area", &FrictionalSample::contact_area, "m^2"},
+    Column<FrictionalSample>{"slip_area", &FrictionalSample::slip_area, "m^2"}};
+
+template <class State, std::size_t count>
+void write_numbers(ResultGroup& group, const State& state,
+                   const std::array<Number<State>, count>& numbers) {
+  for (const Number<State>& number : numbers)
+    group.scalar(number.name, state.*number.value, number.units, number.text);
+}
+
+template <class State, std::size_t count>
+void read_numbers(const ResultReader& reader, const std::string& group, State& state,
+                  const std::array<Number<State>, count>& numbers) {
+  for (const Number<State>& number : numbers)
+    state.*number.value = reader.number(group + "/" + number.name);
+}
+
+template <class Sample, std::size_t count>
+void write_samples(ResultGroup group, const std::vector<Sample>& samples,
+                   const std::array<Column<Sample>, count>& columns) {
+  group.index("sample", samples.size(), "steps of the period so far");
+  for (const Column<Sample>& column : columns) {
+    std::vector<double> values;
+    for (const Sample& sample : samples) values.push_back(sample.*column.value);
+    group.dataset(column.name, values, {"sample"}, column.units, column.name);
+  }
+}
+
+template <class Sample, std::size_t count>
+std::vector<Sample> read_samples(const ResultReader& reader, const std::string& group,
+                                 const std::array<Column<Sample>, count>& columns) {
+  std::vector<Sample> samples;
+  for (const Column<Sample>& column : columns) {
+    const std::vector<double> values = reader.numbers(group + "/" + column.name);
+    samples.resize(values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) samples[k].*column.value = values[k];
+  }
+  return samples;
+}
+
+// A group of fields on the cells.
+class FieldGroup {
+ public:
+  FieldGroup(ResultGroup& group, const Field& any) : group_(group) {
+    group_.index("x", static_cast<std::size_t>(any.rows()), "cell along x");
+    group_.index("y", static_cast<std::size_t>(any.cols()), "cell along y");
+  }
+  void write(const char* name, const Field& values, const char* units, const char* text) {
+    group_.dataset(name, values, "x", "y", units, text);
+  }
+  void write(const char* name, const ContactSet& set, const char* text) {
+    write(name, set.cast<double>(), "1", text);
+  }
+
+ private:
+  ResultGroup& group_;
+};
+
+long whole(const ResultReader& reader, const std::string& group, const char* name,
+           const std::filesystem::path& file) {
+  const std::optional<double> value = reader.number_attribute(group, name);
+  require(value.has_value(), file.string(), name, "is missing; remove the damaged file");
+  return static_cast<long>(*value);
+}
 
 ContactSet set_of(const Field& field) { return field > 0.5; }
+
+void write_friction(ResultFile& output, const FrictionalCycleState& state) {
+  const SlidingState& contact = state.contact;
+  ResultGroup group = output.group("friction");
+  group.attribute("period", state.period);
+  group.attribute("step", state.step);
+  group.attribute("slipping", std::int64_t{contact.slipping});
+  group.attribute("iterations", std::int64_t{contact.iterations});
+  group.attribute("fft_count", std::int64_t{contact.fft_count});
+  group.attribute("converged", contact.converged ? 1 : 0);
+  write_numbers(group, state, friction_numbers);
+  FieldGroup fields(group, contact.pressure);
+  fields.write("smallest", state.smallest, "1 in contact at every step of the period");
+  fields.write("largest", state.largest, "1 in contact at any step of the period");
+  fields.write("pressure", contact.pressure, "Pa", "pressure");
+  fields.write("shift_x", contact.shift.x, "m", "displacement along x by other causes");
+  fields.write("shift_y", contact.shift.y, "m", "displacement along y by other causes");
+  fields.write("traction_x", contact.traction.x, "Pa", "shear traction along x");
+  fields.write("traction_y", contact.traction.y, "Pa", "shear traction along y");
+  fields.write("displacement_x", contact.displacement.x, "m",
+               "displacement of cells in contact along x");
+  fields.write("displacement_y", contact.displacement.y, "m",
+               "displacement of cells in contact along y");
+  fields.write("loss", contact.loss, "J", "lost by each cell since the start");
+  fields.write("loss_at_period_start", state.loss_at_period_start, "J",
+               "lost by each cell before the period");
+  ResultGroup sums = output.group("friction/contact");
+  write_numbers(sums, contact, sliding_numbers);
+  write_samples(output.group("friction/samples"), state.samples, friction_columns);
+}
 
 }  // namespace
 
@@ -58,7 +181,8 @@ std::string fingerprint(const Field& values) {
 }
 
 void write_cycle_checkpoint(const std::filesystem::path& file, const CycleState& state,
-                            const CycleSettings& settings, const Provenance& provenance) {
+                            const CycleSettings& settings, const Provenance& provenance,
+                            const FrictionalCycleState* friction) {
   ResultFile output(file, provenance, {.overwrite = true});
   ResultGroup agreed = output.group("settings");
   for (const auto& [name, value] : settings) agreed.attribute(name, value);
@@ -69,29 +193,21 @@ void write_cycle_checkpoint(const std::filesystem::path& file, const CycleState&
   group.attribute("iterations", std::int64_t{state.iterations});
   group.attribute("fft_count", std::int64_t{state.fft_count});
   group.attribute("converged", state.converged ? 1 : 0);
-  for (const NumberMember& member : number_members)
-    group.scalar(member.name, state.*member.value, member.units, member.text);
-  group.index("x", static_cast<std::size_t>(state.contact.rows()), "cell along x");
-  group.index("y", static_cast<std::size_t>(state.contact.cols()), "cell along y");
-  const auto field = [&](const char* name, const Field& values, const char* units,
-                         const char* text) { group.dataset(name, values, "x", "y", units, text); };
-  field("contact", state.contact.cast<double>(), "1", "1 in contact");
-  field("smallest", state.smallest.cast<double>(), "1", "1 in contact at every step so far");
-  field("largest", state.largest.cast<double>(), "1", "1 in contact at any step so far");
-  field("displacement_x", state.displacement.x, "m", "displacement of cells in contact along x");
-  field("displacement_y", state.displacement.y, "m", "displacement of cells in contact along y");
-  field("traction_x", state.traction.x, "Pa", "shear traction along x");
-  field("traction_y", state.traction.y, "Pa", "shear traction along y");
-  field("unit_traction_x", state.unit_traction.x, "Pa/m", "traction along x of a unit move");
-  field("unit_traction_y", state.unit_traction.y, "Pa/m", "traction along y of a unit move");
-
-  ResultGroup samples = output.group("samples");
-  samples.index("sample", state.samples.size(), "steps of the period so far");
-  for (const SampleMember& member : sample_members) {
-    std::vector<double> values;
-    for (const CycleSample& sample : state.samples) values.push_back(sample.*member.value);
-    samples.dataset(member.name, values, {"sample"}, member.units, member.name);
-  }
+  write_numbers(group, state, cycle_numbers);
+  FieldGroup fields(group, state.traction.x);
+  fields.write("contact", state.contact, "1 in contact");
+  fields.write("smallest", state.smallest, "1 in contact at every step so far");
+  fields.write("largest", state.largest, "1 in contact at any step so far");
+  fields.write("displacement_x", state.displacement.x, "m",
+               "displacement of cells in contact along x");
+  fields.write("displacement_y", state.displacement.y, "m",
+               "displacement of cells in contact along y");
+  fields.write("traction_x", state.traction.x, "Pa", "shear traction along x");
+  fields.write("traction_y", state.traction.y, "Pa", "shear traction along y");
+  fields.write("unit_traction_x", state.unit_traction.x, "Pa/m", "traction along x of a unit move");
+  fields.write("unit_traction_y", state.unit_traction.y, "Pa/m", "traction along y of a unit move");
+  write_samples(output.group("samples"), state.samples, cycle_columns);
+  if (friction) write_friction(output, *friction);
   output.commit();
 }
 
@@ -108,31 +224,51 @@ CycleState read_cycle_checkpoint(const std::filesystem::path& file, const CycleS
                       "or remove the file",
                       file.string(), name, then ? *then : "not there", value));
   }
-  const auto whole = [&](const char* name) {
-    const std::optional<double> value = reader.number_attribute("state", name);
-    require(value.has_value(), file.string(), name, "is missing; remove the damaged file");
-    return static_cast<long>(*value);
-  };
+  const auto count = [&](const char* name) { return whole(reader, "state", name, file); };
   const auto field = [&](const char* name) { return reader.field(std::string("state/") + name); };
   CycleState state;
-  state.period = static_cast<int>(whole("period"));
-  state.step = static_cast<int>(whole("step"));
-  state.iterations = whole("iterations");
-  state.fft_count = whole("fft_count");
-  state.converged = whole("converged") != 0;
-  for (const NumberMember& member : number_members)
-    state.*member.value = reader.number(std::string("state/") + member.name);
+  state.period = static_cast<int>(count("period"));
+  state.step = static_cast<int>(count("step"));
+  state.iterations = count("iterations");
+  state.fft_count = count("fft_count");
+  state.converged = count("converged") != 0;
+  read_numbers(reader, "state", state, cycle_numbers);
   state.contact = set_of(field("contact"));
   state.smallest = set_of(field("smallest"));
   state.largest = set_of(field("largest"));
   state.displacement = {field("displacement_x"), field("displacement_y")};
   state.traction = {field("traction_x"), field("traction_y")};
   state.unit_traction = {field("unit_traction_x"), field("unit_traction_y")};
-  for (const SampleMember& member : sample_members) {
-    const std::vector<double> values = reader.numbers(std::string("samples/") + member.name);
-    state.samples.resize(values.size());
-    for (std::size_t k = 0; k < values.size(); ++k) state.samples[k].*member.value = values[k];
-  }
+  state.samples = read_samples(reader, "samples", cycle_columns);
+  return state;
+}
+
+std::optional<FrictionalCycleState> read_friction_checkpoint(const std::filesystem::path& file) {
+  const ResultReader reader(file);
+  if (!reader.has("friction")) return {};
+  const auto count = [&](const char* name) { return whole(reader, "friction", name, file); };
+  const auto field = [&](const char* name) {
+    return reader.field(std::string("friction/") + name);
+  };
+  FrictionalCycleState state;
+  state.period = static_cast<int>(count("period"));
+  state.step = static_cast<int>(count("step"));
+  SlidingState& contact = state.contact;
+  contact.slipping = count("slipping");
+  contact.iterations = count("iterations");
+  contact.fft_count = count("fft_count");
+  contact.converged = count("converged") != 0;
+  read_numbers(reader, "friction", state, friction_numbers);
+  read_numbers(reader, "friction/contact", contact, sliding_numbers);
+  contact.pressure = field("pressure");
+  contact.shift = {field("shift_x"), field("shift_y")};
+  contact.traction = {field("traction_x"), field("traction_y")};
+  contact.displacement = {field("displacement_x"), field("displacement_y")};
+  contact.loss = field("loss");
+  state.loss_at_period_start = field("loss_at_period_start");
+  state.smallest = set_of(field("smallest"));
+  state.largest = set_of(field("largest"));
+  state.samples = read_samples(reader, "friction/samples", friction_columns);
   return state;
 }
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <salebra/io/cycle_fields.hpp>
 #include <salebra/io/result_file.hpp>
 
@@ -10,20 +9,6 @@
 
 namespace salebra {
 namespace {
-
-struct FieldName {
-  const char* name;
-  const char* units;
-  const char* text;
-};
-constexpr std::array field_names{
-    FieldName{"contact", "1", "1 in contact"},
-    FieldName{"traction_x", "Pa", "shear traction along x"},
-    FieldName{"traction_y", "Pa", "shear traction along y"},
-    FieldName{"displacement_x", "m", "displacement of cells in contact along x"},
-    FieldName{"displacement_y", "m", "displacement of cells in contact along y"},
-    FieldName{"pressure", "Pa", "pressure"},
-    FieldName{"gap", "m", "gap between the deformed surfaces"}};
 
 std::filesystem::path with_ending(const std::filesystem::path& prefix, const std::string& ending) {
   std::filesystem::path file = prefix;
@@ -75,35 +60,64 @@ std::filesystem::path CycleFields::frame_file(int step) const {
 
 void CycleFields::write(const CycleState& state, double time, const NormalContactState& normal) {
   const bool pressed = normal.pressure.size() > 0;
-  const Field nothing = Field::Zero(grid_.nx, grid_.ny);
-  const std::array<Field, field_names.size()> values{
-      state.contact.cast<double>(),
-      state.traction.x,
-      state.traction.y,
-      state.displacement.x,
-      state.displacement.y,
-      pressed ? normal.pressure : nothing,
-      pressed ? normal.gap : Field(heights_.maxCoeff() - heights_)};
-  ResultFile file(frame_file(state.step), provenance_, {.overwrite = true});
+  write_frame(
+      state.step, time,
+      {{"contact", "1", "1 in contact", state.contact.cast<double>()},
+       {"traction_x", "Pa", "shear traction along x", state.traction.x},
+       {"traction_y", "Pa", "shear traction along y", state.traction.y},
+       {"displacement_x", "m", "displacement of cells in contact along x", state.displacement.x},
+       {"displacement_y", "m", "displacement of cells in contact along y", state.displacement.y},
+       {"pressure", "Pa", "pressure",
+        pressed ? normal.pressure : Field(Field::Zero(grid_.nx, grid_.ny))},
+       {"gap", "m", "gap between the deformed surfaces", gap_of(normal)}});
+}
+
+void CycleFields::write(const FrictionalCycleState& state, double time,
+                        const NormalContactState& normal) {
+  const SlidingState& contact = state.contact;
+  write_frame(
+      state.step, time,
+      {{"contact", "1", "1 in contact", (contact.pressure > 0).cast<double>()},
+       {"traction_x", "Pa", "shear traction along x", contact.traction.x},
+       {"traction_y", "Pa", "shear traction along y", contact.traction.y},
+       {"displacement_x", "m", "displacement of cells in contact along x", contact.displacement.x},
+       {"displacement_y", "m", "displacement of cells in contact along y", contact.displacement.y},
+       {"pressure", "Pa", "pressure", contact.pressure},
+       {"gap", "m", "gap between the deformed surfaces", gap_of(normal)},
+       {"loss", "J/m^2", "lost by unit area since the start of the period",
+        (contact.loss - state.loss_at_period_start) / grid_.cell_area()}});
+}
+
+Field CycleFields::gap_of(const NormalContactState& normal) const {
+  return normal.gap.size() > 0 ? normal.gap : Field(heights_.maxCoeff() - heights_);
+}
+
+void CycleFields::write_frame(int step, double time, const std::vector<Values>& values) {
+  ResultFile file(frame_file(step), provenance_, {.overwrite = true});
   ResultGroup fields = file.group("fields");
   fields.coordinate("x", x_, "m", "position along x");
   fields.coordinate("y", y_, "m", "position along y");
-  for (std::size_t k = 0; k < values.size(); ++k)
-    fields.dataset(field_names[k].name, values[k], "x", "y", field_names[k].units,
-                   field_names[k].text);
-  fields.attribute("step", state.step);
+  std::vector<std::string> names;
+  for (const Values& field : values) {
+    fields.dataset(field.name, field.values, "x", "y", field.units, field.text);
+    names.emplace_back(field.name);
+  }
+  fields.attribute("step", step);
   fields.attribute("time", time);
   file.commit();
-  add(state.step, time);
+  add(step, time, std::move(names));
 }
 
 void CycleFields::keep(int step, double time) {
-  if (std::filesystem::exists(frame_file(step))) add(step, time);
+  if (!std::filesystem::exists(frame_file(step))) return;
+  std::vector<std::string> names = ResultReader(frame_file(step)).datasets("fields");
+  std::erase_if(names, [](const std::string& name) { return name == "x" || name == "y"; });
+  add(step, time, std::move(names));
 }
 
-void CycleFields::add(int step, double time) {
+void CycleFields::add(int step, double time, std::vector<std::string> fields) {
   std::erase_if(frames_, [&](const Frame& frame) { return frame.step == step; });
-  frames_.push_back({step, time});
+  frames_.push_back({step, time, std::move(fields)});
   std::ranges::sort(frames_, {}, &Frame::step);
   write_list();
 }
@@ -121,7 +135,7 @@ void CycleFields::write_list() const {
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"3.0\">\n <Domain>\n"
       "  <Grid Name=\"cycle\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  const auto attribute = [&](const char* name, const std::string& data) {
+  const auto attribute = [&](const std::string& name, const std::string& data) {
     text += fmt::format(
         "    <Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"Node\">{}</Attribute>\n",
         name, data);
@@ -132,8 +146,8 @@ void CycleFields::write_list() const {
         "    <Topology TopologyType=\"2DSMesh\" Dimensions=\"{} {}\"/>\n"
         "    <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
         frame.step, frame.time, grid_.nx, grid_.ny, item(mesh, "/mesh/points", " 3"));
-    for (const FieldName& field : field_names)
-      attribute(field.name, item(frame_file(frame.step), std::string("/fields/") + field.name, ""));
+    for (const std::string& name : frame.fields)
+      attribute(name, item(frame_file(frame.step), "/fields/" + name, ""));
     attribute("heights", item(mesh, "/mesh/heights", ""));
     text += "   </Grid>\n";
   }

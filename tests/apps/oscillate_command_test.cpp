@@ -13,8 +13,12 @@ TEST_CASE("oscillate reproduces the paper's experiment by the name of a shape", 
   const auto answer = test.run(command + " --phase 45deg --output cycle.h5").json();
   for (const char* key : {"work_per_cycle", "predicted", "ratio", "predicted_finite",
                           "ratio_finite", "contact_area_min", "contact_area_max", "time", "work",
-                          "error_estimate", "released_energy", "converged"})
+                          "error_estimate", "work_by_levels_error", "released_energy", "converged"})
     CHECK(answer.contains(key));
+  // Each route with an error of its own, on the same cells.
+  CHECK(answer["routes_agree"] == true);
+  CHECK(answer["error_contains"] == nlohmann::json{"steps"});
+  CHECK(answer["error_estimate"].get<double>() < 0.02 * answer["work_per_cycle"].get<double>());
   CHECK(answer["converged"] == true);
   CHECK(test.files().count("cycle.h5") == 1);
   // A round contact: 1 up to the 20 cells across it and h²/24 = 0.3 % of the steps.
@@ -33,6 +37,9 @@ TEST_CASE("oscillate reproduces the paper's experiment by the name of a shape", 
   CHECK(levels["work_per_cycle"].get<double>() ==
         Approx(answer["work_per_cycle"].get<double>()).epsilon(0.02));
   CHECK_FALSE(levels.contains("time"));
+  CHECK_FALSE(levels.contains("routes_agree"));
+  CHECK(levels["error_contains"] == nlohmann::json{"levels"});
+  CHECK(levels["error_estimate"] == answer["work_by_levels_error"]);
 }
 
 TEST_CASE("oscillate tells relaxation and slip apart under finite friction", "[oscillate]") {
@@ -65,6 +72,12 @@ TEST_CASE("oscillate tells relaxation and slip apart under finite friction", "[o
   CHECK(number(slipping, "relaxation_work") > 0.1 * number(slipping, "work_per_cycle"));
   CHECK(slipping["tangential_force"].size() == 33);
   CHECK(test.files().count("f.h5") == 1);
+  // Along y an elongated contact is stiffer than along x: a cycle with friction that moved along the other axis would be 10 % off.
+  const auto across = balanced(test.run("oscillate --shape ellipsoid --points 32 --contact-modulus "
+                                        "1GPa --poisson 0.5 --json --friction 100 --steps 32 "
+                                        "--direction 90deg")
+                                   .json());
+  CHECK(number(across, "over_stick") == Approx(1).epsilon(0.025));
   // The exact cone at nu = 0.3, by the method of dimensionality reduction; measured 0.3 % apart, errors of the steps.
   // The parts are not compared: springs are not cells.
   const auto exact =
@@ -76,6 +89,70 @@ TEST_CASE("oscillate tells relaxation and slip apart under finite friction", "[o
           .json();
   CHECK(number(slipping, "work_per_cycle") ==
         Approx(number(exact, "work_per_cycle")).epsilon(0.01));
+}
+
+TEST_CASE("oscillate lets a rough surface slip, between full stick and sliding", "[oscillate]") {
+  const ProgramTest test;
+  REQUIRE(test.run("generate --points 48 --size-x 10um --hurst 0.8 --rolloff 2.5um "
+                   "--short-cutoff 1.67um --rms-slope 0.1 --seed 3 -o r.h5 --quiet")
+              .status == 0);
+  // h_rms is some 40 nm. u_x/u_z = 5: whether a cell slips is decided by its own pressure.
+  const std::string command =
+      "oscillate --surface r.h5 --pressure 3MPa --contact-modulus 1GPa --poisson 0.3 "
+      "--normal-amplitude 4nm --tangential-amplitude 20nm --phase 70deg --steps 32 --json ";
+  const auto number = [](const nlohmann::json& object, const char* key) {
+    return object[key].get<double>();
+  };
+  const auto friction = [&](const char* coefficient) {
+    const auto answer = test.run(command + "--max-periods 12 --friction " + coefficient).json();
+    auto cycle = answer["friction"];
+    CHECK(cycle["converged"] == true);
+    CHECK(cycle["steady"] == true);
+    CHECK(std::abs(number(cycle, "balance")) < 1e-5);
+    CHECK(number(cycle, "relaxation_work") + number(cycle, "slip_work") ==
+          Approx(number(cycle, "dissipated")));
+    CHECK(number(cycle, "slip_work") > -1e-6 * number(cycle, "dissipated"));
+    cycle["force"] = answer["force"];
+    return cycle;
+  };
+  // Without slip: the other simulation's loss, up to the different constants of the steps (1 % at 32).
+  const auto stuck = friction("1000");
+  CHECK(number(stuck, "over_stick") == Approx(1).epsilon(0.02));
+  CHECK(number(stuck, "slip_work") < 1e-6 * number(stuck, "dissipated"));
+  const auto partial = friction("1");
+  CHECK(number(partial, "slip_work") > 0.02 * number(partial, "dissipated"));
+  CHECK(number(partial, "relaxation_work") > 0.02 * number(partial, "dissipated"));
+  // Sliding: F_x = μF on the whole path of 4 u_x. F swings about its mean as cosθ does and |dx| as |sin(θ + φ0)|, so that the mean
+  // force along the path is that at rest up to second order in u_z, and the elastic return at both ends takes μF/K_t of the way.
+  const auto sliding = friction("0.001");
+  CHECK(number(sliding, "dissipated") ==
+        Approx(0.001 * number(sliding, "force") * 4 * 20e-9).epsilon(0.05));
+  CHECK(number(sliding, "over_stick") < 0.1);
+}
+
+TEST_CASE("A killed cycle with friction resumes to the same numbers and lists all its fields",
+          "[oscillate]") {
+  const ProgramTest test;
+  const std::string command =
+      "oscillate --shape cone --points 40 --steps 16 --levels 4 --contact-modulus 1GPa "
+      "--poisson 0.3 --direction 30deg --phase 45deg --friction 0.4 --json ";
+  const auto whole = test.run(command).json();
+  const std::string recorded =
+      command + "--checkpoint c.h5 --checkpoint-every 0 --fields f --field-steps 4,12 ";
+  // Killed when the first field of the cycle with friction appears; where it ended before, nothing was killed.
+  const auto killed = test.run(recorded,
+                               "(while [ ! -e f-friction-0004.h5 ] && [ -e /proc/$$ ]; do sleep "
+                               "0.01; done; kill -KILL $$) &");
+  if (killed.status == 0) return;
+  REQUIRE(test.files().count("c.h5") == 1);
+  check_refused(test.run(command + "--friction 0.5 --checkpoint c.h5 --resume"), "friction");
+  const auto resumed = test.run(recorded + "--resume").json();
+  CHECK(resumed["friction"] == whole["friction"]);
+  CHECK(resumed["work_per_cycle"] == whole["work_per_cycle"]);
+  CHECK(resumed["fft_count"] == whole["fft_count"]);
+  CHECK(test.files() == std::set<std::string>{"f.xdmf", "f-mesh.h5", "f-0004.h5", "f-0012.h5",
+                                              "f-friction.xdmf", "f-friction-mesh.h5",
+                                              "f-friction-0004.h5", "f-friction-0012.h5"});
 }
 
 TEST_CASE("oscillate couples pressures and tractions by Dundurs' constant", "[oscillate]") {
@@ -93,11 +170,30 @@ TEST_CASE("oscillate couples pressures and tractions by Dundurs' constant", "[os
   CHECK(with["dundurs"].get<double>() == Approx(2.0 / 7));
   CHECK(std::abs(with["work_change"].get<double>()) > 1e-3);
   CHECK(with["force_change"].get<double>() > 1e-3);
+  CHECK(with["periods"] == 2);
+  // The other sum, without what the eight steps make of gaps.
+  CHECK(std::abs(with["balance"].get<double>()) < 1e-4);
   // Without it the coupled contact is the other one.
   const auto without = change("--poisson 0.3 --coupling 0");
   CHECK(std::abs(without["work_change"].get<double>()) < 1e-4);
   CHECK(without["force_change"].get<double>() < 1e-5);
   CHECK(change("--poisson 0.5")["dundurs"].get<double>() == Approx(0).margin(1e-12));
+}
+
+TEST_CASE("oscillate knows which of two bodies is the softer one", "[oscillate]") {
+  const ProgramTest test;
+  const auto dundurs = [&](const std::string& bodies) {
+    const auto answer = test.run(
+                                "oscillate --shape parabola --points 16 --steps 4 --levels 4 "
+                                "--max-periods 2 --json --coupled --quiet " +
+                                bodies)
+                            .json();
+    return answer["coupling"]["dundurs"].get<double>();
+  };
+  const double softer = dundurs("--young 1GPa,10GPa --poisson 0.3,0.2");
+  // β = ½[(1 − 2ν_1)/G_1 − (1 − 2ν_2)/G_2]/[(1 − ν_1)/G_1 + (1 − ν_2)/G_2], G_1 = 1/2.6, G_2 = 10/2.4.
+  CHECK(softer == Approx(0.5 * (0.4 * 2.6 - 0.6 * 0.24) / (0.7 * 2.6 + 0.8 * 0.24)));
+  CHECK(dundurs("--young 10GPa,1GPa --poisson 0.2,0.3") == Approx(-softer));
 }
 
 TEST_CASE("A killed cycle resumes to the same numbers", "[oscillate]") {
@@ -131,6 +227,7 @@ TEST_CASE("oscillate chooses levels and cells for a requested error", "[oscillat
                               "--poisson 0.3 --relative-error 2% --method levels --json")
                           .json();
   CHECK(answer["error_reached"] == true);
+  CHECK(answer["error_contains"] == nlohmann::json{"levels", "cells"});
   CHECK(answer["error_estimate"].get<double>() <= 0.02 * answer["work_per_cycle"].get<double>());
   CHECK(answer["nx"].get<int>() > 32);
   CHECK(answer["trials"].size() >= 3);
@@ -179,10 +276,12 @@ TEST_CASE("oscillate says what it needs", "[oscillate]") {
                 "--method");
   check_refused(test.run("oscillate --shape cone --relative-error 1% --levels 8" + material),
                 "--levels");
-  for (const char* options : {"--friction 0", "--friction inf", "--friction 0.3 --checkpoint c.h5",
-                              "--friction 0.3 --fields f", "--friction 0.3 --plot a.png"})
+  for (const char* options : {"--friction 0", "--friction inf"})
     check_refused(test.run(std::string("oscillate --shape cone ") + options + material),
                   "--friction");
+  for (const char* options : {"--checkpoint c.h5", "--fields f"})
+    check_refused(test.run(std::string("oscillate --shape cone --coupled ") + options + material),
+                  "--coupled");
   check_refused(test.run("oscillate --shape cone --method levels --coupled" + material),
                 "--method");
   check_refused(test.run("oscillate --shape cone --coupling 0.2" + material), "--coupled");

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/cycle.hpp>
+#include <salebra/damping/frictional_cycle.hpp>
 
 using namespace salebra;
 
@@ -75,4 +76,51 @@ TEST_CASE("A state of another grid or of a finer cycle is refused", "[cycle]") {
   CycleOptions smaller{.steps = 12, .resume = &state};
   CHECK_THROWS_WITH(simulate_cycle(level_at, grid, material, motion, smaller),
                     Catch::StartsWith("resume: 16"));
+}
+
+TEST_CASE("A cycle with friction resumed from any of its steps ends in the same bits", "[cycle]") {
+  // Pressures high enough for sticking and slipping cells, over the same islands.
+  const PressureLevels pressures = [](double indentation) {
+    PressureLevel level{.pressure = Field::Zero(grid.nx, grid.ny), .force = indentation};
+    const ContactSet contact = level_at(indentation).contact;
+    for (Index ix = 0; ix < grid.nx; ++ix)
+      for (Index iy = 0; iy < grid.ny; ++iy)
+        if (contact(ix, iy))
+          level.pressure(ix, iy) = 2e7 * (0.2 + indentation + 0.1 * std::sin(double(ix * iy)));
+    return level;
+  };
+  const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 0.9}, 0.5);
+  FrictionalCycleOptions options{.friction = 0.4, .steps = 8, .direction = 0.4};
+  std::vector<FrictionalCycleState> states;
+  options.on_state = [&](const FrictionalCycleState& state) { states.push_back(state); };
+  const FrictionalCycleResult whole =
+      simulate_frictional_cycle(pressures, grid, material, motion, options);
+  REQUIRE(whole.converged);
+  REQUIRE(whole.periods > 1);
+  CHECK(whole.slip_work > 0);
+  REQUIRE(states.size() == static_cast<std::size_t>(whole.periods) * 9);
+  for (const std::size_t k : {0u, 3u, 8u, 9u, 14u}) {
+    FrictionalCycleOptions rest{.friction = 0.4, .steps = 8, .direction = 0.4};
+    rest.resume = &states[k];
+    const FrictionalCycleResult resumed =
+        simulate_frictional_cycle(pressures, grid, material, motion, rest);
+    CHECK(resumed.work_per_cycle == whole.work_per_cycle);
+    CHECK(resumed.relaxation_work == whole.relaxation_work);
+    CHECK(resumed.slip_work == whole.slip_work);
+    CHECK(resumed.periods == whole.periods);
+    CHECK(resumed.iterations == whole.iterations);
+    CHECK(resumed.fft_count == whole.fft_count);
+    CHECK((resumed.loss == whole.loss).all());
+    CHECK((resumed.smallest == whole.smallest).all());
+    CHECK((resumed.largest == whole.largest).all());
+    REQUIRE(resumed.samples.size() == whole.samples.size());
+    for (std::size_t i = 0; i < whole.samples.size(); ++i)
+      CHECK(resumed.samples[i].tangential_force == whole.samples[i].tangential_force);
+    CHECK(resumed.steady == whole.steady);
+    CHECK(resumed.converged);
+  }
+  FrictionalCycleOptions coarser{.friction = 0.4, .steps = 4};
+  coarser.resume = &states[8];
+  CHECK_THROWS_WITH(simulate_frictional_cycle(pressures, grid, material, motion, coarser),
+                    Catch::StartsWith("resume: 8"));
 }

@@ -33,6 +33,19 @@ std::vector<CycleState> states_of_a_cycle() {
   return states;
 }
 
+std::vector<FrictionalCycleState> states_with_friction() {
+  std::vector<FrictionalCycleState> states;
+  FrictionalCycleOptions options{.friction = 0.3, .steps = 8, .max_periods = 2, .direction = 0.6};
+  options.on_state = [&](const FrictionalCycleState& state) { states.push_back(state); };
+  const PressureLevels pressures = [](double indentation) {
+    const Field contact = level_at(indentation).contact.cast<double>();
+    return PressureLevel{.pressure = 3e6 * indentation * contact, .force = indentation};
+  };
+  simulate_frictional_cycle(pressures, grid, Material::of_contact_modulus(1e9, 0.3),
+                            trajectory_of(EqualFrequency{0.4, 1e-6, 0.9}, 0.5), options);
+  return states;
+}
+
 bool same_bits(const TangentialField& a, const TangentialField& b) {
   return (a.x == b.x).all() && (a.y == b.y).all();
 }
@@ -76,6 +89,49 @@ TEST_CASE("A checkpoint gives a cycle's state back to the last bit", "[io]") {
     CHECK(read.samples[k].tangential_force == state.samples[k].tangential_force);
     CHECK(read.samples[k].normal_force == state.samples[k].normal_force);
     CHECK(read.samples[k].contact_area == state.samples[k].contact_area);
+  }
+}
+
+TEST_CASE("A checkpoint keeps the cycle with friction beside the one without", "[io]") {
+  const Scratch scratch;
+  const auto file = scratch / "cycle.h5";
+  const CycleState stuck = states_of_a_cycle()[8];
+  write_cycle_checkpoint(file, stuck, {}, {});
+  CHECK_FALSE(read_friction_checkpoint(file).has_value());
+  const FrictionalCycleState state = states_with_friction()[12];  // in the second period
+  REQUIRE(state.contact.loss.sum() > 0);
+  REQUIRE(state.contact.slipping > 0);
+  write_cycle_checkpoint(file, stuck, {}, {}, &state);
+  CHECK(read_cycle_checkpoint(file, {}).work == stuck.work);
+  const std::optional<FrictionalCycleState> read = read_friction_checkpoint(file);
+  REQUIRE(read.has_value());
+  CHECK(read->step == 3);
+  CHECK(read->period == 1);
+  CHECK(read->tangential == state.tangential);
+  CHECK(read->energy_at_period_start == state.energy_at_period_start);
+  CHECK(read->work_at_period_start == state.work_at_period_start);
+  CHECK(read->normal_work_at_period_start == state.normal_work_at_period_start);
+  CHECK(read->last_work == state.last_work);
+  CHECK((read->smallest == state.smallest).all());
+  CHECK((read->largest == state.largest).all());
+  CHECK((read->loss_at_period_start == state.loss_at_period_start).all());
+  const SlidingState &then = state.contact, &now = read->contact;
+  CHECK((now.pressure == then.pressure).all());
+  CHECK((now.loss == then.loss).all());
+  CHECK(same_bits(now.shift, then.shift));
+  CHECK(same_bits(now.traction, then.traction));
+  CHECK(same_bits(now.displacement, then.displacement));
+  CHECK(now.slipping == then.slipping);
+  CHECK(now.work == then.work);
+  CHECK(now.released == then.released);
+  CHECK(now.converged == then.converged);
+  CHECK(now.iterations == then.iterations);
+  CHECK(now.fft_count == then.fft_count);
+  REQUIRE(read->samples.size() == 4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    CHECK(read->samples[k].t == state.samples[k].t);
+    CHECK(read->samples[k].dissipated == state.samples[k].dissipated);
+    CHECK(read->samples[k].slip_area == state.samples[k].slip_area);
   }
 }
 
@@ -161,4 +217,27 @@ TEST_CASE("Fields of an interrupted cycle stay in the list of the resumed one", 
   CHECK(list.find("step 2") != std::string::npos);
   CHECK(list.find("step 3") != std::string::npos);
   CHECK(list.find("step 1") == std::string::npos);
+}
+
+TEST_CASE("Fields of a cycle with friction say where it was lost", "[io]") {
+  const Scratch scratch;
+  const std::vector<FrictionalCycleState> states = states_with_friction();
+  Surface surface;
+  surface.grid = grid;
+  surface.heights = Field::Random(grid.nx, grid.ny);
+  const FrictionalCycleState& state = states[12];
+  CycleFields(scratch / "f-friction", surface, {}).write(state, 0.375, {});
+  const ResultReader frame(scratch / "f-friction-0003.h5");
+  const Field loss = frame.field("fields/loss");
+  const Field lost = state.contact.loss - state.loss_at_period_start;
+  CHECK(loss.sum() * grid.cell_area() == Approx(lost.sum()));
+  CHECK((frame.field("fields/pressure") == state.contact.pressure).all());
+  CHECK((frame.field("fields/traction_y") == state.contact.traction.y).all());
+  CHECK(text_of(scratch / "f-friction.xdmf").find("f-friction-0003.h5:/fields/loss") !=
+        std::string::npos);
+  // A resumed run lists what is there, whatever its fields.
+  CycleFields resumed(scratch / "f-friction", surface, {}, {.overwrite = true});
+  resumed.keep(3, 0.375);
+  CHECK(text_of(scratch / "f-friction.xdmf").find("f-friction-0003.h5:/fields/loss") !=
+        std::string::npos);
 }

@@ -22,6 +22,21 @@ struct TangentialMove {
   double y = 0;
 };
 
+/// All that a sliding contact remembers from one increment to the next.
+struct SlidingState {
+  Field pressure;                ///< (nx, ny), Pa
+  TangentialField shift;         ///< displacement by other causes, m
+  TangentialField traction;      ///< Pa
+  TangentialField displacement;  ///< of the cells in contact, `shift` included, m
+  Field loss;                    ///< since the start, J in each cell
+  Index slipping = 0;            ///< cells at their limit after the last increment
+  double work = 0;               ///< ∫F dx since the start, J
+  double released = 0;           ///< of the sum of `loss`, by cells as they opened, J
+  bool converged = true;         ///< every increment did
+  long iterations = 0;
+  long fft_count = 0;
+};
+
 /// A rough contact with friction that remembers: where each of its cells has been drawn to. It goes from one state of rest to the next
 /// by increments (a new field of pressures and a move of the body, at once), each solved implicitly by PartialSlipSolver:
 ///     stay      a cell that sticks keeps its displacement relative to the body; one that slips has |τ| = μp along its slip
@@ -67,24 +82,30 @@ class SlidingContact {
   /// Prepares the kernels for every contact within `largest`, so that none of them has to rebuild them.
   void reserve(const ContactSet& largest);
 
-  const Field& pressure() const { return pressure_; }
-  const TangentialField& traction() const { return traction_; }
-  TangentialMove tangential_force() const;      ///< the body's on the surface: x, y in N
-  Index slipping() const { return slipping_; }  ///< cells at their limit after the last increment
+  const SlidingState& state() const { return state_; }
+  /// Goes on from the state of a contact with the same grid, material and options. Throws InvalidInput for another grid.
+  void restore(SlidingState state);
+
+  const Field& pressure() const { return state_.pressure; }
+  const TangentialField& traction() const { return state_.traction; }
+  TangentialMove tangential_force() const;  ///< the body's on the surface: x, y in N
+  Index slipping() const {
+    return state_.slipping;
+  }  ///< cells at their limit after the last increment
   /// ½∫τ·(u − shift) dA, J
   double stored_energy() const;
   double tangential_energy() const;  ///< ½∫τ·u dA, the shift included, J
   /// ∫F dx since the start, J; in an increment, a cell that enters counts from its entry.
-  double work() const { return work_; }
+  double work() const { return state_.work; }
   /// Friction's ∫τ·ds since the start, (nx, ny), J in each cell: by slip and, where a cell leaves with a traction, by its release.
-  const Field& loss() const { return loss_; }
+  const Field& loss() const { return state_.loss; }
   /// Of the sum of loss(), what cells had left in the increment in which they opened, J: all of it at μ = ∞; at finite μ it
   /// vanishes with the increments, since a cell slips to zero before it opens.
-  double released_energy() const { return released_; }
-  bool converged() const { return converged_; }  ///< every increment did
+  double released_energy() const { return state_.released; }
+  bool converged() const { return state_.converged; }  ///< every increment did
   bool interrupted() const { return interrupted_; }
-  long iterations() const { return iterations_; }
-  long fft_count() const { return fft_count_; }
+  long iterations() const { return state_.iterations; }
+  long fft_count() const { return state_.fft_count; }
 
  private:
   TangentialField displacement_under(const ContactSet& loaded, const TangentialField& traction,
@@ -96,14 +117,9 @@ class SlidingContact {
   double cell_area_;
   SlidingContactOptions options_;
   PartialSlipSolver solver_;
-  Field pressure_;
+  SlidingState state_;
   ContactSet contact_;  // cells that carry traction: p > 0 and μ > 0
-  TangentialField shift_, traction_, displacement_;
-  Field loss_;
-  Index slipping_ = 0;
-  double work_ = 0, released_ = 0;
-  bool converged_ = true, interrupted_ = false;
-  long iterations_ = 0, fft_count_ = 0;
+  bool interrupted_ = false;
 };
 
 }  // namespace salebra

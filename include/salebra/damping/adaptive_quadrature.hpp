@@ -32,6 +32,8 @@ struct AdaptiveQuadratureResult {
   /// The largest of the last quadrature's own estimate and of the changes that the last halving of the cells and the last doubling
   /// of the levels made; J. Where the grid is given, its cells are part of the problem and no error of theirs is in it.
   double error_estimate = 0;
+  /// Of that, the change that the last halving of the cells made, J; 0 where the grid is given.
+  double cell_error = 0;
   bool reached = false;  ///< error_estimate <= relative_error · |W|
   std::vector<QuadratureTrial> trials;
 };

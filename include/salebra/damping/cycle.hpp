@@ -35,13 +35,14 @@ Trajectory trajectory_of(const Oscillation& motion, double mean_indentation);
 /// The state between two moves.
 struct CycleSample {
   double t = 0;
-  double indentation = 0;       ///< δ, m
-  double tangential = 0;        ///< x since the start, m
-  double tangential_force = 0;  ///< F_x, N
-  double normal_force = 0;      ///< F, N
-  double work = 0;              ///< ∫F_x dx since the start of the period, J
-  double released_energy = 0;   ///< since the start of the period, J
-  double contact_area = 0;      ///< m²
+  double indentation = 0;           ///< δ, m
+  double tangential = 0;            ///< x since the start, m
+  double tangential_force = 0;      ///< F_x, N
+  double normal_force = 0;          ///< F, N
+  double work = 0;                  ///< ∫F_x dx since the start of the period, J
+  double released_energy = 0;       ///< since the start of the period, J
+  double contact_area = 0;          ///< m²
+  double tangential_stiffness = 0;  ///< K_t of the contact set in full stick, along the motion, N/m
 };
 
 /// All that a simulated cycle remembers at one of its steps: from it the simulation goes on to the same bits.
@@ -84,6 +85,8 @@ struct CycleResult {
   double work_per_cycle = 0;  ///< ∮F_x dx less the change of the stored energy, J
   double released_energy =
       0;  ///< ½∫τ·[u] over the cells that leave the contact, as they leave it; an independent sum, J
+  /// Estimated error of work_per_cycle that the steps leave, J; see simulate_cycle. That of the cells is not in it.
+  double step_error = 0;
   double stored_energy_change =
       0;  ///< of ½∫τ·u over the period, J; not 0 where the contact advances
   double contact_area_min = 0;       ///< m²
@@ -107,7 +110,11 @@ struct CycleResult {
 ///     entry        cells enter with the displacement that they have at that time, and keep it relative to the body
 /// From a trajectory that starts, stress-free, at its least indentation the first period is already the steady one.
 /// Levels are asked at indentations rounded to 1e-9 of the sweep, each once: a cycle meets the levels of its way up again going down.
-/// The error of the steps is of second order: −h²/24 of W, h = 2π/steps, for K_t' = const and equal frequencies.
+/// The error of the steps is of second order, −h²/24 of W, h = 2π/steps, for K_t' = const and equal frequencies; beside it stands what
+/// the steps cannot tell, at which time between two of them each cell enters. step_error has both, from W = ½∮s² dK_t with the K_t of the
+/// same contact sets (no further solve): with Δ the change of this W to every second set, and σ its standard deviation if each cell
+/// entered at any time of its step, it is max(|Δ|, |Δ|/3 + 2σ), and how far this W is from the simulated one. It is the error against
+/// infinitely many steps on the same cells; cells that are too large for the contact change both alike.
 /// cost  per step a stick solve, and another where cells leave
 CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
                            const Material& material, const Trajectory& trajectory,

@@ -26,20 +26,6 @@ using PressureLevels = std::function<PressureLevel(double indentation)>;
 PressureLevels boundary_element_pressures(Surface surface, double contact_modulus,
                                           const NormalContactOptions& options = {});
 
-struct FrictionalCycleOptions {
-  /// μ >= 0; infinite: full stick, simulate_cycle's case.
-  double friction = std::numeric_limits<double>::infinity();
-  int steps = 64;       ///< changes of the pressures in a period, >= 4
-  int max_periods = 6;  ///< at most, until a period loses the same as the last one
-  /// Relative difference of work_per_cycle between two periods that counts as none; > 0.
-  double steady_tolerance = 1e-5;
-  double direction = 0;  ///< of the tangential motion against x, rad
-  /// Of simulate_coupled_cycle: as CoupledContactOptions::coupling.
-  std::optional<double> coupling = {};
-  StickOptions stick = {.tolerance = 1e-8};
-  Progress on_progress = {};
-};
-
 /// The state between two moves.
 struct FrictionalSample {
   double t = 0;
@@ -53,12 +39,50 @@ struct FrictionalSample {
   double slip_area = 0;         ///< of cells at their limit, m²
 };
 
+/// All that a simulated cycle with friction remembers at one of its steps: from it the simulation goes on to the same bits.
+struct FrictionalCycleState {
+  int period = 0;                          ///< periods finished
+  int step = 0;                            ///< 0 … steps, of the last sample
+  SlidingState contact;                    ///< now
+  ContactSet smallest, largest;            ///< of the steps of the period so far
+  double tangential = 0;                   ///< x of the trajectory, m
+  double energy_at_period_start = 0;       ///< stored, J
+  double work_at_period_start = 0;         ///< ∫F_x dx, J
+  double normal_work_at_period_start = 0;  ///< J
+  double gap_work_at_period_start = 0;     ///< J
+  Field loss_at_period_start;              ///< (nx, ny), J
+  double last_work = 0;                    ///< work_per_cycle of the period before, J
+  std::vector<FrictionalSample> samples;   ///< of the period
+};
+
+struct FrictionalCycleOptions {
+  /// μ >= 0; infinite: full stick, simulate_cycle's case.
+  double friction = std::numeric_limits<double>::infinity();
+  int steps = 64;       ///< changes of the pressures in a period, >= 4
+  int max_periods = 6;  ///< at most, until a period loses the same as the last one
+  /// Relative difference of work_per_cycle between two periods that counts as none; > 0.
+  double steady_tolerance = 1e-5;
+  double direction = 0;  ///< of the tangential motion against x, rad
+  /// Of simulate_coupled_cycle: as CoupledContactOptions::coupling.
+  std::optional<double> coupling = {};
+  StickOptions stick = {.tolerance = 1e-8};
+  Progress on_progress = {};
+  /// Told the state at each step after its sample was taken, for checkpoints and fields; valid during the call.
+  std::function<void(const FrictionalCycleState&)> on_state = {};
+  /// Of simulate_frictional_cycle alone: goes on from this state instead of the start. It must come from the same levels, grid,
+  /// material, trajectory and options.
+  const FrictionalCycleState* resume = nullptr;
+};
+
 /// A simulated period of a contact with finite friction.
 struct FrictionalCycleResult {
   /// ∮F_x dx less the change of the stored energy, J; cells that enter in a step count from their entry.
   double work_per_cycle = 0;
   double dissipated = 0;   ///< ∮∫τ·ds over the cells, an independent sum, J
   double normal_work = 0;  ///< ∮F dδ, part of work_per_cycle, J; 0 without coupling
+  /// Of normal_work, what the steps make of gaps that close and open within one of them, J (CoupledContact::gap_work); 0 without
+  /// coupling. work_per_cycle = dissipated + gap_work to the solvers' tolerance.
+  double gap_work = 0;
   /// Of `dissipated`, J: by cells that open and close, which becomes the relaxation loss of the paper as μ → ∞, and by slip in cells
   /// that are in contact all the time, which becomes Mindlin's loss as u_z → 0. friction_map splits by the springs of the method of
   /// dimensionality reduction, which are not cells: the totals agree, the parts differ. Cone at 90°, M = μE*u_z/(G*u_x) = 0.3:

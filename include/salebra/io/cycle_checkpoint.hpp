@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <salebra/damping/cycle.hpp>
+#include <salebra/damping/frictional_cycle.hpp>
 #include <salebra/io/provenance.hpp>
 #include <string>
 #include <utility>
@@ -17,12 +19,19 @@ using CycleSettings = std::vector<std::pair<std::string, std::string>>;
 std::string fingerprint(const Field& values);
 
 /// Writes a state of simulate_cycle() to an HDF5 file, replacing the last one; the file is complete at any time.
+/// friction   the state of a simulate_frictional_cycle() that follows it; nullptr: not there yet
 /// throws  IoError for what the system refuses
 void write_cycle_checkpoint(const std::filesystem::path& file, const CycleState& state,
-                            const CycleSettings& settings, const Provenance& provenance);
+                            const CycleSettings& settings, const Provenance& provenance,
+                            const FrictionalCycleState* friction = nullptr);
 
 /// The state of that file, bit for bit.
 /// throws  InvalidInput naming the file for what is not a checkpoint, and naming the setting where one differs
 CycleState read_cycle_checkpoint(const std::filesystem::path& file, const CycleSettings& settings);
+
+/// The state of the cycle with friction in a file that read_cycle_checkpoint() accepts, bit for bit; none where that cycle had
+/// not begun.
+/// throws  InvalidInput naming the file for what is not a checkpoint
+std::optional<FrictionalCycleState> read_friction_checkpoint(const std::filesystem::path& file);
 
 }  // namespace salebra

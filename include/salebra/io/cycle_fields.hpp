@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <salebra/damping/cycle.hpp>
+#include <salebra/damping/frictional_cycle.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/provenance.hpp>
+#include <string>
 #include <vector>
 
 namespace salebra {
@@ -13,8 +15,8 @@ namespace salebra {
 ///     PREFIX.xdmf          what to open; lists the steps written so far
 ///     PREFIX-mesh.h5       /mesh/points (nx, ny, 3): where each cell's middle lies, and /mesh/heights
 ///     PREFIX-0016.h5       /fields/… (nx, ny) at step 16: contact, traction_x, traction_y, displacement_x, displacement_y,
-///                          pressure, gap
-/// All are (nx, ny) with x first. The points are given one by one, so that no reader has to guess which index is x.
+///                          pressure, gap; of a cycle with friction also loss, by unit area since the start of the period
+/// One object is for the states of one kind of cycle. All are (nx, ny) with x first. The points are given one by one, so that no reader has to guess which index is x.
 /// Every file is complete as soon as it is there; an interrupted run leaves the steps that it has finished.
 class CycleFields {
  public:
@@ -25,6 +27,8 @@ class CycleFields {
   /// Adds the state at a step, or replaces what was written of it. time: in periods. normal: pressure and gap there; a default
   /// one where nothing is in contact.
   void write(const CycleState& state, double time, const NormalContactState& normal);
+  /// The pressures are those of the state; `normal` has the gap.
+  void write(const FrictionalCycleState& state, double time, const NormalContactState& normal);
 
   /// Steps that an earlier, interrupted run has written, so that the list names them too.
   void keep(int step, double time);
@@ -33,9 +37,18 @@ class CycleFields {
   struct Frame {
     int step;
     double time;
+    std::vector<std::string> fields;
+  };
+  struct Values {
+    const char* name;
+    const char* units;
+    const char* text;
+    Field values;
   };
   std::filesystem::path frame_file(int step) const;
-  void add(int step, double time);
+  Field gap_of(const NormalContactState& normal) const;
+  void write_frame(int step, double time, const std::vector<Values>& fields);
+  void add(int step, double time, std::vector<std::string> fields);
   void write_list() const;
 
   std::filesystem::path prefix_;
