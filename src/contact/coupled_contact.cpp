@@ -33,20 +33,29 @@ struct CoupledContact::Parts {
 
   double force() const { return surface.grid.cell_area() * sliding.pressure().sum(); }
 
-  // The same rigid approach above a surface that the tractions have displaced by `sunk`.
-  NormalContactState press(double approach, const Field& sunk, const Field& guess) const {
+  // The same rigid approach above a surface that the tractions have displaced by `sunk`; cells `out` stay out of the contact, so that
+  // the others carry what these would. Their gap may be below 0.
+  NormalContactState press(double approach, const Field& sunk, Field guess,
+                           const ContactSet& out) const {
     Surface lowered{surface.grid, surface.heights - sunk, surface.periodic, surface.origin};
+    const double depth =
+        std::abs(approach) + lowered.heights.maxCoeff() - lowered.heights.minCoeff();
+    lowered.heights -= out.select(Field::Constant(out.rows(), out.cols(), depth), 0.0);
+    guess = out.select(0.0, guess);
     NormalContactOptions contact = options.contact;
     if ((guess > 0).any()) contact.initial_pressure = &guess;
     const double from_first_touch = approach + lowered.heights.maxCoeff() - highest;
     if (!(from_first_touch > 0)) {
       NormalContactState apart;
       apart.pressure = Field::Zero(surface.grid.nx, surface.grid.ny);
-      apart.gap = highest - lowered.heights - approach;
+      apart.gap = highest - (surface.heights - sunk) - approach;
       apart.converged = true;
       return apart;
     }
-    return press_to_indentation(lowered, contact_modulus, from_first_touch, contact);
+    NormalContactState state =
+        press_to_indentation(lowered, contact_modulus, from_first_touch, contact);
+    state.gap = out.select(state.gap - depth, state.gap);
+    return state;
   }
 };
 
@@ -81,12 +90,11 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   constexpr int patience = 8;
   ContactSet barred = ContactSet::Constant(p.surface.grid.nx, p.surface.grid.ny, false);
   while (report.sweeps < p.options.max_sweeps) {
-    NormalContactState state = p.press(
-        indentation, p.coupling.normal_displacement(increment.traction), increment.pressure);
-    if (report.sweeps > patience) {
+    NormalContactState state =
+        p.press(indentation, p.coupling.normal_displacement(increment.traction), increment.pressure,
+                barred);
+    if (report.sweeps > patience)
       barred = barred || (increment.pressure > 0 && state.pressure <= 0);
-      state.pressure = barred.select(0.0, state.pressure);
-    }
     const TangentialField shift = p.coupling.tangential_displacement(state.pressure);
     SlidingContact::Increment next =
         p.sliding.attempt(state.pressure, move, &shift, report.sweeps > 0 ? &increment : nullptr);

@@ -249,5 +249,14 @@ TEST_CASE("Coupling changes nothing at Poisson's ratio 1/2, and a few per cent a
   CHECK(normal_change < 0.03);
   CHECK(std::abs(with.coupled.work_per_cycle / with.alone.work_per_cycle - 1) < 0.06);
   CHECK(with.coupled.normal_work > 0);
-  CHECK(with.coupled.dissipated == Approx(with.coupled.work_per_cycle).epsilon(0.01));
+  // Cells that enter and leave with a gap are all that keeps the two sums apart, and that is an error of the steps.
+  CHECK(with.coupled.dissipated + with.coupled.gap_work ==
+        Approx(with.coupled.work_per_cycle).epsilon(1e-5));
+  CHECK(std::abs(with.coupled.gap_work) < 0.01 * with.coupled.work_per_cycle);
+  // At ν = 0, where β is largest, cells of the edge come and go between the sweeps until they are kept out: the others must then be
+  // in equilibrium without them. Pressures that only lost these cells' share were 1 % off.
+  const Cycles strongest = cycles(0);
+  CHECK(strongest.coupled.dissipated + strongest.coupled.gap_work ==
+        Approx(strongest.coupled.work_per_cycle).epsilon(1e-5));
+  CHECK(std::abs(strongest.coupled.gap_work) < 0.01 * strongest.coupled.work_per_cycle);
 }

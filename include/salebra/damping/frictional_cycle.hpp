@@ -117,8 +117,8 @@ FrictionalCycleResult simulate_frictional_cycle(const PressureLevels& levels, co
 /// tractions and the tractions the pressures, and F does work over a cycle too. Beside simulate_frictional_cycle it tells when the
 /// coupling, which the paper neglects, may be left out. The contact is made from first touch in steps/4 increments without motion, so
 /// that the radial tractions of the first loading are there.
-/// work_per_cycle and `dissipated` balance up to the steps, since cells enter and leave with a gap that ∫F dδ does not see; no order
-/// is claimed: at ν = 0, where β is largest, 1.7 % remain and do not shrink from 16 to 32 steps. δ >= 0 counts from the first touch of the undeformed bodies; the boundaries of both solves must agree.
+/// work_per_cycle = dissipated + gap_work to the sweeps' tolerance; gap_work, which the trapezoidal ∫F dδ makes of cells that enter or
+/// leave with a gap, measures the steps. δ >= 0 counts from the first touch of the undeformed bodies; the boundaries of both solves must agree.
 /// cost  per step 5 to 10 sweeps of a normal solve and partial-slip solves
 FrictionalCycleResult simulate_coupled_cycle(const Surface& surface, const Material& material,
                                              const Trajectory& trajectory,
