@@ -151,9 +151,11 @@ TEST_CASE("A killed cycle with friction resumes to the same numbers and lists al
   CHECK(resumed["friction"] == whole["friction"]);
   CHECK(resumed["work_per_cycle"] == whole["work_per_cycle"]);
   CHECK(resumed["fft_count"] == whole["fft_count"]);
-  CHECK(test.files() == std::set<std::string>{"f.xdmf", "f-mesh.h5", "f-0004.h5", "f-0012.h5",
-                                              "f-friction.xdmf", "f-friction-mesh.h5",
-                                              "f-friction-0004.h5", "f-friction-0012.h5"});
+  // Beside them there may be what the killed process was writing.
+  for (const char* file : {"f.xdmf", "f-mesh.h5", "f-0004.h5", "f-0012.h5", "f-friction.xdmf",
+                           "f-friction-mesh.h5", "f-friction-0004.h5", "f-friction-0012.h5"})
+    CHECK(test.files().count(file) == 1);
+  CHECK(test.files().count("c.h5") == 0);
 }
 
 TEST_CASE("oscillate couples pressures and tractions by Dundurs' constant", "[oscillate]") {
