@@ -234,12 +234,15 @@ void run(const CompareArguments& arguments, Session& session) {
   configuration.models =
       arguments.models.empty() ? configuration.compared_models : contact_models(arguments.models);
   if (arguments.study.dry_run) return answer_dry_run(configuration, session);
+  StudyReport report(arguments.study, session);
   const std::vector<StudyResult> results =
       run_and_keep(configuration, arguments.study.resume, session);
   if (results.empty()) return;
   const std::string file = session.has_output() ? session.output().string() : "";
+  const std::string page = report.write();
   session.plot(compare_figure(results, configuration.ensemble));
-  const Json files{{"results", file.empty() ? Json() : Json(file)}};
+  const Json files{{"results", file.empty() ? Json() : Json(file)},
+                   {"report", page.empty() ? Json() : Json(page)}};
   Json answer = Json::object();
   std::string text;
   if (configuration.ensemble.empty()) {
@@ -256,6 +259,7 @@ void run(const CompareArguments& arguments, Session& session) {
   }
   answer["files"] = files;
   if (!file.empty()) text += fmt::format("\nresults: {}\n", file);
+  if (!page.empty()) text += fmt::format("report:  {}\n", page);
   session.answer(answer, text);
   if (std::ranges::any_of(results, &StudyResult::interrupted))
     throw Interrupted("compare: interrupted; the surfaces that were finished are in the answer");

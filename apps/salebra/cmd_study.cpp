@@ -16,11 +16,21 @@
 namespace salebra::cli {
 namespace {
 
-Json files_json(const std::string& file) {
-  return {{"results", file.empty() ? Json() : Json(file)}, {"report", nullptr}};
-}
+/// Where the run left its results and their page; empty: nowhere.
+struct Files {
+  std::string results, report;
 
-Json study_json(const StudyResult& result, const std::string& file) {
+  Json json() const {
+    return {{"results", results.empty() ? Json() : Json(results)},
+            {"report", report.empty() ? Json() : Json(report)}};
+  }
+  std::string text() const {
+    return (results.empty() ? "" : fmt::format("results: {}\n", results)) +
+           (report.empty() ? "" : fmt::format("report:  {}\n", report));
+  }
+};
+
+Json study_json(const StudyResult& result, const Files& files) {
   Json comparison;
   for (const StudyModel& model : result.models()) {
     comparison[name_of(model.model)] = {
@@ -45,7 +55,7 @@ Json study_json(const StudyResult& result, const std::string& file) {
           {"comparison", comparison},
           {"realisations", result.realisations.size()},
           {"flags", flags_json(result)},
-          {"files", files_json(file)}};
+          {"files", files.json()}};
 }
 
 /// What the difference between the law and the curve amounts to, in one sentence.
@@ -64,7 +74,7 @@ std::string verdict(const std::vector<EnsembleMean>& deviation, const std::strin
       law, 100 * low, 100 * high);
 }
 
-std::string study_text(const StudyResult& result, const std::string& file) {
+std::string study_text(const StudyResult& result, const Files& files) {
   std::string text = heading(result);
   text += "Decay length l of pressure = p0 exp(-mean gap/l)\n";
   std::vector<std::vector<std::string>> rows{
@@ -99,31 +109,31 @@ std::string study_text(const StudyResult& result, const std::string& file) {
   text += to_table(rows) + "\n" + verdict(deviation, law) + "\n";
   if (const std::string remarks = ensemble_remarks(result); !remarks.empty())
     text += "\n" + remarks;
-  if (!file.empty()) text += fmt::format("\nresults: {}\n", file);
+  if (const std::string where = files.text(); !where.empty()) text += "\n" + where;
   return text;
 }
 
 void run(const StudyArguments& arguments, Session& session) {
   const StudyConfiguration configuration = arguments.study();
   if (arguments.dry_run) return answer_dry_run(configuration, session);
+  StudyReport report(arguments, session);
   const std::vector<StudyResult> results = run_and_keep(configuration, arguments.resume, session);
   if (results.empty()) return;
-  const std::string file = session.has_output() ? session.output().string() : "";
+  const Files files{session.has_output() ? session.output().string() : "", report.write()};
   if (results.size() == 1 && configuration.ensemble.empty()) {
-    session.answer(study_json(results.front(), file), study_text(results.front(), file));
+    session.answer(study_json(results.front(), files), study_text(results.front(), files));
   } else {
     Json points = Json::array();
     std::string text;
     for (const StudyResult& result : results) {
       const std::string name = describe_point(configuration.ensemble, result.configuration);
-      Json point = study_json(result, file);
+      Json point = study_json(result, files);
       point.erase("files");
       point["point"] = name;
       points.push_back(std::move(point));
-      text += "== " + name + " ==\n" + study_text(result, "") + "\n";
+      text += "== " + name + " ==\n" + study_text(result, {}) + "\n";
     }
-    session.answer({{"points", points}, {"files", files_json(file)}},
-                   text + (file.empty() ? "" : fmt::format("results: {}\n", file)));
+    session.answer({{"points", points}, {"files", files.json()}}, text + files.text());
   }
   if (std::ranges::any_of(results, &StudyResult::interrupted))
     throw Interrupted("study: interrupted; the surfaces that were finished are in the answer");

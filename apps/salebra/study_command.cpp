@@ -10,6 +10,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/report/report.hpp>
 #include <salebra/study/study_file.hpp>
 
 #include "dry_run.hpp"
@@ -61,6 +62,34 @@ void StudyArguments::add_to(CLI::App& command) {
                    "tell what would run, with its time and memory, and run nothing");
   command.add_flag("--resume", resume,
                    "go on with what an interrupted run has left beside the output file");
+  command.add_flag("--no-report", no_report, "no page (.html) beside the output file");
+}
+
+StudyReport::StudyReport(const StudyArguments& arguments, Session& session) : session_(session) {
+  if (arguments.no_report || !session.has_output()) return;
+  if (!can_report()) {
+    session.note(
+        "no report will be written: this build carries no plotly.js (scripts/report-assets "
+        "fetches it)");
+    return;
+  }
+  page_ = session.output().replace_extension(".html");
+  require(page_ != session.output(), "--output", page_.string(),
+          "is a report's name; name the results .h5, or add --no-report");
+  // A resumed study that has its result is only tidied up after.
+  if (arguments.resume && std::filesystem::exists(session.output())) return;
+  require_report(page_, session.write_options());
+}
+
+std::string StudyReport::write() {
+  if (page_.empty()) return "";
+  try {
+    write_report(session_.output(), page_, {.write = session_.write_options()});
+    return page_.string();
+  } catch (const Error& error) {
+    session_.warn(fmt::format("no report was written: {}", error.what()));
+    return "";
+  }
 }
 
 StudyConfiguration StudyArguments::study() const {

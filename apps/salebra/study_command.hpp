@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <salebra/study/study.hpp>
 #include <string>
@@ -22,6 +23,7 @@ struct StudyArguments {
   bool no_stick = false;
   bool resume = false;
   bool dry_run = false;
+  bool no_report = false;
 
   void add_to(CLI::App& command);
   /// The study file, or what a measured surface needs without one, with the options in place of what either says.
@@ -30,6 +32,20 @@ struct StudyArguments {
 
 /// For commands that end in run_and_keep(), which looks at the output itself.
 inline constexpr OutputCheck study_output = OutputCheck::by_command;
+
+/// The page that lies beside the results of a study.
+class StudyReport {
+ public:
+  /// Throws where the page cannot be put in its place, before any work. Nothing is planned where there is no output, where the
+  /// user wants no page, or where this build cannot make one, which it then says.
+  StudyReport(const StudyArguments& arguments, Session& session);
+  /// Writes what was planned, from the results file; its path, or empty. The results are safe by now: a failure is only a warning.
+  std::string write();
+
+ private:
+  Session& session_;
+  std::filesystem::path page_;
+};
 
 /// Runs the ensembles with progress, keeps finished surfaces beside the session's output as it goes, and writes the result there. Without
 /// an output nothing is kept. Where a resumed study has its result already, tidies up after it, answers so and returns nothing.

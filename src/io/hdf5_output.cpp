@@ -19,6 +19,8 @@ struct Types {
   hid_t file, memory;
 };
 Types types_of(const double*) { return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE}; }
+Types types_of(const float*) { return {H5T_IEEE_F32LE, H5T_NATIVE_FLOAT}; }
+Types types_of(const std::int16_t*) { return {H5T_STD_I16LE, H5T_NATIVE_INT16}; }
 Types types_of(const std::int64_t*) { return {H5T_STD_I64LE, H5T_NATIVE_INT64}; }
 Types types_of(const std::uint64_t*) { return {H5T_STD_U64LE, H5T_NATIVE_UINT64}; }
 Types types_of(const std::int8_t*) { return {H5T_STD_I8LE, H5T_NATIVE_INT8}; }
@@ -205,6 +207,10 @@ void Output::commit() {
 }
 
 template Dataset Output::dataset(hid_t, const std::string&, const double*, std::size_t,
+                                 const std::vector<std::string>&, const Label&);
+template Dataset Output::dataset(hid_t, const std::string&, const float*, std::size_t,
+                                 const std::vector<std::string>&, const Label&);
+template Dataset Output::dataset(hid_t, const std::string&, const std::int16_t*, std::size_t,
                                  const std::vector<std::string>&, const Label&);
 template Dataset Output::dataset(hid_t, const std::string&, const std::int64_t*, std::size_t,
                                  const std::vector<std::string>&, const Label&);

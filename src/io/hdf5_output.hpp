@@ -36,7 +36,7 @@ class Output {
   void attribute(hid_t object, const std::string& name, std::uint64_t value);
   void attribute(hid_t object, const std::string& name, std::string_view value);
 
-  /// A dataset whose dimensions are the named scales of the group (none: a scalar). T: double, int64_t, int8_t.
+  /// A dataset whose dimensions are the named scales of the group (none: a scalar). T: double, float, int64_t, int16_t, int8_t.
   /// Throws InvalidInput if a scale is missing or values have not the shape that the scales give.
   template <class T>
   Dataset dataset(hid_t group, const std::string& name, const T* values, std::size_t count,

@@ -54,6 +54,20 @@ void ResultGroup::dataset(const std::string& name, std::span<const std::int64_t>
                          {units, long_name});
 }
 
+void ResultGroup::dataset(const std::string& name, std::span<const float> values,
+                          const std::vector<std::string>& coordinates, const std::string& units,
+                          const std::string& long_name) {
+  place_->open().dataset(place_->group, name, values.data(), values.size(), coordinates,
+                         {units, long_name});
+}
+
+void ResultGroup::dataset(const std::string& name, std::span<const std::int16_t> values,
+                          const std::vector<std::string>& coordinates, const std::string& units,
+                          const std::string& long_name) {
+  place_->open().dataset(place_->group, name, values.data(), values.size(), coordinates,
+                         {units, long_name});
+}
+
 void ResultGroup::dataset(const std::string& name, const Field& values, const std::string& x,
                           const std::string& y, const std::string& units,
                           const std::string& long_name) {

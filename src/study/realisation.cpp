@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <mutex>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity_sampling.hpp>
 #include <salebra/contact/contact_spots.hpp>
@@ -268,6 +269,8 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
   add_other_models(realisation, surface, summits, configuration, scale, pressures, part(0, others));
   if (stopped) throw Interrupted("study: interrupted");
 
+  if (wants_picture(configuration, seed)) realisation.picture = picture_of(surface, configuration);
+  std::mutex picture_guard;
   SweepOptions sweep;
   sweep.contact.tolerance = configuration.tolerance;
   sweep.contact.on_progress = part(others, 1 - others);
@@ -276,6 +279,9 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
   sweep.on_state = [&](std::size_t k, const NormalContactState& state) {
     realisation.spots[k] =
         spot_statistics(contact_spots(state.pressure, surface.grid), surface.grid);
+    if (realisation.picture.empty()) return;
+    const std::scoped_lock lock(picture_guard);
+    realisation.picture.add_contact(std::int16_t(k), state);
   };
   ForceCurve curve = sweep_pressures(surface, material, pressures, sweep);
   if (stopped) throw Interrupted("study: interrupted");

@@ -14,7 +14,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view magic = "salebra realisation 1\n";
+constexpr std::string_view magic = "salebra realisation 2\n";
 
 /// Appends the bytes of numbers, and of lists and texts after their lengths.
 class Writer {
@@ -169,11 +169,17 @@ template <class A, Of<SpotStatistics> S>
 void fields(A& archive, S& s) {
   archive(s.count, s.corrected_area_fraction, s.largest_area, s.mean_area, s.sizes);
 }
+template <class A, Of<SurfacePicture> S>
+void fields(A& archive, S& s) {
+  archive(s.origin, s.stride, s.nx, s.ny, s.step_x, s.step_y, s.heights, s.first_load, s.wavenumber,
+          s.density, s.law_density, s.law, s.hurst, s.hurst_low, s.hurst_high, s.height,
+          s.height_density);
+}
 template <class A, Of<Realisation> S>
 void fields(A& archive, S& s) {
   archive(s.seed, s.grid, s.periodic, s.seam_step, s.heights, s.moments, s.summits, s.ensemble,
           s.bem, s.gw_moments, s.gw_deterministic, s.gw_monte_carlo, s.gw_interacting, s.persson,
-          s.spots, s.corrected_area_slope, s.persson_decay_length);
+          s.spots, s.corrected_area_slope, s.persson_decay_length, s.picture);
 }
 
 // What follows is only ever written, into keys.
@@ -228,7 +234,8 @@ std::uint64_t checksum(std::string_view bytes) {
 
 std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t seed) {
   Writer writer;
-  writer(std::string(magic), std::string(version()), seed, point.surfaces.index());
+  writer(std::string(magic), std::string(version()), seed, wants_picture(point, seed),
+         point.surfaces.index());
   if (const auto* generated = std::get_if<GeneratedSurfaces>(&point.surfaces)) {
     writer(generated->grid, generated->spectrum, generated->method);
   } else {

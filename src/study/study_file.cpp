@@ -339,6 +339,33 @@ void write_convergence(ResultGroup group, const StudyResult& result) {
   put(group, "decay_length_over_rms_height", means, {"surfaces"});
 }
 
+void write_picture(ResultGroup group, const SurfacePicture& picture) {
+  const auto positions = [](Index count, double step) {
+    std::vector<double> values;
+    for (Index i = 0; i < count; ++i) values.push_back(double(i) * step);
+    return values;
+  };
+  group.coordinate("x", positions(picture.nx, picture.step_x), "m", "position");
+  group.coordinate("y", positions(picture.ny, picture.step_y), "m", "position");
+  group.dataset("heights", picture.heights, {"x", "y"}, "m", "height above the mean");
+  group.dataset("first_load", picture.first_load, {"x", "y"}, "1",
+                "number of the least pressure of the curve at which the point touches; -1: none");
+  group.coordinate("wavenumber", picture.wavenumber, "rad/m", "wave number");
+  group.dataset("density", picture.density, {"wavenumber"}, "m^4",
+                "power spectral density C, mean over a ring of wave vectors");
+  group.dataset("law_density", picture.law_density, {"wavenumber"}, "m^4",
+                "C of the self-affine law");
+  group.coordinate("height", picture.height, "m", "height above the mean, middle of a bin");
+  group.dataset("height_density", picture.height_density, {"height"}, "1/m",
+                "share of the points in a bin over its width");
+  group.attribute("origin", picture.origin);
+  group.attribute("stride", std::int64_t(picture.stride));
+  group.attribute("law", picture.law);
+  group.attribute("hurst", picture.hurst);
+  group.attribute("hurst_low", picture.hurst_low);
+  group.attribute("hurst_high", picture.hurst_high);
+}
+
 /// The groups of one point of the parameter grid, below `where` ("" or "points/3/").
 void write_point(ResultFile& output, const std::string& where, const StudyResult& result) {
   write_surfaces(output.group(where + "surface"), result);
@@ -350,6 +377,8 @@ void write_point(ResultFile& output, const std::string& where, const StudyResult
   write_comparison(output.group(where + "comparison"), result);
   if (result.realisations.size() >= 2)
     write_convergence(output.group(where + "convergence"), result);
+  const SurfacePicture& picture = result.realisations.front().picture;
+  if (!picture.empty()) write_picture(output.group(where + "picture"), picture);
   std::string warnings, flags;
   for (const std::string& warning : result.warnings) warnings += warning + "\n";
   for (const StudyFlag& found : result.flags) flags += found.name + ": " + found.text + "\n";

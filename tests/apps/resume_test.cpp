@@ -62,8 +62,8 @@ bool run_and_kill(const ProgramTest& test, bool after_a_part, std::chrono::micro
     dup2(silence, 1);
     dup2(silence, 2);
     if (chdir(test.folder().c_str()) != 0) _exit(99);
-    execl(SALEBRA_PROGRAM, "salebra", "study", "study.toml", "-o", "result.h5", "--resume",
-          nullptr);
+    execl(SALEBRA_PROGRAM, "salebra", "study", "study.toml", "-o", "result.h5", "--no-report",
+          "--resume", nullptr);
     _exit(99);
   }
   int status = 0;
@@ -131,12 +131,12 @@ TEST_CASE("A study killed at twenty random moments ends as if nothing had happen
   const bool unfinished = !fs::exists(test.folder() / "result.h5");
   if (unfinished) test.write(".result.h5.99999-0.part", "half of it");
   if (unfinished) {
-    const auto resumed = test.run("study study.toml -o result.h5 --resume --json");
+    const auto resumed = test.run("study study.toml -o result.h5 --no-report --resume --json");
     INFO(resumed.err);
     REQUIRE(resumed.status == 0);
     CHECK_THAT(resumed.err, Contains("2 damaged files of result.h5.parts"));
   }
-  const auto whole = test.run("study study.toml -o whole.h5 --json --threads 1");
+  const auto whole = test.run("study study.toml -o whole.h5 --no-report --json --threads 1");
   REQUIRE(whole.status == 0);
   CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5", "whole.h5"});
   const int compared = compare_groups(ResultReader(test.folder() / "result.h5"),
@@ -150,7 +150,7 @@ TEST_CASE("A study killed while it tidied up is complete, and says so", "[resume
   const fs::path parts = test.folder() / "result.h5.parts", copy = test.folder() / "copy";
   while (parts_in(parts) < 2) REQUIRE(run_and_kill(test, true, std::chrono::microseconds(0)));
   fs::copy(parts, copy);
-  REQUIRE(test.run("study study.toml -o result.h5 --resume").status == 0);
+  REQUIRE(test.run("study study.toml -o result.h5 --no-report --resume").status == 0);
   // Parts beside a finished result: those that were not yet removed when the process died.
   fs::remove(copy / "lock");
   fs::rename(copy, parts);

@@ -2,7 +2,7 @@
 # cmake -D ROOT=<tree> -P CheckLayers.cmake: fails where a file includes a header of a higher layer than its own, or one
 # of the three contact models includes another. A file's layer is the folder that it stands in.
 cmake_minimum_required(VERSION 3.25)
-set(layers base generators surface contact damping io study apps)
+set(layers base generators surface contact damping io study report apps)
 set(strangers contact/greenwood_williamson contact/half_space contact/normal contact/mdr)  # normal may use half_space
 
 file(GLOB_RECURSE files RELATIVE ${ROOT}

@@ -25,6 +25,8 @@ check("layers only look down" include/salebra/base/grid.hpp "#  include <salebra
 check("layers only look down" generators/src/spectrum.cpp "#include <salebra/contact/law.hpp>")
 check("layers only look down" src/io/hdf5.cpp "#include \"../study/run.hpp\"")
 check("layers only look down" src/io/hdf5.cpp "#include \"study/run.hpp\"")
+check("layers only look down" src/study/study.cpp "#include <salebra/report/report.hpp>")
+check("" apps/salebra/cmd_report.cpp "#include <salebra/report/report.hpp>")
 check("contact models never include" src/contact/mdr.cpp "#include <salebra/contact/normal.hpp>")
 check("contact models never include" src/contact/greenwood_williamson.cpp "#include <salebra/contact/mdr.hpp>")
 check("contact models never include" include/salebra/contact/normal.hpp "#include <salebra/contact/greenwood_williamson.hpp>")

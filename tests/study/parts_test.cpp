@@ -35,6 +35,10 @@ Realisation some_realisation() {
   realisation.spots.resize(2);
   realisation.spots[1].sizes = {1, 2, 3};
   realisation.gw_moments.damping.push_back({.pressure = 5e-324});
+  realisation.picture.stride = 2;
+  realisation.picture.heights = {1.5f, -0.0f};
+  realisation.picture.first_load = {-1, 300};
+  realisation.picture.law = "asked for";
   return realisation;
 }
 
@@ -68,6 +72,10 @@ TEST_CASE("A realisation comes back from the disk with every bit", "[parts]") {
   CHECK(std::isnan(found->bem.curve.samples[1].force));
   CHECK(found->spots[1].sizes == std::vector<double>{1, 2, 3});
   CHECK(found->gw_moments.damping[0].pressure == 5e-324);
+  CHECK(found->picture.stride == 2);
+  CHECK(found->picture.heights == std::vector<float>{1.5f, 0.0f});
+  CHECK(found->picture.first_load == std::vector<std::int16_t>{-1, 300});
+  CHECK(found->picture.law == "asked for");
   parts.discard();
   CHECK(parts.count() == 0);
 }

@@ -38,6 +38,13 @@ class ResultGroup {
   void dataset(const std::string& name, std::span<const std::int64_t> values,
                const std::vector<std::string>& coordinates, const std::string& units,
                const std::string& long_name);
+  /// In single precision and as small integers: for pictures, which need no more.
+  void dataset(const std::string& name, std::span<const float> values,
+               const std::vector<std::string>& coordinates, const std::string& units,
+               const std::string& long_name);
+  void dataset(const std::string& name, std::span<const std::int16_t> values,
+               const std::vector<std::string>& coordinates, const std::string& units,
+               const std::string& long_name);
   /// A field on the coordinates of its x and y.
   void dataset(const std::string& name, const Field& values, const std::string& x,
                const std::string& y, const std::string& units, const std::string& long_name);

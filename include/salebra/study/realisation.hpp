@@ -10,6 +10,7 @@
 #include <salebra/contact/force_curve.hpp>
 #include <salebra/contact/greenwood_williamson.hpp>
 #include <salebra/study/configuration.hpp>
+#include <salebra/study/surface_picture.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/summits.hpp>
 #include <string>
@@ -74,6 +75,8 @@ struct Realisation {
       unknown;  ///< κ of the boundary elements with the area corrected by its perimeter
   /// u0 of Persson's p ∝ exp(−ū/u0), which is also K = pA0/u0 of Campañá, Persson and Müser, m; with ContactModel::persson.
   double persson_decay_length = ForceSample::unknown;
+  SurfacePicture
+      picture;  ///< of one realisation of a study, see wants_picture(); of the others empty
 };
 
 /// Where the results of a model are, and what people call it.

@@ -18,6 +18,8 @@ namespace salebra {
 ///   spots        patches of contact of the boundary elements (realisation, pressure), by size (…, least_cells)
 ///   comparison   each model over the boundary elements on the same surfaces, means with limits (model, pressure)
 ///   convergence  mean l/h_rms over the first surfaces, with limits (surfaces)
+///   picture      of the first surface: heights and the least load that touches each point (x, y), spectrum (wavenumber),
+///                distribution (height); maps hold every stride-th point, at most 512 a side
 /// Several points of a parameter grid: these groups under points/0, points/1, …, and `ensemble`, which has their parameters and
 /// main results (point). Attribute `study` of `surface` or `ensemble` names the study (is_result_of). The configuration's text goes into the provenance. Throws as ResultFile does, and for no results.
 void write_ensembles(const std::filesystem::path& file, const std::vector<StudyResult>& results,

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <salebra/base/error.hpp>
+#include <salebra/report/report.hpp>
+
+#include "program.hpp"
+
+namespace salebra::cli {
+namespace {
+
+struct ReportArguments {
+  std::string results;
+  std::string title;
+  std::vector<std::string> direct;
+};
+
+void run(const ReportArguments& arguments, Session& session) {
+  const std::filesystem::path results = arguments.results;
+  auto page = session.output();
+  if (!session.has_output()) page = std::filesystem::path(results).replace_extension(".html");
+  require(page != results, "--output", page.string(), "is the results file; name another one");
+  write_report(results, page,
+               {.write = session.write_options(),
+                .title = arguments.title,
+                .direct = {arguments.direct.begin(), arguments.direct.end()}});
+  session.answer({{"file", page.string()}}, fmt::format("report: {}\n", page.string()));
+}
+
+}  // namespace
+
+void add_report_command(Program& program) {
+  auto arguments = std::make_shared<ReportArguments>();
+  CLI::App& command =
+      program.add_command("report", "the results of a study as one HTML page that needs no network",
+                          {"salebra report quickstart.h5 -o report.html",
+                           "salebra report scan.h5 --title 'Brake disc, 3 h in service' --force"},
+                          [arguments](Session& session) { run(*arguments, session); });
+  command
+      .add_option("RESULTS", arguments->results,
+                  "what study or compare wrote; without --output, the page lies beside it")
+      ->required()
+      ->type_name("FILE");
+  command.add_option("--title", arguments->title, "heading of the page");
+  command
+      .add_option("--direct", arguments->direct,
+                  "what oscillate wrote of the same surface and motion, drawn beside the damping "
+                  "curves; several files one after the other")
+      ->type_name("FILE");
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <salebra/base/grid.hpp>
+#include <salebra/contact/normal.hpp>
+#include <salebra/study/configuration.hpp>
+#include <string>
+#include <vector>
+
+namespace salebra {
+
+/// What a reader wants to see of one surface of a study: its heights and where they touch, its spectrum and its distribution.
+/// Maps hold every stride-th point along either axis, at most picture_side of them: a sample of the points has the height
+/// distribution and, in the mean, the contact area of all of them, which averages over blocks have not.
+struct SurfacePicture {
+  static constexpr Index picture_side = 512;
+
+  std::string origin;  ///< file, or generator with its seed
+  Index stride = 0;    ///< 0: there is no picture
+  Index nx = 0, ny = 0;
+  double step_x = 0, step_y = 0;  ///< between points of the maps, m
+  std::vector<float> heights;     ///< (nx, ny), y contiguous, less the mean of the surface, m
+  std::vector<std::int16_t>
+      first_load;  ///< number of the least load at which a point touches; −1: none
+
+  std::vector<double> wavenumber, density;  ///< radial spectrum C, rad/m and m⁴
+  std::vector<double> law_density;          ///< NaN where the law does not reach
+  std::string law;                          ///< where the law comes from; empty: there is none
+  double hurst = 0, hurst_low = 0,
+         hurst_high = 0;  ///< estimated, with its 95 % interval; NaN: no self-affine range
+
+  std::vector<double> height, height_density;  ///< histogram, m and 1/m
+
+  bool empty() const { return stride == 0; }
+  /// Marks the points that carry pressure under load number k.
+  void add_contact(std::int16_t k, const NormalContactState& state);
+};
+
+/// One picture a study: of its first seed, or of the measured surface.
+bool wants_picture(const StudyConfiguration& configuration, std::uint64_t seed);
+
+/// Without contact as yet. The law of a generated surface is what was asked for, that of any other a power law through the range in
+/// which it is self-affine. Cost: one FFT and one sort of the heights.
+SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& configuration);
+
+}  // namespace salebra

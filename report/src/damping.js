@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Figures of damping, and of how the ensemble's means settle.
+"use strict";
+
+const isDrag = (point) => point.damping?.mode === "drag";
+
+/** The three routes to one number, as DampingPoint has them. */
+function routes(point) {
+  return {
+    law: {label: isDrag(point) ? "Eq. (16), fitted ‹l›" : "Eq. (12), fitted ‹l›", style: {color: "vermilion", symbol: "square", dash: "dash"}},
+    small: {label: isDrag(point) ? "Eq. (15), ‹F›″ of the curve" : "Eq. (12), ‹F›″ of the curve", style: {color: "ochre", symbol: "diamond", dash: "dot"}},
+    curve: {label: "measured curve", style: {color: "blue", symbol: "circle", dash: "solid"}},
+  };
+}
+
+function describeMotion(damping) {
+  const frequency = quantity(damping.angular_frequency / (2 * Math.PI), "Hz", 3);
+  const held = damping.hold === "force" ? "mean force held" : "mean indentation held";
+  return damping.mode === "drag"
+    ? `drag at ${quantity(damping.drag_velocity, "m/s", 3)} with a normal oscillation of ${quantity(damping.normal_amplitude, "m", 3)} at ${frequency}, ${held}`
+    : `normal and tangential oscillation of ${quantity(damping.normal_amplitude, "m", 3)} and ${quantity(damping.tangential_amplitude, "m", 3)} at ${frequency}, phase ${quantity(damping.phase, "rad", 3)}, ${held}`;
+}
+
+const MEASURES = {
+  damping_constant: {label: "damping constant ‹γ›", short: "‹γ›", unit: "N s/m", title: "damping constant"},
+  work_per_cycle: {label: "work per cycle ‹W›", short: "‹W›", unit: "J", title: "work per cycle"},
+};
+
+function dampingFigure(parent, point) {
+  const damping = point.damping, f = facts(point), force = damping.force;
+  const models = point.models.filter((m) => damping.curve?.work_per_cycle?.[m.name]?.mean.some(known) || damping.law?.work_per_cycle?.[m.name]?.mean.some(known));
+  let model = models.find((m) => m.name === "bem") ?? models[0], measure = "damping_constant";
+  const select = (id, label, options, change) => h("label", {class: "choice", for: id}, label + " ",
+    h("select", {id, onchange: (event) => { change(event.target.value); figure.redraw(); }}, options.map(([value, text]) => h("option", {value}, text))));
+  // Work and damping constant are proportional, whatever the motion.
+  const perWork = () => {
+    const ratios = point.models.flatMap((m) => ["curve", "law"].flatMap((route) => (damping[route]?.work_per_cycle?.[m.name]?.mean ?? []).map((w, i) => damping[route].damping_constant[m.name].mean[i] / w))).filter(known);
+    return measure === "work_per_cycle" ? 1 : ratios[0];
+  };
+  const direct = () => (damping.direct ?? []).map((d) => ({...d, value: d.work_per_cycle * perWork()}));
+  const estimate = (route) => damping[route]?.[measure]?.[model.name];
+  const spec = {
+    id: "damping-curve", title: "Damping against force", height: 420,
+    controls: [select("damping-model", "Model", [model, ...models.filter((m) => m !== model)].map((m) => [m.name, m.title]), (name) => { model = models.find((m) => m.name === name); }),
+      select("damping-measure", "Show", Object.entries(MEASURES).map(([key, m]) => [key, m.title]), (key) => { measure = key; })],
+    alt: () => {
+      const curve = estimate("curve"), i = curve ? curve.mean.findLastIndex(known) : -1;
+      return `${MEASURES[measure].title} against force by three routes for ${model.title}.` + (i >= 0 ? ` At ${quantity(force[i], "N", 3)}: measured curve ${quantity(curve.mean[i], MEASURES[measure].unit, 3)}, ${plainText(routes(point).law.label)} ${quantity(estimate("law")?.mean[i], MEASURES[measure].unit, 3)}.` : "");
+    },
+    caption: () => `By the paper's closed form with the fitted law, by the same form with the curvature that the computed curve has at each force, and by the theorem ‹W› = ½∮‹s›² d‹K›_{t} on the computed curve itself, which holds at any amplitude. ${damping.interval_method && f.count > 1 ? `Bands: ${damping.interval_method}. ` : ""}Motion: ${describeMotion(damping)}. Near its ends the curve does not cover the whole cycle: no value there.${damping.direct ? " Stars: direct three-dimensional simulation of one surface." : ""}`,
+    get axes() { return {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {...MEASURES[measure], log: true}}; },
+    columns: () => [{label: "force", key: "force", unit: "N", values: force}, {label: "pressure", key: "pressure", unit: "Pa", values: point.pressure},
+      ...Object.entries(routes(point)).flatMap(([key, route]) => (estimate(key) ? estimateColumns(route.label, `${key}_${measure}`, MEASURES[measure].unit, estimate(key)) : []))],
+    plot: () => ({series: [...(damping.direct ? [{label: "direct simulation", x: direct().map((d) => d.force), y: direct().map((d) => d.value), mode: "markers", marker: {symbol: "star", size: 13, color: color("ink")},
+      text: direct().map((d) => `direct simulation, ${escaped(d.file)}: ${quantity(d.value, MEASURES[measure].unit)}<br><i>F</i> = ${quantity(d.force, "N")}`)}] : []), ...Object.entries(routes(point)).flatMap(([key, route]) => {
+      const values = estimate(key);
+      if (!values) return [];
+      const reference = estimate("curve");
+      return band(route.label, force, values, route.style, {text: force.map((value, i) => `${plotText(route.label)}: ${quantity(values.mean[i], MEASURES[measure].unit)}`
+        + (known(values.low?.[i]) ? `<br>95 %: ${interval({low: values.low[i], high: values.high[i]}, MEASURES[measure].unit)}` : "")
+        + (key !== "curve" && known(reference?.mean[i]) ? `<br>${percent(values.mean[i] / reference.mean[i] - 1)} of the measured curve` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>p</i> = ${quantity(point.pressure[i], "Pa", 3)}`)});
+    })].sort((a, b) => Number(b.mode === "none") - Number(a.mode === "none"))}),
+  };
+  const figure = addFigure(parent, spec);
+
+  const deviation = damping.deviation?.deviation?.bem;
+  if (!deviation?.mean.some(known)) return;
+  const law = plainText(routes(point).law.label);
+  addFigure(parent, {
+    id: "damping-deviation", title: `How far ${law.split(",")[0]} is off`, height: 300,
+    alt: () => `Deviation of ${law} from the damping of the measured curve, by force: from ${percent(Math.min(...deviation.mean.filter(known)))} to ${percent(Math.max(...deviation.mean.filter(known)))}.`,
+    caption: `${law} over the measured curve of the same boundary elements, less 1. Where the two differ, the curve is right: it needs no law and holds at any amplitude.`,
+    axes: {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {label: "deviation", fixed: true, percent: true, layout: {zeroline: true, zerolinecolor: color("line"), zerolinewidth: 1.5}}},
+    columns: () => [{label: "force", key: "force", unit: "N", values: force}, ...estimateColumns("deviation", "deviation", "1", deviation)],
+    plot: () => ({series: band("deviation", force, deviation, {color: "vermilion", symbol: "square", dash: "solid"},
+      {text: force.map((value, i) => `${percent(deviation.mean[i], 3)}` + (known(deviation.low?.[i]) ? `<br>95 %: ${percent(deviation.low[i])} … ${percent(deviation.high[i])}` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>ū</i> = ${number(point.curve?.mean_gap?.bem?.mean[i] / f.rms, 3)} <i>h</i><sub>rms</sub>`)})}),
+  });
+}
+
+/** Every model's own damping curve over that of the boundary elements. */
+function dampingRatioFigure(parent, point) {
+  const ratios = point.over_bem?.curve_work_per_cycle;
+  const models = point.models.filter((m) => m.name !== "bem" && ratios?.[m.name]?.mean.some(known));
+  if (!models.length) return;
+  const force = point.damping.force;
+  addFigure(parent, {
+    id: "damping-models", title: "Damping by other contact models", height: 360,
+    alt: () => `Damping of each model's curve over that of boundary elements on the same surfaces, by force: ${models.map((m) => `${m.title} from ${number(Math.min(...ratios[m.name].mean.filter(known)), 2)} to ${number(Math.max(...ratios[m.name].mean.filter(known)), 2)}`).join("; ")}.`,
+    caption: "Damping of each model's own curve over that of boundary elements on the same surfaces, at the same force: what a model that needs no boundary elements costs in the end.",
+    axes: {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {label: "over boundary elements", short: "ratio", unit: "1", log: true}},
+    columns: () => [{label: "force", key: "force", unit: "N", values: force}, ...models.flatMap((m) => estimateColumns(m.title, `${m.name}_ratio`, "1", ratios[m.name]))],
+    plot: () => ({series: models.flatMap((m) => band(m.title, force, ratios[m.name], styleOf(m.name), {text: force.map((value, i) => `${escaped(m.title)}: ${number(ratios[m.name].mean[i], 3)}` + (known(ratios[m.name].low?.[i]) ? `<br>95 %: ${interval({low: ratios[m.name].low[i], high: ratios[m.name].high[i]}, "1")}` : "") + `<br><i>F</i> = ${quantity(value, "N")}`)})),
+      shapes: [{type: "line", xref: "paper", x0: 0, x1: 1, y0: 1, y1: 1, line: {color: color("line"), width: 1.5}}]}),
+  });
+}
+
+function convergenceFigure(parent, point) {
+  const convergence = point.convergence;
+  if (!convergence?.mean?.some(known)) return;
+  const last = convergence.mean.length - 1;
+  addFigure(parent, {
+    id: "convergence", title: "How the mean settled", height: 300,
+    alt: () => `Mean of l over rms height over the first surfaces: ${number(convergence.mean[last], 3)} after ${convergence.surfaces[last]} surfaces, 95 % interval ${interval({low: convergence.low[last], high: convergence.high[last]}, "1")}.`,
+    caption: "Mean of ‹l›/‹h›_{rms} of boundary elements over the first 2, 3, … surfaces, with its 95 % interval. A band that still wanders asks for more seeds.",
+    axes: {x: {label: "surfaces", unit: "1", log: false, fixed: true}, y: {label: "‹l›/‹h›_{rms}", unit: "1", log: false, fixed: true}},
+    columns: () => [{label: "surfaces", key: "surfaces", unit: "1", values: convergence.surfaces}, ...estimateColumns("‹l›/‹h›_{rms}", "decay_length_over_rms_height", "1", convergence)],
+    plot: () => ({series: band("mean", convergence.surfaces, convergence, {color: "blue", symbol: "circle", dash: "solid"}, {text: convergence.surfaces.map((n, i) => `${n} surfaces: ${number(convergence.mean[i], 4)}<br>95 %: ${interval({low: convergence.low[i], high: convergence.high[i]}, "1")}`)})}),
+  });
+}
+
+/** The points of a parameter grid side by side. */
+function overviewFigure(parent, data) {
+  const ratio = data.overview?.decay_length_over_rms_height;
+  if (!ratio?.mean) return;
+  const names = data.points.map((_, i) => data.names[i] || `point ${i + 1}`), places = names.map((_, i) => i + 1);
+  const bars = ratio.mean.map((m, i) => [known(ratio.high?.[i]) ? ratio.high[i] - m : 0, known(ratio.low?.[i]) ? m - ratio.low[i] : 0]);
+  addFigure(parent, {
+    id: "overview", title: "The points of the parameter grid", height: 340,
+    alt: () => `l over rms height at each point: ${names.map((n, i) => `${n}: ${number(ratio.mean[i], 3)}`).join("; ")}.`,
+    caption: "‹l›/‹h›_{rms} of boundary elements at each point, with 95 % intervals. Choose a point above to see all of it.",
+    axes: {x: {label: "point", fixed: true, layout: {tickvals: places, ticktext: places.map(String)}}, y: {label: "‹l›/‹h›_{rms}", unit: "1", log: false, fixed: true}},
+    columns: () => [{label: "point", key: "point", values: names}, ...estimateColumns("‹l›/‹h›_{rms}", "decay_length_over_rms_height", "1", ratio), ...(data.overview.area_slope ? estimateColumns("area slope κ", "area_slope", "1", data.overview.area_slope) : [])],
+    plot: () => ({series: [{label: "l/h", x: places, y: ratio.mean, mode: "markers", marker: {size: 8, color: color("blue")}, error_y: {type: "data", symmetric: false, array: bars.map((b) => b[0]), arrayminus: bars.map((b) => b[1]), color: color("blue"), thickness: 1.5, width: 4},
+      text: names.map((n, i) => `${escaped(n)}<br><i>l</i>/<i>h</i><sub>rms</sub> = ${number(ratio.mean[i], 3)}<br>95 %: ${interval({low: ratio.low?.[i], high: ratio.high?.[i]}, "1")}`)}]}),
+  });
+}

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One figure: its plot, legend, switches, CSV and table, and what a screen reader is told of it.
+"use strict";
+
+const dark = matchMedia("(prefers-color-scheme: dark)");
+const printing = matchMedia("print");
+const drawn = [];  // every figure on the page, drawn when all have their places, and again when colours change
+
+/** A colour of report.css. */
+const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+
+/** The same with an opacity; colours of report.css are #rrggbb. */
+function faint(name, opacity) {
+  const value = parseInt(color(name).slice(1), 16);
+  return `rgba(${value >> 16}, ${(value >> 8) & 255}, ${value & 255}, ${opacity})`;
+}
+
+const MODEL_STYLES = {
+  bem: {color: "blue", symbol: "circle", dash: "solid"},
+  gw_moments: {color: "vermilion", symbol: "square", dash: "solid"},
+  gw_deterministic: {color: "green", symbol: "diamond", dash: "solid"},
+  gw_monte_carlo: {color: "purple", symbol: "triangle-up", dash: "dot"},
+  gw_interacting: {color: "ochre", symbol: "cross", dash: "dash"},
+  persson: {color: "slate", symbol: "x", dash: "longdashdot"},
+};
+const styleOf = (model) => MODEL_STYLES[model] ?? {color: "ink", symbol: "circle-open", dash: "dashdot"};
+
+/** A curve with markers; `band` fills between low and high. Values are in SI, axes scale them. */
+const axisFont = () => ({family: getComputedStyle(document.body).fontFamily, size: 13, color: color("ink")});
+
+/**
+ * spec  {id, title, caption, alt, height?, columns, axes: {x: {label, unit, log, fixed?}, y: …, y2?}, controls?, square?, plot(tools)}
+ *       axes      label without unit; log: how it starts; fixed: no switch; values: those that decide on its prefix
+ *       plot      returns {series, shapes?, annotations?, layout?}; a series is a plotly trace in SI units with {label, group?}
+ *       controls  elements that stand before the switches; they call figure.redraw()
+ */
+function addFigure(parent, spec) {
+  const state = {hidden: new Set()};
+  for (const [name, axis] of Object.entries(spec.axes)) state[name] = axis.log ? "log" : "linear";
+  const plot = h("div", {class: "plot", id: `${spec.id}-plot`, role: "img", "aria-label": plainText(spec.alt()), style: `height:${spec.height ?? 380}px`});
+  const legend = h("div", {class: "legend", role: "group", "aria-label": `Curves of ${plainText(spec.title)}: show or hide`});
+  const details = h("details", {}, h("summary", {}, "Numbers as a table"));
+  const switches = Object.entries(spec.axes).filter(([, axis]) => !axis.fixed).map(([name, axis]) =>
+    h("label", {class: "switch"},
+      h("input", {type: "checkbox", checked: state[name] === "log", "data-axis": name,
+        onchange: (event) => { state[name] = event.target.checked ? "log" : "linear"; figure.redraw(); }}),
+      h("span", {}, "log ", rich(axis.short ?? axis.label))));
+  const figure = {
+    element: h("figure", {id: spec.id, "aria-labelledby": `${spec.id}-title`},
+      h("h3", {id: `${spec.id}-title`}, rich(spec.title)),
+      h("div", {class: "tools"}, spec.controls ?? null, switches,
+        h("button", {type: "button", class: "csv", "aria-label": `Download the numbers of ${plainText(spec.title)} as CSV`,
+          onclick: () => {
+            download(`${spec.id}.csv`, "text/csv", csv((spec.csv ?? spec.columns)()));
+            document.getElementById("live").textContent = `${spec.id}.csv is downloaded`;
+          }}, "CSV")),
+      plot, legend, h("figcaption", {}, rich(typeof spec.caption === "function" ? spec.caption() : spec.caption)), details),
+    redraw() {
+      draw(spec, state, plot, legend, figure);
+      plot.setAttribute("aria-label", plainText(spec.alt()));
+      if (details.open) fill();
+    },
+    plot,
+  };
+  const fill = () => details.replaceChildren(details.firstChild, table(`Numbers of ${spec.title}`, spec.columns(), true));
+  details.addEventListener("toggle", () => { if (details.open) fill(); });
+  parent.append(figure.element);
+  drawn.push(figure);
+  return figure;
+}
+
+const scaled = (values, factor) => values.map((v) => (known(v) ? v * factor : null));
+
+/** Labels of a logarithmic axis: plain numbers while they are short, powers of ten only where there are many decades. */
+function logarithmicTicks(values) {
+  const there = values.filter((v) => known(v) && v > 0);
+  if (!there.length) return {};
+  const low = Math.log10(Math.min(...there)), high = Math.log10(Math.max(...there));
+  return {exponentformat: low > -3.5 && high < 4.5 ? "none" : "power", ...(high - low > 2.2 ? {dtick: 1} : high - low > 0.7 ? {dtick: "D2"} : {})};
+}
+
+function axisLayout(axis, mode, scale, values) {
+  const label = plotText(axis.label) + (scale.label ? ` (${plotText(scale.label)})` : "");
+  return {
+    type: mode, title: {text: label, standoff: 8}, automargin: true, gridcolor: color("grid"), linecolor: color("line"), zeroline: false,
+    showline: true, ticks: "outside", tickcolor: color("line"), ticklen: 4, exponentformat: "power", showexponent: "all", minexponent: 4,
+    minor: mode === "log" ? {showgrid: false, ticks: "outside", ticklen: 2, tickcolor: color("line")} : {},
+    ...(mode === "log" ? logarithmicTicks(values.map((v) => v * scale.factor)) : {}),
+    ...(axis.percent ? {tickformat: mode === "log" ? "~%" : ".0~%"} : {}),
+    ...(axis.layout ?? {}),
+  };
+}
+
+function draw(spec, state, plot, legend, figure) {
+  const content = spec.plot({state});
+  const all = (name) => content.series.filter((s) => (s[`${name[0]}axis`] ?? name[0]) === name && s.type !== "heatmap")
+    .flatMap((s) => Array.from(s[name[0]] ?? []));
+  const scales = {}, layout = {
+    paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", font: axisFont(), showlegend: false, hovermode: "closest",
+    margin: {l: 12, r: 14, t: 8, b: 12}, dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom", autosize: true,
+    hoverlabel: {bgcolor: color("raised"), bordercolor: color("line"), font: {...axisFont(), color: color("ink")}, align: "left"},
+    modebar: {bgcolor: "rgba(0,0,0,0)", color: color("muted"), activecolor: color("blue")},
+  };
+  for (const [name, axis] of Object.entries(spec.axes)) {
+    scales[name] = axis.unit === undefined ? {factor: 1, label: ""} : scaleFor(axis.values ? axis.values() : all(name), axis.unit);
+    layout[name[0] + "axis" + name.slice(1)] = axisLayout(axis, state[name], scales[name], axis.log === undefined ? [] : all(name));
+  }
+  const factorOf = (trace, letter) => scales[trace[`${letter}axis`] ?? letter].factor;
+  const traces = content.series.map((series) => {
+    const {label, group, ...trace} = series;
+    const hidden = state.hidden.has(group ?? label);
+    return {
+      ...trace, name: plotText(label ?? ""), visible: !hidden, x: scaled(Array.from(trace.x), factorOf(trace, "x")),
+      y: scaled(Array.from(trace.y), factorOf(trace, "y")), ...(trace.text ? {hovertemplate: "%{text}<extra></extra>", hoverinfo: "text"} : {}),
+    };
+  });
+  // Shapes and annotations name SI values too; plotly wants logarithms on a logarithmic axis for annotations only.
+  const place = (item, logarithms) => {
+    const moved = {...item};
+    for (const letter of ["x", "y"]) {
+      const reference = item[`${letter}ref`] ?? letter;
+      if (!(reference in scales)) continue;
+      for (const end of [letter, `${letter}0`, `${letter}1`]) {
+        if (moved[end] === undefined) continue;
+        moved[end] *= scales[reference].factor;
+        if (logarithms && state[reference] === "log") moved[end] = Math.log10(moved[end]);
+      }
+    }
+    return moved;
+  };
+  layout.shapes = (content.shapes ?? []).map((shape) => place(shape, false));
+  layout.annotations = (content.annotations ?? []).map((note) => place(note, true));
+  Object.assign(layout, content.layout?.(scales) ?? {});
+  for (const [name, extra] of Object.entries(content.axes ?? {})) Object.assign(layout[name], extra);
+  Plotly.react(plot, traces, layout, {responsive: true, displaylogo: false, displayModeBar: matchMedia("(pointer: coarse)").matches ? false : "hover", modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
+    toImageButtonOptions: {filename: spec.id, scale: 2}});
+  drawLegend(content.series, state, legend, figure);
+}
+
+/** Buttons, so that curves can be hidden by keyboard too; a curve's sample is drawn as the curve is. */
+function drawLegend(series, state, legend, figure) {
+  const entries = new Map();
+  for (const s of series) {
+    if (!s.label || s.quiet) continue;
+    const key = s.group ?? s.label;
+    if (!entries.has(key)) entries.set(key, s);
+  }
+  const focused = legend.contains(document.activeElement) ? document.activeElement.dataset.key : null;
+  legend.replaceChildren(...(entries.size < 2 ? [] : [...entries].map(([key, s]) => {
+    const dash = {solid: "none", dash: "6 3", dot: "2 3", dashdot: "6 3 2 3", longdashdot: "9 3 2 3", longdash: "9 3"}[s.line?.dash ?? "solid"];
+    const paint = s.line?.color ?? s.marker?.color ?? s.fillcolor;
+    const sample = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+    sample.setAttribute("viewBox", "0 0 28 10");
+    sample.setAttribute("aria-hidden", "true");
+    sample.innerHTML = s.mode === "none" ? `<rect x="0" y="0" width="28" height="10" rx="2"/>`
+      : (s.mode === "markers" ? "" : `<path d="M0 5H28" stroke-dasharray="${dash}"/>`) + (s.mode?.includes("markers") ? `<circle cx="14" cy="5" r="3.2"/>` : "");
+    sample.style.color = paint;
+    const button = h("button", {type: "button", "data-key": key, "aria-pressed": String(!state.hidden.has(key)),
+      onclick: () => {
+        if (!state.hidden.delete(key)) state.hidden.add(key);
+        figure.redraw();
+      }}, sample, h("span", {}, rich(s.label)));
+    if (key === focused) queueMicrotask(() => button.focus());
+    return button;
+  })));
+}
+
+function redrawAll() {
+  for (const figure of drawn) figure.redraw();
+}
+dark.addEventListener("change", redrawAll);
+printing.addEventListener("change", () => {
+  for (const figure of drawn) Plotly.Plots.resize(figure.plot);
+  redrawAll();
+});
+
+// Building blocks of plots.
+
+/** Mean with its band: {mean, low, high} over x. */
+function band(label, x, estimate, style, more = {}) {
+  const series = [];
+  const inside = x.map((_, i) => i).filter((i) => known(estimate.low?.[i]) && known(estimate.high?.[i]));
+  if (inside.length > 1) {
+    const there = inside, back = [...inside].reverse();
+    series.push({label, group: label, quiet: true, x: [...there, ...back].map((i) => x[i]),
+      y: [...there.map((i) => estimate.high[i]), ...back.map((i) => estimate.low[i])],
+      fill: "toself", mode: "none", type: "scatter", fillcolor: faint(style.color, 0.18), hoverinfo: "skip", ...more.both});
+  }
+  series.push({label, group: label, x, y: estimate.mean, type: "scatter", mode: more.markers === false ? "lines" : "lines+markers",
+    line: {color: color(style.color), width: 2, dash: style.dash}, marker: {symbol: style.symbol, size: 6, color: color(style.color)},
+    text: more.text, ...more.both});
+  return series;
+}
+
+/** Columns mean, low and high of an estimate, those that it has. */
+function estimateColumns(label, key, unit, estimate) {
+  const columns = [{label, key, unit, values: estimate.mean}];
+  if (estimate.low?.some(known)) {
+    columns.push({label: `${label}, low`, key: `${key}_low`, unit, values: estimate.low},
+      {label: `${label}, high`, key: `${key}_high`, unit, values: estimate.high});
+  }
+  return columns;
+}
+
+/** The numbers of a map, which come as base64. */
+function decoded(text, Type) {
+  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  return new Type(bytes.buffer);
+}
+
+/** Columns of the map for plotly: z[iy][ix] out of values (ix, iy), y contiguous. */
+function matrix(values, nx, ny, value) {
+  return Array.from({length: ny}, (_, iy) => Array.from({length: nx}, (_unused, ix) => value(values[ix * ny + iy])));
+}

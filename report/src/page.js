@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page: conclusion first, then section by section what it rests on.
+"use strict";
+
+const data = JSON.parse(document.getElementById("data").textContent);
+
+/** A section with its heading; build() fills it. What the file lacks is named in its place. */
+function section(parent, id, title, intro, build) {
+  const body = h("div", {class: "figures"});
+  const element = h("section", {id, "aria-labelledby": `${id}-heading`}, h("h2", {id: `${id}-heading`}, title), intro ? h("p", {class: "intro"}, rich(intro)) : null, body);
+  parent.append(element);
+  build(body, element);
+  return element;
+}
+
+const absent = (what) => h("p", {class: "absent"}, `This results file does not hold ${what}; a newer salebra study writes it.`);
+
+const finding = (title, value, detail, more) => h("div", {class: "finding"}, h("h3", {}, rich(title)), h("p", {class: "value"}, rich(value)), [detail].flat().filter(Boolean).map((line) => h("p", {class: "detail"}, rich(line))), more ? h("p", {class: "more"}, rich(more)) : null);
+
+/** The pressure in the middle of the fit's window for which the curve has a damping. */
+function representative(point, f) {
+  const curve = point.damping?.curve?.damping_constant?.bem?.mean ?? point.damping?.law?.damping_constant?.bem?.mean ?? [];
+  const middle = known(f.pressureMin) ? Math.log(f.pressureMin * f.pressureMax) / 2 : Math.log(point.pressure[Math.floor(point.pressure.length / 2)]);
+  let best = -1;
+  point.pressure.forEach((p, i) => { if (known(curve[i]) && (best < 0 || Math.abs(Math.log(p) - middle) < Math.abs(Math.log(point.pressure[best]) - middle))) best = i; });
+  return best;
+}
+
+/** Whether F ∝ exp(−ū/l) holds, in a sentence. */
+function lawVerdict(point, f) {
+  const fit = point.fit?.bem;
+  if (!fit?.decay_length_closest) return null;
+  const closest = mean(fit.decay_length_closest) / f.rms, farthest = mean(fit.decay_length_farthest) / f.rms;
+  if (!(closest > 0)) return null;
+  const many = fit.decay_length.length > 1, bend = point.fit.bend;
+  const refuted = many ? bend && (bend.low > 0 || bend.high < 0) : fit.significance?.[0] < 0.05;
+  const run = `Across its window the local ‹l› runs from ${number(closest, 2)} to ${number(farthest, 2)} ‹h›_{rms}`;
+  const size = bend ? `, a change of ${percent(bend.mean)}` + (many && known(bend.low) ? ` (95 %: ${percent(bend.low)} … ${percent(bend.high)})` : "") : "";
+  return {refuted, text: `${run}${size}. ` + (refuted ? "The exponential law is an approximation here; chance does not explain the bend." : "Chance may explain that: the exponential law is not refuted.")};
+}
+
+function conclusion(main, point) {
+  const f = facts(point), fit = point.fit?.models?.bem, damping = point.damping;
+  section(main, "conclusion", "What came out", null, (body, element) => {
+    body.className = "findings";
+    if (fit?.decay_length && known(fit.decay_length.mean)) {
+      body.append(finding("Force law", `‹F› ∝ exp(−‹ū›/‹l›)`, `‹l› = ${quantity(fit.decay_length.mean, "m", 3)}`, interval(fit.decay_length, "m") ? `95 %: ${interval(fit.decay_length, "m")}` : ""));
+      body.append(finding("Decay length", `${number(fit.decay_length_over_rms_height?.mean ?? fit.decay_length.mean / f.rms, 3)} ‹h›_{rms}`, fit.decay_length_over_rms_height && interval(fit.decay_length_over_rms_height, "1") ? `95 %: ${interval(fit.decay_length_over_rms_height, "1")}` : "", `‹h›_{rms} = ${quantity(f.rms, "m", 3)}`));
+    } else {
+      body.append(absent("a fitted force law"));
+    }
+    const i = damping ? representative(point, f) : -1;
+    if (i >= 0) {
+      const curve = damping.curve?.damping_constant?.bem, law = damping.law?.damping_constant?.bem;
+      const shown = known(curve?.mean[i]) ? curve : law;
+      const limits = interval({low: shown.low?.[i], high: shown.high?.[i]}, "N s/m");
+      const lawName = isDrag(point) ? "Eq. (16)" : "Eq. (12)";
+      body.append(finding("Damping constant", quantity(shown.mean[i], "N s/m", 3), [limits ? `95 %: ${limits}` : "", `at ‹F› = ${quantity(damping.force[i], "N", 3)}, ‹p› = ${quantity(point.pressure[i], "Pa", 3)}`],
+        known(curve?.mean[i]) && known(law?.mean[i]) ? `${lawName} gives ${quantity(law.mean[i], "N s/m", 3)}, ${percent(law.mean[i] / curve.mean[i] - 1)}` : ""));
+    }
+    const verdict = lawVerdict(point, f);
+    if (verdict) element.append(h("p", {class: "verdict"}, h("strong", {}, verdict.refuted ? "The law is approximate. " : "The law holds as far as can be seen. "), rich(verdict.text)));
+    if (damping) element.append(h("p", {class: "verdict"}, h("strong", {}, "Motion. "), describeMotion(damping)[0].toUpperCase() + describeMotion(damping).slice(1) + "."));
+    element.append(h("p", {class: "verdict"}, h("strong", {}, "Intervals. "), `${point.fit?.interval_method ?? "95 %"}.`));
+    const warnings = warningsOf(point, f);
+    element.append(h("div", {class: "warnings", role: "region", "aria-label": "Warnings"},
+      h("h3", {}, warnings.length ? "Mind" : "No warnings"), warnings.length ? h("ul", {}, warnings.map((text) => h("li", {}, text))) : h("p", {}, "The study raised none.")));
+  });
+}
+
+function warningsOf(point) {
+  const lines = (text) => (text ?? "").split("\n").filter((line) => line.trim());
+  const capital = (text) => text[0].toUpperCase() + text.slice(1) + (text.endsWith(".") ? "" : ".");
+  const flags = lines(point.surface?.flags).map((line) => capital(line.replace(/^[a-z_]+: /, "")));
+  const warnings = [...lines(point.surface?.warnings).map(capital), ...flags];
+  const deviation = (point.damping?.deviation?.deviation?.bem?.mean ?? []).filter(known);
+  const law = isDrag(point) ? "Eq. (16)" : "Eq. (12)";
+  if (deviation.some((d) => Math.abs(d) > 0.1))
+    warnings.push(`${law} with the fitted decay length is between ${percent(Math.min(...deviation))} and ${percent(Math.max(...deviation))} off the damping of the computed curve; where they differ, the curve is right.`);
+  return warnings;
+}
+
+const STATISTICS = {rms_height: "rms height ‹h›_{rms}", rms_slope: "rms slope ‹h›′", skewness: "skewness", kurtosis: "kurtosis (Gaussian: 3)", nayak: "Nayak’s α = ‹m›_{0}‹m›_{4}/‹m›_{2}^{2}",
+  moment0: "spectral moment ‹m›_{0}", moment2: "‹m›_{2}, of a profile", moment4: "‹m›_{4}, of a profile", density: "summits per area", mean_radius: "mean radius of summits", summit_rms: "rms of summit heights"};
+
+function surfaceTable(point) {
+  const statistics = point.surface?.statistics;
+  if (!statistics) return absent("statistics of its surfaces");
+  const many = statistics.some((s) => known(s.low));
+  return h("div", {class: "scroll card", tabindex: "0", role: "region", "aria-label": "Statistics of the surfaces"}, h("table", {},
+    h("caption", {}, many ? "Statistics, means over the surfaces" : "Statistics of the surface"),
+    h("thead", {}, h("tr", {}, h("th", {scope: "col"}, "quantity"), h("th", {scope: "col"}, "value"), many ? h("th", {scope: "col"}, "95 % interval") : null)),
+    h("tbody", {}, statistics.map((s) => h("tr", {}, h("th", {scope: "row"}, rich(STATISTICS[s.name] ?? s.title)), h("td", {class: "number"}, quantity(s.mean, s.unit)), many ? h("td", {class: "number"}, interval(s, s.unit) || "–") : null)))));
+}
+
+function settings(main, point) {
+  section(main, "settings", "Settings and provenance", null, (body) => {
+    body.className = "";
+    const provenance = data.provenance ?? {}, surface = point.surface ?? {};
+    const seeds = (surface.seed ?? []).filter((s) => s !== 0);
+    const entries = [["Results file", data.results], ["Command", provenance.command_line, "code"], ["Made", provenance.created?.replace("T", " ").replace("Z", " UTC")], ["Program", provenance.version ? `${provenance.program ?? "salebra"} ${provenance.version}; report by salebra ${data.report_version}` : null],
+      ["Libraries", provenance.libraries], ["Surface", point.picture?.origin], ["Seeds", seeds.length ? seedText(seeds) : null], ["Tangential stiffness", point.damping?.tangential_stiffness], ["E*, G*/E*", point.damping ? `${quantity(point.damping.contact_modulus, "Pa")}, ${number(point.damping.modulus_ratio)}` : null]];
+    body.append(h("dl", {}, entries.filter(([, text]) => text).map(([name, text, tag]) => h("div", {}, h("dt", {}, name), h("dd", {}, tag ? h(tag, {}, text) : text)))));
+    if (provenance.configuration?.trim()) body.append(h("details", {open: true}, h("summary", {}, "Configuration, as it was read"), h("pre", {tabindex: "0", role: "region", "aria-label": "Configuration"}, provenance.configuration)));
+  });
+}
+
+/** 1 … 8 for a run of seeds, else the list, cut where it is long. */
+function seedText(seeds) {
+  if (seeds.length > 2 && seeds.every((s, i) => s === seeds[0] + i)) return `${seeds[0]} … ${seeds.at(-1)} (${seeds.length})`;
+  return seeds.slice(0, 40).join(", ") + (seeds.length > 40 ? ` … (${seeds.length})` : "");
+}
+
+function heading(point) {
+  const surface = point.surface ?? {}, count = surface.realisations ?? 1;
+  // A measured surface has no seed, and its file says more than any heading.
+  const file = count === 1 && !surface.seed?.[0] ? point.picture?.origin?.split("/").at(-1) : "";
+  const title = data.title || (file ? `Contact and damping of ${file}` : "") || (count > 1 ? `Contact and damping of ${count} rough surfaces` : "Contact and damping of a rough surface");
+  const size = surface.nx ? `${count > 1 ? `${count} surfaces` : "1 surface"}, ${surface.nx} × ${surface.ny} points on ${quantity(surface.size_x, "m")} × ${quantity(surface.size_y, "m")}` : "";
+  document.getElementById("head").replaceChildren(h("p", {class: "brand"}, "salebra report"), h("h1", {}, title), h("p", {class: "subtitle"}, [size, data.results, data.provenance?.created?.slice(0, 10)].filter(Boolean).join(" · ")),
+    h("nav", {"aria-label": "Sections"}, h("ul", {}, [["conclusion", "Conclusion"], ["surface", "Surface"], ["law", "Force law"], ["contact", "Contact"], ["models", "Models"], ["damping", "Damping"], ["settings", "Settings"]].map(([id, text]) => h("li", {}, h("a", {href: `#${id}`}, text))))));
+}
+
+function show(index) {
+  const point = data.points[index], main = document.getElementById("main");
+  for (const figure of drawn.splice(0)) Plotly.purge(figure.plot);
+  heading(point);
+  main.replaceChildren();
+  if (data.points.length > 1) {
+    const chooser = h("select", {id: "point", onchange: (event) => show(Number(event.target.value))}, data.points.map((_, i) => h("option", {value: i, selected: i === index}, data.names?.[i] || `point ${i + 1}`)));
+    section(main, "grid", "Parameter grid", null, (body, element) => {
+      element.insertBefore(h("label", {class: "choice", for: "point"}, "Point shown below ", chooser), body);
+      overviewFigure(body, data);
+    });
+  }
+  conclusion(main, point);
+  section(main, "surface", "The surface", null, (body) => {
+    if (point.picture) {
+      heightMap(body, point);
+      spectrumFigure(body, point);
+      distributionFigure(body, point);
+    } else {
+      body.append(absent("a map, the spectrum and the height distribution of its surface"));
+    }
+    body.append(surfaceTable(point));
+  });
+  section(main, "law", "Force against mean gap", null, (body) => {
+    if (!point.curve?.mean_gap?.bem) return void body.append(absent("the force–gap curve of boundary elements"));
+    forceGapFigure(body, point);
+    localLengthFigure(body, point);
+  });
+  section(main, "contact", "Contact", null, (body) => {
+    if (point.picture?.first_load) contactMap(body, point);
+    else body.append(absent("a contact map"));
+    spotsFigure(body, point);
+  });
+  section(main, "models", "Models side by side", "Boundary elements and Greenwood–Williamson’s summits on the same surfaces, with closed theories.", (body, element) => {
+    const summary = modelTable(point);
+    if (summary) element.insertBefore(summary, body);
+    modelFigures(body, point);
+  });
+  section(main, "damping", "Damping", null, (body) => {
+    if (!point.damping) return void body.append(absent("damping"));
+    dampingFigure(body, point);
+    dampingRatioFigure(body, point);
+  });
+  if (point.convergence) section(main, "ensemble", "How many surfaces", null, (body) => convergenceFigure(body, point));
+  settings(main, point);
+  redrawAll();
+}
+
+document.getElementById("foot").append(h("p", {}, "Popov, Popov, Pohrt: ", h("i", {}, "Relaxation damping in oscillating contacts"), ", Sci. Rep. 5, 16189 (2015), ", h("a", {href: "https://doi.org/10.1038/srep16189", rel: "noreferrer"}, "doi:10.1038/srep16189"),
+  ". Drawn with plotly.js, MIT licence. This page loads nothing from anywhere."));
+if (typeof Plotly === "undefined") throw new Error("plotly.js is not in this page");
+show(0);

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Figures of the surface and of where it touches.
+"use strict";
+
+const MAP_NOTE = (picture) => picture.stride > 1 ? ` Every ${number(picture.stride)}th point along either axis is shown.` : "";
+
+/** Axes of a map: position along x and y, a metre as long along both. */
+function mapAxes(picture) {
+  const x = Array.from({length: picture.nx}, (_, i) => i * picture.step_x);
+  const y = Array.from({length: picture.ny}, (_, i) => i * picture.step_y);
+  return {x, y, axes: {
+    x: {label: "‹x›", unit: "m", fixed: true, values: () => x, layout: {constrain: "domain", showgrid: false}},
+    y: {label: "‹y›", unit: "m", fixed: true, values: () => y, layout: {scaleanchor: "x", constrain: "domain", constraintoward: "top", showgrid: false}}}};
+}
+
+const mapHeight = () => Math.round(Math.min(460, document.getElementById("main").clientWidth - 40));
+
+function mapColumns(picture, {x, y}, key, unit, values) {
+  const columns = [{key: "x", unit: "m", values: []}, {key: "y", unit: "m", values: []}, {key, unit, values: []}];
+  for (let ix = 0; ix < picture.nx; ++ix)
+    for (let iy = 0; iy < picture.ny; ++iy) {
+      columns[0].values.push(Number(x[ix].toPrecision(7)));
+      columns[1].values.push(Number(y[iy].toPrecision(7)));
+      columns[2].values.push(values[ix * picture.ny + iy]);
+    }
+  return columns;
+}
+
+function quantiles(values) {
+  const sorted = Float32Array.from(values).sort();
+  return (share) => sorted[Math.min(sorted.length - 1, Math.round(share * (sorted.length - 1)))];
+}
+
+function heightMap(parent, point) {
+  const picture = point.picture, place = mapAxes(picture);
+  const heights = decoded(picture.heights, Float32Array);
+  const at = quantiles(heights), shares = [0, 0.01, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99, 1];
+  const scale = scaleFor([at(0), at(1)], "m");
+  const z = matrix(heights, picture.nx, picture.ny, (v) => v * scale.factor);
+  const which = point.surface?.realisations > 1 ? "the first surface" : "the surface";
+  addFigure(parent, {
+    id: "height-map", title: "Heights", axes: place.axes, height: mapHeight(),
+    alt: () => `Map of the heights of ${which}, ${quantity(point.surface?.size_x, "m")} by ${quantity(point.surface?.size_y, "m")}: from ${quantity(at(0), "m", 3)} to ${quantity(at(1), "m", 3)} about the mean, half of the points between ${quantity(at(0.25), "m", 3)} and ${quantity(at(0.75), "m", 3)}.`,
+    caption: `Height of ${which} above its mean; hills are bright.${MAP_NOTE(picture)}`,
+    columns: () => [{label: "share of the points below", key: "share", unit: "1", values: shares}, {label: "height", key: "height", unit: "m", values: shares.map((s) => Number(at(s).toPrecision(7))), digits: 3}],
+    csv: () => mapColumns(picture, place, "height", "m", Array.from(heights, (v) => Number(v.toPrecision(7)))),
+    plot: () => ({series: [{type: "heatmap", x: place.x, y: place.y, z, colorscale: "Viridis", zmin: at(0.001) * scale.factor, zmax: at(0.999) * scale.factor,
+      colorbar: {title: {text: `height (${scale.label})`, side: "right"}, thickness: 12, outlinewidth: 0, len: 0.95},
+      hovertemplate: `<i>x</i> = %{x:.4~g}, <i>y</i> = %{y:.4~g}<br>height %{z:.4~g} ${scale.label}<extra></extra>`}]}),
+  });
+}
+
+function spectrumFigure(parent, point) {
+  const picture = point.picture;
+  const hurst = known(picture.hurst)
+    ? `The power law that the spectrum itself shows has ‹H› = ${number(picture.hurst, 3)} (95 %: ${number(picture.hurst_low, 3)} … ${number(picture.hurst_high, 3)}).`
+    : "The spectrum shows no self-affine range.";
+  const law = picture.law === "asked for" ? "law asked for" : "fitted power law, ‹C› ∝ ‹q›^{−2(1+H)}";
+  addFigure(parent, {
+    id: "spectrum", title: "Power spectral density",
+    alt: () => `Power spectral density against wave number, both logarithmic, from ${number(Math.min(...picture.wavenumber), 3)} to ${number(Math.max(...picture.wavenumber), 3)} rad/m. ${plainText(hurst)}`,
+    caption: `‹C›(‹q›), mean over rings of wave vectors; ‹h›_{rms}² is its integral over the plane. ${hurst} Wavelengths are 2π/‹q›.`,
+    axes: {x: {label: "wave number ‹q›", short: "‹q›", unit: "rad/m", log: true}, y: {label: "‹C›", unit: "m^4", log: true}},
+    columns: () => [{label: "wave number", key: "wavenumber", unit: "rad/m", values: picture.wavenumber}, {label: "‹C›", key: "density", unit: "m^4", values: picture.density},
+      {label: picture.law === "asked for" ? "‹C› asked for" : "‹C› of the fit", key: "law_density", unit: "m^4", values: picture.law_density}],
+    plot: () => {
+      // Beyond the shortest wave there is nothing but rounding.
+      const seen = picture.density.map((_, i) => i).filter((i) => picture.density[i] > Math.max(...picture.density) * 1e-13);
+      return {series: [
+        {label: "this surface", x: seen.map((i) => picture.wavenumber[i]), y: seen.map((i) => picture.density[i]), mode: "lines+markers", line: {color: color("blue"), width: 1.5}, marker: {size: 5, color: color("blue")},
+          text: seen.map((i) => `<i>q</i> = ${number(picture.wavenumber[i], 3)} rad/m, wavelength ${quantity(2 * Math.PI / picture.wavenumber[i], "m", 3)}<br><i>C</i> = ${number(picture.density[i], 3)} m⁴`)},
+        ...(picture.law ? [{label: law, x: picture.wavenumber.filter((_, i) => known(picture.law_density[i])), y: picture.law_density.filter(known), mode: "lines", line: {color: color("vermilion"), width: 2, dash: "dash"}, hoverinfo: "skip"}] : [])]};
+    },
+  });
+}
+
+function distributionFigure(parent, point) {
+  const picture = point.picture;
+  if (!picture.height?.length) return;
+  const width = picture.height.length > 1 ? picture.height[1] - picture.height[0] : 1;
+  const moment = (n) => picture.height.reduce((sum, z, i) => sum + z ** n * picture.height_density[i] * width, 0);
+  const rms = Math.sqrt(moment(2));
+  const gauss = picture.height.map((z) => Math.exp(-((z / rms) ** 2) / 2) / (rms * Math.sqrt(2 * Math.PI)));
+  addFigure(parent, {
+    id: "distribution", title: "Distribution of heights",
+    alt: () => `Histogram of the heights beside a Gaussian of the same rms height, ${quantity(rms, "m", 3)}.`,
+    caption: "Share of the points for each height, beside a Gaussian of the same rms height. Contact is made by the upper tail: the right end decides, best seen with a logarithmic axis.",
+    axes: {x: {label: "height above the mean", unit: "m", fixed: true}, y: {label: "density", unit: "1/m", log: false}},
+    columns: () => [{label: "height", key: "height", unit: "m", values: picture.height}, {label: "density", key: "density", unit: "1/m", values: picture.height_density}, {label: "Gaussian", key: "gaussian", unit: "1/m", values: gauss}],
+    plot: ({state}) => ({series: [
+      {label: "this surface", x: picture.height, y: picture.height_density, mode: "lines", line: {color: color("blue"), width: 2, shape: "hvh"},
+        text: picture.height.map((z, i) => `height ${quantity(z, "m", 3)} = ${number(z / rms, 3)} <i>h</i><sub>rms</sub><br>${number(100 * picture.height_density[i] * width, 3)} % of the points in this bin`)},
+      {label: "Gaussian", x: picture.height, y: gauss, mode: "lines", line: {color: color("vermilion"), width: 2, dash: "dash"}, hoverinfo: "skip"}],
+    axes: state.y === "log" ? {yaxis: {range: undefined}} : {yaxis: {rangemode: "tozero"}}}),
+  });
+}
+
+/** Which points touch, load by load: contacts of growing load are nested, so that one map holds them all. */
+function contactMap(parent, point) {
+  const picture = point.picture, place = mapAxes(picture), pressures = point.pressure;
+  const loads = decoded(picture.first_load, Int16Array);
+  const counts = new Array(pressures.length).fill(0);
+  for (const load of loads) if (load >= 0 && load < counts.length) ++counts[load];
+  const shares = counts.map((_, k) => counts.slice(0, k + 1).reduce((a, b) => a + b, 0) / loads.length);
+  let shown = Math.max(0, shares.findIndex((share) => share > 0.05));
+  if (!shares.some((share) => share > 0.05)) shown = pressures.length - 1;
+  const words = () => `${quantity(pressures[shown], "Pa", 3)}: ${number(100 * shares[shown], 3)}${NARROW}% in contact`;
+  const output = h("output", {for: "contact-load"}, words());
+  const slider = h("input", {type: "range", id: "contact-load", min: 0, max: pressures.length - 1, step: 1, value: shown, "aria-valuetext": words(),
+    oninput: (event) => {
+      shown = Number(event.target.value);
+      output.textContent = words();
+      event.target.setAttribute("aria-valuetext", words());
+      cancelAnimationFrame(slider.pending);
+      slider.pending = requestAnimationFrame(() => figure.redraw());
+    }});
+  const scale = scaleFor([pressures[Math.floor(pressures.length / 2)]], "Pa");
+  const names = pressures.map((p) => quantity(p, "Pa", 3));
+  const firstTouch = matrix(loads, picture.nx, picture.ny, (load) => (load >= 0 ? names[load] : ""));
+  const tick = (k) => number(pressures[k] * scale.factor, 2);
+  const figure = addFigure(parent, {
+    id: "contact-map", title: "Contact map", axes: place.axes, height: mapHeight(),
+    controls: h("label", {class: "slider", for: "contact-load"}, "Pressure ", slider, " ", output),
+    alt: () => `Map of the points in contact. At ${words()}; at ${quantity(pressures[0], "Pa", 3)} it is ${number(100 * shares[0], 3)} %, at ${quantity(pressures.at(-1), "Pa", 3)} ${number(100 * shares.at(-1), 3)} %.`,
+    caption: `Points in contact at the pressure chosen, by boundary elements; dark ones touched first. Contacts of growing pressure contain each other, which is what the damping without slip rests on.${MAP_NOTE(picture)}`,
+    columns: () => [{label: "pressure", key: "pressure", unit: "Pa", values: pressures}, {label: "share of the points in contact", key: "share", unit: "1", values: shares}],
+    csv: () => mapColumns(picture, place, "first_pressure", "Pa", Array.from(loads, (load) => (load < 0 ? null : pressures[load]))),
+    plot: () => {
+      const ticks = [0, 0.25, 0.5, 0.75, 1].map((share) => Math.round(share * (pressures.length - 1)));
+      return {series: [{type: "heatmap", x: place.x, y: place.y, z: matrix(loads, picture.nx, picture.ny, (load) => (load >= 0 && load <= shown ? load : null)),
+        zmin: 0, zmax: pressures.length - 1, colorscale: dark.matches && !printing.matches ? [[0, "#ffe08a"], [0.5, "#e8743b"], [1, "#5a2a83"]] : [[0, "#2a0a4a"], [0.5, "#c4473a"], [1, "#f6c667"]], hoverongaps: false,
+        customdata: firstTouch,
+        colorbar: {title: {text: `first touch at (${scale.label})`, side: "right"}, tickvals: ticks, ticktext: ticks.map(tick), thickness: 12, outlinewidth: 0, len: 0.95},
+        hovertemplate: "<i>x</i> = %{x:.4~g}, <i>y</i> = %{y:.4~g}<br>touches from %{customdata} on<extra></extra>"}],
+      layout: () => ({plot_bgcolor: color("sunken")})};
+    },
+  });
+}
+
+/** Number and size of the patches of contact. */
+function spotsFigure(parent, point) {
+  const spots = point.spots ?? {}, count = spots.spot_count;
+  if (!count?.mean.some(known)) return;
+  const sizes = [["mean_spot_area", "mean", {color: "green", symbol: "diamond", dash: "solid"}], ["largest_spot_area", "largest", {color: "vermilion", symbol: "square", dash: "solid"}]].filter(([key]) => spots[key]?.mean.some(known));
+  const last = point.pressure.length - 1;
+  addFigure(parent, {
+    id: "spots", title: "Contact spots", height: mapHeight(),
+    alt: () => `Number of contact spots and their areas against pressure: ${number(count.mean[0], 3)} spots at ${quantity(point.pressure[0], "Pa", 3)}, at most ${number(Math.max(...count.mean.filter(known)), 3)}, ${number(count.mean[last], 3)} at ${quantity(point.pressure[last], "Pa", 3)}.`,
+    caption: "Patches of neighbouring points in contact, by boundary elements: how many there are, above, and how large, below. A law of statistics needs many of them.",
+    axes: {x: {label: "pressure ‹p›", short: "‹p›", unit: "Pa", log: true}, y: {label: "spots", unit: "1", log: true, layout: {domain: [0.55, 1]}}, y2: {label: "area", unit: "m^2", log: true, layout: {domain: [0, 0.45]}}},
+    columns: () => [{label: "pressure", key: "pressure", unit: "Pa", values: point.pressure}, ...estimateColumns("spots", "spot_count", "1", count), ...sizes.flatMap(([key, label]) => estimateColumns(`${label} area`, key, "m^2", spots[key]))],
+    plot: () => ({axes: {xaxis: {anchor: "y2"}}, series: [
+      ...band("number of spots", point.pressure, count, {color: "blue", symbol: "circle", dash: "solid"}, {text: count.mean.map((n, i) => `${number(n, 3)} spots at ${quantity(point.pressure[i], "Pa", 3)}`)}),
+      ...sizes.flatMap(([key, label, style]) => band(`${label} area of a spot`, point.pressure, spots[key], style, {both: {yaxis: "y2"}, text: spots[key].mean.map((a, i) => `${label} area of a spot ${quantity(a, "m^2", 3)}<br>at ${quantity(point.pressure[i], "Pa", 3)}`)}))]}),
+  });
+}

@@ -1,0 +1,416 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "payload.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/base/quantity.hpp>
+#include <salebra/study/estimate.hpp>
+#include <salebra/study/realisation.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace salebra::detail {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Names = std::vector<std::string>;
+
+static_assert(std::endian::native == std::endian::little,
+              "maps are embedded as they are in memory");
+
+/// Seven digits, which is more than anyone reads off a figure and half as long as all of them.
+Json number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  const std::string text = fmt::format("{:.7g}", value);
+  double rounded = value;
+  std::from_chars(text.data(), text.data() + text.size(), rounded);
+  return rounded;
+}
+
+Json list(std::span<const double> values) {
+  Json json = Json::array();
+  for (const double value : values) json.push_back(number(value));
+  return json;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned group = 0;
+    for (std::size_t j = 0; j < 3; ++j)
+      group = group << 8 | (j < count ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+    for (std::size_t j = 0; j < 4; ++j)
+      text += j <= count ? digits[group >> (18 - 6 * j) & 63] : '=';
+  }
+  return text;
+}
+
+template <class T>
+std::string base64(const std::vector<T>& values) {
+  return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+}
+
+/// Realisations that are drawn one by one; more are only noise on a page.
+constexpr std::size_t most_single_curves = 24;
+/// Points of all maps of one report together.
+constexpr double map_budget = 512. * 512.;
+
+/// The groups of one study, or of one point of it, and the parts of the payload that are made of them.
+class Point {
+ public:
+  Point(const ResultReader& file, std::string where)
+      : file_(file),
+        where_(std::move(where)),
+        models_(file_.labels(where_ + "curve/model")),
+        pressures_(file_.numbers(where_ + "curve/pressure")) {}
+
+  Json payload(Index map_side) const {
+    Json json;
+    json["pressure"] = list(pressures_);
+    json["models"] = Json::array();
+    for (const std::string& model : models_)
+      json["models"].push_back({{"name", model}, {"title", title(model)}});
+    add(json, "surface", surface());
+    add(json, "picture", picture(map_side));
+    add(json, "curve",
+        by_model("curve/ensemble_", {"mean_gap", "separation", "contact_area_fraction",
+                                     "normal_stiffness", "tangential_stiffness"}));
+    add(json, "samples", samples());
+    add(json, "fit", fit());
+    add(json, "local", local());
+    add(json, "damping", damping());
+    add(json, "spots", spots());
+    add(json, "over_bem",
+        by_model("comparison/", {"mean_gap", "contact_area_fraction", "normal_stiffness",
+                                 "curve_work_per_cycle"}));
+    if (const auto surfaces = column("convergence/surfaces")) {
+      json["convergence"] =
+          estimate("convergence/decay_length_over_rms_height", 0, surfaces->size());
+      json["convergence"]["surfaces"] = list(*surfaces);
+    }
+    return json;
+  }
+
+ private:
+  static void add(Json& json, const char* key, Json part) {
+    if (!part.is_null() && !part.empty()) json[key] = std::move(part);
+  }
+
+  static std::string title(const std::string& model) {
+    const auto known = std::ranges::find_if(
+        study_models, [&](const StudyModel& item) { return name_of(item.model) == model; });
+    return known == study_models.end() ? model : known->title;
+  }
+
+  bool has(const std::string& name) const { return file_.has(where_ + name); }
+
+  std::optional<std::vector<double>> column(const std::string& name) const {
+    if (!has(name)) return {};
+    return file_.numbers(where_ + name);
+  }
+
+  /// count values from `first` on; refuses a dataset that is too short for them.
+  std::vector<double> part(const std::string& name, std::size_t first, std::size_t count) const {
+    const std::vector<double> values = file_.numbers(where_ + name);
+    if (first + count > values.size())
+      throw InvalidInput(fmt::format("{}: {} has {} values, {} are needed; the file is damaged",
+                                     file_.file().string(), where_ + name, values.size(),
+                                     first + count));
+    return {values.begin() + std::ptrdiff_t(first), values.begin() + std::ptrdiff_t(first + count)};
+  }
+
+  /// {mean, low, high} of NAME_mean and so on; null where the file has none.
+  Json estimate(const std::string& name, std::size_t first, std::size_t count) const {
+    Json json;
+    for (const char* member : {"mean", "low", "high"})
+      if (has(name + "_" + member)) json[member] = list(part(name + "_" + member, first, count));
+    return json;
+  }
+
+  /// The same with single numbers.
+  Json single(const std::string& name, std::size_t place) const {
+    Json json = estimate(name, place, 1);
+    for (auto& [member, values] : json.items()) values = Json(values[0]);
+    return json;
+  }
+
+  /// quantity → model → estimates over the pressures.
+  Json by_model(const std::string& prefix, const Names& quantities) const {
+    Json json;
+    for (const std::string& quantity : quantities)
+      for (std::size_t m = 0; m < models_.size(); ++m)
+        if (has(prefix + quantity + "_mean"))
+          json[quantity][models_[m]] =
+              estimate(prefix + quantity, m * pressures_.size(), pressures_.size());
+    return json;
+  }
+
+  std::size_t realisations() const {
+    const auto numbers = column("curve/realisation");
+    return numbers ? numbers->size() : 0;
+  }
+
+  std::size_t bem() const {
+    return std::size_t(std::ranges::find(models_, "bem") - models_.begin());
+  }
+
+  Json surface() const {
+    Json json;
+    for (const char* name : {"nx", "ny", "size_x", "size_y"})
+      if (const auto value = file_.number_attribute(where_ + "surface", name)) json[name] = *value;
+    for (const char* name : {"warnings", "flags"})
+      if (const auto text = file_.text_attribute(where_ + "surface", name)) json[name] = *text;
+    if (!has("surface/realisation")) return json;
+    json["realisations"] = column("surface/realisation")->size();
+    if (const auto seeds = column("surface/seed")) json["seed"] = *seeds;
+    Json& statistics = json["statistics"];
+    for (const char* name : {"rms_height", "rms_slope", "skewness", "kurtosis", "nayak", "moment0",
+                             "moment2", "moment4", "density", "mean_radius", "summit_rms"}) {
+      const auto values = column(std::string("surface/") + name);
+      if (!values) continue;
+      const Quantity quantity = find_quantity(name);
+      const EnsembleMean mean = bootstrap_.mean(*values);
+      statistics.push_back({{"name", name},
+                            {"title", quantity.long_name},
+                            {"unit", si_unit(quantity.dimension)},
+                            {"mean", number(mean.mean)},
+                            {"low", number(mean.low)},
+                            {"high", number(mean.high)}});
+    }
+    return json;
+  }
+
+  Json picture(Index map_side) const {
+    Json json;
+    if (!has("picture/heights")) return json;
+    const auto x = *column("picture/x"), y = *column("picture/y");
+    const auto rows = Index(x.size()), columns = Index(y.size());
+    const std::vector<double> heights = part("picture/heights", 0, x.size() * y.size());
+    const std::vector<double> loads = part("picture/first_load", 0, x.size() * y.size());
+    const Index stride = std::max<Index>(1, (std::max(rows, columns) + map_side - 1) / map_side);
+    std::vector<float> map;
+    std::vector<std::int16_t> first_load;
+    for (Index i = 0; i < rows; i += stride) {
+      for (Index j = 0; j < columns; j += stride) {
+        map.push_back(float(heights[std::size_t(i * columns + j)]));
+        first_load.push_back(std::int16_t(loads[std::size_t(i * columns + j)]));
+      }
+    }
+    json["nx"] = (rows + stride - 1) / stride;
+    json["ny"] = (columns + stride - 1) / stride;
+    json["step_x"] = number(rows > 1 ? double(stride) * (x[1] - x[0]) : 0);
+    json["step_y"] = number(columns > 1 ? double(stride) * (y[1] - y[0]) : 0);
+    json["stride"] =
+        double(stride) * file_.number_attribute(where_ + "picture", "stride").value_or(1);
+    json["heights"] = base64(map);
+    json["first_load"] = base64(first_load);
+    for (const char* name : {"origin", "law"})
+      json[name] = file_.text_attribute(where_ + "picture", name).value_or("");
+    for (const char* name : {"hurst", "hurst_low", "hurst_high"})
+      if (const auto value = file_.number_attribute(where_ + "picture", name))
+        json[name] = number(*value);
+    for (const char* name : {"wavenumber", "density", "law_density", "height", "height_density"})
+      if (const auto values = column(std::string("picture/") + name)) json[name] = list(*values);
+    return json;
+  }
+
+  /// Mean gap of the boundary elements, one row a surface; NaN where the contact did not converge.
+  Json samples() const {
+    Json json;
+    if (bem() == models_.size() || !has("curve/mean_gap")) return json;
+    const std::size_t count = realisations(), loads = pressures_.size();
+    const std::size_t first = bem() * count * loads;
+    const auto gaps = part("curve/mean_gap", first, count * loads);
+    const auto converged = part("curve/converged", first, count * loads);
+    for (std::size_t r = 0; r < std::min(count, most_single_curves); ++r) {
+      Json row = Json::array();
+      for (std::size_t k = r * loads; k < (r + 1) * loads; ++k)
+        row.push_back(converged[k] != 0 ? number(gaps[k]) : Json());
+      json.push_back(std::move(row));
+    }
+    return json;
+  }
+
+  /// A quantity of the boundary elements, one value a surface.
+  std::vector<double> bem_column(const std::string& name) const {
+    return part("fit/" + name, bem() * realisations(), realisations());
+  }
+
+  Json fit() const {
+    Json json;
+    if (!has("fit/decay_length") || bem() == models_.size()) return json;
+    json["interval_method"] = file_.text_attribute(where_ + "fit", "interval_method").value_or("");
+    for (std::size_t m = 0; m < models_.size(); ++m)
+      for (const char* name : {"decay_length", "decay_length_over_rms_height", "area_slope"})
+        if (has(std::string("fit/ensemble_") + name + "_mean"))
+          json["models"][models_[m]][name] = single(std::string("fit/ensemble_") + name, m);
+    for (const char* name : {"decay_length", "reference_pressure", "r_squared", "pressure_min",
+                             "pressure_max", "significance", "decay_length_min", "decay_length_max",
+                             "decay_length_closest", "decay_length_farthest"})
+      if (has(std::string("fit/") + name)) json["bem"][name] = list(bem_column(name));
+    if (!has("fit/decay_length_closest")) return json;
+    // As StudyResult::law_bend.
+    std::vector<double> bends = bem_column("decay_length_farthest");
+    const std::vector<double> closest = bem_column("decay_length_closest");
+    for (std::size_t r = 0; r < bends.size(); ++r) bends[r] = bends[r] / closest[r] - 1;
+    const EnsembleMean bend = bootstrap_.mean(bends);
+    json["bend"] = {
+        {"mean", number(bend.mean)}, {"low", number(bend.low)}, {"high", number(bend.high)}};
+    return json;
+  }
+
+  Json local() const {
+    Json json;
+    const auto midpoints = column("local/midpoint");
+    if (!midpoints || bem() == models_.size()) return json;
+    const std::size_t count = realisations(), points = midpoints->size();
+    for (const char* name : {"mean_gap", "decay_length"}) {
+      const auto values =
+          part(std::string("local/") + name, bem() * count * points, count * points);
+      for (std::size_t r = 0; r < std::min(count, most_single_curves); ++r)
+        json[name].push_back(list(std::span(values).subspan(r * points, points)));
+    }
+    return json;
+  }
+
+  Json damping() const {
+    Json json;
+    if (!has("damping/force")) return json;
+    json["force"] = list(part("damping/force", 0, pressures_.size()));
+    for (const char* route : {"law", "small", "curve"}) {
+      add(json, route,
+          by_model(std::string("damping/") + route + "_ensemble_",
+                   {"work_per_cycle", "damping_constant"}));
+    }
+    add(json, "deviation", by_model("damping/ensemble_", {"deviation"}));
+    for (const char* name : {"mode", "hold", "tangential_stiffness", "interval_method"})
+      if (const auto text = file_.text_attribute(where_ + "damping", name)) json[name] = *text;
+    for (const char* name : {"normal_amplitude", "angular_frequency", "drag_velocity",
+                             "tangential_amplitude", "phase", "modulus_ratio", "contact_modulus"})
+      if (const auto value = file_.number_attribute(where_ + "damping", name))
+        json[name] = number(*value);
+    return json;
+  }
+
+  Json spots() const {
+    Json json;
+    for (const char* name :
+         {"spot_count", "corrected_area_fraction", "largest_spot_area", "mean_spot_area"})
+      if (has(std::string("spots/ensemble_") + name + "_mean"))
+        json[name] = estimate(std::string("spots/ensemble_") + name, 0, pressures_.size());
+    return json;
+  }
+
+  const ResultReader& file_;
+  const std::string where_;
+  const Names models_;
+  const std::vector<double> pressures_;
+  const Bootstrap bootstrap_;
+};
+
+/// The parameters of each point of a grid, those that are the same for all left out.
+Names point_names(const ResultReader& file, std::size_t count) {
+  Names names(count);
+  for (const auto& [name, title] : {std::pair{"hurst", "H"},
+                                    {"rolloff", "roll-off"},
+                                    {"short_cutoff", "shortest wave"},
+                                    {"size_x", "size"},
+                                    {"nx", "points"}}) {
+    const std::string path = std::string("ensemble/") + name;
+    if (!file.has(path)) continue;
+    const std::vector<double> values = file.numbers(path);
+    if (values.size() != count ||
+        std::ranges::count(values, values.front()) == std::ptrdiff_t(count))
+      continue;
+    const Dimension dimension = find_quantity(name).dimension;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (std::isnan(values[i])) continue;
+      names[i] += fmt::format("{}{} = {}", names[i].empty() ? "" : ", ", title,
+                              format_quantity(values[i], dimension));
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+Json report_payload(const ResultReader& results) {
+  Names where;
+  if (results.has("curve/model")) {
+    where = {""};
+  } else if (results.has("points")) {
+    for (std::size_t i = 0; i < results.groups("points").size(); ++i)
+      where.push_back(fmt::format("points/{}/", i));
+  }
+  if (where.empty())
+    throw InvalidInput(results.file().string() +
+                       ": holds no study; give the result file of salebra study or compare");
+  Json json;
+  for (const char* name :
+       {"program", "version", "libraries", "created", "command_line", "configuration"})
+    if (const auto text = results.text_attribute("/", name)) json["provenance"][name] = *text;
+  if (where.size() > 1) {
+    const Names names = point_names(results, where.size());
+    json["names"] = names;
+    for (const char* name : {"decay_length_over_rms_height", "area_slope"}) {
+      for (const char* member : {"mean", "low", "high"}) {
+        const std::string path = fmt::format("ensemble/ensemble_{}_{}", name, member);
+        if (results.has(path)) json["overview"][name][member] = list(results.numbers(path));
+      }
+    }
+  }
+  const auto side = Index(std::sqrt(map_budget / double(where.size())));
+  json["points"] = Json::array();
+  for (const std::string& place : where)
+    json["points"].push_back(Point(results, place).payload(std::max<Index>(side, 32)));
+  return json;
+}
+
+void add_direct(Json& payload, const ResultReader& oscillation) {
+  const std::string file = oscillation.file().string();
+  if (payload["points"].size() != 1 || !payload["points"][0].contains("damping"))
+    throw InvalidInput(
+        file +
+        ": cannot stand beside these results; they hold no damping, or that of several points");
+  Json& damping = payload["points"][0]["damping"];
+  // A cycle in time steps passes its ends; levels of a quadrature lie a little within them.
+  const bool stepped = oscillation.has("cycle/indentation");
+  const std::string group = stepped ? "cycle" : "levels";
+  if (!oscillation.has(group + "/indentation") || !oscillation.has(group + "/force") ||
+      !oscillation.number_attribute(group, "work_per_cycle"))
+    throw InvalidInput(file + ": holds no oscillation; give the result file of salebra oscillate");
+  const std::vector<double> indentation = oscillation.numbers(group + "/indentation"),
+                            force = oscillation.numbers(group + "/force");
+  if (indentation.size() != force.size() || indentation.size() < 2)
+    throw InvalidInput(file + ": has forces that do not belong to its indentations; it is damaged");
+  const auto [low, high] = std::ranges::minmax(indentation);
+  const double amplitude = (high - low) / 2, middle = (high + low) / 2;
+  const double wanted = damping.value("normal_amplitude", ForceSample::unknown);
+  if (!(std::abs(amplitude / wanted - 1) < (stepped ? 0.02 : 0.2)))
+    throw InvalidInput(fmt::format(
+        "{}: oscillates by {}, the study by {}; give direct results of the study's motion", file,
+        format_quantity(amplitude, Dimension::length), format_quantity(wanted, Dimension::length)));
+  double mean_force = ForceSample::unknown;
+  for (std::size_t i = 1; i < force.size(); ++i) {
+    const double before = indentation[i - 1] - middle, after = indentation[i] - middle;
+    if (before * after > 0 || before == after) continue;
+    mean_force = force[i - 1] + (force[i] - force[i - 1]) * before / (before - after);
+    break;
+  }
+  damping["direct"].push_back(
+      {{"file", oscillation.file().filename().string()},
+       {"force", number(mean_force)},
+       {"work_per_cycle", number(*oscillation.number_attribute(group, "work_per_cycle"))}});
+}
+
+}  // namespace salebra::detail

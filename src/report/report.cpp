@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <salebra/base/error.hpp>
+#include <salebra/base/version.hpp>
+#include <salebra/io/text_file.hpp>
+#include <salebra/report/report.hpp>
+#include <string_view>
+
+#include "assets.hpp"
+#include "io/rehearsal.hpp"
+#include "payload.hpp"
+
+namespace salebra {
+namespace {
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char letter : text) {
+    switch (letter) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += letter;
+    }
+  }
+  return result;
+}
+
+/// JSON that may stand in a <script>: nothing in it can end the element or open a comment.
+std::string script_text(const nlohmann::ordered_json& json) {
+  const std::string text =
+      json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  std::string result;
+  result.reserve(text.size());
+  for (const char letter : text) {
+    if (letter == '<') {
+      result += "\\u003c";
+    } else {
+      result += letter;
+    }
+  }
+  return result;
+}
+
+/// The template with its {{places}} filled, in one pass: what is put in is not searched again.
+std::string filled(std::string_view page,
+                   const std::vector<std::pair<std::string_view, std::string_view>>& places) {
+  std::string result;
+  while (true) {
+    const std::size_t begin = page.find("{{");
+    result += page.substr(0, begin);
+    if (begin == std::string_view::npos) return result;
+    const std::size_t end = page.find("}}", begin);
+    const std::string_view name = page.substr(begin + 2, end - begin - 2);
+    for (const auto& [place, content] : places)
+      if (place == name) result += content;
+    page.remove_prefix(end + 2);
+  }
+}
+
+}  // namespace
+
+bool can_report() { return !detail::assets::plotly().empty(); }
+
+void require_report(const std::filesystem::path& html, const WriteOptions& options) {
+  if (!can_report())
+    throw IoError(
+        "report: this build of salebra carries no plotly.js; run scripts/report-assets (it needs "
+        "npm and a network) and build again");
+  require_output(html, options);
+}
+
+void write_report(const std::filesystem::path& results, const std::filesystem::path& html,
+                  const ReportOptions& options) {
+  require_report(html, options.write);
+  // HDF5 1.10 may crash on a damaged file.
+  detail::rehearse(results, [&] { detail::report_payload(ResultReader(results)); });
+  nlohmann::ordered_json payload = detail::report_payload(ResultReader(results));
+  for (const std::filesystem::path& file : options.direct) {
+    detail::rehearse(file, [&] {
+      nlohmann::ordered_json copy = payload;
+      detail::add_direct(copy, ResultReader(file));
+    });
+    detail::add_direct(payload, ResultReader(file));
+  }
+  const std::string name = results.filename().string();
+  payload["results"] = name;
+  payload["title"] = options.title;
+  payload["report_version"] = version();
+  const std::string title = escaped(options.title.empty() ? name : options.title);
+  const std::string data = script_text(payload);
+  write_text_file(html,
+                  filled(detail::assets::html(), {{"title", title},
+                                                  {"style", detail::assets::css()},
+                                                  {"plotly", detail::assets::plotly()},
+                                                  {"data", data},
+                                                  {"script", detail::assets::javascript()}}),
+                  options.write);
+}
+
+}  // namespace salebra

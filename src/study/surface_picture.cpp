@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <salebra/generators/spectrum.hpp>
+#include <salebra/study/surface_picture.hpp>
+#include <salebra/surface/bearing.hpp>
+#include <salebra/surface/spectrum.hpp>
+
+namespace salebra {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// C0 q^{−2(1+H)} with the C0 that fits the spectrum in the range of the estimate, every mode counting once.
+std::vector<double> power_law(const RadialSpectrum& rings, const HurstEstimate& hurst) {
+  std::vector<double> law(rings.wavenumber.size(), unknown);
+  if (!hurst.found()) return law;
+  const double slope = -2 * (1 + hurst.value);
+  const auto inside = [&](double q) {
+    return q >= hurst.wavenumber_min * (1 - 1e-9) && q <= hurst.wavenumber_max * (1 + 1e-9);
+  };
+  double power = 0, unit_power = 0;
+  for (std::size_t i = 0; i < law.size(); ++i) {
+    const double q = rings.wavenumber[i];
+    if (!inside(q)) continue;
+    // Relative deviations count: a ring of the law's density has weight modes, whatever its power.
+    law[i] = std::pow(q / hurst.wavenumber_min, slope);
+    power += double(rings.modes[i]) * rings.density[i] / law[i];
+    unit_power += double(rings.modes[i]);
+  }
+  for (double& density : law) density *= power / unit_power;
+  return law;
+}
+
+std::vector<double> prescribed_law(const RadialSpectrum& rings,
+                                   const SelfAffineParameters& parameters) {
+  const SelfAffineSpectrum spectrum(parameters);
+  std::vector<double> law;
+  for (const double q : rings.wavenumber) {
+    const double density = spectrum.radial_density(q);
+    law.push_back(density > 0 ? density : unknown);
+  }
+  return law;
+}
+
+}  // namespace
+
+bool wants_picture(const StudyConfiguration& configuration, std::uint64_t seed) {
+  const auto* generated = std::get_if<GeneratedSurfaces>(&configuration.surfaces);
+  return !generated || (!generated->seeds.empty() && generated->seeds.front() == seed);
+}
+
+SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& configuration) {
+  const Grid2D& grid = surface.grid;
+  constexpr Index side = SurfacePicture::picture_side;
+  SurfacePicture picture;
+  picture.origin = surface.origin;
+  picture.stride = (std::max(grid.nx, grid.ny) + side - 1) / side;
+  picture.nx = (grid.nx + picture.stride - 1) / picture.stride;
+  picture.ny = (grid.ny + picture.stride - 1) / picture.stride;
+  picture.step_x = double(picture.stride) * grid.dx();
+  picture.step_y = double(picture.stride) * grid.dy();
+  const double mean = surface.heights.mean();
+  for (Index ix = 0; ix < grid.nx; ix += picture.stride)
+    for (Index iy = 0; iy < grid.ny; iy += picture.stride)
+      picture.heights.push_back(float(surface.heights(ix, iy) - mean));
+  picture.first_load.assign(picture.heights.size(), -1);
+
+  const PowerSpectrum spectrum = power_spectrum(surface);
+  const RadialSpectrum rings = radial_spectrum(spectrum, 8);
+  const HurstEstimate hurst = estimate_hurst(spectrum);
+  picture.wavenumber = rings.wavenumber;
+  picture.density = rings.density;
+  picture.hurst = hurst.value;
+  picture.hurst_low = hurst.low;
+  picture.hurst_high = hurst.high;
+  if (const auto* generated = std::get_if<GeneratedSurfaces>(&configuration.surfaces)) {
+    picture.law_density = prescribed_law(rings, generated->spectrum);
+    picture.law = "asked for";
+  } else {
+    picture.law_density = power_law(rings, hurst);
+    if (hurst.found()) picture.law = "fitted";
+  }
+
+  const HeightHistogram histogram = height_histogram(BearingCurve(surface));
+  for (std::size_t i = 0; i < histogram.height.size(); ++i) {
+    picture.height.push_back(histogram.height[i] - mean);
+    picture.height_density.push_back(histogram.density[i]);
+  }
+  return picture;
+}
+
+void SurfacePicture::add_contact(std::int16_t k, const NormalContactState& state) {
+  std::size_t point = 0;
+  for (Index ix = 0; ix < state.pressure.rows(); ix += stride) {
+    for (Index iy = 0; iy < state.pressure.cols(); iy += stride, ++point) {
+      std::int16_t& first = first_load[point];
+      if (state.pressure(ix, iy) > 0 && (first < 0 || k < first)) first = k;
+    }
+  }
+}
+
+}  // namespace salebra

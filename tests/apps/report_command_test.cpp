@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <salebra/report/report.hpp>
+
+#include "run_program.hpp"
+
+using namespace salebra;
+using Catch::Contains;
+
+namespace {
+
+const std::string study = R"([surface]
+points = 32
+size_x = "2um"
+hurst = 0.8
+rolloff = "1um"
+short_cutoff = "0.5um"
+rms_height = "10nm"
+seeds = [1, 2]
+[material]
+contact_modulus = "10GPa"
+poisson = 0.3
+[contact]
+relative_pressures = "2e-3:0.2:10"
+tolerance = 1e-8
+[damping]
+normal_amplitude = "0.1nm"
+drag_velocity = "1mm/s"
+frequency = "20kHz"
+)";
+
+}  // namespace
+
+TEST_CASE("A study leaves a page beside its results unless it is told not to", "[report]") {
+  const ProgramTest test;
+  test.write("study.toml", study);
+  REQUIRE(test.run("study study.toml --no-stick --no-report -o plain.h5").status == 0);
+  CHECK(test.files() == std::set<std::string>{"study.toml", "plain.h5"});
+  const auto result = test.run("study study.toml --no-stick -o result.h5");
+  REQUIRE(result.status == 0);
+  if (!can_report()) {
+    CHECK_THAT(result.err, Contains("no report will be written"));
+    const auto refused = test.run("report result.h5 -o page.html");
+    CHECK(refused.status == 1);
+    CHECK_THAT(refused.err, Contains("plotly.js") && Contains("scripts/report-assets"));
+    return;
+  }
+  CHECK_THAT(result.out, Contains("report:  result.html"));
+  CHECK(test.files().count("result.html") == 1);
+
+  // A page that is there already is found out before the work.
+  check_refused(test.run("study study.toml --no-stick -o result.html --force"), "--no-report");
+  test.write("other.html", "mine");
+  check_refused(test.run("study study.toml --no-stick -o other.h5"), "other.html: exists");
+  CHECK(test.read("other.html") == "mine");
+  CHECK(test.files().count("other.h5") == 0);
+}
+
+TEST_CASE("report makes the same page again, whole or not at all", "[report]") {
+  if (!can_report()) return;
+  const ProgramTest test;
+  test.write("study.toml", study);
+  REQUIRE(test.run("study study.toml --no-stick -o result.h5").status == 0);
+  const auto again = test.run("report result.h5 -o again.html --json");
+  REQUIRE(again.status == 0);
+  CHECK(again.json()["file"] == "again.html");
+  CHECK(test.read("again.html") == test.read("result.html"));
+  check_refused(test.run("report result.h5 -o again.html"), "again.html: exists");
+  check_refused(test.run("report result.h5 -o result.h5 --force"), "is the results file");
+
+  // Past a limit on the size of files a write fails as on a full disk.
+  const auto full = test.run("report result.h5 -o full.html", "ulimit -f 64;");
+  CHECK(full.status == 1);
+  CHECK(test.files() ==
+        std::set<std::string>{"study.toml", "result.h5", "result.html", "again.html"});
+}
+
+TEST_CASE("report refuses what holds no study", "[report]") {
+  if (!can_report()) return;
+  const ProgramTest test;
+  test.write("study.toml", study);
+  REQUIRE(test.run("study study.toml --no-stick --no-report -o result.h5").status == 0);
+  check_refused(test.run("report missing.h5"), "missing.h5: does not exist");
+  check_refused(test.run("report study.toml"), "study.toml: cannot open it as HDF5");
+  check_refused(test.run("report ."), "does not exist");
+  check_refused(test.run("report"), "RESULTS");
+  const std::string whole = test.read("result.h5");
+  for (const double part : {0.02, 0.3, 0.9}) {
+    test.write("cut.h5", whole.substr(0, std::size_t(part * double(whole.size()))));
+    check_refused(test.run("report cut.h5"), "cut.h5: ");
+  }
+  REQUIRE(
+      test.run("generate --points 16 --size-x 1um --hurst 0.8 --rolloff 1um --short-cutoff 0.25um "
+               "--rms-height 1nm -o surface.h5")
+          .status == 0);
+  check_refused(test.run("report surface.h5"), "holds no study");
+  CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5", "cut.h5", "surface.h5"});
+}

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <salebra/base/error.hpp>
+#include <salebra/io/result_file.hpp>
+#include <salebra/report/report.hpp>
+#include <salebra/study/study_file.hpp>
+#include <sstream>
+
+#include "scratch.hpp"
+#include "small_study.hpp"
+
+using namespace salebra;
+using Catch::Contains;
+using Json = nlohmann::json;
+
+namespace {
+
+std::string content(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// What the page draws.
+Json payload(const std::string& page) {
+  const std::string mark = "<script type=\"application/json\" id=\"data\">";
+  const auto begin = page.find(mark) + mark.size();
+  return Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+/// The least that a study's file has had, with names that would like to be markup.
+void write_hostile(const std::filesystem::path& file) {
+  Provenance provenance;
+  provenance.command_line = "salebra study '</script><script>document.title=\"taken\"</script>'";
+  provenance.configuration = "<img src=x onerror=\"document.title='taken'\"> <!-- {{script}}";
+  provenance.created = "2026-01-31T12:34:56Z";
+  ResultFile output(file, provenance, {.overwrite = true});
+  ResultGroup curve = output.group("curve");
+  curve.labels("model", {"bem", "<b onmouseover=\"document.title='taken'\">bold</b>"}, "model");
+  curve.index("realisation", 1, "number of the surface");
+  curve.coordinate("pressure", std::vector<double>{1e6, 1e7, 1e8}, "Pa", "nominal pressure");
+  const std::vector<double> gaps{3e-8, 2e-8, 1e-8, 3e-8, 2e-8, 1e-8};
+  for (const char* member : {"_mean", "_low", "_high"})
+    curve.dataset(std::string("ensemble_mean_gap") + member, gaps, {"model", "pressure"}, "m",
+                  "mean gap");
+  ResultGroup surface = output.group("surface");
+  surface.attribute("size_x", 1e-5);
+  surface.attribute("size_y", 1e-5);
+  surface.attribute("warnings", "mind </script><script>document.title='taken'</script>\n");
+  output.commit();
+}
+
+}  // namespace
+
+TEST_CASE("A report holds the numbers of its study and needs nothing else", "[report]") {
+  if (!can_report()) return;
+  const Scratch scratch;
+  const StudyResult result = run_study(small_study());
+  write_study(scratch / "study.h5", result);
+  write_report(scratch / "study.h5", scratch / "study.html");
+  const std::string page = content(scratch / "study.html");
+  CHECK(page.find("{{") == std::string::npos);
+  CHECK(count(page, "<script") == 3);
+  CHECK(count(page, "</script>") == 3);
+  CHECK(count(page, "<link") == 0);
+  CHECK(count(page, " src=") == 0);
+  CHECK_THAT(page, Contains("default-src 'none'"));
+
+  const Json data = payload(page);
+  REQUIRE(data["points"].size() == 1);
+  const Json& point = data["points"][0];
+  REQUIRE(point["pressure"].size() == result.pressures.size());
+  // The page has seven digits of each number.
+  const EnsembleMean length = result.decay_length(&Realisation::bem);
+  const Json& shown = point["fit"]["models"]["bem"]["decay_length"];
+  CHECK(shown["mean"].get<double>() == Approx(length.mean).epsilon(1e-6));
+  CHECK(shown["low"].get<double>() == Approx(length.low).epsilon(1e-6));
+  CHECK(shown["high"].get<double>() == Approx(length.high).epsilon(1e-6));
+  const EnsembleMean bend = result.law_bend(&Realisation::bem);
+  CHECK(point["fit"]["bend"]["mean"].get<double>() == Approx(bend.mean).epsilon(1e-6));
+  CHECK(point["fit"]["bend"]["low"].get<double>() == Approx(bend.low).epsilon(1e-6));
+  const auto curve = result.damping(&DampingPoint::curve_damping_constant);
+  for (std::size_t k = 0; k < curve.size(); ++k) {
+    const Json& value = point["damping"]["curve"]["damping_constant"]["bem"]["mean"][k];
+    CHECK(value.is_null() == std::isnan(curve[k].mean));
+    if (!value.is_null()) CHECK(value.get<double>() == Approx(curve[k].mean).epsilon(1e-6));
+  }
+  // Four bytes a height, four characters for three bytes.
+  CHECK(point["picture"]["heights"].get<std::string>().size() == (64 * 64 * 4 + 2) / 3 * 4);
+  CHECK(point["samples"].size() == 3);
+}
+
+TEST_CASE("Direct results stand beside the damping of the same motion and of no other",
+          "[report]") {
+  if (!can_report()) return;
+  const Scratch scratch;
+  write_study(scratch / "study.h5", run_study(small_study()));
+  const auto cycle = [&](const std::string& name, double amplitude) {
+    ResultFile output(scratch / name, {});
+    ResultGroup group = output.group("cycle");
+    group.coordinate("time", std::vector<double>{0, 0.25, 0.5}, "1", "time in periods");
+    group.dataset("indentation", std::vector<double>{1e-8 + amplitude, 1e-8, 1e-8 - amplitude},
+                  {"time"}, "m", "indentation");
+    group.dataset("force", std::vector<double>{3e-6, 2e-6, 1e-6}, {"time"}, "N", "force");
+    group.attribute("work_per_cycle", 4e-21);
+    output.commit();
+    return scratch / name;
+  };
+  ReportOptions options;
+  options.direct = {cycle("same.h5", 1e-10)};
+  write_report(scratch / "study.h5", scratch / "study.html", options);
+  const Json direct = payload(content(scratch / "study.html"))["points"][0]["damping"]["direct"];
+  REQUIRE(direct.size() == 1);
+  CHECK(direct[0]["force"].get<double>() == Approx(2e-6));
+  CHECK(direct[0]["work_per_cycle"].get<double>() == Approx(4e-21));
+
+  options.direct = {cycle("other.h5", 3e-10)};
+  CHECK_THROWS_WITH(write_report(scratch / "study.h5", scratch / "other.html", options),
+                    Contains("other.h5: oscillates by 300 pm, the study by 100 pm"));
+  options.direct = {scratch / "study.h5"};
+  CHECK_THROWS_WITH(write_report(scratch / "study.h5", scratch / "other.html", options),
+                    Contains("holds no oscillation"));
+}
+
+TEST_CASE("The points of a parameter grid share the room for maps", "[report]") {
+  if (!can_report()) return;
+  const Scratch scratch;
+  StudyConfiguration study = small_study();
+  study.ensemble.hurst = {0.5, 0.8};
+  write_ensembles(scratch / "grid.h5", run_ensembles(study));
+  write_report(scratch / "grid.h5", scratch / "grid.html");
+  const Json data = payload(content(scratch / "grid.html"));
+  CHECK(data["names"] == Json({"H = 0.5", "H = 0.8"}));
+  REQUIRE(data["points"].size() == 2);
+  CHECK(data["points"][1]["picture"]["nx"] == 64);
+  CHECK(data["overview"]["decay_length_over_rms_height"]["mean"].size() == 2);
+}
+
+TEST_CASE("Names in a results file stay text, and what an old one lacks is left out", "[report]") {
+  if (!can_report()) return;
+  const Scratch scratch;
+  write_hostile(scratch / "hostile.h5");
+  // Kept for the browser, which says whether any of it runs.
+  const std::filesystem::path html = std::filesystem::path(SALEBRA_PAGES) / "hostile.html";
+  write_report(scratch / "hostile.h5", html,
+               {.write = {.overwrite = true}, .title = "<script>document.title='taken'</script>"});
+  const std::string page = content(html);
+  CHECK(count(page, "<script") == 3);
+  CHECK(count(page, "</script>") == 3);
+  CHECK(count(page, "<img") == 0);
+  CHECK(count(page, "<!--") == 1);
+  const Json data = payload(page);
+  const Json& point = data["points"][0];
+  CHECK_FALSE(point.contains("picture"));
+  CHECK_FALSE(point.contains("damping"));
+  CHECK(point["models"][1]["title"] == "<b onmouseover=\"document.title='taken'\">bold</b>");
+  CHECK_THAT(data["provenance"]["configuration"].get<std::string>(), Contains("{{script}}"));
+}
+
+TEST_CASE("A report of a bad file is refused and leaves nothing", "[report]") {
+  if (!can_report()) return;
+  const Scratch scratch;
+  CHECK_THROWS_AS(write_report(scratch / "none.h5", scratch / "page.html"), InvalidInput);
+  CHECK_THROWS_AS(write_report(scratch.file("text.h5", "no HDF5"), scratch / "page.html"),
+                  InvalidInput);
+  {
+    // Fewer values than the coordinates ask for.
+    ResultFile output(scratch / "short.h5", {});
+    ResultGroup curve = output.group("curve");
+    curve.labels("model", {"bem", "gw_moments"}, "model");
+    curve.coordinate("pressure", std::vector<double>{1, 2, 3}, "Pa", "pressure");
+    curve.index("few", 2, "too few");
+    curve.dataset("ensemble_mean_gap_mean", std::vector<double>{1, 2}, {"few"}, "m", "mean gap");
+    output.commit();
+  }
+  CHECK_THROWS_WITH(write_report(scratch / "short.h5", scratch / "page.html"),
+                    Contains("short.h5: curve/ensemble_mean_gap_mean has 2 values, 3 are needed"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "page.html"));
+
+  write_hostile(scratch / "good.h5");
+  scratch.file("mine.html", "mine");
+  CHECK_THROWS_AS(write_report(scratch / "good.h5", scratch / "mine.html"), InvalidInput);
+  CHECK(content(scratch / "mine.html") == "mine");
+  CHECK_THROWS_AS(write_report(scratch / "good.h5", scratch / "no" / "page.html"), InvalidInput);
+}
