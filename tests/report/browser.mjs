@@ -195,10 +195,10 @@ await grid.screenshot({path: join(folder, "grid-1280.png"), fullPage: true});
 try {
   statSync(join(folder, "hostile.html"));
   const hostile = await open("hostile.html", {viewport: {width: 1280, height: 900}});
-  await checkFigures(hostile, "hostile.html", ["force-gap"]);
+  await checkFigures(hostile, "hostile.html", ["force-gap", "area-load"]);
   check((await hostile.title()).includes("<script>"), `hostile.html: its title is ${await hostile.title()}`);
   check((await hostile.locator(".absent").count()) >= 4, "hostile.html: does not say what it lacks");
-  await hostile.locator("#gap-load .plot").hover();
+  await hostile.locator("#area-load .plot").hover();
   check((await hostile.title()) !== "taken", "hostile.html: a name in the file was run");
   check((await hostile.evaluate(() => document.querySelectorAll("[onmouseover], [onerror], main img").length)) === 0, "hostile.html: a name in the file became markup");
   await hostile.screenshot({path: join(folder, "hostile-1280.png"), fullPage: true});

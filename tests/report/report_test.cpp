@@ -53,6 +53,9 @@ void write_hostile(const std::filesystem::path& file) {
   for (const char* member : {"_mean", "_low", "_high"})
     curve.dataset(std::string("ensemble_mean_gap") + member, gaps, {"model", "pressure"}, "m",
                   "mean gap");
+  curve.dataset("ensemble_contact_area_fraction_mean",
+                std::vector<double>{1e-3, 1e-2, 1e-1, 1e-3, 1e-2, 1e-1}, {"model", "pressure"}, "1",
+                "contact area over nominal area");
   ResultGroup surface = output.group("surface");
   surface.attribute("size_x", 1e-5);
   surface.attribute("size_y", 1e-5);
