@@ -119,3 +119,18 @@ TEST_CASE("A histogram of heights integrates to 1 and has the density of its dis
       height_histogram(BearingCurve(with_curve(4, 4, [](double) { return 3.0; })));
   CHECK(level.points == std::vector<Index>{16});
 }
+
+TEST_CASE("Of equal heights the middle stands for all", "[bearing]") {
+  Surface surface{{2, 2, 1, 1}, Field(2, 2), false, "four points"};
+  surface.heights << 1, 2, 2, 3;
+  CHECK(BearingCurve(surface).area_fraction(2) == 0.5);
+}
+
+TEST_CASE("Left to itself, a histogram has the bins of Freedman and Diaconis", "[bearing]") {
+  Surface surface{{80, 100, 1, 1}, Field(80, 100), false, "even heights"};
+  for (Index k = 0; k < 8000; ++k) surface.heights.data()[k] = static_cast<double>(k) / 7999;
+  // Half the range lies between the quartiles: 2·½/20 is a twentieth of it.
+  const std::size_t bins = height_histogram(BearingCurve(surface), 0).points.size();
+  CHECK(bins >= 19);
+  CHECK(bins <= 20);
+}

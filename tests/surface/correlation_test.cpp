@@ -209,3 +209,18 @@ TEST_CASE("Below the wavelength at which peaks are as sharp as the tip, a scan i
   CHECK(std::isinf(short_wavelength_limit(wave, {.tip_radius = 1e6}).tip.value()));
   CHECK(short_wavelength_limit(wave, {.resolution = 0.02}).wavelength() == 0.02);
 }
+
+TEST_CASE("A parabola that is not periodic has one curvature, at its edges and beside a hole too",
+          "[scale]") {
+  Surface bowl = sampled({41, 30, 41.0, 60.0}, false,
+                         [](double x, double y) { return 0.5 * x * x + 0.1 * y * y; });
+  bowl.heights(20, 10) = std::numeric_limits<double>::quiet_NaN();
+  const ScaleDependence along = scale_dependence(bowl, Axis::x);
+  for (std::size_t k = 0; k < along.spacing.size(); ++k) {
+    CHECK(along.rms_curvature[k] == Approx(1).epsilon(1e-10));
+    // Three stencils of a row touch the hole.
+    CHECK(along.stencils[k] == (41 - 2 * std::lround(along.spacing[k])) * 30 - 3);
+  }
+  // Cells of 1 by 2.
+  CHECK(short_wavelength_limit(bowl, {}).pixel == 4);
+}

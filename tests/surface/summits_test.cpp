@@ -88,3 +88,16 @@ TEST_CASE("Points beside an undefined one are not searched", "[summits]") {
   CHECK(list.searched_area == Approx(64 - 9));
   CHECK_THROWS_AS(find_summits(white({2, 8, 1, 1}, true)), InvalidInput);
 }
+
+TEST_CASE("A summit whose paraboloid has its vertex elsewhere stands on its point", "[summits]") {
+  Surface surface{{5, 5, 5, 5}, Field::Constant(5, 5, -10), false, "one summit"};
+  // Along x within each of three rows; the least-squares paraboloid rises beyond the neighbours.
+  surface.heights.col(1).segment(1, 3) << -2, -0.7, 0.4;
+  surface.heights.col(2).segment(1, 3) << 0.9, 1, 0.99;
+  surface.heights.col(3).segment(1, 3) << -2, -0.7, 0.4;
+  const SummitList list = find_summits(surface);
+  REQUIRE(list.summits.size() == 1);
+  CHECK(list.summits.front().x == 2);
+  CHECK(list.summits.front().y == 2);
+  CHECK(list.summits.front().height == 1);
+}
