@@ -46,7 +46,7 @@ TEST_CASE("A study file with a fault is refused with key and line, and nothing i
     const char* expected;
   };
   const auto [from, to, expected] = GENERATE(values<Case>({
-      {"hurst = 0.8", "hurts = 0.8", "study.toml:1: surface.hurst"},
+      {"hurst = 0.8", "hurts = 0.8", "study.toml:4: surface.hurts"},
       {"seeds = [1, 2]", "seeds = [1, 2]\ncolour = 1", "study.toml:9: surface.colour"},
       {"poisson = 0.3", "poison = 0.3", "study.toml:12: material.poison"},
       {"[contact]", "[contract]", "study.toml:14: contract"},
