@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <limits>
 #include <memory>
+#include <salebra/base/error.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/spectrum.hpp>
 #include <salebra/surface/summits.hpp>
@@ -13,8 +14,7 @@
 namespace salebra::cli {
 namespace {
 
-void run(const SurfaceOptions& options, Session& session) {
-  const Surface surface = options.read();
+Json describe(const Surface& surface) {
   const HeightStatistics heights = height_statistics(surface);
   const SpectralMoments moments =
       surface.undefined_points() > 0 ? difference_moments(surface) : surface_moments(surface);
@@ -23,7 +23,7 @@ void run(const SurfaceOptions& options, Session& session) {
   HurstEstimate hurst;
   hurst.value = hurst.low = hurst.high = std::numeric_limits<double>::quiet_NaN();
   if (surface.undefined_points() == 0) hurst = estimate_hurst(power_spectrum(surface));
-  const Json answer{{"nx", surface.grid.nx},
+  return {{"nx", surface.grid.nx},
                     {"ny", surface.grid.ny},
                     {"size_x", surface.grid.lx},
                     {"size_y", surface.grid.ly},
@@ -43,6 +43,17 @@ void run(const SurfaceOptions& options, Session& session) {
                       {"mean_height", summits.mean_height},
                       {"rms_height", summits.rms_height},
                       {"mean_radius", summits.mean_radius}}}};
+}
+
+void run(const SurfaceOptions& options, Session& session) {
+  const Surface surface = options.read();
+  Json answer;
+  try {
+    answer = describe(surface);
+  } catch (const InvalidInput& refusal) {
+    // Such as a grid of two rows, which has no curvature: the statistics do not know which file it came from.
+    throw InvalidInput(options.file + ": " + refusal.what());
+  }
   write_answer(session, "info", answer);
   if (session.has_plot()) session.plot(surface_figure(surface));
   session.answer(answer);

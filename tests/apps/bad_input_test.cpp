@@ -71,6 +71,12 @@ TEST_CASE("A study file with a fault is refused with key and line, and nothing i
   CHECK(test.files() == std::set<std::string>{"study.toml"});
 }
 
+TEST_CASE("A grid that is too small for statistics is refused with its file", "[bad-input]") {
+  const ProgramTest test;
+  test.write("two_rows.txt", "1 2 3\n4 5 6\n");
+  check_refused(test.run("info two_rows.txt"), "two_rows.txt: nx: 2");
+}
+
 TEST_CASE("A fit window that holds fewer than three pressures is refused", "[bad-input]") {
   const ProgramTest test;
   test.write(
