@@ -48,12 +48,12 @@ Field uninitialised_field(Index nx, Index ny) {
 
 void touch_pages(Field& field) {
   constexpr Index per_page = 4096 / sizeof(double);
-  parallel::for_slabs(
-      (field.size() + per_page - 1) / per_page,
-      [&](Index begin, Index end) {
-        for (Index page = begin; page < end; ++page) field.data()[page * per_page] = 0;
-      },
-      field.size());
+  parallel::for_slabs((field.size() + per_page - 1) / per_page,
+                      [&](Index begin, Index end) {
+                        for (Index page = begin; page < end; ++page)
+                          field.data()[page * per_page] = 0;
+                      },
+                      field.size());
 }
 
 std::size_t available_memory() {

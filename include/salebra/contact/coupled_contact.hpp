@@ -55,7 +55,7 @@ class CoupledContact {
   /// ½Σ∫p g. Work less this, stored energy and losses balance to the tolerance of the sweeps. It vanishes with the increments unless
   /// cells part at a finite pressure.
   double gap_work() const;
-  bool converged() const;      ///< every increment and every solve in it did
+  bool converged() const;  ///< every increment and every solve in it did
   bool interrupted() const;
 
  private:
