@@ -10,10 +10,12 @@
 // The machine's bandwidth is that of a copy of arrays beyond every cache, counted in the same way.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal.hpp>
@@ -64,6 +66,23 @@ double copy_bandwidth() {
     });
   });
   return 24 * static_cast<double>(size) / seconds;
+}
+
+// Seconds of a chain of products in registers on each of the threads. What these lose beside each other, as on two
+// hardware threads of one core or on a shared machine, no program can win back.
+double register_seconds(int threads) {
+  std::vector<double> results(static_cast<std::size_t>(threads));
+  return median_seconds([&] {
+    parallel::for_slabs(threads, [&](Index begin, Index) {
+      std::array<double, 8> chains;
+      chains.fill(1.0);
+      for (int k = 0; k < 20'000'000; ++k)
+        for (double& chain : chains) chain = 0.999 * chain + 0.001;
+      results[static_cast<std::size_t>(begin)] = std::accumulate(chains.begin(), chains.end(), 0.0);
+    });
+    volatile double used = std::accumulate(results.begin(), results.end(), 0.0);
+    static_cast<void>(used);
+  });
 }
 
 // A pair writes, reads, writes and reads the spectrum and reads the symbol: in sizes of a cell's number 2, 1 + 1, 1 and ¼, because a
@@ -177,5 +196,8 @@ int main(int argc, char** argv) {
   const double bandwidth = copy_bandwidth();
   std::printf("%ld x %ld cells, %d thread(s); a copy moves %.1f GB/s\n", static_cast<long>(n),
               static_cast<long>(n), parallel::threads(), 1e-9 * bandwidth);
+  if (const int threads = parallel::threads(); threads > 1)
+    std::printf("a loop in registers is done %.2f times as often on all threads as on one\n",
+                threads * register_seconds(1) / register_seconds(threads));
   for (const double load : loads) profile(surface, load, bandwidth);
 }
