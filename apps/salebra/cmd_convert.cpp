@@ -6,6 +6,7 @@
 
 #include "options.hpp"
 #include "program.hpp"
+#include "surface_figure.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -28,6 +29,7 @@ void run(ConvertArguments& arguments, Session& session) {
     surface = filled(std::move(surface));
   }
   write_surface(arguments.to, surface, session.provenance(), session.write_options());
+  if (session.has_plot()) session.plot(surface_figure(surface));
   session.answer(answer);
 }
 
@@ -39,7 +41,8 @@ void add_convert_command(Program& program) {
       "convert", "write a surface in another format",
       {"salebra convert scan.sur scan.h5 --fill",
        "salebra convert heights.npy rough.h5 --size-x 10um --size-y 10um --detrend plane"},
-      [arguments](Session& session) { run(*arguments, session); });
+      [arguments](Session& session) { run(*arguments, session); },
+      "heights, power spectral density with the fitted law, distribution of heights");
   arguments->surface.add_to(command);
   command.add_option("OUT", arguments->to, "new file; its extension decides on the format")
       ->required()

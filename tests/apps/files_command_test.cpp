@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <set>
 #include <sstream>
 
 #include "run_program.hpp"
@@ -20,6 +21,14 @@ const std::string scan =
     "1.25 2 -3.5 4\n5 nan 7 0.5\n9.75 -10 11 12.5\n";
 
 }  // namespace
+
+TEST_CASE("convert draws the surface that it writes", "[files][plot]") {
+  const ProgramTest test;
+  test.write("scan.txt", scan);
+  REQUIRE(test.run("convert scan.txt scan.h5 --plot scan.svg").status == 0);
+  CHECK_THAT(test.read("scan.svg"), Catch::Contains("µm"));
+  CHECK(test.files() == std::set<std::string>{"scan.txt", "scan.h5", "scan.svg"});
+}
 
 TEST_CASE("convert leads from every format to every other and keeps heights, sizes and axes",
           "[files]") {
