@@ -2,7 +2,6 @@
 #include "active_set_cg.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <salebra/base/parallel.hpp>
 #include <type_traits>
@@ -150,7 +149,6 @@ CurvatureSums ActiveSetCg<Real>::take_direction(double z_mean, double beta, doub
 // g = Gp − h and what follows from it.
 template <class Real>
 ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
-  using Clock = std::chrono::steady_clock;
   // Counted from a plane near the true one, which is known only afterwards, Σp(g − plane) loses no digits.
   const double near = run.load_given() ? run.level : run.target.value;
   const double bound = run.target.bound;
@@ -162,21 +160,23 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
                grid_.ny, bound, near);
   };
   ++run.outcome.fft_count;
-  const auto start = Clock::now();
-  if (exact || std::is_same_v<Real, double>) {
-    exact_compliance().apply(
-        [&](Index row, double*) { return run.p + row * grid_.ny; },
-        [&](Index row, const double* values) { take(kernels_.exact_gap, row, values); });
-  } else {
-    compliance_.apply(
-        [&](Index row, Real* room) {
-          std::transform(run.p + row * grid_.ny, run.p + (row + 1) * grid_.ny, room,
-                         [](double p) { return static_cast<Real>(p); });
-          return room;
-        },
-        [&](Index row, const Real* values) { take(kernels_.gap, row, values); });
+  double seconds = 0;
+  {
+    const Stopwatch stopwatch(seconds);
+    if (exact || std::is_same_v<Real, double>) {
+      exact_compliance().apply(
+          [&](Index row, double*) { return run.p + row * grid_.ny; },
+          [&](Index row, const double* values) { take(kernels_.exact_gap, row, values); });
+    } else {
+      compliance_.apply(
+          [&](Index row, Real* room) {
+            std::transform(run.p + row * grid_.ny, run.p + (row + 1) * grid_.ny, room,
+                           [](double p) { return static_cast<Real>(p); });
+            return room;
+          },
+          [&](Index row, const Real* values) { take(kernels_.gap, row, values); });
+    }
   }
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   run.outcome.fft_seconds += seconds;
   if (exact && std::is_same_v<Real, float>) {
     ++run.outcome.exact_fft_count;
