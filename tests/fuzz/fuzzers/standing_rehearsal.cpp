@@ -12,6 +12,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -24,6 +25,7 @@ namespace {
 
 constexpr int rehearsals_of_a_child = 2000;  // HDF5 leaves memory behind where a file is damaged
 constexpr int patience = 2000;               // milliseconds
+constexpr int out_of_memory = 12;  // status of a child to which the allocator refused memory
 
 /// Memory that both processes see: the report of a sanitizer in the child.
 char* report() {
@@ -94,6 +96,8 @@ class Child {
     for (char word = 0; read(channel_, &word, 1) == 1;) {
       try {
         work();
+      } catch (const std::bad_alloc&) {
+        _exit(out_of_memory);  // HDF5 throws nothing: a size of the file reached our own code
       } catch (...) {
       }
       if (write(channel_, &word, 1) != 1) break;
