@@ -7,6 +7,7 @@
 #include <salebra/contact/normal.hpp>
 #include <salebra/io/result_file.hpp>
 
+#include "cycle_columns.hpp"
 #include "options.hpp"
 #include "program.hpp"
 
@@ -46,17 +47,10 @@ NormalContactState solve(const PositionOptions& position, const Surface& surface
   return press_to_pressure(surface, contact_modulus, pressure, options);
 }
 
-std::vector<double> positions(Index count, double step) {
-  std::vector<double> values;
-  for (Index i = 0; i < count; ++i) values.push_back(double(i) * step);
-  return values;
-}
-
 void write_contact(const Session& session, const Grid2D& grid, const NormalContactState& state) {
   ResultFile file(session.output(), session.provenance(), session.write_options());
   ResultGroup group = file.group("contact");
-  group.coordinate("x", positions(grid.nx, grid.dx()), "m", "position along x");
-  group.coordinate("y", positions(grid.ny, grid.dy()), "m", "position along y");
+  write_axes(group, grid);
   group.dataset("contact_pressure", state.pressure, "x", "y", "Pa", "contact pressure");
   group.dataset("gap", state.gap, "x", "y", "m", "gap of the deformed surfaces");
   group.attribute("pressure", state.mean_pressure);

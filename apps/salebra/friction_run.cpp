@@ -11,20 +11,10 @@
 #include <salebra/contact/coupling.hpp>
 #include <utility>
 
+#include "cycle_columns.hpp"
+
 namespace salebra::cli {
 namespace {
-
-std::vector<double> column(const FrictionalCycleResult& cycle, double FrictionalSample::*quantity) {
-  std::vector<double> values;
-  for (const FrictionalSample& sample : cycle.samples) values.push_back(sample.*quantity);
-  return values;
-}
-
-std::vector<double> positions(Index count, double spacing) {
-  std::vector<double> values;
-  for (Index k = 0; k < count; ++k) values.push_back(static_cast<double>(k) * spacing);
-  return values;
-}
 
 double greatest(const std::vector<double>& values) {
   double most = 0;
@@ -68,22 +58,11 @@ void add_cycle(Json& object, const FrictionalCycleResult& cycle, double uncertai
 }
 
 void write_cycle(ResultGroup group, const FrictionalCycleResult& cycle, const Grid2D& grid) {
-  group.coordinate("x", positions(grid.nx, grid.dx()), "m", "position along x");
-  group.coordinate("y", positions(grid.ny, grid.dy()), "m", "position along y");
+  write_axes(group, grid);
   group.dataset("loss", cycle.loss, "x", "y", "J/m^2", "lost in a period by unit area");
-  group.coordinate("time", column(cycle, &FrictionalSample::t), "1", "time in periods");
-  const auto add = [&](const char* name, double FrictionalSample::*quantity, const char* units,
-                       const char* text) {
-    group.dataset(name, column(cycle, quantity), {"time"}, units, text);
-  };
-  add("indentation", &FrictionalSample::indentation, "m", "indentation");
-  add("tangential", &FrictionalSample::tangential, "m", "tangential displacement");
-  add("tangential_force", &FrictionalSample::tangential_force, "N", "tangential force");
-  add("force", &FrictionalSample::normal_force, "N", "normal force");
-  add("work", &FrictionalSample::work, "J", "work of the tangential force since the start");
-  add("dissipated", &FrictionalSample::dissipated, "J", "lost to friction since the start");
-  add("contact_area", &FrictionalSample::contact_area, "m^2", "contact area");
-  add("slip_area", &FrictionalSample::slip_area, "m^2", "area of cells at their limit");
+  CycleColumns<FrictionalSample, FrictionalCycleResult> columns(group, cycle);
+  columns.add("dissipated", &FrictionalSample::dissipated, "J", "lost to friction since the start");
+  columns.add("slip_area", &FrictionalSample::slip_area, "m^2", "area of cells at their limit");
   group.attribute("work_per_cycle", cycle.work_per_cycle);
   group.attribute("relaxation_work", cycle.relaxation_work);
   group.attribute("slip_work", cycle.slip_work);

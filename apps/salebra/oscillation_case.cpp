@@ -6,6 +6,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/generators/shapes.hpp>
 
+#include "cycle_columns.hpp"
+
 namespace salebra::cli {
 namespace {
 
@@ -18,20 +20,8 @@ double tangential_scale(const Oscillation& motion) {
   return std::get<EqualFrequency>(motion).tangential_amplitude;
 }
 
-std::vector<double> column(const CycleResult& cycle, double CycleSample::*quantity) {
-  std::vector<double> values;
-  for (const CycleSample& sample : cycle.samples) values.push_back(sample.*quantity);
-  return values;
-}
-
 Field map_of(const CycleResult& cycle) {
   return cycle.smallest.cast<double>() + cycle.largest.cast<double>();
-}
-
-std::vector<double> positions(Index count, double spacing) {
-  std::vector<double> values;
-  for (Index k = 0; k < count; ++k) values.push_back(static_cast<double>(k) * spacing);
-  return values;
 }
 
 ContactLevels levels_of(const Body& body, const Material& material) {
@@ -206,26 +196,16 @@ void write_outcome(ResultFile& file, const std::string& prefix, const Oscillatio
     const CycleResult& cycle = *outcome.cycle;
     ResultGroup group = file.group(prefix + "cycle");
     const Grid2D& grid = outcome.run.body.surface.grid;
-    group.coordinate("x", positions(grid.nx, grid.dx()), "m", "position along x");
-    group.coordinate("y", positions(grid.ny, grid.dy()), "m", "position along y");
+    write_axes(group, grid);
     group.dataset("heights", outcome.run.body.surface.heights, "x", "y", "m",
                   "height, a hill is positive");
     group.dataset("contact", map_of(cycle), "x", "y", "1",
                   "0 never in contact, 1 during a part of the cycle, 2 always");
-    group.coordinate("time", column(cycle, &CycleSample::t), "1", "time in periods");
-    const auto add = [&](const char* name, double CycleSample::*quantity, const char* units,
-                         const char* text) {
-      group.dataset(name, column(cycle, quantity), {"time"}, units, text);
-    };
-    add("indentation", &CycleSample::indentation, "m", "indentation");
-    add("tangential", &CycleSample::tangential, "m", "tangential displacement");
-    add("tangential_force", &CycleSample::tangential_force, "N", "tangential force");
-    add("force", &CycleSample::normal_force, "N", "normal force");
-    add("work", &CycleSample::work, "J", "work of the tangential force since the start");
-    add("released_energy", &CycleSample::released_energy, "J", "energy released since the start");
-    add("contact_area", &CycleSample::contact_area, "m^2", "contact area");
-    add("tangential_stiffness", &CycleSample::tangential_stiffness, "N/m",
-        "tangential stiffness in full stick");
+    CycleColumns<CycleSample, CycleResult> columns(group, cycle);
+    columns.add("released_energy", &CycleSample::released_energy, "J",
+                "energy released since the start");
+    columns.add("tangential_stiffness", &CycleSample::tangential_stiffness, "N/m",
+                "tangential stiffness in full stick");
     group.attribute("work_per_cycle", cycle.work_per_cycle);
     group.attribute("error_estimate", cycle.step_error);
     group.attribute("predicted", outcome.levels.small_amplitude_work);
