@@ -236,7 +236,7 @@ void run(const CompareArguments& arguments, Session& session) {
   if (arguments.study.dry_run) return answer_dry_run(configuration, session);
   StudyReport report(arguments.study, session);
   const std::vector<StudyResult> results =
-      run_and_keep(configuration, arguments.study.resume, session);
+      run_and_keep(configuration, arguments.study.resume, report, session);
   if (results.empty()) return;
   const std::string file = session.has_output() ? session.output().string() : "";
   const std::string page = report.write();

@@ -117,7 +117,8 @@ void run(const StudyArguments& arguments, Session& session) {
   const StudyConfiguration configuration = arguments.study();
   if (arguments.dry_run) return answer_dry_run(configuration, session);
   StudyReport report(arguments, session);
-  const std::vector<StudyResult> results = run_and_keep(configuration, arguments.resume, session);
+  const std::vector<StudyResult> results =
+      run_and_keep(configuration, arguments.resume, report, session);
   if (results.empty()) return;
   const Files files{session.has_output() ? session.output().string() : "", report.write()};
   if (results.size() == 1 && configuration.ensemble.empty()) {

@@ -92,6 +92,14 @@ std::string StudyReport::write() {
   }
 }
 
+std::string StudyReport::complete() {
+  std::error_code missing;
+  const auto made = std::filesystem::last_write_time(page_, missing);
+  if (!missing && made >= std::filesystem::last_write_time(session_.output()))
+    return page_.string();
+  return write();
+}
+
 StudyConfiguration StudyArguments::study() const {
   const bool from_file = !configuration.empty();
   if (!from_file && !surface.given())
@@ -128,15 +136,18 @@ StudyConfiguration StudyArguments::study() const {
 }
 
 std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, bool resume,
-                                      Session& session) {
+                                      StudyReport& report, Session& session) {
   if (resume) {
     require(session.has_output(), "--resume", "needs", "the --output of the run to go on with");
   }
   const std::filesystem::path folder = session.output().string() + ".parts";
   if (resume && is_result_of(session.output(), configuration)) {
     StudyParts(folder, true).discard();
-    session.answer({{"files", {{"results", session.output().string()}}}},
-                   fmt::format("results: {}, complete already\n", session.output().string()));
+    const std::string results = session.output().string(), page = report.complete();
+    session.answer(
+        {{"files", {{"results", results}, {"report", page.empty() ? Json() : Json(page)}}}},
+        fmt::format("results: {}, complete already\n", results) +
+            (page.empty() ? "" : fmt::format("report:  {}\n", page)));
     return {};
   }
   session.require_free_output();

@@ -41,6 +41,8 @@ class StudyReport {
   StudyReport(const StudyArguments& arguments, Session& session);
   /// Writes what was planned, from the results file; its path, or empty. The results are safe by now: a failure is only a warning.
   std::string write();
+  /// The same where no page was made of these results yet, as of a study that was killed before it; otherwise the path alone.
+  std::string complete();
 
  private:
   Session& session_;
@@ -48,11 +50,12 @@ class StudyReport {
 };
 
 /// Runs the ensembles with progress, keeps finished surfaces beside the session's output as it goes, and writes the result there. Without
-/// an output nothing is kept. Where a resumed study has its result already, tidies up after it, answers so and returns nothing.
+/// an output nothing is kept. Where a resumed study has its result already, tidies up after it, makes a page that is missing, answers so
+/// and returns nothing.
 /// Otherwise returns at least one finished surface; what stopped the run before its end throws Interrupted, which says
 /// how to go on, after the surfaces that were finished have been answered where they are not kept.
 std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, bool resume,
-                                      Session& session);
+                                      StudyReport& report, Session& session);
 
 Json to_json(const EnsembleMean& estimate);
 /// Arrays mean, low and high.

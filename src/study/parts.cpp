@@ -58,10 +58,11 @@ struct StudyParts::State {
 
 StudyParts::StudyParts(const std::filesystem::path& folder, bool resume)
     : state_(std::make_unique<State>(folder)) {
-  // The result beside the folder may have been cut off too.
-  const std::filesystem::path parent = folder.parent_path();
+  // The result beside the folder may have been cut off too, and so may its page.
+  const std::filesystem::path parent = folder.parent_path(), result = folder.stem();
   remove_abandoned(folder, ".");
-  remove_abandoned(parent.empty() ? "." : parent, "." + folder.stem().string() + ".");
+  for (const auto& file : {result, std::filesystem::path(result).replace_extension(".html")})
+    remove_abandoned(parent.empty() ? "." : parent, "." + file.string() + ".");
   if (!resume && count() > 0) {
     throw InvalidInput(fmt::format(
         "{}: holds {} finished surfaces of an earlier run; go on with them (--resume), or "

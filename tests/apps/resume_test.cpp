@@ -11,6 +11,7 @@
 #include <fstream>
 #include <salebra/base/random.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/report/report.hpp>
 #include <thread>
 
 #include "run_program.hpp"
@@ -155,10 +156,11 @@ TEST_CASE("A study killed while it tidied up is complete, and says so", "[resume
   fs::remove(copy / "lock");
   fs::rename(copy, parts);
   const auto written = fs::last_write_time(test.folder() / "result.h5");
-  const auto again = test.run("study study.toml -o result.h5 --resume --json");
+  const auto again = test.run("study study.toml -o result.h5 --no-report --resume --json");
   INFO(again.err);
   REQUIRE(again.status == 0);
   CHECK(again.json()["files"]["results"] == "result.h5");
+  CHECK(again.json()["files"]["report"].is_null());
   CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5"});
   CHECK(fs::last_write_time(test.folder() / "result.h5") == written);
   // Without --resume, or as the result of another study, the file is in the way.
@@ -169,6 +171,43 @@ TEST_CASE("A study killed while it tidied up is complete, and says so", "[resume
   test.write("study.toml", other);
   check_refused(test.run("study study.toml -o result.h5 --resume"), "exists");
   CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5"});
+}
+
+TEST_CASE("A study killed between its result and its page gets the page when it is resumed",
+          "[resume]") {
+  if (!can_report()) return;
+  const ProgramTest test;
+  std::string few = study;
+  few.replace(few.find("seed_count = 24"), 15, "seed_count = 2");
+  test.write("study.toml", few);
+  REQUIRE(test.run("study study.toml -o result.h5").status == 0);
+  const std::string page = test.read("result.html");
+  const std::set<std::string> all{"study.toml", "result.h5", "result.html"};
+
+  // Nothing but the page is missing, as the process left it that died before it; the half of one may lie there.
+  fs::remove(test.folder() / "result.html");
+  test.write(".result.html.99999-0.part", "half of it");
+  const auto resumed = test.run("study study.toml -o result.h5 --resume --json");
+  INFO(resumed.err);
+  REQUIRE(resumed.status == 0);
+  CHECK(resumed.json()["files"]["report"] == "result.html");
+  CHECK(test.read("result.html") == page);
+  CHECK(test.files() == all);
+
+  // A page of these results stays as it is, and one of older results is another's until --force.
+  const auto made = fs::last_write_time(test.folder() / "result.html");
+  const auto whole = test.run("study study.toml -o result.h5 --resume");
+  CHECK_THAT(whole.out, Contains("complete already") && Contains("report:  result.html"));
+  CHECK(fs::last_write_time(test.folder() / "result.html") == made);
+  test.write("result.html", "of other results");
+  fs::last_write_time(test.folder() / "result.html", made - std::chrono::hours(1));
+  const auto kept = test.run("study study.toml -o result.h5 --resume --json");
+  CHECK(kept.status == 0);
+  CHECK(kept.json()["files"]["report"].is_null());
+  CHECK_THAT(kept.err, Contains("no report was written") && Contains("result.html: exists"));
+  REQUIRE(test.run("study study.toml -o result.h5 --resume --force").status == 0);
+  CHECK(test.read("result.html") == page);
+  CHECK(test.files() == all);
 }
 
 TEST_CASE("A study that cannot write its next surface keeps the others", "[resume]") {
