@@ -114,7 +114,8 @@ void report_memory(std::size_t bytes, const std::string& points, Session& sessio
 /// A random surface, with what is to be said of it added to the answer.
 Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, Session& session,
                        Json& answer) {
-  const std::shared_ptr<const Spectrum> spectrum = arguments.spectrum.spectrum();
+  const std::shared_ptr<const Spectrum> spectrum =
+      arguments.spectrum.spectrum(std::max(grid.lx, grid.ly));
   const std::optional<HeightDistribution> distribution = distribution_of(arguments);
   // Before the sums over all modes, which take long on a grid that does not fit.
   spectrum->require_carried_by(grid);
@@ -170,7 +171,7 @@ void make_profile(const GenerateArguments& arguments, Session& session) {
               arguments.composite.empty() && !arguments.non_gaussian() && !session.has_plot(),
           "--profile", "given", "with an option that only surfaces have; leave that out");
   const double length = *arguments.size_x;
-  const SelfAffineProfileSpectrum spectrum = arguments.spectrum.profile_spectrum();
+  const SelfAffineProfileSpectrum spectrum = arguments.spectrum.profile_spectrum(length);
   const std::string method = arguments.method.empty() ? "filtered-noise" : arguments.method;
   require(method != "exact-rms", "--method", method,
           "is for surfaces; a random-phase profile has exactly its lattice value");

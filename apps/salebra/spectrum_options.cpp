@@ -27,7 +27,7 @@ void SpectrumOptions::add_to(CLI::App& app) {
                "self-affine: Hurst exponent, 0 < H <= 1")
       ->group(group);
   add_quantity(app, "--long-cutoff", long_cutoff, Dimension::length,
-               "self-affine: longest wavelength; default: the cell")
+               "self-affine: longest wavelength; default: the longer side, with --rolloff no limit")
       ->group(group);
   add_quantity(app, "--rolloff", rolloff, Dimension::length,
                "self-affine: wavelength where the plateau ends; default: --long-cutoff")
@@ -66,10 +66,10 @@ void SpectrumOptions::add_to(CLI::App& app) {
       ->group(group);
 }
 
-SelfAffineParameters SpectrumOptions::self_affine() const {
+SelfAffineParameters SpectrumOptions::self_affine(double cell) const {
   return {.hurst = required(hurst, "--hurst",
                             "a spectrum is needed; give it, --correlation, --psd-table or --shape"),
-          .long_cutoff = long_cutoff,
+          .long_cutoff = long_cutoff || rolloff ? long_cutoff : cell,
           .rolloff = rolloff,
           .short_cutoff =
               required(short_cutoff, "--short-cutoff", "a self-affine spectrum needs its end"),
@@ -94,13 +94,13 @@ std::shared_ptr<const IsotropicSpectrum> SpectrumOptions::tabulated() const {
   return std::make_shared<TabulatedSpectrum>(std::move(spectrum));
 }
 
-std::shared_ptr<const IsotropicSpectrum> SpectrumOptions::isotropic() const {
+std::shared_ptr<const IsotropicSpectrum> SpectrumOptions::isotropic(double cell) const {
   const std::string kind = !table.empty()         ? "--psd-table"
                            : !correlation.empty() ? "--correlation " + correlation
                                                   : "--hurst";
   if (kind == "--hurst") {
     require_absent(correlation_length, "--correlation-length", "a self-affine spectrum");
-    return std::make_shared<SelfAffineSpectrum>(self_affine());
+    return std::make_shared<SelfAffineSpectrum>(self_affine(cell));
   }
   require(table.empty() || correlation.empty(), "--correlation", "given",
           "beside --psd-table; give one of them");
@@ -123,23 +123,23 @@ std::shared_ptr<const IsotropicSpectrum> SpectrumOptions::isotropic() const {
       height, length, required(short_cutoff, "--short-cutoff", kind + " needs it")));
 }
 
-std::shared_ptr<const Spectrum> SpectrumOptions::spectrum() const {
+std::shared_ptr<const Spectrum> SpectrumOptions::spectrum(double cell) const {
   if (!stretch_along && !stretch_across) {
     require(!lay_angle, "--lay-angle", "given", "without --stretch-along or --stretch-across");
-    return isotropic();
+    return isotropic(cell);
   }
-  return std::make_shared<AnisotropicSpectrum>(isotropic(),
+  return std::make_shared<AnisotropicSpectrum>(isotropic(cell),
                                                Anisotropy{.along = stretch_along.value_or(1),
                                                           .across = stretch_across.value_or(1),
                                                           .angle = lay_angle.value_or(0)});
 }
 
-SelfAffineProfileSpectrum SpectrumOptions::profile_spectrum() const {
+SelfAffineProfileSpectrum SpectrumOptions::profile_spectrum(double cell) const {
   require(table.empty() && correlation.empty(), "--profile", "given",
           "with a spectrum of surfaces; profiles are self-affine, give --hurst");
   require(!stretch_along && !stretch_across && !lay_angle, "--profile", "given",
           "with a lay; a profile has none");
-  return SelfAffineProfileSpectrum(self_affine());
+  return SelfAffineProfileSpectrum(self_affine(cell));
 }
 
 Json SpectrumOptions::anisotropy() const {

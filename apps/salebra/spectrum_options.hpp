@@ -20,14 +20,15 @@ struct SpectrumOptions {
 
   void add_to(CLI::App& app);
   bool given() const { return hurst || !table.empty() || !correlation.empty(); }
-  std::shared_ptr<const Spectrum> spectrum() const;
-  SelfAffineProfileSpectrum profile_spectrum() const;
+  /// cell: the longest period of the surface, m; no wave of a self-affine one is longer, unless a limit is given.
+  std::shared_ptr<const Spectrum> spectrum(double cell) const;
+  SelfAffineProfileSpectrum profile_spectrum(double cell) const;
   /// Peklenik's number and the lay, where the surface is stretched; else null.
   Json anisotropy() const;
 
  private:
-  SelfAffineParameters self_affine() const;
-  std::shared_ptr<const IsotropicSpectrum> isotropic() const;
+  SelfAffineParameters self_affine(double cell) const;
+  std::shared_ptr<const IsotropicSpectrum> isotropic(double cell) const;
   std::shared_ptr<const IsotropicSpectrum> tabulated() const;
 };
 

@@ -52,6 +52,21 @@ TEST_CASE("A surface that was written is read back as it was made", "[generate]"
   }
 }
 
+TEST_CASE("Without roll-off and limit the power law begins at the longer side", "[generate]") {
+  const ProgramTest test;
+  const std::string bare =
+      "generate --points 64,48 --size-x 4um --size-y 3um --hurst 0.8 --short-cutoff 0.5um "
+      "--rms-slope 0.1 --json -o ";
+  REQUIRE(test.run(bare + "bare.npy").status == 0);
+  REQUIRE(test.run(bare + "limited.npy --long-cutoff 4um").status == 0);
+  CHECK(test.read("bare.npy") == test.read("limited.npy"));
+  REQUIRE(test.run(bare + "plateau.npy --rolloff 3um").status == 0);
+  CHECK(test.read("bare.npy") != test.read("plateau.npy"));
+  REQUIRE(test.run("generate --profile --points 64 --size-x 4um --hurst 0.8 --short-cutoff 0.5um "
+                   "--rms-slope 0.1")
+              .status == 0);
+}
+
 TEST_CASE("A generated surface is the same in every bit for one and two threads", "[generate]") {
   const ProgramTest test;
   // As NPY, which has no date in it.
