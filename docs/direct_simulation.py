@@ -122,13 +122,13 @@ def convergence(runs, _):
 
 def rough(runs, arguments):
     """Generated and measured surfaces: both routes against Eq. (16) and against the curve."""
-    modulus, slope, points = 1e9, 0.1, 128
+    modulus, slope, points = 1e9, 0.1, 512
     with tempfile.TemporaryDirectory() as folder:
         surfaces = []
         for seed in (1, 2, 3):
             file = f"{folder}/{seed}.h5"
             runs.answer("generate", "--points", points, "--size-x", "10um", "--hurst", 0.8, "--rolloff", "1.25um",
-                        "--short-cutoff", f"{8 * 10 / points}um", "--rms-slope", slope, "--seed", seed, "-o", file)
+                        "--short-cutoff", "0.625um", "--rms-slope", slope, "--seed", seed, "-o", file)
             surfaces.append((f"seed {seed}", [file], slope))
         if arguments.measured:
             found = runs.answer("info", arguments.measured)
@@ -149,7 +149,7 @@ def rough(runs, arguments):
         def run(_, surface, scale, l, load, k, case):
             return runs.answer("oscillate", "--surface", *surface, "--pressure", load * modulus * scale,
                                "--contact-modulus", modulus, "--poisson", 0.3, "--decay-length", l,
-                               *motion(case, k * l))
+                               "--steps", 128, "--levels", 64, *motion(case, k * l))
 
         rows = []
         for (name, _, _, _, load, k, case), a in zip(keys, runs.all(run, keys)):
