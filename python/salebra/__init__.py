@@ -7,6 +7,7 @@ doi:10.1038/srep16189. Every number comes from the C++ library salebra; names of
 SI, and arrays are heights[ix, iy], x first.
 """
 
+from . import _waiting as _waiting  # before anything that loads the extension
 from . import closed_form as closed_form
 from ._citations import Citation as Citation
 from ._citations import citations as citations

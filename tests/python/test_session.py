@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import inspect
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -35,6 +36,18 @@ def test_errors_are_those_that_python_users_catch() -> None:
 def test_a_write_that_the_system_refuses_is_an_oserror(tmp_path: os.PathLike[str]) -> None:
     with pytest.raises((OSError, ValueError)):
         salebra.write_surface("/proc/salebra.h5", generated())
+
+
+def test_threads_sleep_while_they_wait_unless_the_user_wants_otherwise() -> None:
+    # OpenMP itself tells how often its threads look before they sleep. (Its OMP_WAIT_POLICY says PASSIVE where nothing was chosen, too.)
+    script = "import os, salebra; print(os.environ.get('OMP_WAIT_POLICY'))"
+    clean = {key: value for key, value in os.environ.items() if key != "OMP_WAIT_POLICY"}
+    for chosen, found in (({}, "0"), ({"OMP_WAIT_POLICY": "active"}, r"[1-9]\d*")):
+        run = subprocess.run(
+            [sys.executable, "-c", script], env={**clean, **chosen, "OMP_DISPLAY_ENV": "verbose"},
+            capture_output=True, text=True, check=True)
+        assert re.search(f"GOMP_SPINCOUNT = '{found}'", run.stderr), run.stderr
+        assert run.stdout.strip() == str(chosen.get("OMP_WAIT_POLICY"))
 
 
 def test_other_threads_run_during_a_solve() -> None:
