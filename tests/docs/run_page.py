@@ -11,6 +11,7 @@ that has the tree's data/ and examples/, a scan.txt, and out/, and ends with 1 a
 
 A comment before a block changes that:
   <!-- not run: REASON -->          neither run nor compared
+  <!-- long: REASON -->             the same, of what is right but takes too long for a test
   <!-- small: REASON -->            run with fewer points, steps and values, as docs/make-figures --small
   <!-- file: NAME -->               written to NAME for the blocks that follow
 and one at the head of a page holds for all of it: <!-- page not run: REASON -->.
@@ -47,7 +48,7 @@ def blocks_of(page):
     blocks, marks, fence = [], {}, None
     for number, line in enumerate(page.read_text().splitlines(), 1):
         if fence is None:
-            mark = re.fullmatch(r"\s*<!-- (page not run|not run|small|file): (.*\S) -->", line)
+            mark = re.fullmatch(r"\s*<!-- (page not run|not run|long|small|file): (.*\S) -->", line)
             opening = re.fullmatch(r"\s*(```+|~~~+)\s*(\S*).*", line)
             if mark:
                 marks[mark[1]] = mark[2]
@@ -189,7 +190,7 @@ def check(page, arguments):
         counts[block.language] = counts.get(block.language, 0) + 1
         if "file" in block.marks:
             (scratch / block.marks["file"]).write_text(block.text)
-        elif "not run" in block.marks or block.language in OTHER:
+        elif "not run" in block.marks or "long" in block.marks or block.language in OTHER:
             continue
         elif block.language == "console":
             for command, shown in commands_of(block.text, where):

@@ -35,6 +35,17 @@ key = 1
 ```sh
 grep key made.toml
 ```
+```python
+import pathlib
+text = pathlib.Path("made.toml").read_text()
+```
+<!-- long: a night -->
+```python
+raise SystemExit("left out")
+```
+```python
+assert "key" in text
+```
 """
 WRONG = {
     "a command that fails": "```sh\nfalse\n```\n",
@@ -46,6 +57,8 @@ WRONG = {
     "an option that is not there": "```sh\nsalebra info --no-such-option data/surfaces/afm-scan.txt\n```\n",
     "a block without a language": "```\ntrue\n```\n",
     "C++ that is in no example": "```cpp\nint in_no_example();\n```\n",
+    "a Python block that fails": "```python\nassert 1 == 2\n```\n",
+    "a Python block that needs a later one": "```python\nprint(later)\n```\n```python\nlater = 1\n```\n",
     "a key that is in no study file": "```toml\nno_such_key = 1\n```\n",
 }
 
@@ -55,7 +68,8 @@ with tempfile.TemporaryDirectory() as folder:
     def status(text):
         page = folder / "page.md"
         page.write_text(text)
-        done = subprocess.run([sys.executable, here / "run_page.py", page, *sys.argv[1:], "--scratch", folder / "scratch"],
+        done = subprocess.run([sys.executable, here / "run_page.py", page, *sys.argv[1:], "--scratch", folder / "scratch",
+                               "--python", sys.executable],
                               capture_output=True, text=True)
         return done.returncode, done.stdout + done.stderr
 
@@ -64,6 +78,6 @@ with tempfile.TemporaryDirectory() as folder:
         sys.exit(f"a right page is refused: {said}")
     for fault, text in WRONG.items():
         code, said = status(text)
-        if code != 1 or "Traceback" in said:
+        if code != 1 or 'run_page.py", line' in said:
             sys.exit(f"{fault} is not caught: status {code}, {said}")
 print(f"{len(WRONG)} faults are caught")
