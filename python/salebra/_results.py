@@ -213,3 +213,24 @@ def _(result: _core.StudyResult) -> xarray.Dataset:
         add(name, "damping_constant", lambda model, name=name: result.damping(name, model))  # type: ignore[misc]
     meanings["model"] = "1", "contact model"
     return _dataset(columns, {"model": result.models, "pressure": result.pressures}, {}, meanings)
+
+
+def group_to_xarray(reader: _core.ResultReader, group: str) -> xarray.Dataset:
+    """A group of a file; datasets on no coordinate of theirs are coordinates themselves, or single numbers."""
+    try:
+        import xarray
+    except ImportError as error:
+        raise ImportError("to_xarray needs xarray; install it") from error
+    variables: dict[str, Any] = {}
+    names: set[str] = set()
+    for name in reader.datasets(group):
+        path = f"{group.rstrip('/')}/{name}"
+        values = reader[path]
+        dims = tuple(reader.coordinates(path))
+        if values.ndim == 1 and not dims:
+            dims = (name,)
+            names.add(name)
+        meaning = {key: value for key, value in reader.attributes(path).items() if key in ("units", "long_name")}
+        variables[name] = dims, values, meaning
+    data = xarray.Dataset(variables, attrs=reader.attributes(group))
+    return data.set_coords(sorted(names))

@@ -8,7 +8,7 @@ Units are SI. Arguments are not checked: they are formulas.
 """
 
 from . import _core  # noqa: F401  (brings its submodule with it)
-from ._core.closed_form import (
+from ._core._closed_form import (
     damping_constant,
     drag_integral_scaled,
     edge_slope,

@@ -21,8 +21,11 @@ void bind_law(nanobind::module_& module);
 void bind_mdr(nanobind::module_& module);
 void bind_motion(nanobind::module_& module);
 void bind_damping(nanobind::module_& module);
+void bind_trajectories(nanobind::module_& module);
+void bind_damping_maps(nanobind::module_& module);
 void bind_closed_form(nanobind::module_& module);
 void bind_cycle(nanobind::module_& module);
 void bind_study(nanobind::module_& module);
+void bind_results(nanobind::module_& module);
 
 }  // namespace salebra::python

@@ -14,7 +14,7 @@ namespace cf = closed_form;
 
 void bind_closed_form(nb::module_& parent) {
   nb::module_ m =
-      parent.def_submodule("closed_form",
+      parent.def_submodule("_closed_form",
                            "Equations (6)–(16) of Popov, Popov and Pohrt, \"Relaxation damping in "
                            "oscillating contacts\", doi:10.1038/srep16189, each "
                            "under its number, and the closed forms that go beyond them.\n\n"

@@ -186,17 +186,29 @@ void bind_fit(nb::module_& m) {
       });
   m.def(
       "fit_exponential",
-      [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window) {
-        return fit_exponential(curve, window_of(window));
+      [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window,
+         const Choice<FitWeights>& weights) {
+        return fit_exponential(curve, window_of(window), weights.value("weights"));
       },
-      nb::arg("curve"), nb::arg("window") = nb::none(),
-      R"(Least squares of ln p = a − ū/l over a window of a curve, with Student-t 95 % limits.
+      nb::arg("curve"), nb::arg("window") = nb::none(), nb::arg("weights") = "spacing",
+      R"(Weighted least squares of ln p = a − ū/l over a window of a curve, with Student-t 95 % limits.
+
+.. math:: \sum_i w_i\,(\ln p_i - a + \bar u_i/l)^2 = \min, \qquad p_0 = e^a
 
 Parameters
 ----------
 curve : ForceCurve
 window : (float, float), optional
     Least and largest pressure, Pa; none: the samples with ū between 1 and 2.5 h_rms, where the law is at its best.
+weights : {"spacing", "equal", "force"}
+    What a sample counts for. "spacing": the length of ū that it stands for, half way to its neighbours, so that l is a property of
+    the curve and its window and not of how the loads are spread: for a computed curve. "equal": one, for values whose relative errors
+    are alike. "force": p², for values whose absolute errors are alike, such as those of a load cell.
+
+Raises
+------
+InvalidInput
+    For fewer than three points in the window, equal gaps, or a pressure that does not fall with ū.
 
 Notes
 -----
@@ -224,23 +236,26 @@ The interval holds for independent errors of ln p. With a computed curve it meas
       });
   m.def(
       "test_exponential",
-      [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window) {
-        return test_exponential(curve, window_of(window));
+      [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window,
+         const Choice<FitWeights>& weights) {
+        return test_exponential(curve, window_of(window), weights.value("weights"));
       },
-      nb::arg("curve"), nb::arg("window") = nb::none(),
-      "Tests the exponential law over the window of :func:`fit_exponential`.");
+      nb::arg("curve"), nb::arg("window") = nb::none(), nb::arg("weights") = "spacing",
+      "Tests the exponential law over the window and with the weights of :func:`fit_exponential`; "
+      "four points at least.");
   nb::class_<WindowSensitivity>(m, "WindowSensitivity", "How much a fit owes to its window.")
       .def_ro("decay_length_min", &WindowSensitivity::decay_length_min, "m")
       .def_ro("decay_length_max", &WindowSensitivity::decay_length_max, "m")
       .def_ro("windows", &WindowSensitivity::windows, "How many runs of samples were fitted.");
   m.def(
       "window_sensitivity",
-      [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window) {
-        return window_sensitivity(curve, window_of(window));
+      [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window,
+         const Choice<FitWeights>& weights) {
+        return window_sensitivity(curve, window_of(window), weights.value("weights"));
       },
-      nb::arg("curve"), nb::arg("window") = nb::none(),
+      nb::arg("curve"), nb::arg("window") = nb::none(), nb::arg("weights") = "spacing",
       "The least and largest decay length over every run of samples that holds at least half of "
-      "the window.");
+      "the window, with the weights of :func:`fit_exponential`.");
   nb::class_<LocalDecayLength> local(m, "LocalDecayLength",
                                      "l(ū) = −dū/d ln p between consecutive samples.");
   view_property(local, "mean_gap", &LocalDecayLength::mean_gap, "m");

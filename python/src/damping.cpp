@@ -4,14 +4,8 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
-#include <limits>
-#include <salebra/damping/asperity_damping.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/dissipation.hpp>
-#include <salebra/damping/friction_map.hpp>
-#include <salebra/damping/stress_map.hpp>
-#include <salebra/damping/tangential_contact.hpp>
-#include <salebra/damping/trajectory_damping.hpp>
 
 #include "bindings.hpp"
 #include "interop/choice.hpp"
@@ -21,8 +15,6 @@
 
 namespace salebra::python {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Where the contact stands: exactly one of the two keywords.
 Position position_of(std::optional<double> indentation, std::optional<double> force) {
@@ -191,89 +183,6 @@ list of DampingResult
         "settles.");
 }
 
-void bind_trajectories(nb::module_& m) {
-  nb::class_<TangentialContact>(
-      m, "TangentialContact",
-      R"(The tangential state of any contact with nested contact sets, along any path.
-
-.. math:: F_x = \int_{-\infty}^{\delta} K_t'(\zeta)\,[x - x_0(\zeta)]\,d\zeta
-
-Exact for motion in straight steps. The motion must stay within lowest <= δ <= highest.
-
-Parameters
-----------
-law : ContactLaw
-lowest, highest : float
-    m.
-friction : float
-    μ >= 0; infinite: full stick, the case of the paper.
-merge_tolerance : float
-    How far the stored history may deviate from the motion, m; 0 keeps all of it.
-table_tolerance : float
-    Relative, of the table of K_t that stands for the law.
-tangential_range : float
-    Largest distance of two positions x of the motion, m; needed where friction is finite.
-)")
-      .def(
-          "__init__",
-          [](TangentialContact* self, const ContactLaw& law, double lowest, double highest,
-             double friction, double merge_tolerance, double table_tolerance,
-             double tangential_range) {
-            new (self)
-                TangentialContact(law, lowest, highest,
-                                  {friction, merge_tolerance, table_tolerance, tangential_range});
-          },
-          nb::arg("law"), nb::arg("lowest"), nb::arg("highest"), nb::kw_only(),
-          nb::arg("friction") = infinite, nb::arg("merge_tolerance") = 0.0,
-          nb::arg("table_tolerance") = 1e-12, nb::arg("tangential_range") = 0.0,
-          nb::keep_alive<1, 2>())
-      .def("start", &TangentialContact::start, nb::arg("indentation"), nb::arg("x"),
-           "Puts the indenter down, all springs free of stress; sets the energies to 0.")
-      .def("move_to", &TangentialContact::move_to, nb::arg("indentation"), nb::arg("x"),
-           "Moves on a straight line in (δ, x), m.")
-      .def_prop_ro("tangential_force", &TangentialContact::tangential_force, "F_x, N.")
-      .def_prop_ro("stored_energy", &TangentialContact::stored_energy, "J")
-      .def_prop_ro("dissipated", &TangentialContact::dissipated, "Lost since start(), J.")
-      .def_prop_ro("dissipated_in_permanent_contact",
-                   &TangentialContact::dissipated_in_permanent_contact,
-                   "Of it, by slip of levels that never leave contact, J.")
-      .def_prop_ro("external_work", &TangentialContact::external_work, "∫F_x dx since start(), J.")
-      .def_prop_ro("permanent_stiffness", &TangentialContact::permanent_stiffness,
-                   "K_t at `lowest`, N/m.")
-      .def_prop_ro("memory", &TangentialContact::memory, "Pieces of history now held.");
-
-  nb::class_<TrajectoryDamping> damping(m, "TrajectoryDamping",
-                                        "Steady state of a contact under a periodic motion.");
-  damping.def_ro("work_per_cycle", &TrajectoryDamping::work_per_cycle, "Energy lost per period, J.")
-      .def_ro("relaxation_work", &TrajectoryDamping::relaxation_work,
-              "Of it, by levels that open and close, J.")
-      .def_ro("slip_work", &TrajectoryDamping::slip_work, "Of it, by slip in permanent contact, J.")
-      .def_ro("power", &TrajectoryDamping::power, "W")
-      .def_ro("damping_constant", &TrajectoryDamping::damping_constant, "γ = P/⟨ẋ²⟩, N s/m.")
-      .def_ro("storage_stiffness", &TrajectoryDamping::storage_stiffness,
-              "Part of F_x in phase with x, N/m.")
-      .def_ro("loss_factor", &TrajectoryDamping::loss_factor, "W/(2πU) of a harmonic motion.")
-      .def_ro("memory", &TrajectoryDamping::memory, "Most pieces of history held at a time.")
-      .def_ro("periods", &TrajectoryDamping::periods, "Periods computed.")
-      .def_ro("converged", &TrajectoryDamping::converged);
-  view_property(damping, "tangential_force", &TrajectoryDamping::tangential_force,
-                "F_x at the samples, N.");
-  view_property(damping, "dissipated", &TrajectoryDamping::dissipated,
-                "Energy lost since the first sample, J.");
-  m.def(
-      "trajectory_damping",
-      [](const ContactLaw& law, const SampledMotion& trajectory, double friction, int max_periods) {
-        cite({"popov2015"});
-        return unlocked([&] {
-          return trajectory_damping(law, trajectory, {friction, max_periods});
-        });
-      },
-      nb::arg("law"), nb::arg("trajectory"), nb::kw_only(), nb::arg("friction") = infinite,
-      nb::arg("max_periods") = 200,
-      "Follows a periodic trajectory until it is steady; exact for its straight steps. friction: "
-      "μ, infinite for full stick.");
-}
-
 void bind_damper(nb::module_& m) {
   nb::class_<OscillatorDecay>(
       m, "OscillatorDecay",
@@ -348,93 +257,12 @@ void bind_damper(nb::module_& m) {
       "NaN where no amplitude up to largest_amplitude is enough.");
 }
 
-void bind_maps(nb::module_& m) {
-  nb::class_<FrictionMap> friction(
-      m, "FrictionMap",
-      "How far the paper's \"infinite\" friction reaches: losses over the full-stick loss.");
-  view_property(friction, "friction_number", &FrictionMap::friction_number, "M = μE*u_z/(G*u_x).");
-  view_property(friction, "phase", &FrictionMap::phase, "φ0, rad.");
-  view_property(friction, "loss", &FrictionMap::loss, "W(μ)/W(∞), (friction numbers, phases).");
-  view_property(friction, "relaxation", &FrictionMap::relaxation,
-                "Its part from levels that open and close.");
-  view_property(friction, "slip", &FrictionMap::slip, "Its part from slip in permanent contact.");
-  result_methods(friction, true);
-  m.def(
-      "friction_map",
-      [](const ContactLaw& law, double mean_indentation, double normal_amplitude,
-         double tangential_amplitude, const Values& friction_numbers, const Values& phases,
-         int steps, const ProgressArgument& progress) {
-        return interruptible(progress, [&](Progress told) {
-          return friction_map(law, mean_indentation, normal_amplitude, tangential_amplitude,
-                              friction_numbers.values, phases.values, {steps, std::move(told)});
-        });
-      },
-      nb::arg("law"), nb::arg("mean_indentation"), nb::arg("normal_amplitude"),
-      nb::arg("tangential_amplitude"), nb::arg("friction_numbers"), nb::arg("phases"),
-      nb::kw_only(), nb::arg("steps") = 1000, nb::arg("progress") = false,
-      "W(μ)/W(∞) over friction numbers M = μE*u_z/(G*u_x) and phases, rad; lengths in m.");
-
-  nb::class_<StressMap> stress(m, "StressMap",
-                               "Stresses under an axisymmetric indenter over phases and radii: "
-                               "Fig. 4 of doi:10.1038/srep16189.");
-  view_property(stress, "angle", &StressMap::angle, "θ, rad.");
-  view_property(stress, "radius", &StressMap::radius, "r, m.");
-  view_property(stress, "contact_radius", &StressMap::contact_radius, "a of each phase, m.");
-  view_property(stress, "tangential_force", &StressMap::tangential_force, "F_x of each phase, N.");
-  view_property(stress, "shear", &StressMap::shear, "τ (phases, radii), Pa, Eq. (17).");
-  view_property(stress, "pressure", &StressMap::pressure, "p (phases, radii), Pa.");
-  result_methods(stress, true);
-  m.def(
-      "stress_map",
-      [](const IndenterLaw& law, double mean_indentation, const Oscillation& motion, int phases,
-         int radii, const ProgressArgument& progress) {
-        cite({"popov2015", "popov_hess2015"});
-        return interruptible(progress, [&](Progress told) {
-          return stress_map(law, mean_indentation, motion, phases, radii, told);
-        });
-      },
-      nb::arg("law"), nb::arg("mean_indentation"), nb::arg("motion"), nb::kw_only(),
-      nb::arg("phases") = 128, nb::arg("radii") = 256, nb::arg("progress") = false,
-      "The map of Fig. 4: phases + 1 angles from −π to π, and radii cells from 0 to 1.05 times the "
-      "largest contact radius.");
-
-  nb::class_<AsperityDamping> asperity(
-      m, "AsperityDamping", "Who loses what: the relaxation damping of every summit of a surface.");
-  view_property(asperity, "work", &AsperityDamping::work, "W_i of each summit, J.");
-  asperity.def_ro("work_per_cycle", &AsperityDamping::work_per_cycle, "Σ W_i, J.")
-      .def_ro("intermittent_work", &AsperityDamping::intermittent_work,
-              "Of it, by summits that lose contact during the cycle, J.")
-      .def_ro("small_amplitude_work", &AsperityDamping::small_amplitude_work,
-              "Eq. (12) or (15) with F'' of all summits, J.")
-      .def_ro("contacts_most", &AsperityDamping::contacts_most,
-              "Summits in contact where the body is closest …")
-      .def_ro("contacts_least", &AsperityDamping::contacts_least, "… and farthest.")
-      .def_ro("power", &AsperityDamping::power, "W")
-      .def_ro("damping_constant", &AsperityDamping::damping_constant, "γ, N s/m.");
-  m.def(
-      "asperity_damping",
-      [](const SummitList& summits, const Material& material, double separation,
-         const Oscillation& motion, const Choice<SummitShape>& shape) {
-        cite({"popov2015", "greenwood_williamson1966"});
-        const SummitShape chosen = shape.value("shape");
-        return unlocked([&] {
-          return asperity_damping(summits.summits, material, separation, motion, chosen);
-        });
-      },
-      nb::arg("summits"), nb::arg("material"), nb::arg("separation"), nb::arg("motion"),
-      nb::kw_only(), nb::arg("shape") = "circular",
-      "Each summit is an elastic foundation of its own that sticks; separation: mean, from the "
-      "mean of the summits' heights, m.");
-}
-
 }  // namespace
 
 void bind_damping(nb::module_& m) {
   bind_damping_result(m);
   bind_theorem(m);
-  bind_trajectories(m);
   bind_damper(m);
-  bind_maps(m);
 }
 
 }  // namespace salebra::python

@@ -20,7 +20,10 @@ NB_MODULE(_core, m) {
   bind_mdr(m);
   bind_motion(m);
   bind_damping(m);
+  bind_trajectories(m);
+  bind_damping_maps(m);
   bind_closed_form(m);
   bind_cycle(m);
   bind_study(m);
+  bind_results(m);
 }

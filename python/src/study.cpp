@@ -57,6 +57,12 @@ double DampingPoint::*damping_quantity(const std::string& name) {
       "curve_work, curve_damping_constant; choose one of them");
 }
 
+std::vector<std::string> names_of(const std::vector<ContactModel>& models) {
+  std::vector<std::string> names;
+  for (const ContactModel model : models) names.emplace_back(name_of(model));
+  return names;
+}
+
 void cite_study() {
   cite({"popov2015", "polonsky_keer1999", "stanley_kato1997", "greenwood_williamson1966",
         "nayak1971", "mccool1986"});
@@ -68,6 +74,38 @@ void bind_configuration(nb::module_& m) {
       .def_ro("text", &StudyConfiguration::text, "The file as it was read.")
       .def_ro("material", &StudyConfiguration::material)
       .def_ro("tolerance", &StudyConfiguration::tolerance)
+      .def_prop_ro(
+          "models", [](const StudyConfiguration& self) { return names_of(self.models); },
+          "Names of the contact models that are run on each surface.")
+      .def_prop_ro(
+          "compared_models",
+          [](const StudyConfiguration& self) { return names_of(self.compared_models); },
+          "Those that the program's command `compare` runs: all, unless the study file chooses.")
+      .def(
+          "with_models",
+          [](const StudyConfiguration& self, const std::vector<std::string>& models) {
+            StudyConfiguration chosen = self;
+            chosen.models = contact_models(models);
+            return chosen;
+          },
+          nb::arg("models"),
+          nb::sig("def with_models(self, models: collections.abc.Sequence[str]) -> "
+                  "StudyConfiguration"),
+          R"(The same study with these contact models on each surface.
+
+Parameters
+----------
+models : list of str
+    "bem" (boundary elements, which the others are measured by and which is run in any case), "gw_moments" (Greenwood–Williamson,
+    summits from spectral moments), "gw_deterministic" (the surface's own summits), "gw_monte_carlo" (summits drawn at random),
+    "gw_interacting" (own summits, each pressed down by the others), "persson". `compared_models` is the list of the program's
+    command `compare`.
+
+Raises
+------
+InvalidInput
+    "models: …" for another name.
+)")
       .def(
           "with_surface",
           [](const StudyConfiguration& self, const std::filesystem::path& file,

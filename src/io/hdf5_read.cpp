@@ -14,6 +14,11 @@ herr_t collect(hid_t, const char* name, const H5L_info_t* info, void* names) {
   return 0;
 }
 
+herr_t collect_attribute(hid_t, const char* name, const H5A_info_t*, void* names) {
+  static_cast<std::vector<std::string>*>(names)->push_back(name);
+  return 0;
+}
+
 struct OpenAttribute {
   Attribute attribute;
   Type type;
@@ -42,6 +47,13 @@ std::vector<std::string> members(hid_t group, H5O_type_t kind) {
     return H5Oget_info_by_name2(group, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0 ||
            info.type != kind;
   });
+  return names;
+}
+
+std::vector<std::string> attributes_of(hid_t object) {
+  std::vector<std::string> names;
+  check(H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_attribute, &names),
+        "list attributes");
   return names;
 }
 

@@ -13,6 +13,9 @@ namespace salebra::detail::hdf5 {
 /// Names of the members of a group that are of one kind, in the order of their names.
 std::vector<std::string> members(hid_t group, H5O_type_t kind);
 
+/// Names of the attributes of an object, in the order of their names.
+std::vector<std::string> attributes_of(hid_t object);
+
 /// Extent of a dataset along each dimension; empty for a scalar.
 std::vector<hsize_t> shape_of(hid_t dataset);
 

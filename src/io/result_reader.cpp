@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <hdf5_hl.h>
 
+#include <algorithm>
 #include <numeric>
 #include <salebra/io/result_file.hpp>
 
@@ -129,6 +130,13 @@ std::vector<std::string> ResultReader::labels(const std::string& dataset) const 
   });
 }
 
+bool ResultReader::holds_labels(const std::string& dataset) const {
+  return state_->guarded([&] {
+    const Type type(H5Dget_type(state_->dataset(dataset)), "read the type of " + dataset);
+    return H5Tget_class(type) == H5T_STRING;
+  });
+}
+
 std::vector<std::string> ResultReader::coordinates(const std::string& dataset) const {
   return state_->guarded([&] {
     const Dataset handle = state_->dataset(dataset);
@@ -161,6 +169,19 @@ std::optional<std::string> ResultReader::text_attribute(const std::string& path,
     if (!state_->exists(path)) return {};
     const Handle<H5Oclose> object(H5Oopen(state_->file, path.c_str(), H5P_DEFAULT), "open " + path);
     return detail::hdf5::text_attribute(object, name.c_str());
+  });
+}
+
+std::vector<std::string> ResultReader::attributes(const std::string& path) const {
+  return state_->guarded([&] {
+    const Handle<H5Oclose> object(H5Oopen(state_->file, path.c_str(), H5P_DEFAULT), "open " + path);
+    std::vector<std::string> names = attributes_of(object);
+    std::erase_if(names, [](const std::string& name) {
+      constexpr std::string_view of_scales[] = {"CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST",
+                                                "_Netcdf4Dimid"};
+      return std::ranges::find(of_scales, name) != std::end(of_scales);
+    });
+    return names;
   });
 }
 

@@ -55,12 +55,22 @@ TEST_CASE("Results are read back as they were written", "[result file]") {
   CHECK(reader.labels("damping/model") == std::vector<std::string>{"bem", "größe"});
   CHECK(reader.field("damping/map")(1, 0) == 4);
   CHECK(reader.text_attribute("damping", "note") == "a note");
+  CHECK(reader.attributes("damping") == std::vector<std::string>{"note"});
+  // A dimension scale and what lies on it, without what HDF5 ties them together by.
+  for (const char* name : {"damping/force", "damping/damping_constant"})
+    CHECK(reader.attributes(name) == std::vector<std::string>{"long_name", "units"});
+  CHECK(reader.attributes("damping/converged") ==
+        std::vector<std::string>{"dtype", "long_name", "units"});
+  CHECK(reader.holds_labels("damping/model"));
+  CHECK_FALSE(reader.holds_labels("damping/force"));
   CHECK(reader.coordinates("damping/damping_constant") ==
         std::vector<std::string>{"seed", "model", "force"});
   CHECK_THROWS_WITH(reader.numbers("damping/absent"), Contains("results.h5") && Contains("absent"));
   CHECK_THROWS_AS(reader.number("damping/force"), InvalidInput);
   CHECK_THROWS_AS(reader.numbers("damping/model"), InvalidInput);
   CHECK_THROWS_AS(reader.groups("fit"), InvalidInput);
+  CHECK_THROWS_AS(reader.attributes("fit"), InvalidInput);
+  CHECK_THROWS_AS(reader.holds_labels("fit"), InvalidInput);
   CHECK_THROWS_AS(ResultReader(scratch / "absent.h5"), InvalidInput);
 }
 

@@ -3,11 +3,17 @@
 
 from __future__ import annotations
 
+import json
+import os
+import subprocess
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import salebra
+from user_script import STUDY as STUDY
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -33,3 +39,17 @@ def material() -> salebra.Material:
 def measured() -> Path:
     """The AFM scan of the README."""
     return ROOT / "data" / "surfaces" / "afm-scan.txt"
+
+
+@pytest.fixture(scope="session")
+def program() -> Callable[..., Any]:
+    """The program of this build: program("fit", "curve.h5") is the object that `salebra fit curve.h5 --json` prints."""
+    path = os.environ.get("SALEBRA_PROGRAM", "")
+    if not path:
+        pytest.skip("no program in this build")
+
+    def run(*arguments: str | Path) -> Any:
+        done = subprocess.run([path, *map(str, arguments), "--json"], capture_output=True, text=True, check=True)
+        return json.loads(done.stdout)
+
+    return run

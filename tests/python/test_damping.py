@@ -106,41 +106,6 @@ def test_levels_may_be_a_python_function() -> None:
         salebra.simulate_cycle(salebra.ContactLevels(broken, grid), material, motion, 0.2, steps=4, boundary="free")
 
 
-def test_a_study_from_text_writes_what_it_computed(tmp_path: Path) -> None:
-    configuration = salebra.parse_study_configuration(
-        """
-        [surface]
-        points = 64
-        size_x = "1mm"
-        hurst = 0.8
-        rolloff = "250um"
-        short_cutoff = "125um"
-        rms_height = "1um"
-        seeds = [1, 2]
-        [material]
-        contact_modulus = "1GPa"
-        poisson = 0.3
-        [contact]
-        relative_pressures = "1e-3:0.1:10"
-        tolerance = 1e-6
-        [damping]
-        mode = "drag"
-        normal_amplitude = "1nm"
-        drag_velocity = "1mm/s"
-        frequency = "20kHz"
-        """
-    )
-    result = salebra.run_study(configuration)
-    assert len(result.realisations) == 2
-    assert result.models[0] == "bem"
-    decay_length = result.decay_length()
-    fitted = [realisation.bem.fit.decay_length for realisation in result.realisations]
-    assert decay_length.mean == pytest.approx(np.mean(fitted), rel=1e-12)
-    assert len(result.damping("law_damping_constant")) == 10
-    result.write(tmp_path / "study.h5")
-    assert (tmp_path / "study.h5").exists()
-
-
 def test_measured_surface_to_damping_constant(measured: Path) -> None:
     """The example of the README; its numbers are those that the program prints for the same scan."""
     surface = salebra.read_surface(measured).detrended()
@@ -164,12 +129,3 @@ def test_measured_surface_to_damping_constant(measured: Path) -> None:
     # With (G*/E*)K for K_t: `salebra study --no-stick`.
     assert salebra.relaxation_damping(law, DRAG, force=force).converged
     assert {"popov2015", "polonsky_keer1999"} <= {citation.key for citation in salebra.citations()}
-
-
-@pytest.mark.parametrize(("page", "file"), [("README.md", "data/surfaces/afm-scan.txt"), ("docs/python.md", "scan.txt")])
-def test_the_examples_of_the_pages_run(page: str, file: str, measured: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    blocks = re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(), re.DOTALL)
-    assert len(blocks) == 1
-    assert f'"{file}"' in blocks[0]
-    exec(blocks[0].replace(f'"{file}"', repr(str(measured))), {})
-    assert capsys.readouterr().out

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,29 @@ import numpy.typing as npt
 
 import salebra
 from salebra import closed_form
+
+
+STUDY = """
+[surface]
+points = 64
+size_x = "1mm"
+hurst = 0.8
+rolloff = "250um"
+short_cutoff = "125um"
+rms_height = "1um"
+seeds = [1, 2]
+[material]
+contact_modulus = "1GPa"
+poisson = 0.3
+[contact]
+relative_pressures = "1e-3:0.1:10"
+tolerance = 1e-6
+[damping]
+mode = "drag"
+normal_amplitude = "1nm"
+drag_velocity = "1mm/s"
+frequency = "20kHz"
+"""
 
 
 def decay_lengths(surface: salebra.Surface, material: salebra.Material, pressures: npt.NDArray[np.float64]) -> list[float]:
@@ -46,6 +70,20 @@ def main() -> None:
     result = salebra.relaxation_damping(law, motion, force=0.1, hold="force")
     small = closed_form.work_per_cycle(law.modulus_ratio, float(law.curvature(0.0)), motion)
     print(result.work_per_cycle / small, Path(__file__).name)
+
+    study: salebra.StudyConfiguration = salebra.parse_study_configuration(STUDY).with_models(["gw_deterministic"])
+    study_result: salebra.StudyResult = salebra.run_study(study)
+    equal = salebra.fit_exponential(study_result.realisations[0].bem.curve, weights="equal")
+    print(study.models, equal.decay_length, study_result.decay_length("gw_deterministic").mean)
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "study.h5"
+        study_result.write(file)
+        reader = salebra.ResultReader(file)
+        constants: npt.NDArray[np.float64] = reader["damping/curve_damping_constant"]
+        version: float | str = reader.attributes()["version"]
+        print(constants.shape, reader.units("damping/curve_damping_constant"), version, "damping" in reader)
+        if salebra.can_report():
+            salebra.write_report(file, Path(folder) / "study.html", title="A study", direct=[])
 
     try:
         salebra.read_surface("nowhere.h5")

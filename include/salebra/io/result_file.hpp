@@ -108,12 +108,16 @@ class ResultReader {
   double number(const std::string& dataset) const;
   Field field(const std::string& dataset) const;
   std::vector<std::string> labels(const std::string& dataset) const;
+  /// Whether a dataset is a list of names, which labels() reads and numbers() refuses.
+  bool holds_labels(const std::string& dataset) const;
   /// Names of the coordinates on which a dataset lies.
   std::vector<std::string> coordinates(const std::string& dataset) const;
 
   /// Of a group or dataset; "/" is the root. Empty where there is none of that name and kind.
   std::optional<double> number_attribute(const std::string& path, const std::string& name) const;
   std::optional<std::string> text_attribute(const std::string& path, const std::string& name) const;
+  /// Names of the attributes of a group or dataset in their order, without those that HDF5 keeps its dimension scales in.
+  std::vector<std::string> attributes(const std::string& path = "/") const;
 
  private:
   struct State;

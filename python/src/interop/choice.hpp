@@ -6,6 +6,7 @@
 
 #include <array>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/fit.hpp>
 #include <salebra/contact/greenwood_williamson.hpp>
 #include <salebra/contact/half_space.hpp>
 #include <salebra/contact/normal.hpp>
@@ -85,6 +86,8 @@ SALEBRA_TEXTS(SummitDistribution, "'gaussian', 'exponential', 'tabulated'",
               {SummitDistribution::tabulated, "tabulated"});
 SALEBRA_TEXTS(SummitShape, "'circular', 'elliptical'", {SummitShape::circular, "circular"},
               {SummitShape::elliptical, "elliptical"});
+SALEBRA_TEXTS(FitWeights, "'spacing', 'equal', 'force'", {FitWeights::spacing, "spacing"},
+              {FitWeights::equal, "equal"}, {FitWeights::force, "force"});
 SALEBRA_TEXTS(Hold, "'indentation', 'force'", {Hold::indentation, "indentation"},
               {Hold::force, "force"});
 SALEBRA_TEXTS(Amplitude, "'small', 'finite'", {Amplitude::small, "small"},

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <nanobind/stl/variant.h>
+
+#include <salebra/damping/asperity_damping.hpp>
+#include <salebra/damping/friction_map.hpp>
+#include <salebra/damping/stress_map.hpp>
+
+#include "bindings.hpp"
+#include "interop/choice.hpp"
+#include "interop/citations.hpp"
+#include "interop/running.hpp"
+#include "interop/surface.hpp"
+
+namespace salebra::python {
+namespace {
+
+void bind_friction_map(nb::module_& m) {
+  nb::class_<FrictionMap> friction(
+      m, "FrictionMap",
+      "How far the paper's \"infinite\" friction reaches: losses over the full-stick loss.");
+  view_property(friction, "friction_number", &FrictionMap::friction_number, "M = μE*u_z/(G*u_x).");
+  view_property(friction, "phase", &FrictionMap::phase, "φ0, rad.");
+  view_property(friction, "loss", &FrictionMap::loss, "W(μ)/W(∞), (friction numbers, phases).");
+  view_property(friction, "relaxation", &FrictionMap::relaxation,
+                "Its part from levels that open and close.");
+  view_property(friction, "slip", &FrictionMap::slip, "Its part from slip in permanent contact.");
+  result_methods(friction, true);
+  m.def(
+      "friction_map",
+      [](const ContactLaw& law, double mean_indentation, double normal_amplitude,
+         double tangential_amplitude, const Values& friction_numbers, const Values& phases,
+         int steps, const ProgressArgument& progress) {
+        return interruptible(progress, [&](Progress told) {
+          return friction_map(law, mean_indentation, normal_amplitude, tangential_amplitude,
+                              friction_numbers.values, phases.values, {steps, std::move(told)});
+        });
+      },
+      nb::arg("law"), nb::arg("mean_indentation"), nb::arg("normal_amplitude"),
+      nb::arg("tangential_amplitude"), nb::arg("friction_numbers"), nb::arg("phases"),
+      nb::kw_only(), nb::arg("steps") = 1000, nb::arg("progress") = false,
+      "W(μ)/W(∞) over friction numbers M = μE*u_z/(G*u_x) and phases, rad; lengths in m.");
+}
+
+void bind_stress_map(nb::module_& m) {
+  nb::class_<StressMap> stress(m, "StressMap",
+                               "Stresses under an axisymmetric indenter over phases and radii: "
+                               "Fig. 4 of doi:10.1038/srep16189.");
+  view_property(stress, "angle", &StressMap::angle, "θ, rad.");
+  view_property(stress, "radius", &StressMap::radius, "r, m.");
+  view_property(stress, "contact_radius", &StressMap::contact_radius, "a of each phase, m.");
+  view_property(stress, "tangential_force", &StressMap::tangential_force, "F_x of each phase, N.");
+  view_property(stress, "shear", &StressMap::shear, "τ (phases, radii), Pa, Eq. (17).");
+  view_property(stress, "pressure", &StressMap::pressure, "p (phases, radii), Pa.");
+  result_methods(stress, true);
+  m.def(
+      "stress_map",
+      [](const IndenterLaw& law, double mean_indentation, const Oscillation& motion, int phases,
+         int radii, const ProgressArgument& progress) {
+        cite({"popov2015", "popov_hess2015"});
+        return interruptible(progress, [&](Progress told) {
+          return stress_map(law, mean_indentation, motion, phases, radii, told);
+        });
+      },
+      nb::arg("law"), nb::arg("mean_indentation"), nb::arg("motion"), nb::kw_only(),
+      nb::arg("phases") = 128, nb::arg("radii") = 256, nb::arg("progress") = false,
+      "The map of Fig. 4: phases + 1 angles from −π to π, and radii cells from 0 to 1.05 times the "
+      "largest contact radius.");
+}
+
+void bind_asperities(nb::module_& m) {
+  nb::class_<AsperityDamping> asperity(
+      m, "AsperityDamping", "Who loses what: the relaxation damping of every summit of a surface.");
+  view_property(asperity, "work", &AsperityDamping::work, "W_i of each summit, J.");
+  asperity.def_ro("work_per_cycle", &AsperityDamping::work_per_cycle, "Σ W_i, J.")
+      .def_ro("intermittent_work", &AsperityDamping::intermittent_work,
+              "Of it, by summits that lose contact during the cycle, J.")
+      .def_ro("small_amplitude_work", &AsperityDamping::small_amplitude_work,
+              "Eq. (12) or (15) with F'' of all summits, J.")
+      .def_ro("contacts_most", &AsperityDamping::contacts_most,
+              "Summits in contact where the body is closest …")
+      .def_ro("contacts_least", &AsperityDamping::contacts_least, "… and farthest.")
+      .def_ro("power", &AsperityDamping::power, "W")
+      .def_ro("damping_constant", &AsperityDamping::damping_constant, "γ, N s/m.");
+  m.def(
+      "asperity_damping",
+      [](const SummitList& summits, const Material& material, double separation,
+         const Oscillation& motion, const Choice<SummitShape>& shape) {
+        cite({"popov2015", "greenwood_williamson1966"});
+        const SummitShape chosen = shape.value("shape");
+        return unlocked([&] {
+          return asperity_damping(summits.summits, material, separation, motion, chosen);
+        });
+      },
+      nb::arg("summits"), nb::arg("material"), nb::arg("separation"), nb::arg("motion"),
+      nb::kw_only(), nb::arg("shape") = "circular",
+      "Each summit is an elastic foundation of its own that sticks; separation: mean, from the "
+      "mean of the summits' heights, m.");
+}
+
+}  // namespace
+
+void bind_damping_maps(nb::module_& m) {
+  bind_friction_map(m);
+  bind_stress_map(m);
+  bind_asperities(m);
+}
+
+}  // namespace salebra::python

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <limits>
+#include <salebra/damping/tangential_contact.hpp>
+#include <salebra/damping/trajectory_damping.hpp>
+
+#include "bindings.hpp"
+#include "interop/arrays.hpp"
+#include "interop/citations.hpp"
+#include "interop/running.hpp"
+
+namespace salebra::python {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+void bind_tangential_contact(nb::module_& m) {
+  nb::class_<TangentialContact>(
+      m, "TangentialContact",
+      R"(The tangential state of any contact with nested contact sets, along any path.
+
+.. math:: F_x = \int_{-\infty}^{\delta} K_t'(\zeta)\,[x - x_0(\zeta)]\,d\zeta
+
+Exact for motion in straight steps. The motion must stay within lowest <= δ <= highest.
+
+Parameters
+----------
+law : ContactLaw
+lowest, highest : float
+    m.
+friction : float
+    μ >= 0; infinite: full stick, the case of the paper.
+merge_tolerance : float
+    How far the stored history may deviate from the motion, m; 0 keeps all of it.
+table_tolerance : float
+    Relative, of the table of K_t that stands for the law.
+tangential_range : float
+    Largest distance of two positions x of the motion, m; needed where friction is finite.
+)")
+      .def(
+          "__init__",
+          [](TangentialContact* self, const ContactLaw& law, double lowest, double highest,
+             double friction, double merge_tolerance, double table_tolerance,
+             double tangential_range) {
+            new (self)
+                TangentialContact(law, lowest, highest,
+                                  {friction, merge_tolerance, table_tolerance, tangential_range});
+          },
+          nb::arg("law"), nb::arg("lowest"), nb::arg("highest"), nb::kw_only(),
+          nb::arg("friction") = infinite, nb::arg("merge_tolerance") = 0.0,
+          nb::arg("table_tolerance") = 1e-12, nb::arg("tangential_range") = 0.0,
+          nb::keep_alive<1, 2>())
+      .def("start", &TangentialContact::start, nb::arg("indentation"), nb::arg("x"),
+           "Puts the indenter down, all springs free of stress; sets the energies to 0.")
+      .def("move_to", &TangentialContact::move_to, nb::arg("indentation"), nb::arg("x"),
+           "Moves on a straight line in (δ, x), m.")
+      .def_prop_ro("tangential_force", &TangentialContact::tangential_force, "F_x, N.")
+      .def_prop_ro("stored_energy", &TangentialContact::stored_energy, "J")
+      .def_prop_ro("dissipated", &TangentialContact::dissipated, "Lost since start(), J.")
+      .def_prop_ro("dissipated_in_permanent_contact",
+                   &TangentialContact::dissipated_in_permanent_contact,
+                   "Of it, by slip of levels that never leave contact, J.")
+      .def_prop_ro("external_work", &TangentialContact::external_work, "∫F_x dx since start(), J.")
+      .def_prop_ro("permanent_stiffness", &TangentialContact::permanent_stiffness,
+                   "K_t at `lowest`, N/m.")
+      .def_prop_ro("memory", &TangentialContact::memory, "Pieces of history now held.");
+}
+
+void bind_damping_of_trajectory(nb::module_& m) {
+  nb::class_<TrajectoryDamping> damping(m, "TrajectoryDamping",
+                                        "Steady state of a contact under a periodic motion.");
+  damping.def_ro("work_per_cycle", &TrajectoryDamping::work_per_cycle, "Energy lost per period, J.")
+      .def_ro("relaxation_work", &TrajectoryDamping::relaxation_work,
+              "Of it, by levels that open and close, J.")
+      .def_ro("slip_work", &TrajectoryDamping::slip_work, "Of it, by slip in permanent contact, J.")
+      .def_ro("power", &TrajectoryDamping::power, "W")
+      .def_ro("damping_constant", &TrajectoryDamping::damping_constant, "γ = P/⟨ẋ²⟩, N s/m.")
+      .def_ro("storage_stiffness", &TrajectoryDamping::storage_stiffness,
+              "Part of F_x in phase with x, N/m.")
+      .def_ro("loss_factor", &TrajectoryDamping::loss_factor, "W/(2πU) of a harmonic motion.")
+      .def_ro("memory", &TrajectoryDamping::memory, "Most pieces of history held at a time.")
+      .def_ro("periods", &TrajectoryDamping::periods, "Periods computed.")
+      .def_ro("converged", &TrajectoryDamping::converged);
+  view_property(damping, "tangential_force", &TrajectoryDamping::tangential_force,
+                "F_x at the samples, N.");
+  view_property(damping, "dissipated", &TrajectoryDamping::dissipated,
+                "Energy lost since the first sample, J.");
+  m.def(
+      "trajectory_damping",
+      [](const ContactLaw& law, const SampledMotion& trajectory, double friction, int max_periods) {
+        cite({"popov2015"});
+        return unlocked([&] {
+          return trajectory_damping(law, trajectory, {friction, max_periods});
+        });
+      },
+      nb::arg("law"), nb::arg("trajectory"), nb::kw_only(), nb::arg("friction") = infinite,
+      nb::arg("max_periods") = 200,
+      "Follows a periodic trajectory until it is steady; exact for its straight steps. friction: "
+      "μ, infinite for full stick.");
+}
+
+}  // namespace
+
+void bind_trajectories(nb::module_& m) {
+  bind_tangential_contact(m);
+  bind_damping_of_trajectory(m);
+}
+
+}  // namespace salebra::python

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Studies, their files and pages: what Python and the program make of the same configuration is the same."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import salebra
+from conftest import STUDY
+
+
+@pytest.fixture(scope="module")
+def result() -> salebra.StudyResult:
+    return salebra.run_study(salebra.parse_study_configuration(STUDY))
+
+
+def test_a_study_from_text_writes_what_it_computed(result: salebra.StudyResult, tmp_path: Path) -> None:
+    assert len(result.realisations) == 2
+    assert result.models == ["bem", "gw_moments", "gw_deterministic"]
+    decay_length = result.decay_length()
+    fitted = [realisation.bem.fit.decay_length for realisation in result.realisations]
+    assert decay_length.mean == pytest.approx(np.mean(fitted), rel=1e-12)
+    assert len(result.damping("law_damping_constant")) == 10
+    result.write(tmp_path / "study.h5")
+    assert (tmp_path / "study.h5").exists()
+
+
+def test_weights_of_the_fit_are_those_of_the_program(
+    result: salebra.StudyResult, program: Callable[..., Any], tmp_path: Path
+) -> None:
+    curve = result.realisations[0].bem.curve
+    salebra.write_force_curve(tmp_path / "curve.h5", curve)
+    window = (float(curve.pressure[1]), float(curve.pressure[8]))
+    lengths = []
+    for weights in ("spacing", "equal", "force"):
+        answer = program("fit", tmp_path / "curve.h5", "--weights", weights, "--pressure-window", f"{window[0]},{window[1]}")
+        fit = salebra.fit_exponential(curve, window, weights)
+        assert fit.decay_length == pytest.approx(answer["decay_length"], rel=1e-12)
+        lengths.append(fit.decay_length)
+        test = salebra.test_exponential(curve, window, weights=weights)
+        assert test.significance == pytest.approx(answer["test"]["significance"], rel=1e-9)
+        sensitivity = salebra.window_sensitivity(curve, window, weights=weights)
+        assert sensitivity.decay_length_min <= fit.decay_length <= sensitivity.decay_length_max
+    # The law does not hold exactly, so that what counts for how much matters.
+    assert len(set(lengths)) == 3
+    assert salebra.fit_exponential(curve, window).decay_length == lengths[0]
+    with pytest.raises(salebra.InvalidInput, match="weights: 'best' is none of spacing, equal, force"):
+        salebra.fit_exponential(curve, window, "best")  # type: ignore[arg-type]
+
+
+def test_models_are_chosen_as_by_compare(program: Callable[..., Any], tmp_path: Path) -> None:
+    configuration = salebra.parse_study_configuration(STUDY)
+    assert configuration.models == ["bem", "gw_moments", "gw_deterministic"]
+    assert set(configuration.models) < set(configuration.compared_models)
+    # The boundary elements, which the others are measured by, are among them in any case.
+    chosen = configuration.with_models(["gw_interacting", "persson"])
+    assert set(chosen.models) == {"bem", "gw_interacting", "persson"}
+    assert configuration.models == ["bem", "gw_moments", "gw_deterministic"]
+    with pytest.raises(salebra.InvalidInput, match="models: 'gw'"):
+        configuration.with_models(["gw"])
+
+    result = salebra.run_study(chosen)
+    assert set(result.models) == {"bem", "gw_interacting", "persson"}
+    (tmp_path / "study.toml").write_text(STUDY)
+    answer = program("compare", tmp_path / "study.toml", "--models", "gw_interacting,persson")["models"]
+    assert set(answer) == set(result.models)
+    for model in result.models:
+        ours = result.area_slope(model).mean
+        assert ours == pytest.approx(answer[model]["area_slope"]["mean"], rel=1e-12)
+    assert len(result.realisations[0].model("gw_interacting").curve) == 10
+    assert len(result.realisations[0].model("gw_monte_carlo").curve) == 0
+
+
+def test_a_file_of_results_gives_arrays_with_units_and_attributes(result: salebra.StudyResult, tmp_path: Path) -> None:
+    result.write(tmp_path / "study.h5")
+    reader = salebra.ResultReader(tmp_path / "study.h5")
+    assert reader.file == str(tmp_path / "study.h5")
+    assert {"surface", "curve", "fit", "damping"} <= set(reader.groups())
+    assert "damping/pressure" in reader and "damping/absent" not in reader
+    assert "curve_damping_constant" in reader.datasets("damping")
+    assert reader.coordinates("damping/curve_damping_constant") == ["model", "realisation", "pressure"]
+    values = reader["damping/curve_damping_constant"]
+    assert values.shape == (3, 2, 10) and values.dtype == np.float64
+    assert values[0, 1, 4] == result.realisations[1].bem.damping[4].curve_damping_constant
+    assert reader.units("damping/curve_damping_constant") == "N s/m"
+    assert list(reader["damping/model"]) == result.models
+    assert np.array_equal(reader["damping/pressure"], result.pressures)
+    flags = reader["curve/converged"]
+    assert flags.dtype == np.bool_ and flags.all()
+    provenance = reader.attributes()
+    assert provenance["version"] == salebra.version() and "Eigen" in str(provenance["libraries"])
+    assert reader.attributes("damping/pressure")["units"] == "Pa"
+    # An array is the reader's no longer.
+    values[:] = 0.0
+    assert reader["damping/curve_damping_constant"][0, 1, 4] != 0.0
+    with pytest.raises(salebra.InvalidInput, match="study.h5: has no dataset damping/absent"):
+        reader["damping/absent"]
+    with pytest.raises(salebra.InvalidInput, match="absent.h5"):
+        salebra.ResultReader(tmp_path / "absent.h5")
+
+
+def test_a_group_of_a_file_becomes_a_dataset(result: salebra.StudyResult, tmp_path: Path) -> None:
+    pytest.importorskip("xarray")
+    result.write(tmp_path / "study.h5")
+    reader = salebra.ResultReader(tmp_path / "study.h5")
+    for group in ("damping", "/damping"):
+        data = reader.to_xarray(group)
+        # Fully selected by names, as xarray.open_dataset of the same group would have it.
+        chosen = data.curve_damping_constant.sel(model="bem").isel(realisation=1, pressure=4)
+        assert float(chosen) == result.realisations[1].bem.damping[4].curve_damping_constant
+        assert data.curve_damping_constant.attrs["units"] == "N s/m"
+        assert data.pressure.attrs["long_name"]
+    assert reader.to_xarray().attrs["version"] == salebra.version()
+
+
+def test_a_table_of_the_program_is_read(program: Callable[..., Any], tmp_path: Path) -> None:
+    surface, curve = tmp_path / "rough.h5", tmp_path / "curve.h5"
+    program("generate", "--points", "32", "--size-x", "1mm", "--hurst", "0.8", "--rolloff", "0.5mm", "--short-cutoff",
+            "125um", "--rms-height", "1um", "-o", surface)  # fmt: skip
+    answer = program("sweep", surface, "--contact-modulus", "1GPa", "--poisson", "0.3", "--pressures", "10kPa:1MPa:4", "-o", curve)
+    reader = salebra.ResultReader(curve)
+    assert reader["curve/mean_gap"].tolist() == answer["curve"]["mean_gap"]
+    assert "salebra sweep" in str(reader.attributes()["command_line"])
+    heights = salebra.ResultReader(surface)
+    field = next(name for name in heights.datasets() if heights[name].ndim == 2)
+    assert np.array_equal(heights[field], salebra.read_surface(surface).heights)
+
+
+def test_a_report_is_the_page_of_the_program(result: salebra.StudyResult, program: Callable[..., Any], tmp_path: Path) -> None:
+    results = tmp_path / "study.h5"
+    result.write(results)
+    if not salebra.can_report():
+        with pytest.raises(salebra.IoError, match="plotly"):
+            salebra.write_report(results, tmp_path / "page.html")
+        return
+    salebra.write_report(results, tmp_path / "page.html", title="A title of ours")
+    page = (tmp_path / "page.html").read_text()
+    assert "A title of ours" in page
+    program("report", results, "--title", "A title of ours", "-o", tmp_path / "again.html")
+    assert (tmp_path / "again.html").read_text() == page
+    with pytest.raises(salebra.InvalidInput, match="page.html: exists"):
+        salebra.write_report(results, tmp_path / "page.html")
+    salebra.write_report(results, tmp_path / "page.html", overwrite=True)
+    assert "A title of ours" not in (tmp_path / "page.html").read_text()
+    (tmp_path / "text.h5").write_text("no results")
+    with pytest.raises(salebra.InvalidInput, match="text.h5"):
+        salebra.write_report(tmp_path / "text.h5", tmp_path / "other.html")
+    assert not (tmp_path / "other.html").exists()
+
+
+def test_a_study_goes_on_from_its_parts(result: salebra.StudyResult, tmp_path: Path) -> None:
+    configuration = salebra.parse_study_configuration(STUDY)
+    parts = tmp_path / "parts"
+    finished: list[float] = []
+
+    def stop(report: salebra.ProgressReport) -> bool:
+        finished.append(report.fraction)
+        return False
+
+    # Stopped at its first word: nothing, or what was finished by then.
+    first = salebra.run_ensembles(configuration, parts=parts, progress=stop)
+    assert finished and (not first or first[0].interrupted)
+    whole = salebra.run_ensembles(configuration, parts=parts, resume=True)[0]
+    kept = sorted(path.name for path in parts.glob("*.realisation"))
+    assert len(kept) == 2
+    with pytest.raises(salebra.InvalidInput, match="2 finished surfaces"):
+        salebra.run_ensembles(configuration, parts=parts)
+    # Nothing is computed anew: the files stay as they are, and the numbers are those of an undisturbed run.
+    times = [path.stat().st_mtime_ns for path in sorted(parts.glob("*.realisation"))]
+    again = salebra.run_ensembles(configuration, parts=parts, resume=True)[0]
+    assert [path.stat().st_mtime_ns for path in sorted(parts.glob("*.realisation"))] == times
+    for other in (whole, again):
+        assert [one.bem.fit.decay_length for one in other.realisations] == [one.bem.fit.decay_length for one in result.realisations]
+    assert not re.search(r"lock", " ".join(path.name for path in parts.iterdir()))
