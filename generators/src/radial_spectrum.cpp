@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/generators/radial_spectrum.hpp>
@@ -49,7 +50,8 @@ double integrate(const Function& f, double lowest, double highest) {
       const double a = from + (to - from) * k / panels, b = from + (to - from) * (k + 1) / panels;
       const Panel panel{a, b, f(a), f((a + b) / 2), f(b)};
       const double size = std::max({std::abs(sum), std::abs(panel.simpson())});
-      sum += adaptive(f, panel, 1e-12 * size, 30);
+      // Below the least normal number a tolerance is 0 or rounding, and halving would not end.
+      sum += adaptive(f, panel, std::max(1e-12 * size, std::numeric_limits<double>::min()), 30);
     }
   }
   return sum;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/generators/filtered_noise.hpp>
@@ -68,6 +69,13 @@ TEST_CASE("Gaussian correlation has its moments and its correlation", "[generato
     CHECK(sum / double(grid.points()) / (rms * rms) ==
           Approx(std::exp(-distance * distance)).margin(1.5e-3));
   }
+}
+
+TEST_CASE("Moments below the least normal number are summed in the usual time",
+          "[generators][radial]") {
+  // A tolerance of 0 would halve every panel to the end of its depth, 2³⁰ times.
+  const FunctionSpectrum spectrum = gaussian_correlation_spectrum(1e-170, 0.02);
+  CHECK(spectrum.moments().moment0 < std::numeric_limits<double>::min());
 }
 
 TEST_CASE("Exponential correlation keeps its rms height for every cut-off",

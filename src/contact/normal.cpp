@@ -51,7 +51,10 @@ struct Depths {
       square += part.second;
       first += part.first;
     }
-    rms = std::sqrt(std::max(0.0, square / points - first / points * (first / points)));
+    const double mean_square = square / points;
+    require(mean_square < 1e200, "rms height", std::sqrt(mean_square),
+            "must be below 1e100 m; check the unit of the heights");
+    rms = std::sqrt(std::max(0.0, mean_square - first / points * (first / points)));
   }
 
  private:
@@ -216,7 +219,11 @@ NormalContactState state_of(Solution&& solution, const ContactTarget& target, co
   state.residual = outcome.residual;
   state.iterations = outcome.iterations;
   state.fft_count = outcome.fft_count;
-  state.converged = outcome.converged;
+  // Numbers beyond the range of double pass every comparison.
+  const bool finite = std::isfinite(state.force) && std::isfinite(state.mean_gap) &&
+                      std::isfinite(state.elastic_energy);
+  if (!finite) state.residual = std::numeric_limits<double>::infinity();
+  state.converged = outcome.converged && finite;
   state.interrupted = outcome.interrupted;
   return state;
 }
@@ -258,6 +265,9 @@ NormalContactState press_to_pressure(const Surface& surface, double contact_modu
                                      double nominal_pressure, const NormalContactOptions& options) {
   check(surface, contact_modulus, options);
   require_positive(nominal_pressure, "nominal_pressure");
+  require(nominal_pressure <= 1e12 * contact_modulus, "nominal_pressure", nominal_pressure,
+          fmt::format("must not exceed 1e12 times the contact modulus, {} Pa; check the units",
+                      contact_modulus));
   require(nominal_pressure < options.hardness, "hardness", options.hardness,
           "must exceed the nominal pressure: no contact carries more than its hardness");
   const Depths depths(surface.heights);

@@ -276,6 +276,11 @@ TEST_CASE("Plane and single-cell surfaces, and targets that no contact meets", "
   CHECK_THROWS_AS(press_to_pressure(surface, contact_modulus, 0), InvalidInput);
   CHECK_THROWS_AS(press_to_pressure(surface, contact_modulus, -1), InvalidInput);
   CHECK_THROWS_AS(press_to_pressure(surface, contact_modulus, std::nan("")), InvalidInput);
+  // Beyond the range of double every comparison with the result fails, and passes for agreement.
+  CHECK_THROWS_AS(press_to_pressure(surface, contact_modulus, 1e300), InvalidInput);
+  Surface giant = surface;
+  giant.heights *= 1e200;
+  CHECK_THROWS_AS(press_to_pressure(giant, contact_modulus, 1e6), InvalidInput);
   CHECK_THROWS_AS(press_to_pressure(surface, 0, 1e6), InvalidInput);
   CHECK_THROWS_AS(press_to_mean_gap(surface, contact_modulus, 0), InvalidInput);
   const double touch = surface.heights.maxCoeff() - surface.heights.mean();
