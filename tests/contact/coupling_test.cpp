@@ -179,6 +179,12 @@ TEST_CASE("A paraboloid that does not slip is Spence's", "[coupling]") {
     const Surface surface = paraboloid_surface(grid, radius, off_grid_center(grid));
     const CoupledContact bonded = pressed(surface, material, infinite, indentation, increments);
     REQUIRE(bonded.converged());
+    // The surface of the softer body is drawn inwards (A wave of pressure …); what holds it are tractions outwards.
+    const Field& traction = bonded.sliding().traction().x;
+    double moment = 0;
+    for (Index ix = 0; ix < n; ++ix)
+      moment += traction.row(ix).sum() * (static_cast<double>(ix) * grid.dx() - grid.lx / 2);
+    CHECK(moment * grid.cell_area() > 0.01 * bonded.normal_force() * 0.35e-3);
     const double hertz = 4.0 / 3 * contact_modulus * std::sqrt(radius) * std::pow(indentation, 1.5);
     return bonded.normal_force() / hertz;
   };

@@ -115,6 +115,33 @@ TEST_CASE("Along and across an elongated contact the loss differs as Mindlin's e
   }
 }
 
+TEST_CASE("A contact that lies askew loses along its own axes as it does along the grid's",
+          "[levels]") {
+  // Only K_xy tells the long axis of an ellipse at 30° from its mirror image.
+  const Material material = Material::of_contact_modulus(contact_modulus, 0.4);
+  const double angle = pi / 6;
+  const auto ratio = [&](double turned, double direction) {
+    const double c = std::cos(turned), s = std::sin(turned);
+    Surface surface{grid, Field(grid.nx, grid.ny), false, "ellipse"};
+    for (Index ix = 0; ix < grid.nx; ++ix)
+      for (Index iy = 0; iy < grid.ny; ++iy) {
+        const double x = (static_cast<double>(ix) - 0.31) * grid.dx() - grid.lx / 2;
+        const double y = (static_cast<double>(iy) - 0.17) * grid.dy() - grid.ly / 2;
+        surface.heights(ix, iy) =
+            -std::pow(c * x + s * y, 2) / 0.8 - std::pow(c * y - s * x, 2) / 0.08;
+      }
+    LevelQuadratureOptions options = free_boundary();
+    options.levels = 8;
+    options.direction = direction;
+    return level_quadrature(free_levels(surface), grid, material,
+                            EqualFrequency{amplitude, 2e-7, pi / 2}, mean_indentation, options)
+        .stiffness_ratio;
+  };
+  const double along = ratio(angle, angle);
+  CHECK(along == Approx(ratio(0, 0)).epsilon(4e-3));
+  CHECK(std::abs(ratio(angle, -angle) / along - 1) > 0.05);
+}
+
 TEST_CASE("Levels and steps agree on a contact of several pieces", "[levels]") {
   const Grid2D cells{36, 30, 1.2e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);

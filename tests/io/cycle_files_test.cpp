@@ -50,6 +50,28 @@ bool same_bits(const TangentialField& a, const TangentialField& b) {
   return (a.x == b.x).all() && (a.y == b.y).all();
 }
 
+// Every column of a period's samples.
+void check_same(const std::vector<CycleSample>& a, const std::vector<CycleSample>& b) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (double CycleSample::*value :
+         {&CycleSample::t, &CycleSample::indentation, &CycleSample::tangential,
+          &CycleSample::tangential_force, &CycleSample::normal_force, &CycleSample::work,
+          &CycleSample::released_energy, &CycleSample::contact_area,
+          &CycleSample::tangential_stiffness})
+      CHECK(a[k].*value == b[k].*value);
+}
+void check_same(const std::vector<FrictionalSample>& a, const std::vector<FrictionalSample>& b) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (double FrictionalSample::*value :
+         {&FrictionalSample::t, &FrictionalSample::indentation, &FrictionalSample::tangential,
+          &FrictionalSample::tangential_force, &FrictionalSample::normal_force,
+          &FrictionalSample::work, &FrictionalSample::dissipated, &FrictionalSample::contact_area,
+          &FrictionalSample::slip_area})
+      CHECK(a[k].*value == b[k].*value);
+}
+
 std::string text_of(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file).rdbuf();
@@ -62,6 +84,9 @@ TEST_CASE("A checkpoint gives a cycle's state back to the last bit", "[io]") {
   const Scratch scratch;
   const CycleState state = states_of_a_cycle()[5];
   const CycleSettings settings{{"steps", "8"}, {"surface", fingerprint(state.traction.x)}};
+  Field last_changed = state.traction.x;
+  last_changed(grid.nx - 1, grid.ny - 1) += 1e-9;
+  CHECK(fingerprint(last_changed) != settings.back().second);
   const auto file = scratch / "cycle.h5";
   write_cycle_checkpoint(file, states_of_a_cycle()[2], settings, {});
   write_cycle_checkpoint(file, state, settings, {});  // replaces the last one
@@ -84,12 +109,7 @@ TEST_CASE("A checkpoint gives a cycle's state back to the last bit", "[io]") {
   CHECK(same_bits(read.traction, state.traction));
   CHECK(same_bits(read.unit_traction, state.unit_traction));
   REQUIRE(read.samples.size() == 6);
-  for (std::size_t k = 0; k < 6; ++k) {
-    CHECK(read.samples[k].t == state.samples[k].t);
-    CHECK(read.samples[k].tangential_force == state.samples[k].tangential_force);
-    CHECK(read.samples[k].normal_force == state.samples[k].normal_force);
-    CHECK(read.samples[k].contact_area == state.samples[k].contact_area);
-  }
+  check_same(read.samples, state.samples);
 }
 
 TEST_CASE("A checkpoint keeps the cycle with friction beside the one without", "[io]") {
@@ -128,11 +148,7 @@ TEST_CASE("A checkpoint keeps the cycle with friction beside the one without", "
   CHECK(now.iterations == then.iterations);
   CHECK(now.fft_count == then.fft_count);
   REQUIRE(read->samples.size() == 4);
-  for (std::size_t k = 0; k < 4; ++k) {
-    CHECK(read->samples[k].t == state.samples[k].t);
-    CHECK(read->samples[k].dissipated == state.samples[k].dissipated);
-    CHECK(read->samples[k].slip_area == state.samples[k].slip_area);
-  }
+  check_same(read->samples, state.samples);
 }
 
 TEST_CASE("A checkpoint of other settings, or what is none, is refused in one line", "[io]") {
@@ -190,7 +206,8 @@ TEST_CASE("The XDMF list names datasets that are there, with their sizes, and ev
   // The value of cell (ix, iy) stands beside the point (x, y) of that cell.
   const ResultReader mesh(scratch / "a&b-mesh.h5");
   const std::vector<double> points = mesh.numbers("mesh/points");
-  const Field traction = ResultReader(scratch / "a&b-0004.h5").field("fields/traction_x");
+  const ResultReader frame(scratch / "a&b-0004.h5");
+  const Field traction = frame.field("fields/traction_x");
   for (Index ix = 0; ix < grid.nx; ++ix)
     for (Index iy = 0; iy < grid.ny; ++iy) {
       const auto at = static_cast<std::size_t>(3 * (ix * grid.ny + iy));
@@ -198,7 +215,16 @@ TEST_CASE("The XDMF list names datasets that are there, with their sizes, and ev
       CHECK(points[at + 1] == static_cast<double>(iy) * grid.dy());
       CHECK(traction(ix, iy) == states[4].traction.x(ix, iy));
     }
-  CHECK((ResultReader(scratch / "a&b-0006.h5").field("fields/pressure") == normal.pressure).all());
+  CHECK((frame.field("fields/traction_y") == states[4].traction.y).all());
+  CHECK((frame.field("fields/displacement_x") == states[4].displacement.x).all());
+  CHECK((frame.field("fields/displacement_y") == states[4].displacement.y).all());
+  // Without pressures to tell, the gap is that of undeformed bodies that just touch.
+  CHECK(frame.field("fields/gap").minCoeff() == 0);
+  const ResultReader last(scratch / "a&b-0006.h5");
+  CHECK((last.field("fields/pressure") == normal.pressure).all());
+  CHECK((last.field("fields/gap") == normal.gap).all());
+  CHECK((last.field("fields/contact") == states[6].contact.cast<double>()).all());
+  REQUIRE((states[6].contact != states[6].largest).any());
 }
 
 TEST_CASE("Fields of an interrupted cycle stay in the list of the resumed one", "[io]") {
@@ -233,6 +259,8 @@ TEST_CASE("Fields of a cycle with friction say where it was lost", "[io]") {
   CHECK(loss.sum() * grid.cell_area() == Approx(lost.sum()));
   CHECK((frame.field("fields/pressure") == state.contact.pressure).all());
   CHECK((frame.field("fields/traction_y") == state.contact.traction.y).all());
+  CHECK((frame.field("fields/displacement_x") == state.contact.displacement.x).all());
+  CHECK((frame.field("fields/contact") == (state.contact.pressure > 0).cast<double>()).all());
   CHECK(text_of(scratch / "f-friction.xdmf").find("f-friction-0003.h5:/fields/loss") !=
         std::string::npos);
   // A resumed run lists what is there, whatever its fields.
