@@ -122,6 +122,15 @@ void require_covered(const ContactLaw& law, double mean_indentation, double ampl
   require(false, "normal_amplitude", amplitude, constraint.str());
 }
 
+// A force that overflows makes losses that are no numbers, or worse, some.
+void require_representable(const ContactLaw& law, double mean_indentation, double amplitude) {
+  const double highest = mean_indentation + amplitude;
+  const double limit = std::sqrt(std::numeric_limits<double>::max());
+  require(law.force(highest) < limit && law.tangential_stiffness(highest) < limit,
+          "normal_amplitude", amplitude,
+          "m takes the contact's force beyond all measure; reduce the amplitude");
+}
+
 // Phases between 0 and π at which δ = δ0 + u_z cosθ passes a break of the law, with both ends.
 std::vector<double> break_angles(const ContactLaw& law, double mean_indentation, double amplitude) {
   const double low = mean_indentation - amplitude, high = mean_indentation + amplitude;
@@ -206,6 +215,7 @@ DampingResult damping_of(const ContactLaw& law, const Position& position, const 
       middle = indentation_at_mean_force(law, at ? at->force : law.force(settled), amplitude);
     }
     require_covered(law, middle, amplitude);
+    require_representable(law, middle, amplitude);
     set_state(result, law, middle);
     result.mean_force = mean_force_of_cycle(law, middle, amplitude);
     const NormalCycle cycle{[&](double angle) {

@@ -25,8 +25,9 @@ constexpr int directions = 720;            ///< of half a turn
 
 /// Distance along a direction at which the correlation first falls to the level; infinite where it does not.
 double fall_distance(const CorrelationMap& map, double angle, double level) {
-  const double step = std::min(map.grid.dx(), map.grid.dy()) / 2;
   const double along_x = std::cos(angle), along_y = std::sin(angle);
+  // Half a cell, counted in cells: these may be of any shape.
+  const double step = 0.5 / std::hypot(along_x / map.grid.dx(), along_y / map.grid.dy());
   const auto value = [&](double distance) {
     const double row = static_cast<double>(map.origin()) + distance * along_x / map.grid.dx();
     const double column = distance * along_y / map.grid.dy();

@@ -264,6 +264,7 @@ TEST_CASE("Nonsense motion is refused with its name", "[dissipation]") {
   };
   refuse(slow_drag(-1e-9), "normal_amplitude");
   refuse(slow_drag(std::nan("")), "normal_amplitude");
+  refuse(slow_drag(1e300), "normal_amplitude");  // F ~ u^1.5 has no number there
   refuse(Drag{1e-7, 1e-4, 0}, "angular_frequency");
   refuse(Drag{1e-7, std::nan(""), 1}, "drag_velocity");
   refuse(EqualFrequency{1e-7, 1e-7, INFINITY, 0}, "phase");

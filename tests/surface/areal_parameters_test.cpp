@@ -49,6 +49,16 @@ TEST_CASE("A sinusoid has the heights of its formula", "[areal]") {
   CHECK(p.Std == Approx(0).margin(1e-12));
 }
 
+TEST_CASE("Correlation lengths do not mind the shape of the cells", "[areal]") {
+  // Steps of half a cell of the shorter side would be 10¹¹ along the longer one.
+  const Index n = 240;
+  Surface surface{{n, 4, 1e-3, 1e6}, Field(n, 4), true, ""};
+  for (Index ix = 0; ix < n; ++ix)
+    surface.heights.row(ix).setConstant(std::cos(2 * pi * 4 * static_cast<double>(ix) / n));
+  CHECK(areal_parameters(surface).Sal ==
+        Approx(std::acos(0.2) / (2 * pi * 4 / 1e-3)).epsilon(1e-3));
+}
+
 TEST_CASE("A stretched Gaussian correlation has the lengths, aspect and direction of its ellipse",
           "[areal]") {
   const double length = 0.02, angle = 0.5;
