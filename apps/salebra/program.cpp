@@ -11,6 +11,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/suggestion.hpp>
+#include <salebra/base/undefined_points.hpp>
 #include <salebra/base/version.hpp>
 
 #include "help_text.hpp"
@@ -143,6 +144,8 @@ int run_program(int argc, char** argv) {
     return app.exit(request);
   } catch (const CLI::ParseError& error) {
     return fail(2, fmt::format("{}; {}", describe(app, error), help_hint(app)));
+  } catch (const UndefinedPoints& error) {
+    return fail(2, std::string(error.what()) + " (salebra convert --fill)");
   } catch (const InvalidInput& error) {
     return fail(2, error.what());
   } catch (const Interrupted& error) {

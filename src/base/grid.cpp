@@ -3,6 +3,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/base/undefined_points.hpp>
+#include <string>
 
 namespace salebra {
 
@@ -33,9 +35,10 @@ void Surface::require_complete(const std::string& purpose) const {
       grid.points());
   if (wrong == 0) return;
   const Index undefined = undefined_points();
-  require(undefined == 0, "heights", undefined,
-          "undefined points cannot be used in " + purpose +
-              "; fill them (salebra convert --fill) or crop them first");
+  if (undefined > 0)
+    throw UndefinedPoints("heights: " + std::to_string(undefined) +
+                          " undefined points cannot be used in " + purpose +
+                          "; fill them or crop them first");
   require(false, "heights", "infinity", "cannot be used in " + purpose);
 }
 

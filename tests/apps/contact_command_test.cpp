@@ -146,7 +146,10 @@ TEST_CASE("Heights that are no numbers and loads that press nothing are refused"
   make_rough(test);
   test.write("holes.txt",
              "# Width: 1 µm\n# Height: 1 µm\n# Value units: nm\n1 2 3\n4 nan 6\n7 8 1\n");
-  check_refused(test.run("contact holes.txt --contact-modulus 1GPa --pressure 1MPa"), "undefined");
+  check_refused(
+      test.run("contact holes.txt --contact-modulus 1GPa --pressure 1MPa"),
+      "1 undefined points cannot be used in a contact calculation; fill them or crop them "
+      "first (salebra convert --fill)");
   for (const std::string pressure : {"0Pa", "-1MPa", "nan"})
     check_refused(test.run("contact rough.h5 --contact-modulus 1GPa --pressure=" + pressure),
                   "--pressure");
