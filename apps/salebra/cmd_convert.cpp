@@ -29,7 +29,7 @@ void run(ConvertArguments& arguments, Session& session) {
     surface = filled(std::move(surface));
   }
   write_surface(arguments.to, surface, session.provenance(), session.write_options());
-  if (session.has_plot()) session.plot(surface_figure(surface));
+  if (session.has_plot()) session.plot(surface_figure(surface, spectrum_of(surface)));
   session.answer(answer);
 }
 

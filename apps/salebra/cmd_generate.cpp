@@ -243,7 +243,7 @@ void run(const GenerateArguments& arguments, Session& session) {
   } else {
     session.note("no file was written; add --output FILE to keep the surface");
   }
-  if (session.has_plot()) session.plot(surface_figure(surface));
+  if (session.has_plot()) session.plot(surface_figure(surface, spectrum_of(surface)));
   session.answer(answer);
 }
 

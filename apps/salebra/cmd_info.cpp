@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <limits>
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/surface/moments.hpp>
-#include <salebra/surface/spectrum.hpp>
 #include <salebra/surface/summits.hpp>
 
 #include "answer_file.hpp"
@@ -14,15 +12,11 @@
 namespace salebra::cli {
 namespace {
 
-Json describe(const Surface& surface) {
+Json describe(const Surface& surface, const HurstEstimate& hurst) {
   const HeightStatistics heights = height_statistics(surface);
   const SpectralMoments moments =
       surface.undefined_points() > 0 ? difference_moments(surface) : surface_moments(surface);
   const SummitStatistics summits = summit_statistics(find_summits(surface));
-  // A spectrum needs every point; without one the exponent stays unknown.
-  HurstEstimate hurst;
-  hurst.value = hurst.low = hurst.high = std::numeric_limits<double>::quiet_NaN();
-  if (surface.undefined_points() == 0) hurst = estimate_hurst(power_spectrum(surface));
   return {{"nx", surface.grid.nx},
           {"ny", surface.grid.ny},
           {"size_x", surface.grid.lx},
@@ -47,15 +41,17 @@ Json describe(const Surface& surface) {
 
 void run(const SurfaceOptions& options, Session& session) {
   const Surface surface = options.read();
+  SurfaceSpectrum spectrum;
   Json answer;
   try {
-    answer = describe(surface);
+    spectrum = spectrum_of(surface);
+    answer = describe(surface, spectrum.hurst);
   } catch (const InvalidInput& refusal) {
     // Such as a grid of two rows, which has no curvature: the statistics do not know which file it came from.
     throw InvalidInput(options.file + ": " + refusal.what());
   }
   write_answer(session, "info", answer);
-  if (session.has_plot()) session.plot(surface_figure(surface));
+  if (session.has_plot()) session.plot(surface_figure(surface, spectrum));
   session.answer(answer);
 }
 

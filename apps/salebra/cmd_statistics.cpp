@@ -183,8 +183,7 @@ void run(const StatisticsArguments& arguments, Session& session) {
   for (ResultTable& table : height_tables(surface)) tables.push_back(std::move(table));
 
   write_tables(session, "statistics", answer, tables);
-  if (session.has_plot())
-    session.plot(surface_figure(surface, spectrum ? &*spectrum : nullptr, fit.hurst));
+  if (session.has_plot()) session.plot(surface_figure(surface, {std::move(spectrum), fit.hurst}));
   std::string text = to_text(answer);
   for (const ResultTable& table : tables)
     if (table.name == "psd" || table.name == "correlation") text += to_text(table);

@@ -67,12 +67,8 @@ void StudyArguments::add_to(CLI::App& command) {
 
 StudyReport::StudyReport(const StudyArguments& arguments, Session& session) : session_(session) {
   if (arguments.no_report || !session.has_output()) return;
-  if (!can_report()) {
-    session.note(
-        "no report will be written: this build carries no plotly.js (scripts/report-assets "
-        "fetches it)");
-    return;
-  }
+  lacks_assets_ = !can_report();
+  if (lacks_assets_) return;
   page_ = session.output().replace_extension(".html");
   require(page_ != session.output(), "--output", page_.string(),
           "is a report's name; name the results .h5, or add --no-report");
@@ -82,6 +78,10 @@ StudyReport::StudyReport(const StudyArguments& arguments, Session& session) : se
 }
 
 std::string StudyReport::write() {
+  if (lacks_assets_)
+    session_.note(
+        "no report was written: this build carries no plotly.js (scripts/report-assets fetches "
+        "it)");
   if (page_.empty()) return "";
   try {
     write_report(session_.output(), page_, {.write = session_.write_options()});

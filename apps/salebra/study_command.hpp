@@ -37,7 +37,7 @@ inline constexpr OutputCheck study_output = OutputCheck::by_command;
 class StudyReport {
  public:
   /// Throws where the page cannot be put in its place, before any work. Nothing is planned where there is no output, where the
-  /// user wants no page, or where this build cannot make one, which it then says.
+  /// user wants no page, or where this build cannot make one, which write() then says.
   StudyReport(const StudyArguments& arguments, Session& session);
   /// Writes what was planned, from the results file; its path, or empty. The results are safe by now: a failure is only a warning.
   std::string write();
@@ -46,6 +46,7 @@ class StudyReport {
 
  private:
   Session& session_;
+  bool lacks_assets_ = false;
   std::filesystem::path page_;
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/moments.hpp>
@@ -93,23 +94,25 @@ PlotPanel distribution_panel(const Surface& surface) {
 
 }  // namespace
 
-Figure surface_figure(const Surface& surface, const PowerSpectrum* spectrum,
-                      const HurstEstimate& hurst) {
+SurfaceSpectrum spectrum_of(const Surface& surface) {
+  SurfaceSpectrum result;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  result.hurst.value = result.hurst.low = result.hurst.high = none;
+  if (surface.undefined_points() > 0) return result;
+  result.spectrum = power_spectrum(surface);
+  result.hurst = estimate_hurst(*result.spectrum);
+  return result;
+}
+
+Figure surface_figure(const Surface& surface, const SurfaceSpectrum& of) {
   Figure figure;
   figure.panels.push_back(height_map(surface));
-  if (spectrum != nullptr) figure.panels.push_back(spectrum_panel(*spectrum, hurst));
+  if (of.spectrum && of.spectrum->density.maxCoeff() > 0)
+    figure.panels.push_back(spectrum_panel(*of.spectrum, of.hurst));
   if (height_statistics(surface).rms_height > 0)
     figure.panels.push_back(distribution_panel(surface));
   figure.columns = static_cast<int>(figure.panels.size());
   return figure;
-}
-
-Figure surface_figure(const Surface& surface) {
-  if (surface.undefined_points() > 0) return surface_figure(surface, nullptr, {});
-  const PowerSpectrum spectrum = power_spectrum(surface);
-  const HurstEstimate hurst = estimate_hurst(spectrum);
-  const bool flat = !(spectrum.density.maxCoeff() > 0);
-  return surface_figure(surface, flat ? nullptr : &spectrum, hurst);
 }
 
 }  // namespace salebra::cli

@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <salebra/base/grid.hpp>
 #include <salebra/io/plot.hpp>
 #include <salebra/surface/spectrum.hpp>
 
 namespace salebra::cli {
 
-/// A surface in three panels: the map of its heights, its radial power spectral density with the fitted law, and the
-/// distribution of its heights beside the Gaussian one of the same mean and rms height. Without every point defined there is no
-/// spectrum, and the second panel is left out.
-/// spectrum   of the surface, or none; hurst as estimated from it
-Figure surface_figure(const Surface& surface, const PowerSpectrum* spectrum,
-                      const HurstEstimate& hurst);
+/// A spectrum needs every point: without one there is none, and the exponent and its interval are NaN.
+struct SurfaceSpectrum {
+  std::optional<PowerSpectrum> spectrum;
+  HurstEstimate hurst;  ///< estimated from it
+};
 
-/// The same for a surface of which nothing is known yet.
-Figure surface_figure(const Surface& surface);
+SurfaceSpectrum spectrum_of(const Surface& surface);
+
+/// A surface in three panels: the map of its heights, its radial power spectral density with the fitted law, and the
+/// distribution of its heights beside the Gaussian one of the same mean and rms height. The second panel is left out where there
+/// is no spectrum, or no power in it.
+Figure surface_figure(const Surface& surface, const SurfaceSpectrum& of);
 
 }  // namespace salebra::cli

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "loaded_surface.hpp"
+#include "sidecar.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -132,7 +133,7 @@ ElementReader reader_of(std::string_view type) {
 }
 
 void read_sidecar(const std::filesystem::path& file, LoadedSurface& surface) {
-  const std::filesystem::path sidecar = file.string() + ".json";
+  const std::filesystem::path sidecar = sidecar_of(file);
   if (!std::filesystem::exists(sidecar)) return;
   const auto json = nlohmann::json::parse(file_content(sidecar), nullptr, false);
   try {

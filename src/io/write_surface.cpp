@@ -13,6 +13,7 @@
 
 #include "atomic_file.hpp"
 #include "hdf5_output.hpp"
+#include "sidecar.hpp"
 #include "surface_writers.hpp"
 
 namespace salebra {
@@ -57,7 +58,7 @@ void write_npy(const std::filesystem::path& file, const Surface& surface,
   const char length[] = {static_cast<char>(header.size() % 256),
                          static_cast<char>(header.size() / 256)};
 
-  detail::AtomicFile array(file, options), sidecar(file.string() + ".json", options);
+  detail::AtomicFile array(file, options), sidecar(detail::sidecar_of(file), options);
   array.write(std::string_view("\x93NUMPY\x01\x00", 8));
   array.write(std::string_view(length, sizeof length));
   array.write(header);

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <type_traits>
 
+#include "io/sidecar.hpp"
 #include "point_run.hpp"
 
 namespace salebra::detail {
@@ -240,8 +241,8 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
     writer(generated->grid, generated->spectrum, generated->method);
   } else {
     const auto& measured = std::get<MeasuredSurface>(point.surfaces);
-    writer(contents(measured.file), measured.size_x, measured.size_y, measured.detrend,
-           measured.height_unit);
+    writer(contents(measured.file), contents(sidecar_of(measured.file)), measured.size_x,
+           measured.size_y, measured.detrend, measured.height_unit);
   }
   writer(point.material, point.pressures, point.relative_pressures, point.tolerance, point.stick,
          point.window, point.models, point.motion.index());

@@ -3,31 +3,14 @@
 #include <salebra/report/report.hpp>
 
 #include "run_program.hpp"
+#include "study/study_text.hpp"
 
 using namespace salebra;
 using Catch::Contains;
 
 namespace {
 
-const std::string study = R"([surface]
-points = 32
-size_x = "2um"
-hurst = 0.8
-rolloff = "1um"
-short_cutoff = "0.5um"
-rms_height = "10nm"
-seeds = [1, 2]
-[material]
-contact_modulus = "10GPa"
-poisson = 0.3
-[contact]
-relative_pressures = "2e-3:0.2:10"
-tolerance = 1e-8
-[damping]
-normal_amplitude = "0.1nm"
-drag_velocity = "1mm/s"
-frequency = "20kHz"
-)";
+const std::string study = study_text("seeds = [1, 2]");
 
 }  // namespace
 
@@ -39,7 +22,7 @@ TEST_CASE("A study leaves a page beside its results unless it is told not to", "
   const auto result = test.run("study study.toml --no-stick -o result.h5");
   REQUIRE(result.status == 0);
   if (!can_report()) {
-    CHECK_THAT(result.err, Contains("no report will be written"));
+    CHECK_THAT(result.err, Contains("no report was written"));
     const auto refused = test.run("report result.h5 -o page.html");
     CHECK(refused.status == 1);
     CHECK_THAT(refused.err, Contains("plotly.js") && Contains("scripts/report-assets"));

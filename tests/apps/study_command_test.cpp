@@ -3,34 +3,13 @@
 #include <filesystem>
 
 #include "run_program.hpp"
+#include "study/study_text.hpp"
 
 using Catch::Contains;
 
 namespace {
 
-const std::string material_and_rest = R"(
-[material]
-contact_modulus = "10GPa"
-poisson = 0.3
-
-[contact]
-relative_pressures = "1e-3:0.2:10"
-tolerance = 1e-8
-
-[damping]
-normal_amplitude = "0.1nm"
-drag_velocity = "1mm/s"
-frequency = "20kHz"
-)";
-const std::string study = R"([surface]
-points = 64
-size_x = "4um"
-hurst = 0.8
-rolloff = "1um"
-short_cutoff = "0.5um"
-rms_height = "10nm"
-seeds = [1, 2, 3]
-)" + material_and_rest;
+const std::string study = study_text();
 
 }  // namespace
 
@@ -81,7 +60,7 @@ TEST_CASE("A study of a measured surface says that it is continued periodically"
       std::filesystem::path(SALEBRA_SHARED) / "surfaces/matrix-3.txt";
   if (!std::filesystem::exists(scan)) return;
   const ProgramTest test;
-  test.write("measured.toml", material_and_rest);
+  test.write("measured.toml", contact_text());
   const auto result =
       test.run("study measured.toml --surface " + scan.string() + " --json -o result.h5");
   INFO(result.err);

@@ -1,31 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
-#include <cmath>
-#include <numbers>
-#include <salebra/base/error.hpp>
-#include <salebra/damping/cycle.hpp>
-#include <salebra/damping/frictional_cycle.hpp>
+
+#include "islands.hpp"
 
 using namespace salebra;
 
 namespace {
 
-using std::numbers::pi;
-
 const Grid2D grid{22, 18, 1.1e-3, 0.9e-3};
 const Material material = Material::of_contact_modulus(3e9, 0.3);
-
-ContactLevel level_at(double indentation) {
-  ContactLevel level{.contact = ContactSet(grid.nx, grid.ny), .force = indentation};
-  for (Index ix = 0; ix < grid.nx; ++ix)
-    for (Index iy = 0; iy < grid.ny; ++iy) {
-      const double x = 2 * pi * static_cast<double>(ix) / static_cast<double>(grid.nx);
-      const double y = 2 * pi * static_cast<double>(iy) / static_cast<double>(grid.ny);
-      level.contact(ix, iy) =
-          std::sin(x + 0.3) * std::cos(2 * y) + 0.7 * std::sin(3 * x - y) > 1.2 - indentation;
-    }
-  return level;
-}
+const ContactLevels levels = island_levels(grid);
 
 // From the greatest indentation: the first period is not the steady one.
 Trajectory two_periods() {
@@ -40,12 +24,12 @@ TEST_CASE("A cycle resumed from any of its steps ends in the same bits", "[cycle
   CycleOptions options{.steps = 12, .direction = 0.4};
   std::vector<CycleState> states;
   options.on_state = [&](const CycleState& state) { states.push_back(state); };
-  const CycleResult whole = simulate_cycle(level_at, grid, material, two_periods(), options);
+  const CycleResult whole = simulate_cycle(levels, grid, material, two_periods(), options);
   REQUIRE(whole.periods > 1);
   REQUIRE(states.size() == static_cast<std::size_t>(whole.periods) * 13);
   for (const std::size_t k : {0u, 1u, 5u, 12u, 13u, 20u, 25u}) {
     CycleOptions rest{.steps = 12, .direction = 0.4, .resume = &states[k]};
-    const CycleResult resumed = simulate_cycle(level_at, grid, material, two_periods(), rest);
+    const CycleResult resumed = simulate_cycle(levels, grid, material, two_periods(), rest);
     CHECK(resumed.work_per_cycle == whole.work_per_cycle);
     CHECK(resumed.released_energy == whole.released_energy);
     CHECK(resumed.stored_energy_change == whole.stored_energy_change);
@@ -68,27 +52,18 @@ TEST_CASE("A state of another grid or of a finer cycle is refused", "[cycle]") {
   CycleState state;
   CycleOptions options{.steps = 12, .on_state = [&](const CycleState& s) { state = s; }};
   const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 0.9}, 0.5);
-  simulate_cycle(level_at, grid, material, motion, options);
+  simulate_cycle(levels, grid, material, motion, options);
   CycleOptions coarser{.steps = 8, .resume = &state};
-  CHECK_THROWS_WITH(simulate_cycle(level_at, grid, material, motion, coarser),
+  CHECK_THROWS_WITH(simulate_cycle(levels, grid, material, motion, coarser),
                     Catch::StartsWith("resume: 12"));
   state.contact = ContactSet::Constant(4, 4, false);
   CycleOptions smaller{.steps = 12, .resume = &state};
-  CHECK_THROWS_WITH(simulate_cycle(level_at, grid, material, motion, smaller),
+  CHECK_THROWS_WITH(simulate_cycle(levels, grid, material, motion, smaller),
                     Catch::StartsWith("resume: 16"));
 }
 
 TEST_CASE("A cycle with friction resumed from any of its steps ends in the same bits", "[cycle]") {
-  // Pressures high enough for sticking and slipping cells, over the same islands.
-  const PressureLevels pressures = [](double indentation) {
-    PressureLevel level{.pressure = Field::Zero(grid.nx, grid.ny), .force = indentation};
-    const ContactSet contact = level_at(indentation).contact;
-    for (Index ix = 0; ix < grid.nx; ++ix)
-      for (Index iy = 0; iy < grid.ny; ++iy)
-        if (contact(ix, iy))
-          level.pressure(ix, iy) = 2e7 * (0.2 + indentation + 0.1 * std::sin(double(ix * iy)));
-    return level;
-  };
+  const PressureLevels pressures = island_pressures(grid);
   const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 0.9}, 0.5);
   FrictionalCycleOptions options{.friction = 0.4, .steps = 8, .direction = 0.4};
   std::vector<FrictionalCycleState> states;

@@ -8,6 +8,7 @@
 #include <salebra/io/result_file.hpp>
 #include <sstream>
 
+#include "damping/islands.hpp"
 #include "scratch.hpp"
 
 using namespace salebra;
@@ -16,19 +17,11 @@ namespace {
 
 const Grid2D grid{12, 9, 1.2e-3, 0.7e-3};
 
-ContactLevel level_at(double indentation) {
-  ContactLevel level{.contact = ContactSet::Constant(grid.nx, grid.ny, false)};
-  for (Index ix = 3; ix < 9; ++ix)
-    for (Index iy = 2; iy < 7; ++iy)
-      level.contact(ix, iy) = static_cast<double>((ix * 7 + iy * 3) % 10) < 10 * indentation;
-  return level;
-}
-
 std::vector<CycleState> states_of_a_cycle() {
   std::vector<CycleState> states;
   CycleOptions options{.steps = 8, .direction = 0.6};
   options.on_state = [&](const CycleState& state) { states.push_back(state); };
-  simulate_cycle(level_at, grid, Material::of_contact_modulus(1e9, 0.3),
+  simulate_cycle(island_levels(grid), grid, Material::of_contact_modulus(1e9, 0.3),
                  trajectory_of(EqualFrequency{0.4, 1e-6, 0.9}, 0.5), options);
   return states;
 }
@@ -37,11 +30,7 @@ std::vector<FrictionalCycleState> states_with_friction() {
   std::vector<FrictionalCycleState> states;
   FrictionalCycleOptions options{.friction = 0.3, .steps = 8, .max_periods = 2, .direction = 0.6};
   options.on_state = [&](const FrictionalCycleState& state) { states.push_back(state); };
-  const PressureLevels pressures = [](double indentation) {
-    const Field contact = level_at(indentation).contact.cast<double>();
-    return PressureLevel{.pressure = 3e6 * indentation * contact, .force = indentation};
-  };
-  simulate_frictional_cycle(pressures, grid, Material::of_contact_modulus(1e9, 0.3),
+  simulate_frictional_cycle(island_pressures(grid), grid, Material::of_contact_modulus(1e9, 0.3),
                             trajectory_of(EqualFrequency{0.4, 1e-6, 0.9}, 0.5), options);
   return states;
 }

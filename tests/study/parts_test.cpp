@@ -115,23 +115,93 @@ TEST_CASE("The key of a realisation changes with what decides it, and with nothi
   const StudyConfiguration study = small_study();
   const auto key = StudyParts::key(study, 1);
   CHECK(StudyParts::key(study, 2) != key);
+  using Change = void (*)(StudyConfiguration&);
+  static const auto of = [](StudyConfiguration& c) -> GeneratedSurfaces& {
+    return std::get<GeneratedSurfaces>(c.surfaces);
+  };
+  const std::pair<const char*, Change> changes[] = {
+      {"hurst", [](StudyConfiguration& c) { of(c).spectrum.hurst = 0.7; }},
+      {"long_cutoff", [](StudyConfiguration& c) { of(c).spectrum.long_cutoff = 2e-6; }},
+      {"rolloff", [](StudyConfiguration& c) { of(c).spectrum.rolloff = 2e-6; }},
+      {"short_cutoff", [](StudyConfiguration& c) { of(c).spectrum.short_cutoff = 0.6e-6; }},
+      {"rms_height", [](StudyConfiguration& c) { of(c).spectrum.rms_height = 2e-8; }},
+      {"points", [](StudyConfiguration& c) { of(c).grid.nx = of(c).grid.ny = 128; }},
+      {"size", [](StudyConfiguration& c) { of(c).grid.lx = of(c).grid.ly = 8e-6; }},
+      {"method", [](StudyConfiguration& c) { of(c).method = GenerationMethod::random_phase; }},
+      {"material", [](StudyConfiguration& c) { c.material.contact_modulus *= 2; }},
+      {"G*", [](StudyConfiguration& c) { c.material.tangential_modulus *= 2; }},
+      {"pressures", [](StudyConfiguration& c) { c.pressures.back() *= 2; }},
+      {"relative", [](StudyConfiguration& c) { c.relative_pressures = false; }},
+      {"tolerance", [](StudyConfiguration& c) { c.tolerance = 1e-9; }},
+      {"stick", [](StudyConfiguration& c) { c.stick = false; }},
+      {"window",
+       [](StudyConfiguration& c) {
+         c.window = PressureWindow{1e6, 1e8, 0};
+       }},
+      {"models", [](StudyConfiguration& c) { c.models = c.compared_models; }},
+      {"velocity", [](StudyConfiguration& c) { std::get<Drag>(c.motion).drag_velocity *= 2; }},
+      {"frequency", [](StudyConfiguration& c) { std::get<Drag>(c.motion).angular_frequency *= 2; }},
+      {"amplitude", [](StudyConfiguration& c) { std::get<Drag>(c.motion).normal_amplitude *= 2; }},
+      {"motion",
+       [](StudyConfiguration& c) {
+         c.motion = EqualFrequency{1e-10, 1e-9, 1, 1e5};
+       }},
+      {"hold", [](StudyConfiguration& c) { c.damping.hold = Hold::force; }},
+  };
+  for (const auto& [name, change] : changes) {
+    INFO(name);
+    StudyConfiguration other = study;
+    change(other);
+    CHECK(StudyParts::key(other, 1) != key);
+  }
   StudyConfiguration other = study;
-  other.tolerance = 1e-9;
-  CHECK(StudyParts::key(other, 1) != key);
-  other = study;
-  other.models = other.compared_models;
-  CHECK(StudyParts::key(other, 1) != key);
-  other = study;
-  std::get<Drag>(other.motion).drag_velocity *= 2;
-  CHECK(StudyParts::key(other, 1) != key);
-  other = study;
-  std::get<GeneratedSurfaces>(other.surfaces).spectrum.hurst = 0.7;
-  CHECK(StudyParts::key(other, 1) != key);
-  other = study;
   other.text += "# a comment";
   other.precision = 0.01;
   std::get<GeneratedSurfaces>(other.surfaces).seeds.push_back(9);
   CHECK(StudyParts::key(other, 1) == key);
+}
+
+TEST_CASE("The key of a measured surface changes with all that is read of it", "[parts]") {
+  const Scratch scratch;
+  fs::create_directory(scratch.folder);
+  const fs::path scan = scratch.folder / "scan.npy";
+  const auto write = [](const fs::path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+  };
+  write(scan, "heights");
+  StudyConfiguration study = small_study();
+  const MeasuredSurface plain{.file = scan};
+  const auto key_of = [&](const MeasuredSurface& surface) {
+    study.surfaces = surface;
+    return StudyParts::key(study, 0);
+  };
+  const auto key = key_of(plain);
+  MeasuredSurface other = plain;
+  other.size_x = 1e-6;
+  CHECK(key_of(other) != key);
+  other = plain;
+  other.size_y = 1e-6;
+  CHECK(key_of(other) != key);
+  other = plain;
+  other.height_unit = "nm";
+  CHECK(key_of(other) != key);
+  other = plain;
+  other.detrend = Detrend::quadratic;
+  CHECK(key_of(other) != key);
+  // The same surface under another name is the same surface.
+  other = plain;
+  other.file = scratch.folder / "copy.npy";
+  fs::copy_file(scan, other.file);
+  CHECK(key_of(other) == key);
+  // Size and unit of an array stand beside it.
+  write(scratch.folder / "scan.npy.json", "{\"size_x\": 1e-6}");
+  const auto with_sidecar = key_of(plain);
+  CHECK(with_sidecar != key);
+  write(scratch.folder / "scan.npy.json", "{\"size_x\": 2e-6}");
+  CHECK(key_of(plain) != with_sidecar);
+  write(scan, "other heights");
+  CHECK(key_of(other) == key);
+  CHECK(key_of(plain) != with_sidecar);
 }
 
 TEST_CASE("Parts of a study are not begun anew by accident, nor shared by two", "[parts]") {

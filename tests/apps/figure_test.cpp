@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The numbers behind the pictures, and those of the comparison's answer.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <salebra/io/result_file.hpp>
+#include <sstream>
+
+#include "drawing.hpp"
+#include "run_program.hpp"
+#include "study/study_text.hpp"
+
+using Catch::Contains;
+using nlohmann::json;
+
+namespace {
+
+using Values = std::vector<double>;
+
+/// null is what JSON has for an unknown number.
+Values numbers(const json& list) {
+  Values values;
+  for (const json& value : list)
+    values.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                     : value.get<double>());
+  return values;
+}
+
+/// Nine digits go to gnuplot.
+void check_alike(const Values& found, const Values& expected, double tolerance = 1e-7) {
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    INFO(k);
+    if (std::isnan(expected[k]))
+      CHECK(std::isnan(found[k]));
+    else
+      CHECK(found[k] == Approx(expected[k]).epsilon(tolerance).margin(tolerance));
+  }
+}
+
+/// The same but for a common addend, which is the SI prefix of a logarithmic axis.
+void check_parallel(const Values& found, const Values& expected) {
+  REQUIRE(found.size() == expected.size());
+  std::size_t first = 0;
+  while (first < found.size() && std::isnan(expected[first])) ++first;
+  REQUIRE(first < found.size());
+  Values shifted = found;
+  for (double& value : shifted) value += expected[first] - found[first];
+  check_alike(shifted, expected);
+  // Prefixes are powers of 1000.
+  const double prefix = (found[first] - expected[first]) / 3;
+  CHECK(prefix == Approx(std::round(prefix)).margin(1e-6));
+}
+
+Values logarithms(Values values) {
+  for (double& value : values) value = std::log10(value);
+  return values;
+}
+
+/// row of (model, pressure) in a file of a study.
+Values row_of(const salebra::ResultReader& file, const std::string& dataset, std::size_t model,
+              std::size_t loads) {
+  const Values all = file.numbers(dataset);
+  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(model * loads);
+  return {begin, begin + static_cast<std::ptrdiff_t>(loads)};
+}
+
+}  // namespace
+
+TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compare][plot]") {
+  const ProgramTest test;
+  // Of one surface, so that means of ratios are ratios of means.
+  test.write("study.toml", study_text("seeds = [3]"));
+  const std::string command =
+      "compare study.toml --no-stick --no-report --json --models gw_moments,persson -o result.h5";
+  const Drawing drawing(test, command);
+  const json answer = drawing.answer();
+  const salebra::ResultReader file(test.folder() / "result.h5");
+  const double rms_height = file.numbers("surface/rms_height").front();
+  const double scale = 1e10 * file.numbers("surface/rms_slope").front();  // E*h'
+  const Values pressure = numbers(answer["pressure"]);
+  Values force, log_force;
+  for (const double p : pressure) force.push_back(p * 16e-12);
+  log_force = logarithms(force);
+  const Values loads = logarithms(numbers(answer["relative_pressure"]));
+  const auto each = [&](const auto& value) {
+    Values values;
+    for (std::size_t k = 0; k < pressure.size(); ++k) values.push_back(value(k));
+    return values;
+  };
+  int curve = 0;
+  for (const std::string model : {"bem", "gw_moments", "persson"}) {
+    INFO(model);
+    const json& found = answer["models"][model];
+    const Values gap = numbers(found["curve"]["mean_gap"]["mean"]),
+                 area = numbers(found["curve"]["contact_area_fraction"]["mean"]),
+                 stiffness = numbers(found["curve"]["normal_stiffness"]["mean"]);
+    for (const int panel : {1, 2, 3}) check_alike(drawing.column(panel, curve, 0), loads);
+    check_alike(drawing.column(1, curve, 1), each([&](auto k) { return gap[k] / rms_height; }));
+    check_alike(drawing.column(2, curve, 1),
+                each([&](auto k) { return area[k] * scale / pressure[k]; }));
+    check_alike(drawing.column(3, curve, 1),
+                each([&](auto k) { return stiffness[k] * rms_height / force[k]; }));
+    check_parallel(drawing.column(4, curve, 0), log_force);
+    check_parallel(drawing.column(4, curve, 1),
+                   logarithms(numbers(found["damping_constant"]["curve"]["mean"])));
+    ++curve;
+  }
+  const Values corrected = numbers(answer["spots"]["corrected_area_fraction"]["mean"]);
+  check_alike(drawing.column(2, curve, 1),
+              each([&](auto k) { return corrected[k] * scale / pressure[k]; }));
+  check_parallel(drawing.column(4, curve, 1),
+                 logarithms(numbers(answer["models"]["bem"]["damping_constant"]["law"]["mean"])));
+  // The window of the fit, from one to two and a half rms heights.
+  CHECK_THAT(drawing.script(), Contains("graph 0,first 1 to") && Contains("graph 0,first 2.5 to"));
+
+  // Of two surfaces there are intervals, with the mean between their limits.
+  test.write("study.toml", study_text("seeds = [3, 4]"));
+  const Drawing bands(test, command);
+  const json two = bands.answer();
+  for (const int panel : {1, 2, 3}) {
+    const Values mean = bands.column(panel, 1, 1), low = bands.column(panel, 1, 2),
+                 high = bands.column(panel, 1, 3);
+    for (std::size_t k = 0; k < mean.size(); ++k) {
+      CHECK(low[k] < mean[k]);
+      CHECK(mean[k] < high[k]);
+      CHECK(mean[k] - low[k] == Approx(high[k] - mean[k]).epsilon(1e-4));  // Student's
+    }
+  }
+  const json& damping = two["models"]["gw_moments"]["damping_constant"]["curve"];
+  check_parallel(bands.column(4, 1, 3), logarithms(numbers(damping["high"])));
+}
+
+TEST_CASE("The numbers of a comparison are those of its file, and the theories' of their formulas",
+          "[compare]") {
+  const ProgramTest test;
+  test.write("study.toml", study_text("seeds = [3]"));
+  const auto run = test.run("compare study.toml --no-stick --no-report --json -o result.h5");
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const json answer = run.json();
+  const salebra::ResultReader file(test.folder() / "result.h5");
+  const Values pressure = file.numbers("curve/pressure");
+  const std::size_t loads = pressure.size();
+  REQUIRE(loads == 10);
+  CHECK(numbers(answer["pressure"]) == pressure);
+  // As the study asks, in E*h' of the spectrum.
+  CHECK(answer["relative_pressure"][0].get<double>() == Approx(1e-3).epsilon(1e-12));
+  CHECK(answer["relative_pressure"][9].get<double>() == Approx(0.2).epsilon(1e-12));
+  std::size_t row = 0;
+  for (const std::string model :
+       {"bem", "gw_moments", "gw_deterministic", "gw_monte_carlo", "gw_interacting", "persson"}) {
+    INFO(model);
+    const json& found = answer["models"][model];
+    for (const std::string name : {"mean_gap", "separation", "force", "contact_area_fraction",
+                                   "normal_stiffness", "tangential_stiffness"}) {
+      INFO(name);
+      check_alike(numbers(found["curve"][name]["mean"]),
+                  row_of(file, "curve/ensemble_" + name + "_mean", row, loads), 1e-14);
+    }
+    for (const auto& [route, prefix] :
+         {std::pair{"law", "law_"}, {"small_amplitude", "small_"}, {"curve", "curve_"}}) {
+      INFO(route);
+      check_alike(numbers(found["damping_constant"][route]["mean"]),
+                  row_of(file, std::string("damping/") + prefix + "ensemble_damping_constant_mean",
+                         row, loads),
+                  1e-14);
+      check_alike(
+          numbers(found["over_bem"]["damping_constant"][route]["mean"]),
+          row_of(file, std::string("comparison/") + prefix + "work_per_cycle_mean", row, loads),
+          1e-14);
+    }
+    for (const std::string name : {"mean_gap", "contact_area_fraction", "normal_stiffness"})
+      check_alike(numbers(found["over_bem"][name]["mean"]),
+                  row_of(file, "comparison/" + name + "_mean", row, loads), 1e-14);
+    const auto single = [&](const char* dataset) { return file.numbers(dataset)[row]; };
+    CHECK(found["decay_length"]["mean"] == single("fit/ensemble_decay_length_mean"));
+    CHECK(found["area_slope"]["mean"] == single("fit/ensemble_area_slope_mean"));
+    CHECK(found["law_bend"]["mean"].get<double>() ==
+          Approx(single("fit/decay_length_farthest") / single("fit/decay_length_closest") - 1));
+    ++row;
+  }
+  for (const auto& [name, dataset] : {std::pair{"count", "spot_count"},
+                                      {"largest_area", "largest_spot_area"},
+                                      {"mean_area", "mean_spot_area"},
+                                      {"corrected_area_fraction", "corrected_area_fraction"}})
+    check_alike(numbers(answer["spots"][name]["mean"]),
+                file.numbers(std::string("spots/ensemble_") + dataset + "_mean"), 1e-14);
+
+  const double rms_height = file.numbers("surface/rms_height").front();
+  const Values gap = row_of(file, "curve/mean_gap", 0, loads);
+  const json& simple = answer["theories"]["campana_persson_muser"];
+  const double length = simple["decay_length_over_rms_height"]["mean"].get<double>() * rms_height;
+  for (std::size_t k = 0; k < loads; ++k) {
+    // Share of a Gaussian surface above the plane at the mean gap; K = F/u0.
+    CHECK(answer["theories"]["bearing_area_fraction"]["mean"][k].get<double>() ==
+          Approx(std::erfc(gap[k] / (std::numbers::sqrt2 * rms_height)) / 2).epsilon(1e-12));
+    CHECK(simple["normal_stiffness"]["mean"][k].get<double>() ==
+          Approx(pressure[k] * 16e-12 / length).epsilon(1e-12));
+  }
+
+  // Words: percentages, with half the width of the interval beside them.
+  test.write("study.toml", study_text("seeds = [3, 4]"));
+  const auto words = test.run("compare study.toml --no-stick --models persson");
+  const json two = test.run("compare study.toml --no-stick --models persson --json").json();
+  REQUIRE(words.status == 0);
+  const auto table = words.out.find("Boundary elements at some loads");
+  REQUIRE(table != std::string::npos);
+  const auto row_begin =
+      words.out.find_first_of("0123456789", words.out.find("largest/all", table));
+  REQUIRE(row_begin != std::string::npos);
+  std::istringstream columns(words.out.substr(row_begin));
+  double load = 0, shown_gap = 0, gap_error = 0, area = 0, area_error = 0, corrected = 0;
+  std::string plus_minus;
+  columns >> load >> shown_gap >> plus_minus >> gap_error >> area >> plus_minus >> area_error >>
+      corrected;
+  const Values relative = numbers(two["relative_pressure"]);
+  std::size_t k = 0;
+  while (k < loads && std::abs(relative[k] / load - 1) > 0.05) ++k;
+  REQUIRE(k < loads);
+  const json& fraction = two["models"]["bem"]["curve"]["contact_area_fraction"];
+  const auto at_load = [k](const json& list) { return list[k].get<double>(); };
+  // Three digits of a value, two of an error.
+  CHECK(area == Approx(100 * at_load(fraction["mean"])).epsilon(6e-3));
+  CHECK(area_error ==
+        Approx(50 * (at_load(fraction["high"]) - at_load(fraction["low"]))).epsilon(6e-2));
+  CHECK(corrected ==
+        Approx(100 * at_load(two["spots"]["corrected_area_fraction"]["mean"])).epsilon(6e-3));
+}
+
+TEST_CASE("The numbers of a study's answer are those of its file", "[study]") {
+  const ProgramTest test;
+  test.write("study.toml", study_text("seeds = [3, 4]"));
+  const auto run = test.run("study study.toml --no-stick --no-report --json -o result.h5");
+  REQUIRE(run.status == 0);
+  const json answer = run.json(), &damping = answer["damping"];
+  const salebra::ResultReader file(test.folder() / "result.h5");
+  CHECK(numbers(damping["pressure"]) == file.numbers("damping/pressure"));
+  CHECK(numbers(damping["force"]) == file.numbers("damping/force"));
+  for (const std::string limit : {"mean", "low", "high"}) {
+    INFO(limit);
+    for (const std::string route : {"law", "curve"})
+      for (const std::string name : {"work_per_cycle", "damping_constant"}) {
+        INFO(route << ' ' << name);
+        check_alike(numbers(damping[route + "_" + name][limit]),
+                    row_of(file, "damping/" + route + "_ensemble_" + name + "_" + limit, 0, 10),
+                    1e-14);
+      }
+    Values deviation = row_of(file, "damping/ensemble_deviation_" + limit, 0, 10);
+    for (double& value : deviation) value *= 100;
+    check_alike(numbers(answer["comparison"]["law_deviation_percent"][limit]), deviation, 1e-12);
+    std::size_t row = 0;
+    for (const std::string model : {"bem", "gw_moments", "gw_deterministic"})
+      CHECK(answer["comparison"][model]["decay_length"][limit] ==
+            file.numbers("fit/ensemble_decay_length_" + limit)[row++]);
+  }
+}
+
+TEST_CASE("A picture of damping draws how far the small-amplitude form is off", "[damping][plot]") {
+  const ProgramTest test;
+  const Drawing drawing(
+      test,
+      "damping --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 --json "
+      "--normal-amplitude 10nm,50nm,90nm --drag-velocity 1mm/s --frequency 20kHz");
+  const json answer = drawing.answer();
+  const Values work = numbers(answer["work_per_cycle"]), small = numbers(answer["closed_form"]);
+  Values deviation;
+  for (std::size_t k = 0; k < 3; ++k) deviation.push_back(100 * (small[k] / work[k] - 1));
+  check_alike(drawing.column(2, 0, 1), deviation, 1e-6);
+  for (std::size_t k = 0; k < 3; ++k)
+    CHECK(drawing.column(1, 1, 1)[k] / drawing.column(1, 0, 1)[k] ==
+          Approx(small[k] / work[k]).epsilon(1e-7));
+}
+
+TEST_CASE("A picture of a damper shows its map over frequency, and how it decays",
+          "[damper][plot]") {
+  const ProgramTest test;
+  const std::string law =
+      "damper --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 --json ";
+  const Drawing map(test, law + "--normal-amplitude 1:50nm:4 --frequency 1:100kHz:3");
+  const json gamma = map.answer()["damping_constant"];  // (amplitude, frequency)
+  const auto image = map.image(1);
+  REQUIRE(image.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    REQUIRE(image[i].size() == 3);
+    for (std::size_t j = 0; j < 3; ++j)
+      // Five digits.
+      CHECK(image[i][j] - image[0][0] ==
+            Approx(std::log10(gamma[i][j].get<double>() / gamma[0][0].get<double>())).margin(2e-4));
+  }
+  // Released at rest from x0, below and beyond critical damping, γ = 2√(km) with k of the contact.
+  const std::string oscillator = law + "--normal-amplitude 20nm --frequency 20kHz --mass ";
+  const json one = test.run(oscillator + "1g").json();
+  const double constant = one["damping_constant"],
+               stiffness = 1e-3 * std::pow(one["decay"]["natural_frequency"].get<double>(), 2);
+  for (const double ratio : {0.1, 2.0}) {
+    INFO(ratio);
+    const double mass = std::pow(constant / (2 * ratio), 2) / stiffness;
+    const Drawing decay(test, oscillator + std::to_string(1e9 * mass) + "ug");
+    CHECK(decay.answer()["decay"]["damping_ratio"].get<double>() == Approx(ratio).epsilon(1e-3));
+    const Values x = decay.column(1, 0, 1);
+    CHECK(x[0] == Approx(1).epsilon(1e-9));
+    // ẋ = 0: the first of 4000 steps loses a quarter of what the first two lose, but for the third order.
+    CHECK((1 - x[1]) / (1 - x[2]) == Approx(0.25).margin(0.05));
+  }
+}
+
+TEST_CASE("A picture of a cycle counts the energy lost over one period", "[mdr][plot]") {
+  const ProgramTest test;
+  const Drawing drawing(
+      test,
+      "mdr --profile cone --angle 0.1 --indentation 1um --contact-modulus 1GPa --poisson 0.3 "
+      "--friction 0.5 --mode equal-frequency --normal-amplitude 500nm --tangential-amplitude "
+      "200nm --phase 60deg --frequency 300Hz --json");
+  const Values time = drawing.column(3, 0, 0), lost = drawing.column(3, 0, 1);
+  CHECK(time.front() == Approx(0).margin(1e-12));
+  CHECK(time.back() == Approx(1).epsilon(1e-7));
+  const double work = drawing.answer()["work_per_cycle"], prefix = std::log10(lost.back() / work);
+  CHECK(prefix == Approx(std::round(prefix)).margin(1e-6));
+}
+
+TEST_CASE("A flat surface is drawn without a spectrum, by every command alike",
+          "[statistics][plot]") {
+  const ProgramTest test;
+  test.write(
+      "flat.txt",
+      "# Width: 4 um\n# Height: 4 um\n# Value units: nm\n1 1 1 1\n1 1 1 1\n1 1 1 1\n1 1 1 1\n");
+  for (const std::string command :
+       {"info flat.txt", "statistics flat.txt", "convert flat.txt o.h5"}) {
+    INFO(command);
+    const Drawing drawing(test, command);
+    CHECK_THAT(drawing.script(), Contains("'heights'") && !Contains("power spectral density"));
+  }
+}

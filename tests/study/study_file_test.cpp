@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <salebra/io/result_file.hpp>
+#include <salebra/study/study.hpp>
+#include <salebra/study/study_file.hpp>
+
+#include "io/scratch.hpp"
+#include "small_study.hpp"
+
+using namespace salebra;
+
+namespace {
+
+/// Two surfaces through every model; one contact of a model is said not to have converged.
+StudyResult compared_study() {
+  StudyConfiguration configuration = small_study();
+  configuration.stick = false;
+  configuration.models = configuration.compared_models;
+  std::get<GeneratedSurfaces>(configuration.surfaces).seeds = {4, 5};
+  StudyResult result = run_study(configuration);
+  result.realisations[1].gw_moments.curve.samples[3].converged = false;
+  return result;
+}
+
+/// Bit by bit; two unknown values are the same.
+bool same(const std::vector<double>& found, const std::vector<double>& expected) {
+  return std::ranges::equal(found, expected, [](double a, double b) {
+    return a == b || (std::isnan(a) && std::isnan(b));
+  });
+}
+
+/// What the file holds, against what the study knows: name of a dataset, its axes, its values.
+class FileCheck {
+ public:
+  FileCheck(const ResultReader& reader, const StudyResult& result)
+      : reader_(reader), result_(result) {}
+
+  void values(const std::string& dataset, const std::vector<std::string>& axes,
+              const std::vector<double>& expected) const {
+    INFO(dataset);
+    REQUIRE(reader_.has(dataset));
+    CHECK(reader_.coordinates(dataset) == axes);
+    CHECK(same(reader_.numbers(dataset), expected));
+    CHECK(std::ranges::any_of(expected, [](double value) { return !std::isnan(value); }));
+  }
+
+  void of_surfaces(const std::string& name,
+                   const std::function<double(const Realisation&)>& value) const {
+    std::vector<double> expected;
+    for (const Realisation& r : result_.realisations) expected.push_back(value(r));
+    values(name, {"realisation"}, expected);
+  }
+
+  void of_models(const std::string& name,
+                 const std::function<double(const ModelResult&)>& value) const {
+    std::vector<double> expected;
+    for (const StudyModel& model : study_models)
+      for (const Realisation& r : result_.realisations) expected.push_back(value(r.*model.result));
+    values(name, {"model", "realisation"}, expected);
+  }
+
+  using AtLoad = std::function<double(const ModelResult&, std::size_t)>;
+  void of_loads(const std::string& name, const AtLoad& value) const {
+    std::vector<double> expected;
+    for (const StudyModel& model : study_models)
+      for (const Realisation& r : result_.realisations)
+        for (std::size_t k = 0; k < result_.pressures.size(); ++k)
+          expected.push_back(value(r.*model.result, k));
+    values(name, {"model", "realisation", "pressure"}, expected);
+  }
+
+  /// name_mean, name_low and name_high along the axes, in the order of estimates.
+  void interval(const std::string& name, const std::vector<std::string>& axes,
+                const std::vector<EnsembleMean>& estimates) const {
+    std::vector<double> mean, low, high;
+    for (const EnsembleMean& estimate : estimates) {
+      mean.push_back(estimate.mean);
+      low.push_back(estimate.low);
+      high.push_back(estimate.high);
+    }
+    values(name + "_mean", axes, mean);
+    values(name + "_low", axes, low);
+    values(name + "_high", axes, high);
+  }
+
+  using OfModel = std::function<std::vector<EnsembleMean>(ModelResult Realisation::*)>;
+  void interval_of_loads(const std::string& name, const OfModel& estimate) const {
+    std::vector<EnsembleMean> all;
+    for (const StudyModel& model : study_models)
+      for (const EnsembleMean& one : estimate(model.result)) all.push_back(one);
+    interval(name, {"model", "pressure"}, all);
+  }
+
+ private:
+  const ResultReader& reader_;
+  const StudyResult& result_;
+};
+
+}  // namespace
+
+TEST_CASE("A study's file holds the curves, fits and surfaces that the study found",
+          "[study file]") {
+  const StudyResult result = compared_study();
+  const Scratch scratch;
+  write_study(scratch / "result.h5", result, {});
+  const ResultReader reader(scratch / "result.h5");
+  const FileCheck file(reader, result);
+
+  file.of_surfaces("surface/seed", [](const auto& r) { return double(r.seed); });
+  file.of_surfaces("surface/rms_height", [](const auto& r) { return r.heights.rms_height; });
+  file.of_surfaces("surface/skewness", [](const auto& r) { return r.heights.skewness; });
+  file.of_surfaces("surface/kurtosis", [](const auto& r) { return r.heights.kurtosis; });
+  file.of_surfaces("surface/rms_slope", [](const auto& r) { return r.moments.rms_slope(); });
+  file.of_surfaces("surface/moment0", [](const auto& r) { return r.moments.moment0; });
+  file.of_surfaces("surface/moment2", [](const auto& r) { return r.moments.moment2(); });
+  file.of_surfaces("surface/moment4", [](const auto& r) { return r.moments.moment4(); });
+  file.of_surfaces("surface/nayak", [](const auto& r) { return r.moments.nayak(); });
+  file.of_surfaces("surface/density", [](const auto& r) { return r.summits.density; });
+  file.of_surfaces("surface/mean_height", [](const auto& r) { return r.summits.mean_height; });
+  file.of_surfaces("surface/summit_rms", [](const auto& r) { return r.summits.rms_height; });
+  file.of_surfaces("surface/mean_radius", [](const auto& r) { return r.summits.mean_radius; });
+  CHECK(reader.number_attribute("surface", "size_x") == 4e-6);
+  CHECK(reader.number_attribute("surface", "ny") == 64);
+
+  const std::pair<const char*, double ForceSample::*> curve[] = {
+      {"mean_gap", &ForceSample::mean_gap},
+      {"indentation", &ForceSample::indentation},
+      {"separation", &ForceSample::separation},
+      {"force", &ForceSample::force},
+      {"contact_area_fraction", &ForceSample::contact_area_fraction},
+      {"normal_stiffness", &ForceSample::normal_stiffness},
+      {"tangential_stiffness", &ForceSample::tangential_stiffness}};
+  for (const auto& [name, quantity] : curve) {
+    const auto of = quantity;
+    file.of_loads(std::string("curve/") + name,
+                  [=](const auto& model, std::size_t k) { return model.curve.samples[k].*of; });
+    file.interval_of_loads(std::string("curve/ensemble_") + name,
+                           [&](auto model) { return result.curve(model, of); });
+  }
+  file.of_loads("curve/converged", [](const auto& model, std::size_t k) {
+    return double(model.curve.samples[k].converged);
+  });
+
+  file.of_models("fit/decay_length", [](const auto& m) { return m.fit.decay_length; });
+  file.of_models("fit/decay_length_low", [](const auto& m) { return m.fit.decay_length_low; });
+  file.of_models("fit/decay_length_high", [](const auto& m) { return m.fit.decay_length_high; });
+  file.of_models("fit/decay_length_over_rms_height",
+                 [](const auto& m) { return m.fit.decay_length_over_rms_height; });
+  file.of_models("fit/reference_pressure", [](const auto& m) { return m.fit.reference_pressure; });
+  file.of_models("fit/r_squared", [](const auto& m) { return m.fit.r_squared; });
+  file.of_models("fit/pressure_min", [](const auto& m) { return m.fit.window.pressure_min; });
+  file.of_models("fit/pressure_max", [](const auto& m) { return m.fit.window.pressure_max; });
+  file.of_models("fit/significance", [](const auto& m) { return m.test.significance; });
+  file.of_models("fit/decay_length_closest",
+                 [](const auto& m) { return m.test.decay_length_closest; });
+  file.of_models("fit/decay_length_farthest",
+                 [](const auto& m) { return m.test.decay_length_farthest; });
+  file.of_models("fit/decay_length_min",
+                 [](const auto& m) { return m.sensitivity.decay_length_min; });
+  file.of_models("fit/decay_length_max",
+                 [](const auto& m) { return m.sensitivity.decay_length_max; });
+  file.of_models("fit/area_slope", [](const auto& m) { return m.area_slope; });
+  std::vector<EnsembleMean> lengths, ratios, slopes;
+  for (const StudyModel& model : study_models) {
+    lengths.push_back(result.decay_length(model.result));
+    ratios.push_back(result.decay_length_over_rms_height(model.result));
+    slopes.push_back(result.area_slope(model.result));
+  }
+  file.interval("fit/ensemble_decay_length", {"model"}, lengths);
+  file.interval("fit/ensemble_decay_length_over_rms_height", {"model"}, ratios);
+  file.interval("fit/ensemble_area_slope", {"model"}, slopes);
+
+  std::vector<double> gaps, local_lengths;
+  for (const StudyModel& model : study_models)
+    for (const Realisation& r : result.realisations) {
+      LocalDecayLength local = (r.*model.result).local;
+      local.mean_gap.resize(11, ForceSample::unknown);
+      local.decay_length.resize(11, ForceSample::unknown);
+      gaps.insert(gaps.end(), local.mean_gap.begin(), local.mean_gap.end());
+      local_lengths.insert(local_lengths.end(), local.decay_length.begin(),
+                           local.decay_length.end());
+    }
+  file.values("local/mean_gap", {"model", "realisation", "midpoint"}, gaps);
+  file.values("local/decay_length", {"model", "realisation", "midpoint"}, local_lengths);
+
+  // Two surfaces make one mean, that of both.
+  CHECK(reader.numbers("convergence/surfaces") == std::vector<double>{2});
+  file.interval("convergence/decay_length_over_rms_height", {"surfaces"}, result.convergence());
+}
+
+TEST_CASE("A study's file holds the damping, the spots and the comparison that the study found",
+          "[study file]") {
+  const StudyResult result = compared_study();
+  const Scratch scratch;
+  write_study(scratch / "result.h5", result, {});
+  const ResultReader reader(scratch / "result.h5");
+  const FileCheck file(reader, result);
+
+  const std::pair<const char*, double DampingPoint::*> damping[] = {
+      {"law_%work_per_cycle", &DampingPoint::law_work},
+      {"small_%work_per_cycle", &DampingPoint::small_work},
+      {"curve_%work_per_cycle", &DampingPoint::curve_work},
+      {"law_%damping_constant", &DampingPoint::law_damping_constant},
+      {"small_%damping_constant", &DampingPoint::small_damping_constant},
+      {"curve_%damping_constant", &DampingPoint::curve_damping_constant}};
+  for (const auto& [name, quantity] : damping) {
+    const auto of = quantity;
+    const std::string text = name;
+    const auto mark = text.find('%');
+    file.of_loads("damping/" + text.substr(0, mark) + text.substr(mark + 1),
+                  [=](const auto& model, std::size_t k) { return model.damping[k].*of; });
+    file.interval_of_loads("damping/" + text.substr(0, mark) + "ensemble_" + text.substr(mark + 1),
+                           [&](auto model) { return result.damping(of, model); });
+  }
+  file.interval_of_loads("damping/ensemble_deviation",
+                         [&](auto model) { return result.damping_deviation(model); });
+  std::vector<double> forces;
+  for (const double pressure : result.pressures) forces.push_back(pressure * result.grid.area());
+  file.values("damping/force", {"pressure"}, forces);
+  const auto number = [&](const char* name) { return reader.number_attribute("damping", name); };
+  CHECK(reader.text_attribute("damping", "mode") == "drag");
+  CHECK(number("normal_amplitude") == 1e-10);
+  CHECK(number("drag_velocity") == 1e-3);
+  CHECK(*number("angular_frequency") == Approx(2 * std::numbers::pi * 20e3).epsilon(1e-14));
+  CHECK(number("contact_modulus") == 1e10);
+  // G*/E* = 2(1 − ν)/(2 − ν).
+  CHECK(*number("modulus_ratio") == Approx(1.4 / 1.7).epsilon(1e-14));
+
+  const std::pair<const char*, double SpotStatistics::*> spots[] = {
+      {"spot_count", &SpotStatistics::count},
+      {"corrected_area_fraction", &SpotStatistics::corrected_area_fraction},
+      {"largest_spot_area", &SpotStatistics::largest_area},
+      {"mean_spot_area", &SpotStatistics::mean_area}};
+  for (const auto& [name, quantity] : spots) {
+    const auto of = quantity;
+    std::vector<double> values;
+    std::vector<EnsembleMean> means;
+    for (const Realisation& r : result.realisations)
+      for (const SpotStatistics& load : r.spots) values.push_back(load.*of);
+    for (std::size_t k = 0; k < result.pressures.size(); ++k)
+      means.push_back(result.mean([&](const Realisation& r) { return r.spots[k].*of; }));
+    file.values(std::string("spots/") + name, {"realisation", "pressure"}, values);
+    file.interval(std::string("spots/ensemble_") + name, {"pressure"}, means);
+  }
+  std::vector<double> sizes;
+  for (const Realisation& r : result.realisations)
+    for (const SpotStatistics& load : r.spots)
+      sizes.insert(sizes.end(), load.sizes.begin(), load.sizes.end());
+  file.values("spots/spots_by_size", {"realisation", "pressure", "least_cells"}, sizes);
+  // 64² cells = 2^12: spots of 1, 2, 4 … 4096 cells at the least.
+  CHECK(reader.numbers("spots/least_cells").size() == 13);
+  CHECK(reader.numbers("spots/least_cells").back() == 4096);
+  file.of_surfaces("spots/corrected_area_slope",
+                   [](const auto& r) { return r.corrected_area_slope; });
+
+  for (const auto& [name, quantity] :
+       {std::pair{"mean_gap", &ForceSample::mean_gap},
+        {"contact_area_fraction", &ForceSample::contact_area_fraction},
+        {"normal_stiffness", &ForceSample::normal_stiffness}})
+    file.interval_of_loads(std::string("comparison/") + name,
+                           [&, of = quantity](auto model) { return result.over_bem(model, of); });
+  for (const auto& [name, quantity] : {std::pair{"law_work_per_cycle", &DampingPoint::law_work},
+                                       {"small_work_per_cycle", &DampingPoint::small_work},
+                                       {"curve_work_per_cycle", &DampingPoint::curve_work}})
+    file.interval_of_loads(std::string("comparison/") + name, [&, of = quantity](auto model) {
+      return result.damping_over_bem(model, of);
+    });
+}
+
+TEST_CASE("The overview of a parameter grid holds each point's parameters and means",
+          "[study file]") {
+  StudyConfiguration configuration = small_study();
+  configuration.stick = false;
+  auto& surfaces = std::get<GeneratedSurfaces>(configuration.surfaces);
+  surfaces.seeds = {4, 5};
+  surfaces.grid.ny = 32;  // a strip: x and y differ
+  surfaces.grid.ly = 2e-6;
+  configuration.ensemble.hurst = {0.5, 0.8};
+  configuration.ensemble.size_x = {2e-6, 4e-6};
+  const std::vector<StudyResult> results = run_ensembles(configuration);
+  REQUIRE(results.size() == 4);
+  const Scratch scratch;
+  write_ensembles(scratch / "grid.h5", results, {});
+  const ResultReader reader(scratch / "grid.h5");
+  const auto numbers = [&](const std::string& name) { return reader.numbers("ensemble/" + name); };
+  CHECK(numbers("hurst") == std::vector<double>{0.5, 0.5, 0.8, 0.8});
+  CHECK(numbers("size_x") == std::vector<double>{2e-6, 4e-6, 2e-6, 4e-6});
+  CHECK(numbers("nx") == std::vector<double>{32, 64, 32, 64});
+  CHECK(numbers("rolloff") == std::vector<double>(4, 1e-6));
+  CHECK(numbers("short_cutoff") == std::vector<double>(4, 0.5e-6));
+  CHECK(numbers("realisations") == std::vector<double>(4, 2));
+  const FileCheck file(reader, results[2]);
+  std::vector<EnsembleMean> ratios, slopes;
+  for (const StudyResult& result : results) {
+    ratios.push_back(result.decay_length_over_rms_height(&Realisation::bem));
+    slopes.push_back(result.area_slope(&Realisation::bem));
+  }
+  file.interval("ensemble/ensemble_decay_length_over_rms_height", {"point"}, ratios);
+  file.interval("ensemble/ensemble_area_slope", {"point"}, slopes);
+  file.of_surfaces("points/2/surface/rms_height",
+                   [](const auto& r) { return r.heights.rms_height; });
+  CHECK(reader.number_attribute("points/0/surface", "size_y") == 1e-6);
+  CHECK(reader.number_attribute("points/1/surface", "size_x") == 4e-6);
+  CHECK(reader.number_attribute("points/1/surface", "size_y") == 2e-6);
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+/// [material], [contact] and [damping] of a small study; loads: how many from light contact to a fifth of E*h'.
+inline std::string contact_text(int loads = 10) {
+  return R"([material]
+contact_modulus = "10GPa"
+poisson = 0.3
+[contact]
+relative_pressures = "1e-3:0.2:)" +
+         std::to_string(loads) + R"("
+tolerance = 1e-8
+[damping]
+normal_amplitude = "0.1nm"
+drag_velocity = "1mm/s"
+frequency = "20kHz"
+)";
+}
+
+/// A study of surfaces of 64 × 64 cells, eight to the shortest wave and four roll-offs a side: some 20 ms each at a dozen loads.
+inline std::string study_text(const std::string& seeds = "seeds = [1, 2, 3]", int loads = 10) {
+  return R"([surface]
+points = 64
+size_x = "4um"
+hurst = 0.8
+rolloff = "1um"
+short_cutoff = "0.5um"
+rms_height = "10nm"
+)" + seeds +
+         "\n" + contact_text(loads);
+}
