@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/base/version.hpp>
 
 namespace salebra::cli {
 namespace {
@@ -16,38 +15,13 @@ constexpr double default_checkpoint_every = 60;  // s
 // Everything that decides the bits of a cycle.
 CycleSettings settings_of(const OscillationCase& run, const CycleOptions& options,
                           const FrictionOptions& friction) {
-  const Grid2D& grid = run.body.surface.grid;
-  CycleSettings settings{{"version", std::string(version())},
-                         {"surface", fingerprint(run.body.surface.heights)}};
-  const auto add = [&](const char* name, double value) {
-    settings.emplace_back(name, fmt::format("{}", value));
-  };
-  add("nx", static_cast<double>(grid.nx));
-  add("ny", static_cast<double>(grid.ny));
-  add("size_x", grid.lx);
-  add("size_y", grid.ly);
-  add("contact_modulus", run.material.contact_modulus);
-  add("cerruti_isotropic", run.material.cerruti_isotropic);
-  add("cerruti_directed", run.material.cerruti_directed);
-  add("indentation", run.indentation);
-  if (const auto* drag = std::get_if<Drag>(&run.motion)) {
-    add("normal_amplitude", drag->normal_amplitude);
-    add("drag_velocity", drag->drag_velocity);
-    add("angular_frequency", drag->angular_frequency);
-  } else {
-    const auto& equal = std::get<EqualFrequency>(run.motion);
-    add("normal_amplitude", equal.normal_amplitude);
-    add("tangential_amplitude", equal.tangential_amplitude);
-    add("phase", equal.phase);
-  }
-  add("direction", options.direction);
-  add("steps", options.steps);
-  add("tolerance", options.stick.tolerance);
-  settings.emplace_back("boundary", run.body.boundary == Boundary::free ? "free" : "periodic");
-  settings.emplace_back("lateral", options.stick.hold_lateral ? "held" : "free");
+  CycleSettings settings =
+      cycle_settings(run.body.surface.grid, run.material, run.motion, run.indentation, options);
+  settings.emplace_back("surface", fingerprint(run.body.surface.heights));
   settings.emplace_back("friction",
                         friction.friction ? fmt::format("{}", *friction.friction) : "none");
-  if (friction.friction) add("max_periods", friction.max_periods);
+  if (friction.friction)
+    settings.emplace_back("max_periods", fmt::format("{}", friction.max_periods));
   return settings;
 }
 

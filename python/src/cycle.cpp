@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -6,6 +7,7 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <salebra/damping/adaptive_quadrature.hpp>
@@ -14,9 +16,11 @@
 #include <salebra/damping/level_quadrature.hpp>
 
 #include "bindings.hpp"
+#include "interop/checkpoint.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/levels.hpp"
+#include "interop/path.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -77,7 +81,7 @@ boundary_element_levels : the levels of a surface.
                   made.force = force;
                   return made;
                 },
-                grid};
+                grid, "function"};
           },
           nb::arg("function"), nb::arg("grid"))
       .def(
@@ -92,10 +96,13 @@ boundary_element_levels : the levels of a surface.
       [](const BoundSurface& surface, double contact_modulus, double tolerance, int max_iterations,
          const Choice<Boundary>& boundary) {
         cite({"polonsky_keer1999", "stanley_kato1997"});
+        const NormalContactOptions options = contact_options(tolerance, max_iterations, boundary);
         return BoundLevels{
-            boundary_element_levels(Surface(surface.surface), contact_modulus,
-                                    contact_options(tolerance, max_iterations, boundary)),
-            surface.surface.grid};
+            boundary_element_levels(Surface(surface.surface), contact_modulus, options),
+            surface.surface.grid,
+            fmt::format("surface {}, {} Pa, {} boundary to {} in {} iterations",
+                        fingerprint(surface.surface.heights), contact_modulus, boundary.text,
+                        tolerance, max_iterations)};
       },
       nb::arg("surface"), nb::arg("contact_modulus"), nb::kw_only(), nb::arg("tolerance") = 1e-10,
       nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
@@ -103,9 +110,12 @@ boundary_element_levels : the levels of a surface.
       "Copies the surface.");
 }
 
+Oscillation oscillation(const std::variant<EqualFrequency, Drag>& motion) {
+  return std::visit([](const auto& one) { return Oscillation(one); }, motion);
+}
+
 Trajectory trajectory(const std::variant<EqualFrequency, Drag>& motion, double mean_indentation) {
-  return trajectory_of(std::visit([](const auto& one) { return Oscillation(one); }, motion),
-                       mean_indentation);
+  return trajectory_of(oscillation(motion), mean_indentation);
 }
 
 void bind_simulation(nb::module_& m) {
@@ -152,22 +162,31 @@ void bind_simulation(nb::module_& m) {
       [](const BoundLevels& levels, const Material& material,
          const std::variant<EqualFrequency, Drag>& motion, double mean_indentation, int steps,
          int max_periods, double direction, double tolerance, int max_iterations,
-         const Choice<Boundary>& boundary, const ProgressArgument& progress) {
+         const Choice<Boundary>& boundary, const std::optional<std::filesystem::path>& checkpoint,
+         double checkpoint_every, bool resume, const ProgressArgument& progress) {
         cite({"popov2015"});
         CycleOptions options{.steps = steps, .max_periods = max_periods, .direction = direction};
         options.stick = {.tolerance = tolerance,
                          .max_iterations = max_iterations,
                          .boundary = boundary.value("boundary")};
+        CycleSettings settings =
+            cycle_settings(levels.grid, material, oscillation(motion), mean_indentation, options);
+        settings.emplace_back("levels", levels.identity);
         return interruptible(progress, [&](Progress told) {
           options.on_progress = std::move(told);
-          return simulate_cycle(levels.levels, levels.grid, material,
-                                trajectory(motion, mean_indentation), options);
+          return with_checkpoint<CycleState>(
+              {checkpoint, checkpoint_every, resume}, std::move(settings), options,
+              [&](const CycleOptions& chosen) {
+                return simulate_cycle(levels.levels, levels.grid, material,
+                                      trajectory(motion, mean_indentation), chosen);
+              });
         });
       },
       nb::arg("levels"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
       nb::kw_only(), nb::arg("steps") = 64, nb::arg("max_periods") = 4, nb::arg("direction") = 0.0,
       nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
-      nb::arg("boundary") = "periodic", nb::arg("progress") = false,
+      nb::arg("boundary") = "periodic", nb::arg("checkpoint") = nb::none(),
+      nb::arg("checkpoint_every") = 60.0, nb::arg("resume") = false, nb::arg("progress") = false,
       R"(Direct three-dimensional simulation of a contact with infinite friction through one oscillation.
 
 Cells that enter keep the displacement that they have at that time; cells that leave release their traction. The error of the steps
@@ -189,7 +208,18 @@ direction : float
     Of the tangential motion against x, rad.
 tolerance, max_iterations, boundary
     Of each stick solve.
+checkpoint : str or os.PathLike, optional
+    File that keeps the state while the simulation runs; removed at its end, left by whatever stops it before, Ctrl-C included.
+checkpoint_every : float
+    Time between checkpoints, s; 0 for every step.
+resume : bool
+    Go on from the checkpoint where there is one, to the same bits. Levels by a Python function must be the same function.
 progress : bool or callable
+
+Raises
+------
+InvalidInput
+    "<file>: <setting> was … in the checkpoint and is … now" for a checkpoint of another run, and for one that exists without resume.
 )");
 }
 
@@ -304,29 +334,39 @@ void bind_friction(nb::module_& m) {
                    const std::variant<EqualFrequency, Drag>& motion, double mean_indentation,
                    double friction, int steps, int max_periods, double steady_tolerance,
                    double direction, double tolerance, int max_iterations,
-                   const Choice<Boundary>& boundary, const ProgressArgument& progress) {
+                   const Choice<Boundary>& boundary,
+                   const std::optional<std::filesystem::path>& checkpoint, double checkpoint_every,
+                   bool resume, const ProgressArgument& progress) {
         cite({"popov2015", "polonsky_keer1999", "stanley_kato1997"});
         const Boundary chosen = boundary.value("boundary");
         FrictionalCycleOptions options = options_of(friction, steps, max_periods, steady_tolerance,
                                                     direction, tolerance, max_iterations, chosen);
+        CycleSettings settings = cycle_settings(surface.surface.grid, material, oscillation(motion),
+                                                mean_indentation, options);
+        if (checkpoint) settings.emplace_back("surface", fingerprint(surface.surface.heights));
         return interruptible(progress, [&](Progress told) {
           options.on_progress = told;
           const PressureLevels levels =
               boundary_element_pressures(Surface(surface.surface), material.contact_modulus,
                                          {.boundary = chosen, .on_progress = told});
-          return simulate_frictional_cycle(levels, surface.surface.grid, material,
-                                           trajectory(motion, mean_indentation), options);
+          return with_checkpoint<FrictionalCycleState>(
+              {checkpoint, checkpoint_every, resume}, std::move(settings), options,
+              [&](const FrictionalCycleOptions& with_states) {
+                return simulate_frictional_cycle(levels, surface.surface.grid, material,
+                                                 trajectory(motion, mean_indentation), with_states);
+              });
         });
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
       nb::kw_only(), nb::arg("friction") = infinite, nb::arg("steps") = 64,
       nb::arg("max_periods") = 6, nb::arg("steady_tolerance") = 1e-5, nb::arg("direction") = 0.0,
       nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
-      nb::arg("boundary") = "periodic", nb::arg("progress") = false,
+      nb::arg("boundary") = "periodic", nb::arg("checkpoint") = nb::none(),
+      nb::arg("checkpoint_every") = 60.0, nb::arg("resume") = false, nb::arg("progress") = false,
       R"(Direct three-dimensional simulation of a surface with Coulomb friction through one oscillation.
 
 Each step solves ``|τ| <= μp`` in every cell. Without drift the permanent contact settles within two or three periods; a drag goes on until
-all of it slides: raise max_periods, and look at `steady`. Arguments as :func:`simulate_cycle`; friction: μ.
+all of it slides: raise max_periods, and look at `steady`. Arguments as :func:`simulate_cycle`, checkpoints included; friction: μ.
 )");
   m.def(
       "simulate_coupled_cycle",

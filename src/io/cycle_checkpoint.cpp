@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <salebra/base/error.hpp>
+#include <salebra/base/version.hpp>
 #include <salebra/io/cycle_checkpoint.hpp>
 #include <salebra/io/result_file.hpp>
 
@@ -138,6 +139,56 @@ long whole(const ResultReader& reader, const std::string& group, const char* nam
 
 ContactSet set_of(const Field& field) { return field > 0.5; }
 
+template <class Options>
+CycleSettings settings_of(const Grid2D& grid, const Material& material, const Oscillation& motion,
+                          double mean_indentation, const Options& options) {
+  CycleSettings settings{{"version", std::string(version())}};
+  const auto add = [&](const char* name, double value) {
+    settings.emplace_back(name, fmt::format("{}", value));
+  };
+  add("nx", static_cast<double>(grid.nx));
+  add("ny", static_cast<double>(grid.ny));
+  add("size_x", grid.lx);
+  add("size_y", grid.ly);
+  add("contact_modulus", material.contact_modulus);
+  add("cerruti_isotropic", material.cerruti_isotropic);
+  add("cerruti_directed", material.cerruti_directed);
+  add("indentation", mean_indentation);
+  if (const auto* drag = std::get_if<Drag>(&motion)) {
+    add("normal_amplitude", drag->normal_amplitude);
+    add("drag_velocity", drag->drag_velocity);
+    add("angular_frequency", drag->angular_frequency);
+  } else {
+    const auto& equal = std::get<EqualFrequency>(motion);
+    add("normal_amplitude", equal.normal_amplitude);
+    add("tangential_amplitude", equal.tangential_amplitude);
+    add("phase", equal.phase);
+  }
+  add("direction", options.direction);
+  add("steps", options.steps);
+  add("tolerance", options.stick.tolerance);
+  add("max_iterations", options.stick.max_iterations);
+  settings.emplace_back("boundary", options.stick.boundary == Boundary::free ? "free" : "periodic");
+  settings.emplace_back("lateral", options.stick.hold_lateral ? "held" : "free");
+  return settings;
+}
+
+void write_settings(ResultFile& output, const CycleSettings& settings) {
+  ResultGroup agreed = output.group("settings");
+  for (const auto& [name, value] : settings) agreed.attribute(name, value);
+}
+
+void require_settings(const ResultReader& reader, const CycleSettings& settings) {
+  for (const auto& [name, value] : settings) {
+    const std::optional<std::string> then = reader.text_attribute("settings", name);
+    if (!then || *then != value)
+      throw InvalidInput(
+          fmt::format("{}: {} was {} in the checkpoint and is {} now; resume with the settings of "
+                      "the first run or remove the file",
+                      reader.file().string(), name, then ? *then : "not there", value));
+  }
+}
+
 void write_friction(ResultFile& output, const FrictionalCycleState& state) {
   const SlidingState& contact = state.contact;
   ResultGroup group = output.group("friction");
@@ -170,6 +221,22 @@ void write_friction(ResultFile& output, const FrictionalCycleState& state) {
 
 }  // namespace
 
+CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
+                             const Oscillation& motion, double mean_indentation,
+                             const CycleOptions& options) {
+  return settings_of(grid, material, motion, mean_indentation, options);
+}
+
+CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
+                             const Oscillation& motion, double mean_indentation,
+                             const FrictionalCycleOptions& options) {
+  CycleSettings settings = settings_of(grid, material, motion, mean_indentation, options);
+  settings.emplace_back("friction", fmt::format("{}", options.friction));
+  settings.emplace_back("max_periods", fmt::format("{}", options.max_periods));
+  settings.emplace_back("steady_tolerance", fmt::format("{}", options.steady_tolerance));
+  return settings;
+}
+
 std::string fingerprint(const Field& values) {
   // FNV-1a over the bits.
   std::uint64_t hash = 14695981039346656037u;
@@ -184,9 +251,7 @@ void write_cycle_checkpoint(const std::filesystem::path& file, const CycleState&
                             const CycleSettings& settings, const Provenance& provenance,
                             const FrictionalCycleState* friction) {
   ResultFile output(file, provenance, {.overwrite = true});
-  ResultGroup agreed = output.group("settings");
-  for (const auto& [name, value] : settings) agreed.attribute(name, value);
-
+  write_settings(output, settings);
   ResultGroup group = output.group("state");
   group.attribute("period", state.period);
   group.attribute("step", state.step);
@@ -215,15 +280,7 @@ CycleState read_cycle_checkpoint(const std::filesystem::path& file, const CycleS
   const ResultReader reader(file);
   require(reader.has("settings") && reader.has("state") && reader.has("samples"), file.string(), "",
           "is no checkpoint of a cycle; name the file that --checkpoint wrote");
-  for (const auto& [name, value] : settings) {
-    const std::optional<std::string> then = reader.text_attribute("settings", name);
-    if (!then || *then != value)
-      throw InvalidInput(
-          fmt::format("{}: {} was {} in the checkpoint and is {} now; resume with the settings of "
-                      "the first run "
-                      "or remove the file",
-                      file.string(), name, then ? *then : "not there", value));
-  }
+  require_settings(reader, settings);
   const auto count = [&](const char* name) { return whole(reader, "state", name, file); };
   const auto field = [&](const char* name) { return reader.field(std::string("state/") + name); };
   CycleState state;
@@ -270,6 +327,23 @@ std::optional<FrictionalCycleState> read_friction_checkpoint(const std::filesyst
   state.largest = set_of(field("largest"));
   state.samples = read_samples(reader, "friction/samples", friction_columns);
   return state;
+}
+
+void write_friction_checkpoint(const std::filesystem::path& file, const FrictionalCycleState& state,
+                               const CycleSettings& settings, const Provenance& provenance) {
+  ResultFile output(file, provenance, {.overwrite = true});
+  write_settings(output, settings);
+  write_friction(output, state);
+  output.commit();
+}
+
+FrictionalCycleState read_friction_checkpoint(const std::filesystem::path& file,
+                                              const CycleSettings& settings) {
+  const ResultReader reader(file);
+  require(reader.has("settings") && reader.has("friction"), file.string(), "",
+          "is no checkpoint of a cycle with friction; name one, or remove the file");
+  require_settings(reader, settings);
+  return *read_friction_checkpoint(file);
 }
 
 }  // namespace salebra

@@ -12,6 +12,7 @@
 #include "scratch.hpp"
 
 using namespace salebra;
+using Catch::Contains;
 
 namespace {
 
@@ -99,6 +100,47 @@ TEST_CASE("A checkpoint gives a cycle's state back to the last bit", "[io]") {
   CHECK(same_bits(read.unit_traction, state.unit_traction));
   REQUIRE(read.samples.size() == 6);
   check_same(read.samples, state.samples);
+}
+
+TEST_CASE("A cycle with friction has checkpoints of its own, of its own settings", "[io]") {
+  const Scratch scratch;
+  const auto file = scratch / "friction.h5";
+  const FrictionalCycleState state = states_with_friction()[12];
+  const Grid2D grid{16, 12, 2, 1.5};
+  const Material material = Material::of_contact_modulus(1e9, 0.3);
+  const Drag drag{1e-6, 1e-3, 1e4};
+  FrictionalCycleOptions options{.friction = 0.3, .steps = 10};
+  const CycleSettings settings = cycle_settings(grid, material, drag, 2e-6, options);
+  write_friction_checkpoint(file, state, settings, {});
+  const FrictionalCycleState read = read_friction_checkpoint(file, settings);
+  CHECK(read.step == state.step);
+  CHECK(read.last_work == state.last_work);
+  CHECK(same_bits(read.contact.traction, state.contact.traction));
+  CHECK((read.contact.loss == state.contact.loss).all());
+  CHECK(read.samples.size() == state.samples.size());
+
+  // Everything that decides a bit is a setting.
+  const auto differs = [&](const CycleSettings& other, const std::string& name) {
+    CHECK_THROWS_WITH(read_friction_checkpoint(file, other), Contains("friction.h5: " + name));
+  };
+  differs(cycle_settings({16, 12, 2, 1.6}, material, drag, 2e-6, options), "size_y");
+  differs(cycle_settings(grid, Material::of_contact_modulus(1e9, 0.2), drag, 2e-6, options),
+          "cerruti");
+  differs(cycle_settings(grid, material, Drag{1e-6, 2e-3, 1e4}, 2e-6, options), "drag_velocity");
+  differs(cycle_settings(grid, material, EqualFrequency{1e-6, 1e-6, 0}, 2e-6, options),
+          "tangential_amplitude");
+  differs(cycle_settings(grid, material, drag, 3e-6, options), "indentation");
+  options.stick.tolerance = 1e-9;
+  differs(cycle_settings(grid, material, drag, 2e-6, options), "tolerance");
+  options = {.friction = 0.4, .steps = 10};
+  differs(cycle_settings(grid, material, drag, 2e-6, options), "friction");
+  options = {.friction = 0.3, .steps = 12};
+  differs(cycle_settings(grid, material, drag, 2e-6, options), "steps");
+  options = {.friction = 0.3, .steps = 10, .max_periods = 7};
+  differs(cycle_settings(grid, material, drag, 2e-6, options), "max_periods");
+  write_cycle_checkpoint(scratch / "stuck.h5", states_of_a_cycle()[2], {}, {});
+  CHECK_THROWS_WITH(read_friction_checkpoint(scratch / "stuck.h5", {}),
+                    Contains("no checkpoint of a cycle with friction"));
 }
 
 TEST_CASE("A checkpoint keeps the cycle with friction beside the one without", "[io]") {

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -104,6 +105,83 @@ def test_levels_may_be_a_python_function() -> None:
     motion = salebra.EqualFrequency(normal_amplitude=0.05, tangential_amplitude=0.01, phase=1.0)
     with pytest.raises(LookupError, match="no such level"):
         salebra.simulate_cycle(salebra.ContactLevels(broken, grid), material, motion, 0.2, steps=4, boundary="free")
+
+
+def test_a_simulation_goes_on_from_its_checkpoint_to_the_same_bits(tmp_path: Path) -> None:
+    grid = salebra.Grid2D(48, 48, 2e-3, 2e-3)
+    material = salebra.Material(1e9, poisson=0.3)
+    surface = salebra.paraboloid_surface(grid, 10e-3, salebra.off_grid_center(grid))
+    motion = salebra.EqualFrequency(normal_amplitude=4e-6, tangential_amplitude=1e-6, phase=1.0)
+    elements = salebra.boundary_element_levels(surface, material.contact_modulus, boundary="free", tolerance=1e-8)
+    asked: list[float] = []
+
+    def level(indentation: float) -> tuple[np.ndarray, float]:
+        asked.append(indentation)
+        if len(asked) == 9:
+            raise LookupError("the ninth")
+        found = elements(indentation)
+        return found.contact, found.force
+
+    levels = salebra.ContactLevels(level, grid)
+    file = tmp_path / "cycle.h5"
+
+    def simulate(
+        of: salebra.ContactLevels = levels,
+        steps: int = 16,
+        resume: bool = True,
+        progress: Callable[[salebra.ProgressReport], object] | bool = False,
+    ) -> salebra.CycleResult:
+        return salebra.simulate_cycle(
+            of, material, motion, 2e-5, steps=steps, boundary="free", tolerance=1e-6, checkpoint=file, resume=resume,
+            progress=progress,
+        )  # fmt: skip
+
+    with pytest.raises(LookupError, match="the ninth"):
+        simulate()
+    assert file.exists()
+    with pytest.raises(salebra.InvalidInput, match="cycle.h5: exists; give resume=True"):
+        simulate(resume=False)
+    with pytest.raises(salebra.InvalidInput, match="cycle.h5: steps was 16 in the checkpoint and is 24 now"):
+        simulate(steps=24)
+    with pytest.raises(salebra.InvalidInput, match="cycle.h5: levels was function"):
+        simulate(elements)
+    told: list[tuple[str, int]] = []
+    resumed = simulate(progress=lambda report: told.append((report.stage, report.step)))
+    # It began where it had stopped, not anew: eight contacts had been made.
+    assert told[0][0] == "cycle" and told[0][1] >= 6
+    assert not file.exists()
+    whole = salebra.simulate_cycle(levels, material, motion, 2e-5, steps=16, boundary="free", tolerance=1e-6)
+    assert resumed.work_per_cycle == whole.work_per_cycle
+    assert resumed.iterations == whole.iterations
+    for name in ("tangential_force", "work", "contact_area"):
+        assert np.array_equal(getattr(resumed, name), getattr(whole, name))
+    with pytest.raises(salebra.InvalidInput, match="resume: True without a checkpoint"):
+        salebra.simulate_cycle(levels, material, motion, 2e-5, resume=True)
+
+
+def test_a_simulation_with_friction_goes_on_from_its_checkpoint(tmp_path: Path) -> None:
+    grid = salebra.Grid2D(64, 64, 2e-3, 2e-3)
+    material = salebra.Material(1e9, poisson=0.3)
+    surface = salebra.paraboloid_surface(grid, 10e-3, salebra.off_grid_center(grid))
+    motion = salebra.EqualFrequency(normal_amplitude=4e-6, tangential_amplitude=4e-6, phase=1.0)
+    file = tmp_path / "cycle.h5"
+
+    def simulate(progress: Callable[[salebra.ProgressReport], object] | bool = False) -> salebra.FrictionalCycleResult:
+        return salebra.simulate_frictional_cycle(
+            surface, material, motion, 2e-5, friction=0.3, steps=32, boundary="free", tolerance=1e-7, checkpoint=file,
+            resume=True, progress=progress,
+        )  # fmt: skip
+
+    stopped = simulate(lambda report: report.stage != "cycle" or report.step < 2)
+    if not stopped.interrupted:
+        pytest.skip("the whole simulation took a tenth of a second")
+    assert file.exists()
+    resumed = simulate()
+    assert not file.exists() and resumed.converged
+    whole = simulate()
+    assert resumed.work_per_cycle == whole.work_per_cycle
+    assert np.array_equal(resumed.loss, whole.loss)
+    assert np.array_equal(resumed.tangential_force, whole.tangential_force)
 
 
 def test_measured_surface_to_damping_constant(measured: Path) -> None:

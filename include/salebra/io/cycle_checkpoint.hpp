@@ -18,6 +18,14 @@ using CycleSettings = std::vector<std::pair<std::string, std::string>>;
 /// Short fingerprint of a field's bits, for settings.
 std::string fingerprint(const Field& values);
 
+/// What a cycle is given beside its levels. What decides those must be added, such as the fingerprint of the heights.
+CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
+                             const Oscillation& motion, double mean_indentation,
+                             const CycleOptions& options);
+CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
+                             const Oscillation& motion, double mean_indentation,
+                             const FrictionalCycleOptions& options);
+
 /// Writes a state of simulate_cycle() to an HDF5 file, replacing the last one; the file is complete at any time.
 /// friction   the state of a simulate_frictional_cycle() that follows it; nullptr: not there yet
 /// throws  IoError for what the system refuses
@@ -33,5 +41,11 @@ CycleState read_cycle_checkpoint(const std::filesystem::path& file, const CycleS
 /// not begun.
 /// throws  InvalidInput naming the file for what is not a checkpoint
 std::optional<FrictionalCycleState> read_friction_checkpoint(const std::filesystem::path& file);
+
+/// The same for a simulate_frictional_cycle() that follows no other. Write and throw as those of simulate_cycle() do.
+void write_friction_checkpoint(const std::filesystem::path& file, const FrictionalCycleState& state,
+                               const CycleSettings& settings, const Provenance& provenance);
+FrictionalCycleState read_friction_checkpoint(const std::filesystem::path& file,
+                                              const CycleSettings& settings);
 
 }  // namespace salebra

@@ -4,6 +4,7 @@
 #include <nanobind/nanobind.h>
 
 #include <salebra/damping/cycle.hpp>
+#include <string>
 
 namespace salebra::python {
 
@@ -11,6 +12,7 @@ namespace salebra::python {
 struct BoundLevels {
   ContactLevels levels;
   Grid2D grid;
+  std::string identity;  ///< what decides them, as a setting of a checkpoint
 };
 
 /// A Python function of the indentation that returns a contact set and a force.
