@@ -121,7 +121,7 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
   spectrum->require_carried_by(grid);
   report_memory(arguments.non_gaussian() ? non_gaussian_memory(grid) : generation_memory(grid),
                 arguments.points, session);
-  const Forecast expected = forecast(grid, *spectrum);
+  const Forecast expected = forecast(grid, *spectrum, session.progress());
   for (const std::string& warning : expected.warnings) session.warn(warning);
   const std::string method = !arguments.method.empty()  ? arguments.method
                              : arguments.non_gaussian() ? "random-phase"
@@ -151,11 +151,12 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
                               {"converged", made.converged}};
     return std::move(made.surface);
   }
-  if (method == "random-phase") return random_phase(grid, *spectrum, arguments.seed);
+  if (method == "random-phase")
+    return random_phase(grid, *spectrum, arguments.seed, session.progress());
   if (method == "exact-rms")
     return exact_rms(grid, *spectrum, arguments.seed,
-                     arguments.spectrum.rms_slope ? Rms::slope : Rms::height);
-  return filtered_noise(grid, *spectrum, arguments.seed);
+                     arguments.spectrum.rms_slope ? Rms::slope : Rms::height, session.progress());
+  return filtered_noise(grid, *spectrum, arguments.seed, session.progress());
 }
 
 Surface cropped(const GenerateArguments& arguments, const Surface& surface) {
@@ -235,6 +236,7 @@ void run(const GenerateArguments& arguments, Session& session) {
     answer["realised"]["skewness"] = heights.skewness;
     answer["realised"]["kurtosis"] = heights.kurtosis;
   }
+  if (interrupted()) throw Interrupted("generate: interrupted; no surface was written");
   if (session.has_output()) {
     Provenance provenance = session.provenance();
     if (!arguments.shape.given()) provenance.seed = arguments.seed;

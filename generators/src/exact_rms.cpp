@@ -71,10 +71,13 @@ Surface scale_to_rms(Surface surface, Rms which, double target) {
   return surface;
 }
 
-Surface exact_rms(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Rms which) {
+Surface exact_rms(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Rms which,
+                  const Progress& progress) {
   const SpectralMoments moments = spectrum.moments();
-  Surface surface = scale_to_rms(random_phase(grid, spectrum, seed), which,
+  Surface surface = scale_to_rms(random_phase(grid, spectrum, seed, progress), which,
                                  which == Rms::height ? moments.rms_height() : moments.rms_slope());
+  if (progress && !progress({.stage = "surface", .fraction = 1}))
+    throw Interrupted("surface: interrupted");
   surface.origin =
       (which == Rms::height ? "exact rms height, " : "exact rms slope, ") + surface.origin;
   return surface;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/column_fft.hpp>
+#include <salebra/base/loop_progress.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/generators/forecast.hpp>
 #include <sstream>
@@ -13,19 +14,24 @@ namespace salebra {
 namespace {
 
 // ½√(2ΣP²)/ΣP over all modes: |a|² of a pair of conjugates and of a real mode have the variances P² and 2P².
-double scatter_of(const Grid2D& grid, const Spectrum& spectrum) {
+double scatter_of(const Grid2D& grid, const Spectrum& spectrum, const Progress& progress) {
   const detail::CarriedModes carried(grid, spectrum);
   const auto sum_of_powers = [&](int exponent) {
-    return parallel::sum_slabs(carried.j_max() + 1, [&](Index begin, Index end) {
+    LoopProgress loop(progress, "scatter", carried.j_max() + 1, exponent == 1 ? 0.5 : 0,
+                      exponent == 1 ? 1 : 0.5);
+    const double sum_of_all = parallel::sum_slabs(carried.j_max() + 1, [&](Index begin, Index end) {
       double sum = 0;
-      for (Index j = begin; j < end; ++j)
+      for (Index j = begin; j < end && loop.advance(); ++j)
         detail::for_each_mode_of_column(carried, j, [&](double, double, double power, bool pair) {
           sum += (pair ? 2 : 1) * (exponent == 1 ? power : power * power);
         });
       return sum;
     });
+    loop.finish();
+    return sum_of_all;
   };
-  return std::sqrt(2 * sum_of_powers(2)) / (2 * sum_of_powers(1));
+  const double squares = sum_of_powers(2);
+  return std::sqrt(2 * squares) / (2 * sum_of_powers(1));
 }
 
 template <class... Parts>
@@ -40,13 +46,13 @@ std::string sentence(const Parts&... parts) {
 
 std::size_t generation_memory(const Grid2D& grid) { return column_fft_memory(grid.nx, grid.ny); }
 
-Forecast forecast(const Grid2D& grid, const Spectrum& spectrum) {
+Forecast forecast(const Grid2D& grid, const Spectrum& spectrum, const Progress& progress) {
   Forecast result;
-  result.lattice = spectrum.lattice_moments(grid);
+  result.lattice = spectrum.lattice_moments(grid, progress);
   result.target = spectrum.moments();
   result.memory = generation_memory(grid);
 
-  result.rms_height_scatter = scatter_of(grid, spectrum);
+  result.rms_height_scatter = scatter_of(grid, spectrum, progress);
 
   const double shortest = 2 * std::numbers::pi / spectrum.highest_wavenumber();
   const double cells = shortest / std::max(grid.dx(), grid.dy());

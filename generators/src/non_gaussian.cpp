@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <numeric>
 #include <salebra/base/error.hpp>
 #include <salebra/base/fft.hpp>
@@ -44,17 +45,30 @@ class RankMap {
   explicit RankMap(std::vector<double> ordered)
       : ordered_(std::move(ordered)), ranking_(ordered_.size()) {}
 
-  void apply(Field& heights) {
+  /// keep_going is asked every million comparisons, a small part of a second; where it says no, the heights stay as they are.
+  bool apply(Field& heights, const std::function<bool()>& keep_going) {
     for (std::size_t k = 0; k < ranking_.size(); ++k)
       ranking_[k] = {heights.data()[k], static_cast<Index>(k)};
-    std::sort(ranking_.begin(), ranking_.end());
+    struct Stopped {};
+    std::size_t comparisons = 0;
+    const auto lower = [&](const Ranked& a, const Ranked& b) {
+      if (++comparisons % 1'000'000 == 0 && !keep_going()) throw Stopped{};
+      return a < b;
+    };
+    try {
+      std::sort(ranking_.begin(), ranking_.end(), lower);
+    } catch (const Stopped&) {
+      return false;
+    }
     for (std::size_t k = 0; k < ranking_.size(); ++k)
       heights.data()[ranking_[k].second] = ordered_[k];
+    return true;
   }
 
  private:
+  using Ranked = std::pair<double, Index>;
   std::vector<double> ordered_;
-  std::vector<std::pair<double, Index>> ranking_;
+  std::vector<Ranked> ranking_;
 };
 
 // The modes of a field, and the amplitudes that they shall have.
@@ -130,20 +144,34 @@ NonGaussianSurface non_gaussian(const Grid2D& grid, const Spectrum& spectrum,
   spectrum.require_carried_by(grid);
   detail::require_memory(grid, non_gaussian_memory(grid));
   NonGaussianSurface result;
-  result.surface = random_phase(grid, spectrum, seed);
+  const std::function<bool()> keep_going = [&] {
+    return !options.on_progress ||
+           options.on_progress(
+               {.stage = "non-gaussian",
+                .fraction = static_cast<double>(result.iterations) / options.max_iterations,
+                .step = result.iterations,
+                .residual = result.spectrum_mismatch});
+  };
+  const Progress start = [&](const ProgressReport&) { return keep_going(); };
+  const double rms_height = spectrum.lattice_moments(grid, start).rms_height();
+  result.surface = random_phase(grid, spectrum, seed, start);
   result.surface.origin = distribution.name + ", " + result.surface.origin;
   Field& heights = result.surface.heights;
 
   TargetAmplitudes amplitudes(heights);
-  RankMap ranks(
-      ordered_heights(distribution, grid.points(), spectrum.lattice_moments(grid).rms_height()));
-  ranks.apply(heights);
+  RankMap ranks(ordered_heights(distribution, grid.points(), rms_height));
+  if (!keep_going() || !ranks.apply(heights, keep_going))
+    throw Interrupted("non-gaussian: interrupted");
   result.spectrum_mismatch = amplitudes.measure(heights);
-  while (result.iterations < options.max_iterations && !result.converged && !result.interrupted) {
+  while (result.iterations < options.max_iterations && !result.converged) {
     const Field previous = heights;
     const double before = result.spectrum_mismatch;
     amplitudes.impose(heights);
-    ranks.apply(heights);
+    if (!keep_going() || !ranks.apply(heights, keep_going) || !keep_going()) {
+      heights = previous;
+      result.interrupted = true;
+      break;
+    }
     const double after = amplitudes.measure(heights);
     ++result.iterations;
     result.converged = !(after < before * (1 - options.tolerance));
@@ -151,12 +179,6 @@ NonGaussianSurface non_gaussian(const Grid2D& grid, const Spectrum& spectrum,
       heights = previous;
     else
       result.spectrum_mismatch = after;
-    if (options.on_progress)
-      result.interrupted = !options.on_progress(
-          {.stage = "non-gaussian",
-           .fraction = static_cast<double>(result.iterations) / options.max_iterations,
-           .step = result.iterations,
-           .residual = result.spectrum_mismatch});
   }
   if (options.exact == Exact::spectrum) {
     amplitudes.measure(heights);

@@ -5,8 +5,9 @@
 
 namespace salebra {
 
-Surface random_phase(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed) {
-  return {grid, detail::synthesise(grid, spectrum, seed, detail::Chance::phase), true,
+Surface random_phase(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
+                     const Progress& progress) {
+  return {grid, detail::synthesise(grid, spectrum, seed, detail::Chance::phase, progress), true,
           "random phase, seed " + std::to_string(seed) + ", " + spectrum.description()};
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/base/loop_progress.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <sstream>
@@ -57,17 +58,19 @@ void Spectrum::density_row(Index first, double step_x, double qy,
   }
 }
 
-SpectralMoments Spectrum::lattice_moments(const Grid2D& grid) const {
+SpectralMoments Spectrum::lattice_moments(const Grid2D& grid, const Progress& progress) const {
   const detail::CarriedModes carried(grid, *this);
   std::vector<SpectralMoments> columns(static_cast<std::size_t>(carried.j_max() + 1));
+  LoopProgress loop(progress, "moments", carried.j_max() + 1);
   parallel::for_slabs(carried.j_max() + 1, [&](Index begin, Index end) {
-    for (Index j = begin; j < end; ++j)
+    for (Index j = begin; j < end && loop.advance(); ++j)
       detail::for_each_mode_of_column(carried, j,
                                       [&](double qx, double qy, double power, bool pair) {
                                         add(columns[static_cast<std::size_t>(j)],
                                             moments_of_wave(qx, qy, pair ? 2 * power : power));
                                       });
   });
+  loop.finish();
   SpectralMoments sum;
   for (const SpectralMoments& column : columns) add(sum, column);
   return sum;

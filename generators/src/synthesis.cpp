@@ -20,13 +20,15 @@ void require_memory(const Grid2D& grid, std::size_t bytes) {
           std::to_string(grid.nx) + " x " + std::to_string(grid.ny), constraint.str());
 }
 
-Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Chance chance) {
+Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Chance chance,
+                 const Progress& progress) {
   const CarriedModes carried(grid, spectrum);
   require_memory(grid, column_fft_memory(grid.nx, grid.ny));
   const RandomModes modes(carried, seed, chance);
   return backward_by_columns(
       grid.nx, grid.ny, carried.j_max() + 1,
-      [&modes](Index j, std::span<std::complex<double>> column) { modes.column(j, column); });
+      [&modes](Index j, std::span<std::complex<double>> column) { modes.column(j, column); },
+      progress);
 }
 
 }  // namespace salebra::detail

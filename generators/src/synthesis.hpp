@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <salebra/base/progress.hpp>
 
 #include "modes.hpp"
 
 namespace salebra::detail {
 
 /// h(x) = Σ_q a(q) e^{iq·x} on the points of the grid with the amplitudes of RandomModes. Same bits for every thread count.
-Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Chance chance);
+/// progress as of filtered_noise.
+Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Chance chance,
+                 const Progress& progress);
 
 /// Throws InvalidInput where the system says that less than so many bytes are available.
 void require_memory(const Grid2D& grid, std::size_t bytes);

@@ -162,4 +162,19 @@ TEST_CASE(
   CHECK(stopped.interrupted);
   CHECK(stopped.iterations == 2);
   CHECK_FALSE(stopped.converged);
+  // The surface is the one that two iterations make, at whichever report of the third the stop came.
+  const Field two =
+      non_gaussian(grid, spectrum, weibull_heights(2), 1, {.max_iterations = 2}).surface.heights;
+  CHECK((stopped.surface.heights == two).all());
+  int reports = 0;
+  const auto second = [&](const ProgressReport& report) {
+    return report.step < 2 || ++reports < 2;
+  };
+  CHECK((non_gaussian(grid, spectrum, weibull_heights(2), 1, {.on_progress = second})
+             .surface.heights == two)
+            .all());
+  CHECK(reports == 2);
+  CHECK_THROWS_AS(non_gaussian(grid, spectrum, weibull_heights(2), 1,
+                               {.on_progress = [](const ProgressReport&) { return false; }}),
+                  Interrupted);
 }

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/generators/exact_rms.hpp>
 #include <salebra/generators/filtered_noise.hpp>
+#include <salebra/generators/forecast.hpp>
 #include <salebra/generators/random_phase.hpp>
+#include <vector>
 
 #include "mode_power.hpp"
 
@@ -141,4 +147,49 @@ TEST_CASE("Filtered noise and random phase of one seed have the same phases",
       // A small Gaussian amplitude has a large relative rounding error; 1e-11 allows amplitudes down to 1e-5.
       CHECK(std::abs(std::arg(noise(i, j) / fixed(i, j))) < 1e-11);
   });
+}
+
+TEST_CASE("A generator can be stopped at any of its reports, and reports change nothing",
+          "[generators]") {
+  const Grid2D grid{96, 80, 1, 1};
+  const SelfAffineSpectrum spectrum(
+      {.hurst = 0.7, .rolloff = 0.5, .short_cutoff = 0.05, .rms_height = 1e-6});
+  using Generator = Surface (*)(const Grid2D&, const Spectrum&, std::uint64_t, const Progress&);
+  const Generator exact = [](const Grid2D& g, const Spectrum& s, std::uint64_t seed,
+                             const Progress& told) {
+    return exact_rms(g, s, seed, Rms::slope, told);
+  };
+  for (const int threads : {1, 3}) {
+    parallel::set_threads(threads);
+    for (const Generator make : {Generator(filtered_noise), Generator(random_phase), exact}) {
+      std::vector<double> fractions;
+      const Surface told = make(grid, spectrum, 3, [&](const ProgressReport& report) {
+        CHECK(report.stage == "surface");
+        fractions.push_back(report.fraction);
+        return true;
+      });
+      CHECK((told.heights == make(grid, spectrum, 3, {}).heights).all());
+      REQUIRE(fractions.size() >= 2);
+      CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+      CHECK(fractions.back() == 1);
+      const auto stop_at = [&](std::size_t report) {
+        std::size_t reports = 0;
+        CHECK_THROWS_AS(
+            make(grid, spectrum, 3, [&](const ProgressReport&) { return ++reports < report; }),
+            Interrupted);
+        // Nobody is asked again who said stop.
+        CHECK(reports == report);
+      };
+      stop_at(1);
+      // How many reports there are depends on which thread gets which rows.
+      if (threads == 1) stop_at(fractions.size());
+    }
+  }
+  parallel::set_threads(0);
+  const auto stop = [](const ProgressReport&) { return false; };
+  CHECK_THROWS_AS(spectrum.lattice_moments(grid, stop), Interrupted);
+  CHECK_THROWS_AS(forecast(grid, spectrum, stop), Interrupted);
+  CHECK_THROWS_AS(forecast(grid, spectrum,
+                           [](const ProgressReport& report) { return report.stage == "moments"; }),
+                  Interrupted);
 }

@@ -37,9 +37,15 @@ The mode of wave vector q = 2π(i/lx, j/ly) has the mean power C(q)·(2π)²/(lx
       .def_prop_ro("highest_wavenumber", &Spectrum::highest_wavenumber,
                    "C vanishes beyond this, rad/m.")
       .def_prop_ro("moments", &Spectrum::moments, "Moments of the continuum.")
-      .def("lattice_moments", &Spectrum::lattice_moments, nb::arg("grid"),
-           "Moments that surfaces on this grid have in the mean: sums over the modes that the grid "
-           "carries.")
+      .def(
+          "lattice_moments",
+          [](const Spectrum& self, const Grid2D& grid, const ProgressArgument& progress) {
+            return interruptible(
+                progress, [&](const Progress& told) { return self.lattice_moments(grid, told); });
+          },
+          nb::arg("grid"), nb::kw_only(), nb::arg("progress") = false,
+          "Moments that surfaces on this grid have in the mean: sums over the modes that the grid "
+          "carries.")
       .def("__repr__", &Spectrum::description);
   nb::class_<IsotropicSpectrum, Spectrum>(m, "IsotropicSpectrum",
                                           "A spectrum that depends on ``|q|`` alone.")
@@ -146,18 +152,28 @@ void bind_forecast(nb::module_& m) {
               "Relative standard deviation of the rms height of filtered noise.")
       .def_ro("memory", &Forecast::memory, "Peak memory of the generation, bytes.")
       .def_ro("warnings", &Forecast::warnings, "Sentences for the user.");
-  m.def("forecast", &forecast, nb::arg("grid"), nb::arg("spectrum"),
-        "Moments, scatter, memory and warnings of a surface before it is made.");
+  m.def(
+      "forecast",
+      [](const Grid2D& grid, const Spectrum& spectrum, const ProgressArgument& progress) {
+        return interruptible(progress,
+                             [&](const Progress& told) { return forecast(grid, spectrum, told); });
+      },
+      nb::arg("grid"), nb::arg("spectrum"), nb::kw_only(), nb::arg("progress") = false,
+      "Moments, scatter, memory and warnings of a surface before it is made.");
 }
 
 void bind_makers(nb::module_& m) {
   m.def(
       "filtered_noise",
-      [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed) {
+      [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
+         const ProgressArgument& progress) {
         cite({"salmon2011"});
-        return new_surface(unlocked([&] { return filtered_noise(grid, spectrum, seed); }));
+        return new_surface(interruptible(progress, [&](const Progress& told) {
+          return filtered_noise(grid, spectrum, seed, told);
+        }));
       },
-      nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"),
+      nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"), nb::kw_only(),
+      nb::arg("progress") = false,
       R"(A periodic Gaussian random surface with a given spectrum, by filtering white noise.
 
 .. math:: h(x) = \sum_q a(q) e^{iq\cdot x}, \qquad \langle|a(q)|^2\rangle = C(q)\,(2\pi)^2/(l_x l_y)
@@ -171,19 +187,27 @@ grid : Grid2D
 spectrum : Spectrum
 seed : int
     Any value >= 0.
+progress : bool or callable
+    True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop.
 
 Raises
 ------
 InvalidInput
     If the grid does not carry the spectrum.
+Interrupted
+    If `progress` said stop.
 )");
   m.def(
       "random_phase",
-      [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed) {
+      [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
+         const ProgressArgument& progress) {
         cite({"salmon2011"});
-        return new_surface(unlocked([&] { return random_phase(grid, spectrum, seed); }));
+        return new_surface(interruptible(progress, [&](const Progress& told) {
+          return random_phase(grid, spectrum, seed, told);
+        }));
       },
-      nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"),
+      nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"), nb::kw_only(),
+      nb::arg("progress") = false,
       R"(A periodic surface in which chance decides on phases only: ``|a(q)|² = C(q)·(2π)²/(lx ly)`` exactly.
 
 rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for each seed. Arguments and errors as
@@ -191,13 +215,16 @@ rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for eac
 )");
   m.def(
       "exact_rms",
-      [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
-         const Choice<Rms>& which) {
+      [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, const Choice<Rms>& which,
+         const ProgressArgument& progress) {
         cite({"salmon2011"});
         const Rms chosen = which.value("which");
-        return new_surface(unlocked([&] { return exact_rms(grid, spectrum, seed, chosen); }));
+        return new_surface(interruptible(progress, [&](const Progress& told) {
+          return exact_rms(grid, spectrum, seed, chosen, told);
+        }));
       },
       nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"), nb::arg("which") = "height",
+      nb::kw_only(), nb::arg("progress") = false,
       "A random-phase surface scaled so that its own rms height (or slope) is that of the "
       "continuum, `spectrum.moments`.");
   m.def(

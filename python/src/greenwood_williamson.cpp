@@ -194,7 +194,7 @@ shape : {"circular", "elliptical"}
 
 .. math:: P_i = \tfrac43E^*\sqrt{R_i}\,\delta_i^{3/2},\qquad \delta_i = z_i - s - \sum_jG(x_i-x_j)P_j
 
-Ciavarella, Delfine and Demelio, J. Mech. Phys. Solids 54 (2006) 2569. A state costs seconds for 10⁵ summits.
+Ciavarella, Delfine and Demelio, J. Mech. Phys. Solids 54 (2006) 2569. A state costs seconds for 10⁵ summits; Ctrl-C stops it.
 )")
       .def(
           "__init__",
@@ -202,8 +202,9 @@ Ciavarella, Delfine and Demelio, J. Mech. Phys. Solids 54 (2006) 2569. A state c
              const Grid2D& grid, double mean_plane, double rms_height,
              const Choice<SummitShape>& shape, double tolerance, int max_iterations) {
             cite({"greenwood_williamson1966", "ciavarella2006"});
-            new (self) InteractingSummits(summits.summits, material, grid, mean_plane, rms_height,
-                                          shape.value("shape"), {tolerance, max_iterations});
+            new (self)
+                InteractingSummits(summits.summits, material, grid, mean_plane, rms_height,
+                                   shape.value("shape"), {tolerance, max_iterations, signals()});
           },
           nb::arg("summits"), nb::arg("material"), nb::arg("grid"), nb::kw_only(),
           nb::arg("mean_plane") = 0.0, nb::arg("rms_height") = ForceSample::unknown,
@@ -228,6 +229,18 @@ Ciavarella, Delfine and Demelio, J. Mech. Phys. Solids 54 (2006) 2569. A state c
       },
       nb::arg("model"), nb::arg("separations"),
       "Samples at the given separations, m, from the lowest force to the highest.");
+  m.def(
+      "curve_at_pressures",
+      [](const InteractingSummits& model, const Values& pressures,
+         const ProgressArgument& progress) {
+        return interruptible(progress, [&](const Progress& told) {
+          return curve_at_pressures(model, pressures.values, told);
+        });
+      },
+      nb::arg("model"), nb::arg("pressures"), nb::kw_only(), nb::arg("progress") = false,
+      "The same for interacting summits, each load from the state of the load before; a stop "
+      "returns "
+      "the samples so far. A load for which no state was found has converged = False.");
   m.def(
       "curve_at_pressures",
       [](const AsperityModel& model, const Values& pressures) {

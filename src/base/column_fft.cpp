@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <salebra/base/column_fft.hpp>
+#include <salebra/base/loop_progress.hpp>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <vector>
@@ -15,6 +16,8 @@ using Complex = std::complex<double>;
 
 // Columns that are copied to the rows together: 16 of them fill two cache lines of each row they touch.
 constexpr Index block = 16;
+
+constexpr const char* stage = "surface";
 
 fftw_complex* fftw(Complex* values) { return reinterpret_cast<fftw_complex*>(values); }
 
@@ -43,7 +46,8 @@ detail::FftwPlan<double> plan_row(Index ny) {
 
 }  // namespace
 
-Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column) {
+Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column,
+                          const Progress& progress) {
   require(columns >= 1 && columns <= ny / 2 + 1, "columns", columns, "must lie in 1 … ny/2+1");
   Field field = uninitialised_field(nx, ny);
   touch_pages(field);
@@ -53,6 +57,7 @@ Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColum
 
   const Index pitch = column_pitch(nx);
   const auto column_plan = plan_column(nx);
+  LoopProgress of_columns(progress, stage, columns, 0, 0.7);
   parallel::for_slabs((columns + block - 1) / block, [&](Index begin, Index end) {
     const auto buffer =
         detail::fftw_array<double, Complex>(static_cast<std::size_t>(block * pitch));
@@ -72,10 +77,13 @@ Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColum
         }
       }
       if (within < count) std::copy_n(buffer.get() + within * pitch, nx, last_column.begin());
+      if (!of_columns.advance(count)) return;
     }
   });
+  of_columns.finish();
 
   const auto row_plan = plan_row(ny);
+  LoopProgress of_rows(progress, stage, nx, 0.7, 1);
   parallel::for_slabs(nx, [&](Index begin, Index end) {
     const auto modes = detail::fftw_array<double, Complex>(static_cast<std::size_t>(ny / 2 + 1));
     const auto values = detail::fftw_array<double>(static_cast<std::size_t>(ny));
@@ -87,8 +95,10 @@ Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColum
         modes[static_cast<std::size_t>(stored)] = last_column[static_cast<std::size_t>(x)];
       Api::execute_c2r(row_plan.get(), fftw(modes.get()), values.get());
       std::copy_n(values.get(), ny, row);
+      if (!of_rows.advance()) return;
     }
   });
+  of_rows.finish();
   return field;
 }
 

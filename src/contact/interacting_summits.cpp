@@ -17,6 +17,8 @@ namespace {
 using Values = std::vector<double>;
 using Members = std::vector<std::uint32_t>;
 
+constexpr const char* stage = "interacting summits";
+
 double dot(const Values& a, const Values& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
@@ -70,6 +72,18 @@ struct Contacts {
   detail::PeriodicPointLoads kernel;
 };
 
+/// Tells how a state comes along, and ends it by Interrupted.
+struct Watch {
+  const Progress& progress;
+  int step = 0;
+  double residual = 0;
+
+  void operator()() const {
+    if (progress && !progress({.stage = stage, .step = step, .residual = residual}))
+      throw Interrupted("interacting summits: interrupted");
+  }
+};
+
 struct LinearSolution {
   Values scaled;     ///< D^{−1/2}x of (D⁻¹ + G)x + shift = rhs
   double shift = 0;  ///< for which Σx = 0; 0 where the sum is free
@@ -80,7 +94,7 @@ struct LinearSolution {
 /// Stops where two contacts so close to each other that a point force no longer describes them make it indefinite, with the descent
 /// direction reached until then.
 LinearSolution linear_solve(Contacts& contacts, const Values& root, const Values& right,
-                            double tolerance, bool hold_sum) {
+                            double tolerance, bool hold_sum, const Watch& watch) {
   const std::size_t n = root.size();
   LinearSolution solution{Values(n), 0, false};
   const double root_square = dot(root, root);
@@ -102,6 +116,7 @@ LinearSolution linear_solve(Contacts& contacts, const Values& root, const Values
     }
     for (std::size_t i = 0; i < n; ++i) scaled_direction[i] = root[i] * direction[i];
     contacts.kernel.apply(scaled_direction, image);
+    watch();
     for (std::size_t i = 0; i < n; ++i) image[i] = direction[i] + root[i] * image[i];
     const double bend = dot(direction, image);
     if (!(bend > 0)) {
@@ -222,15 +237,20 @@ InteractingSummits::Iterate InteractingSummits::evaluated(Values indentation,
   return iterate;
 }
 
-InteractingSummits::State InteractingSummits::equilibrium(Values indentation,
-                                                          const Goal& goal) const {
+InteractingSummits::State InteractingSummits::equilibrium(Values indentation, const Goal& goal,
+                                                          const Progress& progress) const {
   const System& system = *system_;
   const std::lock_guard lock(system.mutex);
   const std::size_t n = system.size();
   State state;
+  Watch watch{progress ? progress : options_.on_progress};
+  watch();
   Iterate current = evaluated(std::move(indentation), goal);
   for (; state.iterations < options_.max_iterations; ++state.iterations) {
     if (current.residual <= options_.tolerance) break;
+    watch.step = state.iterations;
+    watch.residual = current.residual;
+    watch();
     LinearSolution newton;
     Values load_step(n), step(n), roots;
     double slope = 0;
@@ -243,7 +263,7 @@ InteractingSummits::State InteractingSummits::equilibrium(Values indentation,
         errors.push_back(current.error[i]);
       }
       newton = linear_solve(contacts, roots, errors, std::clamp(current.residual, 1e-8, 0.1),
-                            goal.load.has_value());
+                            goal.load.has_value(), watch);
       for (std::size_t k = 0; k < roots.size(); ++k)
         load_step[contacts.members[k]] = roots[k] * newton.scaled[k];
     }
@@ -260,6 +280,7 @@ InteractingSummits::State InteractingSummits::equilibrium(Values indentation,
       for (std::size_t i = 0; i < n; ++i)
         trial_indentation[i] = current.indentation[i] + length * step[i];
       Iterate trial = evaluated(std::move(trial_indentation), goal);
+      watch();
       // Close to the end the energy no longer resolves the step, but the residual does.
       accepted = trial.energy <= current.energy + 1e-4 * length * slope ||
                  trial.residual <= 0.5 * current.residual;
@@ -276,23 +297,24 @@ InteractingSummits::State InteractingSummits::equilibrium(Values indentation,
   return state;
 }
 
-InteractingSummits::State InteractingSummits::solve(double separation) const {
+InteractingSummits::State InteractingSummits::solve(double separation,
+                                                    const Progress& progress) const {
   Values independent;
   for (const detail::HertzCap& cap : system_->caps) independent.push_back(cap.height - separation);
-  return equilibrium(std::move(independent), {separation, {}});
+  return equilibrium(std::move(independent), {separation, {}}, progress);
 }
 
-InteractingSummits::State InteractingSummits::solve_for_force(double force,
-                                                              const State* near) const {
+InteractingSummits::State InteractingSummits::solve_for_force(double force, const State* near,
+                                                              const Progress& progress) const {
   require_positive(force, "force");
   const Goal goal{0, force / common().material.contact_modulus};
   if (near) {
-    State state = equilibrium(near->indentation, goal);
+    State state = equilibrium(near->indentation, goal, progress);
     if (state.converged) return state;
   }
   Values heights;
   for (const detail::HertzCap& cap : system_->caps) heights.push_back(cap.height);
-  return equilibrium(std::move(heights), goal);
+  return equilibrium(std::move(heights), goal, progress);
 }
 
 double InteractingSummits::force(double separation) const {
@@ -311,7 +333,7 @@ AsperityContact InteractingSummits::at(double separation) const {
   return contact_of(solve(separation));
 }
 
-AsperityContact InteractingSummits::contact_of(const State& state) const {
+AsperityContact InteractingSummits::contact_of(const State& state, const Progress& progress) const {
   const System& system = *system_;
   const double modulus = common().material.contact_modulus;
   AsperityContact sum;
@@ -331,13 +353,14 @@ AsperityContact InteractingSummits::contact_of(const State& state) const {
   Values roots;
   for (const std::uint32_t i : contacts.members) roots.push_back(std::sqrt(stiffness[i]));
   // (D⁻¹ + G)P' = 1 and, once more differentiated, (D⁻¹ + G)P'' = ½(P'/D)²/δ, on the summits in contact.
+  const Watch watch{progress ? progress : options_.on_progress};
   const auto first =
-      linear_solve(contacts, roots, Values(roots.size(), 1.0), options_.tolerance, false);
+      linear_solve(contacts, roots, Values(roots.size(), 1.0), options_.tolerance, false, watch);
   Values right;
   for (std::size_t k = 0; k < roots.size(); ++k)
     right.push_back(first.scaled[k] * first.scaled[k] /
                     (2 * roots[k] * roots[k] * state.indentation[contacts.members[k]]));
-  const auto second = linear_solve(contacts, roots, right, options_.tolerance, false);
+  const auto second = linear_solve(contacts, roots, right, options_.tolerance, false, watch);
   sum.normal_stiffness = modulus * dot(roots, first.scaled);
   sum.curvature = modulus * dot(roots, second.scaled);
   sum.converged = state.converged && first.converged && second.converged;
@@ -355,19 +378,25 @@ ForceCurve curve_at_pressures(const InteractingSummits& model, std::vector<doubl
                    .samples = {}};
   InteractingSummits::State state;
   for (std::size_t k = 0; k < pressures.size(); ++k) {
-    if (progress && !progress({.stage = "interacting summits",
-                               .fraction = double(k) / double(pressures.size()),
-                               .step = int(k)}))
+    Progress of_load;
+    if (progress)
+      of_load = [&](const ProgressReport& report) {
+        return progress({.stage = stage,
+                         .fraction = double(k) / double(pressures.size()),
+                         .step = int(k),
+                         .residual = report.residual});
+      };
+    try {
+      state = model.solve_for_force(pressures[k] * common.nominal_area,
+                                    state.converged ? &state : nullptr, of_load);
+      curve.samples.push_back(
+          state.converged ? force_sample(model, state.separation, model.contact_of(state, of_load))
+                          : ForceSample{.force = pressures[k] * common.nominal_area,
+                                        .pressure = pressures[k],
+                                        .converged = false});
+    } catch (const Interrupted&) {
       break;
-    state = model.solve_for_force(pressures[k] * common.nominal_area,
-                                  state.converged ? &state : nullptr);
-    if (!state.converged) {
-      curve.samples.push_back({.force = pressures[k] * common.nominal_area,
-                               .pressure = pressures[k],
-                               .converged = false});
-      continue;
     }
-    curve.samples.push_back(force_sample(model, state.separation, model.contact_of(state)));
   }
   return curve;
 }

@@ -22,11 +22,11 @@
 namespace salebra {
 namespace {
 
-Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed) {
+Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Progress& progress) {
   const SelfAffineSpectrum spectrum(recipe.spectrum);
   return recipe.method == GenerationMethod::random_phase
-             ? random_phase(recipe.grid, spectrum, seed)
-             : filtered_noise(recipe.grid, spectrum, seed);
+             ? random_phase(recipe.grid, spectrum, seed, progress)
+             : filtered_noise(recipe.grid, spectrum, seed, progress);
 }
 
 Surface read(const MeasuredSurface& recipe) {
@@ -204,9 +204,10 @@ std::vector<StudyModel> models_of(const StudyConfiguration& configuration) {
   return chosen;
 }
 
-Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed) {
+Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
+                      const Progress& progress) {
   if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces))
-    return generate(*recipe, seed);
+    return generate(*recipe, seed, progress);
   return read(std::get<MeasuredSurface>(configuration.surfaces));
 }
 
@@ -231,7 +232,9 @@ std::vector<double> study_pressures(const StudyConfiguration& configuration) {
 
 Realisation analyse_realisation(const StudyConfiguration& configuration, std::uint64_t seed,
                                 const std::vector<double>& pressures, const Progress& progress) {
-  const Surface surface = study_surface(configuration, seed);
+  const Surface surface = study_surface(configuration, seed, [&](const ProgressReport&) {
+    return !progress || progress({.stage = "realisation"});
+  });
   Realisation realisation;
   realisation.seed = seed;
   realisation.grid = surface.grid;

@@ -245,3 +245,19 @@ TEST_CASE("A surface that the grid cannot carry is refused, one that it carries 
                          "--rolloff 0.1 --short-cutoff 1e-4"),
                 "memory");
 }
+
+TEST_CASE("A generation that is interrupted leaves no file", "[generate]") {
+  const ProgramTest test;
+  // A grid that takes seconds: the signal comes while its modes are summed, or while they are transformed.
+  const std::string surface =
+      "generate --points 8192 --size-x 1mm --hurst 0.8 --rolloff 0.25mm --short-cutoff 1um "
+      "--rms-height 1um --threads 1 -o rough.h5";
+  for (const std::string more : {"", " --skewness 1 --kurtosis 5"}) {
+    const auto result = test.run(surface + more, "(sleep 0.4; kill -INT $$) &");
+    INFO(result.err);
+    CHECK(result.status == 130);
+    CHECK(result.out.empty());
+    CHECK_THAT(result.err, Catch::Contains("interrupted"));
+    CHECK(test.files().empty());
+  }
+}

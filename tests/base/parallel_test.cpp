@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <salebra/base/error.hpp>
+#include <salebra/base/loop_progress.hpp>
 #include <salebra/base/parallel.hpp>
+#include <thread>
 #include <vector>
 
 using namespace salebra;
@@ -32,4 +36,47 @@ TEST_CASE("Slabs cover every row once, and sums have the same bits for every thr
 TEST_CASE("An exception in a slab reaches the caller", "[parallel]") {
   CHECK_THROWS_AS(parallel::for_slabs(10, [](Index, Index) { throw InvalidInput("x"); }),
                   InvalidInput);
+}
+
+TEST_CASE("A parallel loop tells its progress from one thread and ends when that says stop",
+          "[parallel]") {
+  for (const int count : {1, 4}) {
+    parallel::set_threads(count);
+    const auto caller = std::this_thread::get_id();
+    std::vector<double> fractions;
+    const Progress all = [&](const ProgressReport& report) {
+      CHECK(std::this_thread::get_id() == caller);
+      CHECK(report.stage == "loop");
+      fractions.push_back(report.fraction);
+      return true;
+    };
+    LoopProgress whole(all, "loop", 1000, 0.5, 1);
+    std::atomic<int> rows = 0;
+    parallel::for_slabs(1000, [&](Index begin, Index end) {
+      for (Index i = begin; i < end && whole.advance(); ++i) ++rows;
+    });
+    whole.finish();
+    CHECK(rows == 1000);
+    CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+    CHECK(fractions.front() >= 0.5);
+    CHECK(fractions.back() == 1);
+
+    int asked = 0;
+    const Progress stop = [&](const ProgressReport&) { return ++asked < 3; };
+    LoopProgress stopped(stop, "loop", 1000);
+    // No thread but the caller's may have had a part before.
+    for (int k = 0; k < 3; ++k) CHECK(stopped.advance() == (k < 2));
+    parallel::for_slabs(1000, [&](Index begin, Index end) {
+      for (Index i = begin; i < end && stopped.advance(); ++i) ++rows;
+    });
+    CHECK(rows == 1000);
+    CHECK_THROWS_AS(stopped.finish(), Interrupted);
+    CHECK(asked == 3);
+    // Silence never stops.
+    const Progress none;
+    LoopProgress silent(none, "loop", 1);
+    CHECK(silent.advance());
+    silent.finish();
+  }
+  parallel::set_threads(0);
 }

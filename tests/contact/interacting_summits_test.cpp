@@ -196,7 +196,8 @@ TEST_CASE("A curve of interacting summits is that of its single loads", "[intera
   const std::vector<double> pressures{0.08, 0.0005, 0.002, 0.02};
   std::vector<double> fractions;
   const ForceCurve curve = curve_at_pressures(model, pressures, [&](const ProgressReport& report) {
-    fractions.push_back(report.fraction);
+    if (fractions.empty() || report.fraction != fractions.back())
+      fractions.push_back(report.fraction);
     return true;
   });
   REQUIRE(curve.samples.size() == 4);
@@ -243,4 +244,41 @@ TEST_CASE("Interacting summits say what they cannot have", "[interacting]") {
   CHECK_FALSE(curve_at_separations(hasty, {0}).samples[0].converged);
   CHECK(hasty.at(100).force == 0);
   CHECK(hasty.at(100).converged);
+}
+
+TEST_CASE("Interacting summits can be stopped within a load, and reports change nothing",
+          "[interacting]") {
+  const auto summits = random_summits(40, 0.05, 6);
+  const InteractingSummits model(summits, soft, square(6));
+  const std::vector<double> pressures{1e-3, 1e-2, 5e-2};
+  int reports = 0, of_first = 0;
+  const ForceCurve whole = curve_at_pressures(model, pressures, [&](const ProgressReport& report) {
+    CHECK(report.stage == "interacting summits");
+    ++reports;
+    of_first += report.step == 0;
+    return true;
+  });
+  REQUIRE(whole.samples.size() == 3);
+  // Several in each load, or a load of many summits would not be left for long.
+  REQUIRE(reports - of_first > 10);
+  const ForceCurve silent = curve_at_pressures(model, pressures);
+  for (std::size_t k = 0; k < 3; ++k)
+    CHECK(whole.samples[k].mean_gap == silent.samples[k].mean_gap);
+  // What was finished comes back, wherever in the second load the stop came.
+  for (const int last : {of_first, of_first + 3}) {
+    int told = 0;
+    const ForceCurve stopped =
+        curve_at_pressures(model, pressures, [&](const ProgressReport&) { return ++told <= last; });
+    CHECK(stopped.samples.size() == 1);
+    CHECK(told == last + 1);
+  }
+  const auto stop = [](const ProgressReport&) { return false; };
+  CHECK_THROWS_AS(model.solve(0.5, stop), Interrupted);
+  CHECK_THROWS_AS(model.contact_of(model.solve(0.5), stop), Interrupted);
+  // What has no progress of its own asks that of the model.
+  const InteractingSummits stoppable(summits, soft, square(6), 0, ForceSample::unknown,
+                                     SummitShape::circular, {.on_progress = stop});
+  CHECK_THROWS_AS(stoppable.at(0.5), Interrupted);
+  CHECK_THROWS_AS(stoppable.separation_of(1e-2), Interrupted);
+  CHECK(stoppable.solve(0.5, [](const ProgressReport&) { return true; }).converged);
 }

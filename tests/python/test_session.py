@@ -104,6 +104,79 @@ def test_ctrl_c_stops_a_solve_within_a_second() -> None:
     assert float(done.stdout) < 3.0
 
 
+LONG = {
+    "filtered_noise": "salebra.filtered_noise(salebra.Grid2D(6144, 6144, 1e-3, 1e-3), spectrum(6144), 1, progress=tell)",
+    "non_gaussian": """salebra.non_gaussian(salebra.Grid2D(2048, 2048, 1e-3, 1e-3), spectrum(2048), salebra.weibull_heights(2.0), 1,
+        tolerance=0.0, progress=tell)""",
+    "curve_at_pressures": "salebra.curve_at_pressures(interacting(), [1e4 * 1.1**k for k in range(100)], progress=tell)",
+    "at": "[model.at(0.0) for model in [interacting()] for k in range(1000000)]",
+}
+
+
+@pytest.mark.parametrize("name", LONG)
+def test_ctrl_c_leaves_a_generator_and_interacting_summits(name: str) -> None:
+    program = (
+        textwrap.dedent(
+            """
+            import os, signal, threading, time
+            import salebra
+
+            def spectrum(points):
+                return salebra.SelfAffineSpectrum(rolloff=2.5e-4, short_cutoff=2e-3 / points, rms_height=1e-6)
+
+            def interacting():
+                ensemble = salebra.SummitEnsemble(density=5e10, radius=1e-6, summit_rms=1e-7)
+                summits = salebra.draw_summits(ensemble, 50000, 1e-3, 1)
+                grid = salebra.Grid2D(4, 4, 1e-3, 1e-3)
+                return salebra.InteractingSummits(summits, salebra.Material(1e11, poisson=0.3), grid)
+
+            fractions = [0.0]
+            def tell(report):
+                fractions.append(report.fraction)
+
+            sent = []
+            def interrupt():
+                time.sleep(0.3)
+                sent.append(time.process_time())
+                os.kill(os.getpid(), signal.SIGINT)
+
+            salebra.set_threads(1)
+            threading.Thread(target=interrupt, daemon=True).start()
+            try:
+            """
+        )
+        + f"    {LONG[name]}\n"
+        + "except KeyboardInterrupt:\n    print(time.process_time() - sent[0], fractions[-1])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stderr
+    seconds, fraction = map(float, done.stdout.split())
+    # Of processor time, so that a busy machine does not matter. What had ended would have told all of it.
+    assert seconds < 1.0
+    assert fraction < 0.95
+
+
+@pytest.mark.parametrize("name", ["filtered_noise", "random_phase", "exact_rms"])
+def test_a_progress_function_stops_a_generator(name: str) -> None:
+    grid = salebra.Grid2D(64, 64, 1e-3, 1e-3)
+    spectrum = salebra.SelfAffineSpectrum(rolloff=2.5e-4, short_cutoff=1.25e-4, rms_height=1e-6)
+    stages: list[str] = []
+
+    def stop(report: salebra.ProgressReport) -> bool:
+        stages.append(report.stage)
+        return False
+
+    with pytest.raises(salebra.Interrupted, match="surface: interrupted"):
+        getattr(salebra, name)(grid, spectrum, 1, progress=stop)
+    for sums in (lambda: salebra.forecast(grid, spectrum, progress=stop), lambda: spectrum.lattice_moments(grid, progress=stop)):
+        with pytest.raises(salebra.Interrupted):
+            sums()
+    assert stages == ["surface", "moments", "moments"]
+    # A Python function as the spectrum is called by the threads of the library, which must not wait for each other.
+    density = salebra.FunctionSpectrum(spectrum.radial_density, 2e4, 5e4)
+    assert salebra.forecast(grid, density).lattice.rms_height > 0
+
+
 def test_progress_tells_and_may_stop() -> None:
     surface = generated(512)
     reports: list[salebra.ProgressReport] = []

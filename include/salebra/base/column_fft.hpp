@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <salebra/base/grid.hpp>
+#include <salebra/base/progress.hpp>
 #include <span>
 
 namespace salebra {
@@ -18,8 +19,10 @@ using SpectrumColumn = std::function<void(Index j, std::span<std::complex<double
 /// Columns of zeros are neither stored nor transformed, and transformed columns wait for the transform of the rows in the memory of
 /// the result: beside the nx·ny values it takes a few rows and columns for each thread.
 /// columns   1 … ny/2+1; the columns j = 0 and, for even ny, j = ny/2 must be Hermitian in i
+/// progress  "surface", after every few columns and each row; a stop throws Interrupted
 /// cost      columns complex transforms of length nx, nx real ones of length ny; parallel; same bits for every thread count
-Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column);
+Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column,
+                          const Progress& progress = {});
 
 /// Peak memory of backward_by_columns with the present number of threads, bytes, result included.
 std::size_t column_fft_memory(Index nx, Index ny);

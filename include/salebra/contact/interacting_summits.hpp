@@ -11,6 +11,9 @@ struct InteractionOptions {
   /// Of the greatest error of a summit's indentation, over the greatest indentation.
   double tolerance = 1e-10;
   int max_iterations = 100;  ///< Newton steps, >= 1
+  /// "interacting summits", after every sum over the summits; step: Newton steps done. A stop throws Interrupted. For what has no
+  /// `progress` of its own, such as at() and what rests on it.
+  Progress on_progress = {};
 };
 
 /// The given summits of a periodic surface, each pressed down by all the others: Hertz's force of a summit,
@@ -46,10 +49,12 @@ class InteractingSummits final : public AsperityModel {
     int iterations = 0;
     bool converged = false;
   };
-  State solve(double separation) const;
+  /// progress: takes the place of InteractionOptions::on_progress, in what follows too.
+  State solve(double separation, const Progress& progress = {}) const;
   /// Under a force > 0, N, which it carries to round-off; near: a state to start from, such as that of the load before.
-  State solve_for_force(double force, const State* near = nullptr) const;
-  AsperityContact contact_of(const State& state) const;
+  State solve_for_force(double force, const State* near = nullptr,
+                        const Progress& progress = {}) const;
+  AsperityContact contact_of(const State& state, const Progress& progress = {}) const;
 
  private:
   struct System;
@@ -59,14 +64,15 @@ class InteractingSummits final : public AsperityModel {
     std::optional<double> load;  ///< F/E*, m²
   };
   Iterate evaluated(std::vector<double> indentation, const Goal& goal) const;
-  State equilibrium(std::vector<double> indentation, const Goal& goal) const;
+  State equilibrium(std::vector<double> indentation, const Goal& goal,
+                    const Progress& progress) const;
 
   InteractionOptions options_;
   std::unique_ptr<const System> system_;
 };
 
 /// curve_at_pressures() of other models, each load from the state of the load before. A load for which no state was found has
-/// converged = false. progress: "interacting summits"; a stop returns the samples so far.
+/// converged = false. progress: "interacting summits", also within a load; a stop returns the samples so far.
 ForceCurve curve_at_pressures(const InteractingSummits& model, std::vector<double> pressures,
                               const Progress& progress = {});
 

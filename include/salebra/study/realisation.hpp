@@ -104,7 +104,9 @@ bool stick_solves(const StudyConfiguration& configuration);
 std::vector<StudyModel> models_of(const StudyConfiguration& configuration);
 
 /// The surface of a seed, or the measured one (its plane removed, as the configuration says). Throws as generators and readers do.
-Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed);
+/// progress: of the generator.
+Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
+                      const Progress& progress = {});
 
 /// The unit of relative pressures, E*h'_rms, Pa, without looking at chance: what the lattice has in the mean, or what was measured.
 double contact_scale(const StudyConfiguration& configuration);

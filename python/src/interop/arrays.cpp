@@ -119,16 +119,23 @@ bool as_array(handle source, const char* type, bool contiguous, object& array) n
   // numpy reads texts, None and what has no numbers as objects or fails; none of them is an argument of ours.
   if (source.is_none() || PyUnicode_Check(source.ptr()) || PyBytes_Check(source.ptr()))
     return false;
-  try {
-    const module_ numpy = module_::import_("numpy");
-    array =
-        contiguous ? numpy.attr("asarray")(source, type, "C") : numpy.attr("asarray")(source, type);
-    return true;
-  } catch (python_error& error) {
-    // nanobind reports the types that the function takes; but a Ctrl-C that came now is not to be lost.
-    if (error.matches(PyExc_KeyboardInterrupt)) PyErr_SetInterrupt();
-    return false;
+  const auto convert = [&]() -> PyObject* {  // the type of what is raised, none where all is well
+    try {
+      const module_ numpy = module_::import_("numpy");
+      array = contiguous ? numpy.attr("asarray")(source, type, "C")
+                         : numpy.attr("asarray")(source, type);
+      return nullptr;
+    } catch (python_error& error) {
+      return error.matches(PyExc_KeyboardInterrupt) ? PyExc_KeyboardInterrupt : PyExc_Exception;
+    }
+  };
+  PyObject* raised = convert();
+  if (raised == PyExc_KeyboardInterrupt) {
+    // Nothing can be raised from here: a Ctrl-C that came just now waits until the call looks for it.
+    raised = convert();
+    PyErr_SetInterrupt();
   }
+  return raised == nullptr;  // else nanobind reports the types that the function takes
 }
 
 bool type_caster<salebra::python::FieldArgument>::from_python(handle source, uint32_t,

@@ -47,6 +47,18 @@ bool ProgressBridge::tell(const ProgressReport& report) {
   }
 }
 
+Progress signals() {
+  return [](const ProgressReport&) {
+    thread_local std::chrono::steady_clock::time_point last;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last < interval) return true;
+    last = now;
+    const nb::gil_scoped_acquire locked;
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+    return true;
+  };
+}
+
 void ProgressBridge::finish() {
   if (close_.is_valid()) close_();
 }

@@ -72,6 +72,9 @@ auto interruptible(const ProgressArgument& argument, Work&& work) {
   return std::move(*result);
 }
 
+/// A Progress for what a call without an argument `progress` leads to: Ctrl-C leaves the library as the Python exception that it is.
+Progress signals();
+
 /// work() without the interpreter's lock, for what takes seconds and cannot be stopped.
 template <class Work>
 auto unlocked(Work&& work) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <salebra/base/progress.hpp>
 #include <salebra/generators/spectrum.hpp>
 
 namespace salebra {
@@ -15,8 +16,8 @@ Surface scale_to_rms(Surface surface, Rms which, double target);
 
 /// A random-phase surface scaled so that its own rms height (or slope) is that of the continuum, spectrum.moments(): what was
 /// asked holds exactly on every grid, and all mode powers are off by one common factor, the same for every seed and for every resolution
-/// that carries the spectrum. Arguments and errors as random_phase.
+/// that carries the spectrum. Arguments and errors as random_phase; a stop waits for the one transform that a slope needs.
 Surface exact_rms(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
-                  Rms which = Rms::height);
+                  Rms which = Rms::height, const Progress& progress = {});
 
 }  // namespace salebra

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <salebra/base/progress.hpp>
 #include <salebra/generators/spectrum.hpp>
 
 namespace salebra {
@@ -13,8 +14,10 @@ namespace salebra {
 /// from seed to seed. a(q) is keyed by (seed, i, j), so that a surface has the same bits for every thread count, and, as long as
 /// the shortest wavelength exceeds two cells, the same heights at the common points of two grids on the same cell.
 /// seed      any value; 0 and 1 are different surfaces
+/// progress  "surface", many times a second; a stop throws Interrupted
 /// throws    InvalidInput if the grid does not carry the spectrum (Spectrum::require_carried_by)
 /// cost      less than one real FFT of the grid; memory as generation_memory(grid)
-Surface filtered_noise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed);
+Surface filtered_noise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
+                       const Progress& progress = {});
 
 }  // namespace salebra

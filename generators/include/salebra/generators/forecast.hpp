@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <salebra/base/progress.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <string>
 #include <vector>
@@ -21,8 +22,9 @@ struct Forecast {
 
 /// Warns of fewer than eight cells in the shortest wavelength (contact areas come out too large, PHYSICS section 7), of a lattice
 /// rms height more than 5 % from the target, and of an rms_height_scatter above 5 % (a roll-off longer than about an eighth
-/// of the cell). Throws as Spectrum::require_carried_by.
-Forecast forecast(const Grid2D& grid, const Spectrum& spectrum);
+/// of the cell). Throws as Spectrum::require_carried_by. progress: "moments" and "scatter"; a stop throws Interrupted.
+/// Cost: three sums over all modes.
+Forecast forecast(const Grid2D& grid, const Spectrum& spectrum, const Progress& progress = {});
 
 /// Peak memory of filtered_noise and random_phase on this grid, bytes, heights included. They refuse with InvalidInput
 /// what exceeds the memory that the system says is available.

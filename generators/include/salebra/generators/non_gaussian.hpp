@@ -17,6 +17,7 @@ struct NonGaussianOptions {
   int max_iterations = 200;  ///< >= 1
   /// Stop when an iteration lowers the mismatch by less than this part of it; 0 … 1.
   double tolerance = 1e-3;
+  /// "non-gaussian", many times an iteration; step: iterations done. A stop before the first has begun throws Interrupted.
   Progress on_progress = {};
 };
 
@@ -26,8 +27,9 @@ struct NonGaussianSurface {
   /// √(Σ(|a| − a_target)²/Σa_target²) over all modes of the surface with the exact heights. It ends above 0: what is left is what the
   /// pair of distribution and spectrum cannot have at once on this grid.
   double spectrum_mismatch = 0;
-  bool converged = false;    ///< the mismatch has stopped falling
-  bool interrupted = false;  ///< the progress callback said stop
+  bool converged = false;  ///< the mismatch has stopped falling
+  /// The progress callback said stop; the surface is that of the last iteration that was finished.
+  bool interrupted = false;
 };
 
 /// A periodic surface with a given spectrum and a given height distribution, by the iterated amplitude-adjusted Fourier transform

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <salebra/base/progress.hpp>
 #include <salebra/generators/spectrum.hpp>
 
 namespace salebra {
@@ -12,6 +13,7 @@ namespace salebra {
 /// and all moments equal Spectrum::lattice_moments(grid) for each seed. Only nearly Gaussian: heights become normal as the number of
 /// modes grows. Its phases are those of filtered_noise of the same seed.
 /// Arguments, errors, cost and independence of threads and grid as filtered_noise.
-Surface random_phase(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed);
+Surface random_phase(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
+                     const Progress& progress = {});
 
 }  // namespace salebra

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <salebra/base/grid.hpp>
+#include <salebra/base/progress.hpp>
 #include <salebra/base/spectral_moments.hpp>
 #include <span>
 #include <string>
@@ -31,8 +32,9 @@ class Spectrum {
 
   /// Moments that surfaces on this grid have in the mean: the same integrals as sums over the modes that the grid carries, without
   /// the zero mode; a mode on a Nyquist line counts once.
+  /// progress: "moments"; a stop throws Interrupted.
   /// Throws as require_carried_by. Cost: one evaluation of C for each pair of modes within highest_wavenumber.
-  SpectralMoments lattice_moments(const Grid2D& grid) const;
+  SpectralMoments lattice_moments(const Grid2D& grid, const Progress& progress = {}) const;
 
   /// Throws InvalidInput where the cells are larger than half the shortest wavelength, so that the grid would fold short waves
   /// into long ones, or where the shortest wavelength does not fit into the cell at all.
