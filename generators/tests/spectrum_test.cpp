@@ -164,6 +164,10 @@ TEST_CASE("The forecast warns where the grid makes something else of the spectru
   const Forecast of_coarse = forecast({512, 512, 1e-3, 1e-3}, spectrum);
   REQUIRE(of_coarse.warnings.size() == 1);
   CHECK_THAT(of_coarse.warnings[0], Contains("has 5.12 cells"));
+  // Of oblong cells the longer side counts.
+  const Forecast of_oblong = forecast({1024, 512, 1e-3, 1e-3}, spectrum);
+  REQUIRE(of_oblong.warnings.size() == 1);
+  CHECK_THAT(of_oblong.warnings[0], Contains("has 5.12 cells"));
   // With the long cut-off at the size of the cell, the continuum leaves out a disc of π modes, the lattice one.
   const SelfAffineSpectrum few_waves(
       {.long_cutoff = 1e-4, .short_cutoff = 1e-5, .rms_height = 1e-6});

@@ -161,6 +161,12 @@ TEST_CASE("A dry run tells what would run and does nothing of it", "[dry-run]") 
   CHECK(ratio > 4);
   CHECK(ratio < 5);
 
+  // A hundred times the surfaces, a hundred times the time; each run measures its own speed, on a machine that may be busy.
+  test.write("many.toml", study_text("seed_count = 300", 5));
+  const auto many = test.run("study many.toml --dry-run --json --threads 1").json();
+  CHECK(many["surfaces"] == 300);
+  CHECK(many["seconds"].get<double>() > 15 * answer["seconds"].get<double>());
+
   const auto compared = test.run("compare small.toml --dry-run --threads 1");
   CHECK(compared.status == 0);
   CHECK_THAT(compared.out, Contains("Persson") && Contains("15 solves"));

@@ -270,6 +270,47 @@ TEST_CASE("The sensitivity is the range of fits over parts of the window", "[fit
   CHECK(narrow.decay_length_min == narrow.decay_length_max);
 }
 
+TEST_CASE("The sensitivity weighs as the fit does", "[fit]") {
+  const std::vector<double> x{1, 2, 4, 5, 8}, y{1, 2, 3, 5, 7};
+  for (const FitWeights weights : {FitWeights::equal, FitWeights::spacing, FitWeights::force}) {
+    double least = 1e9, greatest = 0;
+    // Runs of three samples out of five at the least.
+    for (std::size_t begin = 0; begin < 3; ++begin)
+      for (std::size_t end = begin + 3; end <= 5; ++end) {
+        const auto part = [&](const std::vector<double>& all) {
+          return std::vector<double>(all.begin() + std::ptrdiff_t(begin),
+                                     all.begin() + std::ptrdiff_t(end));
+        };
+        const double length = fit_exponential(curve_of(part(x), part(y)), {}, weights).decay_length;
+        least = std::min(least, length);
+        greatest = std::max(greatest, length);
+      }
+    const WindowSensitivity sensitivity = window_sensitivity(curve_of(x, y), {}, weights);
+    CHECK(sensitivity.decay_length_min == Approx(least).epsilon(1e-13));
+    CHECK(sensitivity.decay_length_max == Approx(greatest).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("With four samples the bend has one degree of freedom, and Cauchy's probability",
+          "[fit]") {
+  // Four even places: c = Σvy/Σv² with v = (1, −1, −1, 1), and the residual is along (−1, 3, −3, 1)/√20.
+  const std::vector<double> y{1, 2.2, 2.9, 4.4};
+  const double bend = (y[0] - y[1] - y[2] + y[3]) / 4;
+  const double residual = (-y[0] + 3 * y[1] - 3 * y[2] + y[3]) / std::sqrt(20);
+  const double t = std::abs(bend) / (std::abs(residual) / 2);  // Σv² = 4
+  const ExponentialTest test = test_exponential(curve_of({1, 2, 3, 4}, y), {}, FitWeights::equal);
+  CHECK(test.quadratic == Approx(bend).epsilon(1e-12));
+  CHECK(test.significance == Approx(1 - 2 / std::numbers::pi * std::atan(t)).epsilon(1e-10));
+}
+
+TEST_CASE("A load on the limit of the window is in it, whatever its last digit", "[fit]") {
+  ForceCurve curve = curve_of({1, 2, 3, 4, 5}, {1, 2, 3, 4, 5.5});
+  const double low = curve.samples[1].pressure, high = curve.samples[3].pressure;
+  curve.samples[1].pressure = low * (1 - 1e-12);
+  curve.samples[3].pressure = high * (1 + 1e-12);
+  CHECK(fit_exponential(curve, PressureWindow{low, high}).window.points == 3);
+}
+
 TEST_CASE("An interval that reaches a flat line has no upper limit", "[fit]") {
   const ExponentialFit fit = fit_exponential(curve_of({1, 2, 3}, {1, 5, 2}));
   CHECK(std::isinf(fit.decay_length_high));

@@ -73,6 +73,15 @@ TEST_CASE("The two sides may be exchanged, but not be other than Gaussian", "[gr
   const SummitEnsemble second{.density = 8, .radius = 1.9, .summit_rms = 0.35};
   CHECK(GreenwoodTripp(first, second, soft, 1).force(0.2) ==
         Approx(GreenwoodTripp(second, first, soft, 1).force(0.2)).epsilon(1e-14));
+  // The heights of two independent sides add, their variances too.
+  first.mean_height = 0.3;
+  first.rms_height = 0.3;
+  SummitEnsemble other = second;
+  other.mean_height = 0.5;
+  other.rms_height = 0.4;
+  const GreenwoodTripp both(first, other, soft, 1);
+  CHECK(both.common().rms_height == Approx(0.5).epsilon(1e-14));
+  CHECK(both.common().mean_height == Approx(0.8).epsilon(1e-14));
   first.distribution = SummitDistribution::exponential;
   CHECK_THROWS_WITH(GreenwoodTripp(first, second, soft, 1), Catch::Contains("distribution"));
   first = {};

@@ -176,6 +176,16 @@ TEST_CASE("Moments of a flat spectrum give the summits that its surfaces have", 
   CHECK(1 / curvature == Approx(theory.radius).epsilon(0.05));
 }
 
+TEST_CASE("Counted summits stand over the mean plane that is given", "[gw]") {
+  const SummitStatistics counted{
+      .density = 3, .mean_height = 5.5, .rms_height = 0.25, .mean_radius = 2};
+  const SummitEnsemble ensemble = summit_ensemble(counted, 5);
+  CHECK(ensemble.mean_height == 0.5);
+  CHECK(ensemble.density == 3);
+  CHECK(ensemble.radius == 2);
+  CHECK(ensemble.summit_rms == 0.25);
+}
+
 TEST_CASE("Given summits drawn from a density agree with the integral over it", "[gw]") {
   const double separation = GENERATE(-0.5, 0.5, 1.5);
   std::mt19937_64 random(11);

@@ -111,6 +111,16 @@ TEST_CASE("Sparse summits do not feel each other", "[interacting]") {
   CHECK(interacting.force(0) != independent.force(0));
 }
 
+TEST_CASE("Sparse elliptical summits have the area of Hertz's ellipses", "[interacting]") {
+  // As above: what the neighbours press out is 1e-3 of δ at most. The area of an ellipse of axes in the ratio of these curvatures is
+  // a tenth less than that of the force's circle.
+  std::vector<Summit> summits = random_summits(10, 1e-4, 1e2);
+  for (Summit& summit : summits) summit.curvature2 /= 8;
+  const InteractingSummits interacting(summits, soft, square(1e2), 0, 1, SummitShape::elliptical);
+  const DeterministicSummits independent(summits, soft, 1e4, 0, 1, SummitShape::elliptical);
+  CHECK(interacting.at(0).contact_area == Approx(independent.at(0).contact_area).epsilon(2e-3));
+}
+
 TEST_CASE("Interaction moves the force-gap curve of summits to that of boundary elements",
           "[interacting]") {
   // What is left: summits that are no paraboloids, and contacts that merge.
@@ -242,6 +252,11 @@ TEST_CASE("Interacting summits say what they cannot have", "[interacting]") {
                                  SummitShape::circular, {.max_iterations = 1});
   CHECK_FALSE(hasty.at(0).converged);
   CHECK_FALSE(curve_at_separations(hasty, {0}).samples[0].converged);
+  // Of a load there is then no gap either, and no separation.
+  const ForceSample lost = curve_at_pressures(hasty, {1}).samples[0];
+  CHECK_FALSE(lost.converged);
+  CHECK(std::isnan(lost.mean_gap));
+  CHECK_THROWS_AS(hasty.separation_of(25), NotConverged);
   CHECK(hasty.at(100).force == 0);
   CHECK(hasty.at(100).converged);
 }

@@ -10,6 +10,8 @@
 #include <salebra/io/plot.hpp>
 #include <sstream>
 
+#include "../../src/io/gnuplot_script.hpp"
+#include "../../src/io/plot_raster.hpp"
 #include "scratch.hpp"
 
 using namespace salebra;
@@ -175,4 +177,36 @@ TEST_CASE(
   make_program(scratch / "bin" / "gnuplot", "exit 0\n");
   CHECK_THROWS_WITH(write_plot(picture, force_figure()), Contains("incomplete"));
   CHECK(files_in(scratch.folder()) == 1);
+}
+
+TEST_CASE("A map of more cells than a picture draws is averaged, each cell about its middle",
+          "[plot]") {
+  // 2400 columns at 0.5, 1.5 … are drawn as 1200: the mean of a pair, or the one of it that is a number.
+  PlotImage image;
+  for (int i = 0; i < 2400; ++i) image.x.push_back(i + 0.5);
+  image.y = {0, 1};
+  image.values = Field(2400, 2);
+  for (Index i = 0; i < 2400; ++i) image.values.row(i) = double(i);
+  image.values(10, 0) = std::nan("");
+  image.values(12, 1) = image.values(13, 1) = std::nan("");
+  const detail::Raster raster = detail::rasterise(image, {}, {});
+  REQUIRE(raster.values.rows() == 1200);
+  REQUIRE(raster.values.cols() == 2);
+  CHECK(raster.x0 == Approx(1));
+  CHECK(raster.dx == Approx(2));
+  CHECK(raster.y0 == Approx(0).margin(1e-12));
+  CHECK(raster.dy == Approx(1));
+  CHECK(raster.values(0, 0) == Approx(0.5));
+  CHECK(raster.values(1199, 1) == Approx(2398.5));
+  CHECK(raster.values(5, 0) == Approx(11));
+  CHECK(raster.values(5, 1) == Approx(10.5));
+  CHECK(std::isnan(raster.values(6, 1)));
+}
+
+TEST_CASE("A band is drawn between its limits, the curve through its values", "[plot]") {
+  const std::string script =
+      detail::gnuplot_script(force_figure(), detail::PictureFormat::svg, "out.svg");
+  // Columns: x, y, lower and upper limit, in nm and kN.
+  CHECK_THAT(script, Contains("\n2 2 1 3\n"));
+  CHECK_THAT(script, Contains("using 1:3:4 with filledcurves") && Contains("using 1:2 with lines"));
 }

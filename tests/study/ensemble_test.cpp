@@ -9,9 +9,13 @@
 #include <salebra/contact/greenwood_williamson.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/generators/composite.hpp>
 #include <salebra/generators/filtered_noise.hpp>
+#include <salebra/io/write_surface.hpp>
 #include <salebra/study/study.hpp>
+#include <salebra/surface/detrend.hpp>
 
+#include "io/scratch.hpp"
 #include "small_study.hpp"
 
 using namespace salebra;
@@ -77,6 +81,22 @@ TEST_CASE("The bootstrap of symmetric values is close to Student's t, and determ
   CHECK(Bootstrap().mean({1, 2, 3}).low == student_mean({1, 2, 3}).low);
   CHECK(Bootstrap().mean({4, 4, 4, 4, 4, 4, 4}).high == 4);
   CHECK_THROWS_AS(Bootstrap(10), InvalidInput);
+}
+
+TEST_CASE("Both limits of a bootstrap interval are 2.5 % quantiles", "[ensemble]") {
+  // Values in pairs about the mean have no skewness: what is left is the chance of 20 000 resamples, 1 % of the width, and the
+  // kurtosis of forty values, a few.
+  std::vector<double> values;
+  for (int i = 0; i < 20; ++i) {
+    const double step = gaussian_pair(3, i, 0).first;
+    values.push_back(5 + step);
+    values.push_back(5 - step);
+  }
+  const EnsembleMean student = student_mean(values), resampled = Bootstrap(20000).mean(values);
+  const double half = (student.high - student.low) / 2;
+  // A limit of 5 % would be off by a sixth.
+  CHECK(resampled.low == Approx(student.low).margin(0.08 * half));
+  CHECK(resampled.high == Approx(student.high).margin(0.08 * half));
 }
 
 TEST_CASE("The lists of an ensemble make every combination, cells or size held", "[ensemble]") {
@@ -145,6 +165,147 @@ TEST_CASE("A study ends at the surface that makes its mean precise enough, on an
   }
 }
 
+TEST_CASE("A study goes on until its decay length and its area slope are both precise enough",
+          "[ensemble]") {
+  StudyConfiguration configuration = quick_study(12);
+  configuration.least_realisations = 3;
+  // One light load gives the area slope, which scatters; l comes from many heavy ones.
+  configuration.pressures = {0.0022, 0.06, 0.075, 0.09, 0.11, 0.13, 0.16, 0.2};
+  const double scale = contact_scale(configuration);
+  configuration.window = PressureWindow{0.05 * scale, 0.3 * scale, 0};
+  const StudyResult all = run_study(configuration);
+  REQUIRE(all.realisations.size() == 12);
+  std::vector<double> lengths, slopes, length_precision, slope_precision;
+  for (const Realisation& r : all.realisations) {
+    lengths.push_back(r.bem.fit.decay_length / r.heights.rms_height);
+    slopes.push_back(r.bem.area_slope);
+    length_precision.push_back(all.bootstrap.mean(lengths).relative_precision());
+    slope_precision.push_back(all.bootstrap.mean(slopes).relative_precision());
+  }
+  const auto enough = [&](double precision, bool by_slope) {
+    std::size_t count = 3;
+    while (count < 12 && (length_precision[count - 1] > precision ||
+                          (by_slope && slope_precision[count - 1] > precision)))
+      ++count;
+    return count;
+  };
+  // Between the two precisions after some number of surfaces, one of the quantities suffices there and the other does not.
+  for (std::size_t count = 3; count < 12 && configuration.precision == 0; ++count) {
+    const double between = std::sqrt(length_precision[count - 1] * slope_precision[count - 1]);
+    if (enough(between, true) != enough(between, false)) configuration.precision = between;
+  }
+  INFO(length_precision[5] << ' ' << slope_precision[5]);
+  REQUIRE(configuration.precision > 0);
+  CHECK(run_study(configuration).realisations.size() == enough(configuration.precision, true));
+}
+
+TEST_CASE("Contacts that did not converge take no part in means and ratios", "[ensemble]") {
+  StudyResult result = run_study(quick_study(2));
+  Realisation &first = result.realisations[0], &second = result.realisations[1];
+  first.gw_moments.curve.samples[3].converged = false;
+  first.bem.curve.samples[5].converged = false;
+  const auto gaps = result.curve(&Realisation::gw_moments, &ForceSample::mean_gap);
+  CHECK(gaps[3].mean == second.gw_moments.curve.samples[3].mean_gap);
+  CHECK(std::isnan(gaps[3].low));
+  CHECK(gaps[4].mean == Approx((first.gw_moments.curve.samples[4].mean_gap +
+                                second.gw_moments.curve.samples[4].mean_gap) /
+                               2));
+  const auto ratios = result.over_bem(&Realisation::gw_moments, &ForceSample::mean_gap);
+  for (const std::size_t k : {3u, 5u})
+    CHECK(ratios[k].mean ==
+          second.gw_moments.curve.samples[k].mean_gap / second.bem.curve.samples[k].mean_gap);
+}
+
+TEST_CASE("A study's contacts, fits and area slopes follow the settings", "[ensemble]") {
+  StudyConfiguration configuration = quick_study(1);
+  configuration.tolerance = 1e-4;
+  const StudyResult loose = run_study(configuration);
+  configuration.tolerance = 1e-10;
+  const StudyResult tight = run_study(configuration);
+  configuration.window = PressureWindow{tight.pressures[6], tight.pressures[10], 0};
+  const StudyResult windowed = run_study(configuration);
+  for (std::size_t k = 0; k < 12; ++k) {
+    const double gap = tight.realisations[0].bem.curve.samples[k].mean_gap,
+                 rough = loose.realisations[0].bem.curve.samples[k].mean_gap;
+    CHECK(rough != gap);
+    // e_c is relative to the rms height; the gap follows with it.
+    CHECK(rough == Approx(gap).margin(1e-2 * tight.realisations[0].heights.rms_height));
+  }
+  for (const StudyModel& model : windowed.models()) {
+    const ModelResult& found = windowed.realisations[0].*model.result;
+    const ExponentialFit fit = fit_exponential(found.curve, configuration.window);
+    CHECK(found.fit.window.points == 5);
+    CHECK(found.fit.decay_length == fit.decay_length);
+    CHECK(found.test.significance ==
+          test_exponential(found.curve, configuration.window).significance);
+    CHECK(found.sensitivity.decay_length_max ==
+          window_sensitivity(found.curve, configuration.window).decay_length_max);
+  }
+  // κ: least squares through the origin of A/A0 over p/(E*h'), from 0.002 to 0.05.
+  const Realisation& r = tight.realisations[0];
+  const double scale = 1e10 * r.moments.rms_slope();
+  const auto slope = [&](const auto& area) {
+    double product = 0, square = 0;
+    for (std::size_t k = 0; k < 12; ++k) {
+      const double load = tight.pressures[k] / scale;
+      if (load < 0.002 || load > 0.05) continue;
+      product += load * area(k);
+      square += load * load;
+    }
+    return product / square;
+  };
+  CHECK(r.bem.area_slope == Approx(slope([&](auto k) {
+                              return r.bem.curve.samples[k].contact_area_fraction;
+                            })).epsilon(1e-12));
+  CHECK(r.corrected_area_slope ==
+        Approx(slope([&](auto k) { return r.spots[k].corrected_area_fraction; })).epsilon(1e-12));
+}
+
+TEST_CASE("Each surface of a study has its own drawn summits", "[ensemble]") {
+  StudyConfiguration configuration = quick_study(2);
+  configuration.models = {ContactModel::bem, ContactModel::gw_moments,
+                          ContactModel::gw_deterministic, ContactModel::gw_monte_carlo};
+  const StudyResult result = run_study(configuration);
+  for (const Realisation& r : result.realisations) {
+    const double area = r.grid.area();
+    const int count = int(std::lround(r.ensemble.density * area));
+    const DeterministicSummits drawn(draw_summits(r.ensemble, count, std::sqrt(area), r.seed),
+                                     configuration.material, area, -r.ensemble.mean_height,
+                                     r.heights.rms_height);
+    const ForceCurve expected = curve_at_pressures(drawn, result.pressures);
+    CHECK(r.gw_monte_carlo.curve.samples[4].mean_gap == expected.samples[4].mean_gap);
+    CHECK(r.gw_monte_carlo.curve.samples[4].contact_area_fraction ==
+          expected.samples[4].contact_area_fraction);
+  }
+}
+
+TEST_CASE("A measured surface has the seam of its edges, and summits within them", "[ensemble]") {
+  const Scratch scratch;
+  const SelfAffineSpectrum spectrum(
+      {.hurst = 0.8, .rolloff = 1e-6, .short_cutoff = 0.5e-6, .rms_height = 1e-8});
+  const Surface whole = filtered_noise({128, 128, 8e-6, 8e-6}, spectrum, 2);
+  const Surface part = crop_surface(whole, 0, 0, 64, 48);
+  write_surface(scratch / "scan.npy", part, {});
+  StudyConfiguration configuration = quick_study(1);
+  configuration.surfaces = MeasuredSurface{.file = scratch / "scan.npy"};
+  const Realisation r = run_study(configuration).realisations.front();
+  CHECK_FALSE(r.periodic);
+  const Surface level = detrended(part, Detrend::plane);
+  double along_x = 0, along_y = 0;
+  for (Index iy = 0; iy < 48; ++iy)
+    along_x += std::pow(level.heights(0, iy) - level.heights(63, iy), 2) / 48;
+  for (Index ix = 0; ix < 64; ++ix)
+    along_y += std::pow(level.heights(ix, 0) - level.heights(ix, 47), 2) / 64;
+  const double rms_height = height_statistics(level).rms_height;
+  CHECK(r.seam_step == Approx(std::sqrt((along_x + along_y) / 2) / rms_height).epsilon(1e-9));
+  // A point of the border has no eight neighbours: summits are sought, and counted, on 62 × 46 cells.
+  const SummitList summits = find_summits(level);
+  CHECK(r.gw_deterministic.curve.nominal_area ==
+        Approx(62 * 46 * part.grid.cell_area()).epsilon(1e-12));
+  CHECK(r.summits.density ==
+        Approx(double(summits.summits.size()) / summits.searched_area).epsilon(1e-12));
+}
+
 TEST_CASE("An ensemble says what is too small about it", "[ensemble]") {
   const auto names = [](const StudyResult& result) {
     std::vector<std::string> found;
@@ -160,6 +321,21 @@ TEST_CASE("An ensemble says what is too small about it", "[ensemble]") {
   const auto fine = names(run_study(configuration));
   CHECK(fine.front() == "discretisation");
   CHECK(std::ranges::find(fine, "finite_size") == fine.end());
+  // The shorter side of a strip counts: eight roll-offs, however long the other.
+  surfaces.grid = {128, 32, 8e-6, 2e-6};
+  const auto strip = names(run_study(configuration));
+  CHECK(strip.front() == "finite_size");
+  // Spots count where the law is fitted: fifty there are enough, though the lightest loads have fewer.
+  surfaces.grid = {64, 64, 4e-6, 4e-6};
+  configuration.relative_pressures = true;
+  const double scale = contact_scale(configuration);
+  configuration.window = PressureWindow{0.009 * scale, 0.05 * scale, 0};
+  const StudyResult many = run_study(configuration);
+  const auto spots = [&](std::size_t k) { return many.realisations[0].spots[k].count; };
+  INFO(spots(0) << ' ' << spots(4) << ' ' << spots(5) << ' ' << spots(6) << ' ' << spots(7) << ' '
+                << spots(8));
+  REQUIRE(spots(0) < 50);
+  CHECK(names(many) == std::vector<std::string>{"discretisation"});
 }
 
 TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemble]") {

@@ -9,7 +9,9 @@
 #include <salebra/base/error.hpp>
 #include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
+#include <thread>
 
+#include "../../src/study/study_lock.hpp"
 #include "small_study.hpp"
 
 using namespace salebra;
@@ -238,6 +240,19 @@ TEST_CASE("The lock of another host holds as long as it is touched", "[parts]") 
                     Contains("in use by process 1 on elsewhere"));
   fs::last_write_time(lock, fs::file_time_type::clock::now() - std::chrono::minutes(5));
   CHECK_NOTHROW(StudyParts(scratch.folder, false));
+}
+
+TEST_CASE("A lock is touched while it is held, lest others take it for abandoned", "[parts]") {
+  const Scratch scratch;
+  fs::create_directory(scratch.folder);
+  const fs::path file = scratch.folder / "lock";
+  const detail::StudyLock lock(file, std::chrono::milliseconds(60));
+  const auto begun = fs::last_write_time(file);
+  // Every sixth of that time; ten seconds are for a busy machine.
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (fs::last_write_time(file) == begun && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  CHECK(fs::last_write_time(file) > begun);
 }
 
 TEST_CASE("A study goes on with its parts and ends with the same bits", "[parts]") {

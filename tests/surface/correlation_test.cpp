@@ -202,6 +202,9 @@ TEST_CASE("Below the wavelength at which peaks are as sharp as the tip, a scan i
   const double s = 12.0 / 256, radius = 0.5 / sharpness(s);
   const ReliabilityLimit limit = short_wavelength_limit(wave, {.tip_radius = radius});
   CHECK(limit.pixel == Approx(2.0 / 256));
+  // Of oblong cells the longer side counts.
+  const Surface oblong = sampled({64, 256, 1, 1}, false, [](double, double) { return 0.0; });
+  CHECK(short_wavelength_limit(oblong, {}).pixel == Approx(2.0 / 64));
   // Linear between 11, 12 and 13 steps: 12 itself is hit.
   CHECK(limit.tip.value() == Approx(2 * s).epsilon(1e-9));
   CHECK(limit.wavelength() == limit.tip.value());
