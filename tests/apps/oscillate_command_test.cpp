@@ -2,8 +2,43 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <salebra/io/cycle_checkpoint.hpp>
+#include <salebra/io/result_file.hpp>
 
 #include "run_program.hpp"
+
+namespace {
+
+// The settings that a checkpoint was written with.
+salebra::CycleSettings settings_in(const std::filesystem::path& checkpoint) {
+  const salebra::ResultReader reader(checkpoint);
+  salebra::CycleSettings settings;
+  for (const char* name : {"version",
+                           "surface",
+                           "nx",
+                           "ny",
+                           "size_x",
+                           "size_y",
+                           "contact_modulus",
+                           "cerruti_isotropic",
+                           "cerruti_directed",
+                           "indentation",
+                           "normal_amplitude",
+                           "tangential_amplitude",
+                           "phase",
+                           "direction",
+                           "steps",
+                           "tolerance",
+                           "boundary",
+                           "lateral",
+                           "friction",
+                           "max_periods"})
+    if (const auto value = reader.text_attribute("settings", name))
+      settings.emplace_back(name, *value);
+  return settings;
+}
+
+}  // namespace
 
 TEST_CASE("oscillate reproduces the paper's experiment by the name of a shape", "[oscillate]") {
   const ProgramTest test;
@@ -147,6 +182,20 @@ TEST_CASE("A killed cycle with friction resumes to the same numbers and lists al
   if (killed.status == 0) return;
   REQUIRE(test.files().count("c.h5") == 1);
   check_refused(test.run(without_friction + "0.5 --checkpoint c.h5 --resume"), "friction was 0.4");
+  // A checkpoint that is told something else ends otherwise: both cycles go on from it and do not begin anew.
+  const salebra::CycleSettings settings = settings_in(test.folder() / "c.h5");
+  auto stuck = salebra::read_cycle_checkpoint(test.folder() / "c.h5", settings);
+  auto slipping = salebra::read_friction_checkpoint(test.folder() / "c.h5");
+  REQUIRE(slipping.has_value());
+  stuck.released_energy *= 2;
+  slipping->contact.converged = false;
+  salebra::write_cycle_checkpoint(test.folder() / "other.h5", stuck, settings, {}, &*slipping);
+  const auto other = test.run(command + "--checkpoint other.h5 --resume");
+  CHECK(other.status != 0);
+  CHECK(other.json()["friction"]["converged"] == false);
+  CHECK(other.json()["converged"] == false);
+  CHECK(other.json()["released_energy"].get<double>() ==
+        Approx(2 * whole["released_energy"].get<double>()));
   const auto resumed = test.run(recorded + "--resume").json();
   CHECK(resumed["friction"] == whole["friction"]);
   CHECK(resumed["work_per_cycle"] == whole["work_per_cycle"]);

@@ -216,6 +216,31 @@ TEST_CASE("Without coupling the coupled contact is the sliding one", "[coupling]
         Approx(0.4 * coupled.normal_force() * indentation + alone.stored_energy()).epsilon(0.02));
 }
 
+TEST_CASE("On any path of a coupled contact what is put in is stored or lost", "[coupling]") {
+  const Material material = Material::of_contact_modulus(contact_modulus, 0.2);
+  const Grid2D grid{22, 18, 1.1e-3, 0.9e-3};
+  const Surface surface = elliptic_paraboloid_surface(grid, 12e-3, 5e-3, off_grid_center(grid));
+  const double friction = GENERATE(0.2, 1.0);
+  const CoupledContactOptions options = free_boundary(friction, 2e-6);
+  CoupledContact contact(surface, material, options);
+  const ContactSet everywhere = ContactSet::Constant(grid.nx, grid.ny, true);
+  StickSolver alone(grid, material, options.sliding.stick);
+  const double path[][3] = {{2e-6, 0, 0},       {6e-6, 0, 0},        {1e-5, 2e-6, 1e-6},
+                            {8e-6, 2e-6, 1e-6}, {9e-6, -3e-6, 2e-6}, {6e-6, 1e-6, -1e-6}};
+  for (const auto& [indentation, x, y] : path) {
+    REQUIRE(contact.advance(indentation, {x, y}).converged);
+    const double put_in = contact.sliding().work() + contact.normal_work() - contact.gap_work();
+    // The sweeps end at 1e-6 of the pressures.
+    CHECK(contact.stored_energy() + contact.sliding().loss().sum() == Approx(put_in).epsilon(1e-5));
+    // Of it the energy of the tractions by themselves: with the displacements that they alone make.
+    const TangentialField& traction = contact.sliding().traction();
+    const TangentialField own = alone.displacement(everywhere, traction, everywhere);
+    CHECK(contact.sliding().stored_energy() ==
+          Approx((traction.x * own.x + traction.y * own.y).sum() * grid.cell_area() / 2)
+              .epsilon(1e-4));
+  }
+}
+
 TEST_CASE("Sweeps that are cut short say so, and bad input of a coupled contact is named",
           "[coupling]") {
   const Material material = Material::of_contact_modulus(contact_modulus, 0);
@@ -226,6 +251,14 @@ TEST_CASE("Sweeps that are cut short say so, and bad input of a coupled contact 
   CoupledContact contact(surface, material, options);
   CHECK_FALSE(contact.advance(1e-5).converged);
   CHECK_FALSE(contact.converged());
+  // Sweeps that agree on what a solve has not finished do not make it converged.
+  CoupledContactOptions hasty = free_boundary(infinite, 1e-6);
+  hasty.tolerance = 0.1;
+  hasty.sliding.stick.max_iterations = 1;
+  CoupledContact unfinished(surface, material, hasty);
+  const CoupledReport report = unfinished.advance(1e-5);
+  CHECK(report.change < hasty.tolerance);
+  CHECK_FALSE(report.converged);
   options.contact.boundary = Boundary::periodic;
   CHECK_THROWS_WITH(CoupledContact(surface, material, options), Catch::StartsWith("boundary:"));
   CHECK_THROWS_AS(coupling_constant(Material::of_contact_modulus(1e9)), InvalidInput);
