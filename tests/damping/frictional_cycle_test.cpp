@@ -236,7 +236,8 @@ TEST_CASE("A drag with friction ends in sliding, period after period", "[frictio
   const PressureLevels levels = [&](double) {
     return PressureLevel{.pressure = pressure, .force = pressure.sum() * grid.cell_area()};
   };
-  const Trajectory motion{[](double) { return 0.5; }, [&](double t) { return advance * t; }};
+  const Trajectory motion{[](double) { return 0.5; },
+                          [&](double t) { return advance * (t - 0.3); }};
   const FrictionalCycleResult cycle = simulate_frictional_cycle(
       levels, grid, material, motion,
       {.friction = friction, .steps = 4, .max_periods = 30, .direction = 0.7});
@@ -248,6 +249,7 @@ TEST_CASE("A drag with friction ends in sliding, period after period", "[frictio
   CHECK(cycle.samples.back().tangential_force == Approx(limit).epsilon(1e-3));
   CHECK(cycle.dissipated == Approx(limit * advance).epsilon(1e-3));
   CHECK(cycle.samples.back().slip_area == Approx(cycle.contact_area_max));
+  CHECK(cycle.samples.back().tangential == Approx(advance));
   CHECK(cycle.samples.back().dissipated == Approx(cycle.dissipated));
 }
 
@@ -277,6 +279,17 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
   CHECK_FALSE(
       simulate_frictional_cycle(doubtful, grid, material, motion, {.friction = 0.5, .steps = 8})
           .converged);
+  CHECK(simulate_frictional_cycle(levels, grid, material, motion,
+                                  {.friction = 0.5, .steps = 8, .max_periods = 1})
+            .periods == 1);
+  // Where the lateral displacement is free there are no tractions along it.
+  FrictionalCycleOptions lateral{.friction = 0.5, .steps = 8, .max_periods = 1};
+  lateral.stick.hold_lateral = false;
+  lateral.on_state = [](const FrictionalCycleState& state) {
+    CHECK((state.contact.traction.y == 0).all());
+    if (state.step > 0) CHECK((state.contact.traction.x != 0).any());
+  };
+  CHECK(simulate_frictional_cycle(levels, grid, material, motion, lateral).converged);
   // The contact, which is hard to solve, opens but for one cell that enters, which is easy: its way in is not known.
   SlidingContactOptions few{.motion_scale = 1e-6,
                             .stick = {.tolerance = 1e-8, .max_iterations = 4}};

@@ -176,6 +176,17 @@ TEST_CASE("A level that fails makes the quadrature fail, and bad input is named"
   options.stick.max_iterations = 2;
   CHECK_FALSE(
       level_quadrature(paraboloid(), grid, material, motion, mean_indentation, options).converged);
+  options.stick.max_iterations = free_boundary().stick.max_iterations;
+  const ContactLevels doubtful = [&](double indentation) {
+    ContactLevel level = paraboloid()(indentation);
+    level.converged = indentation < mean_indentation;
+    return level;
+  };
+  const LevelQuadratureResult partly =
+      level_quadrature(doubtful, grid, material, motion, mean_indentation, options);
+  CHECK_FALSE(partly.converged);
+  CHECK(partly.curve.samples[1].converged);
+  CHECK_FALSE(partly.curve.samples[4].converged);
   options = free_boundary();
   options.on_progress = [](const ProgressReport& report) { return report.step < 3; };
   CHECK(level_quadrature(paraboloid(), grid, material, motion, mean_indentation, options)
