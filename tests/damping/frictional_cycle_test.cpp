@@ -79,6 +79,9 @@ TEST_CASE("A sphere under constant load loses Mindlin's loop", "[friction]") {
     CHECK(cycle.relaxation_work == 0);
     CHECK(cycle.slip_work == Approx(cycle.dissipated));
     CHECK(cycle.dissipated == Approx(cycle.work_per_cycle).epsilon(1e-6));
+    // Cells beyond a√(1 − q) slip, up to whole cells on both rims.
+    CHECK(cycle.samples[static_cast<std::size_t>(steps / 4)].slip_area ==
+          Approx(q * pi * contact_radius * contact_radius).epsilon(n == 32 ? 0.1 : 0.05));
     CHECK(cycle.samples[static_cast<std::size_t>(steps / 4)].tangential_force ==
           Approx(friction * force * (1 - std::pow(1 - q, 1.5))).epsilon(n == 32 ? 5e-3 : 1e-3));
     return cycle.work_per_cycle / loop - 1;
