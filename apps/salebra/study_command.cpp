@@ -136,18 +136,18 @@ StudyConfiguration StudyArguments::study() const {
 }
 
 std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, bool resume,
-                                      StudyReport& report, Session& session) {
+                                      StudyReport& page, Session& session) {
   if (resume) {
     require(session.has_output(), "--resume", "needs", "the --output of the run to go on with");
   }
   const std::filesystem::path folder = session.output().string() + ".parts";
   if (resume && is_result_of(session.output(), configuration)) {
     StudyParts(folder, true).discard();
-    const std::string results = session.output().string(), page = report.complete();
+    const std::string results = session.output().string(), html = page.complete();
     session.answer(
-        {{"files", {{"results", results}, {"report", page.empty() ? Json() : Json(page)}}}},
+        {{"files", {{"results", results}, {"report", html.empty() ? Json() : Json(html)}}}},
         fmt::format("results: {}, complete already\n", results) +
-            (page.empty() ? "" : fmt::format("report:  {}\n", page)));
+            (html.empty() ? "" : fmt::format("report:  {}\n", html)));
     return {};
   }
   session.require_free_output();

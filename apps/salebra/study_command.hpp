@@ -56,7 +56,7 @@ class StudyReport {
 /// Otherwise returns at least one finished surface; what stopped the run before its end throws Interrupted, which says
 /// how to go on, after the surfaces that were finished have been answered where they are not kept.
 std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, bool resume,
-                                      StudyReport& report, Session& session);
+                                      StudyReport& page, Session& session);
 
 Json to_json(const EnsembleMean& estimate);
 /// Arrays mean, low and high.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -8,6 +9,7 @@
 #include <salebra/generators/exact_rms.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/forecast.hpp>
+#include <salebra/generators/radial_spectrum.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <vector>
 
@@ -192,4 +194,34 @@ TEST_CASE("A generator can be stopped at any of its reports, and reports change 
   CHECK_THROWS_AS(forecast(grid, spectrum,
                            [](const ProgressReport& report) { return report.stage == "moments"; }),
                   Interrupted);
+}
+
+TEST_CASE("A generator that is stopped leaves its work undone", "[generators]") {
+  const Grid2D grid{256, 256, 1, 1};
+  std::atomic<int> waves = 0;
+  const FunctionSpectrum spectrum(
+      [&](double) {
+        ++waves;
+        return 1e-18;
+      },
+      6, 300, "counted");
+  parallel::set_threads(1);
+  const auto count = [&](const auto& work) {
+    waves = 0;
+    work();
+    return waves.load();
+  };
+  const auto stop = [](const ProgressReport&) { return false; };
+  const int all = count([&] { filtered_noise(grid, spectrum, 1); });
+  // It is asked after each 16 of 48 columns.
+  CHECK(count([&] { CHECK_THROWS_AS(filtered_noise(grid, spectrum, 1, stop), Interrupted); }) <
+        all / 2);
+  const int sums = count([&] { spectrum.lattice_moments(grid); });
+  CHECK(count([&] { CHECK_THROWS_AS(spectrum.lattice_moments(grid, stop), Interrupted); }) <
+        sums / 10);
+  const int whole = count([&] { forecast(grid, spectrum); });
+  const auto at_scatter = [](const ProgressReport& report) { return report.stage == "moments"; };
+  CHECK(count([&] { CHECK_THROWS_AS(forecast(grid, spectrum, at_scatter), Interrupted); }) <
+        whole / 2);
+  parallel::set_threads(0);
 }

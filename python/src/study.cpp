@@ -327,6 +327,14 @@ progress : bool or callable
       },
       nb::arg("file"), nb::arg("results"), nb::kw_only(), nb::arg("overwrite") = false,
       "Writes the results of :func:`run_ensembles` to one HDF5 file.");
+  m.def(
+      "is_result_of",
+      [](const std::filesystem::path& file, const StudyConfiguration& study) {
+        return unlocked([&] { return is_result_of(file, study); });
+      },
+      nb::arg("file"), nb::arg("study"),
+      "Whether the file is the finished result of this study, of all its surfaces, models and "
+      "settings; False for any other file, and for none.");
 
   nb::class_<Check>(m, "Check",
                     "One number that this installation computes, beside what analysis says of it.")

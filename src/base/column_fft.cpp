@@ -61,7 +61,7 @@ Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColum
   parallel::for_slabs((columns + block - 1) / block, [&](Index begin, Index end) {
     const auto buffer =
         detail::fftw_array<double, Complex>(static_cast<std::size_t>(block * pitch));
-    for (Index group = begin; group < end; ++group) {
+    for (Index group = begin; group < end && of_columns.running(); ++group) {
       const Index first = group * block, count = std::min(block, columns - first);
       for (Index k = 0; k < count; ++k) {
         Complex* modes = buffer.get() + k * pitch;
@@ -77,7 +77,7 @@ Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColum
         }
       }
       if (within < count) std::copy_n(buffer.get() + within * pitch, nx, last_column.begin());
-      if (!of_columns.advance(count)) return;
+      of_columns.advance(count);
     }
   });
   of_columns.finish();
@@ -87,7 +87,7 @@ Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColum
   parallel::for_slabs(nx, [&](Index begin, Index end) {
     const auto modes = detail::fftw_array<double, Complex>(static_cast<std::size_t>(ny / 2 + 1));
     const auto values = detail::fftw_array<double>(static_cast<std::size_t>(ny));
-    for (Index x = begin; x < end; ++x) {
+    for (Index x = begin; x < end && of_rows.running(); ++x) {
       double* row = field.data() + x * ny;
       std::copy_n(row, 2 * stored, reinterpret_cast<double*>(modes.get()));
       std::fill(modes.get() + stored, modes.get() + ny / 2 + 1, Complex{});
@@ -95,7 +95,7 @@ Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColum
         modes[static_cast<std::size_t>(stored)] = last_column[static_cast<std::size_t>(x)];
       Api::execute_c2r(row_plan.get(), fftw(modes.get()), values.get());
       std::copy_n(values.get(), ny, row);
-      if (!of_rows.advance()) return;
+      of_rows.advance();
     }
   });
   of_rows.finish();

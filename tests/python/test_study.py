@@ -177,4 +177,9 @@ def test_a_study_goes_on_from_its_parts(result: salebra.StudyResult, tmp_path: P
     assert [path.stat().st_mtime_ns for path in sorted(parts.glob("*.realisation"))] == times
     for other in (whole, again):
         assert [one.bem.fit.decay_length for one in other.realisations] == [one.bem.fit.decay_length for one in result.realisations]
+    file = tmp_path / "study.h5"
+    assert not salebra.is_result_of(file, configuration)
+    salebra.write_ensembles(file, [again])
+    assert salebra.is_result_of(file, configuration)
+    assert not salebra.is_result_of(file, configuration.with_models(["persson"]))
     assert not re.search(r"lock", " ".join(path.name for path in parts.iterdir()))

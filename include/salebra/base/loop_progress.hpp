@@ -17,6 +17,8 @@ class LoopProgress {
   LoopProgress(const Progress& progress, std::string_view stage, Index items, double from = 0,
                double to = 1);
 
+  /// False once it was stopped: slabs that begin afterwards have nothing to do.
+  bool running() const { return !stopped_; }
   /// So many more items are done, by any thread. False: leave the loop.
   bool advance(Index items = 1);
   /// Tells that all is done, which a loop may be before the thread that tells has had a part in it. Throws Interrupted
