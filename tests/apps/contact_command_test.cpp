@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <salebra/contact/fit.hpp>
+#include <salebra/io/force_curve_file.hpp>
 #include <salebra/io/result_file.hpp>
 
 #include "run_program.hpp"
@@ -164,6 +166,39 @@ TEST_CASE("A contact that does not converge is not presented as a result", "[con
   CHECK(result.status == 1);
   CHECK_THAT(result.err, Catch::Contains("salebra: error: contact: "));
   CHECK(test.files() == std::set<std::string>{"rough.h5"});
+}
+
+TEST_CASE("fit answers with the fit, the test and the sensitivity of the window and weights asked",
+          "[fit]") {
+  const ProgramTest test;
+  make_rough(test);
+  REQUIRE(test.run("sweep rough.h5 --pressures 2:60MPa:10 --contact-modulus 10GPa -o curve.h5")
+              .status == 0);
+  const ForceCurve curve = read_force_curve(test.folder() / "curve.h5");
+  const PressureWindow window{3e6, 40e6, 0};
+  const auto found =
+      test.run("fit curve.h5 --pressure-window 3MPa,40MPa --weights force --json").json();
+  const ExponentialFit fit = fit_exponential(curve, window, FitWeights::force);
+  REQUIRE(fit.window.points < 10);
+  CHECK(found["decay_length"] == fit.decay_length);
+  CHECK(found["decay_length_low"] == fit.decay_length_low);
+  CHECK(found["decay_length_high"] == fit.decay_length_high);
+  CHECK(found["reference_pressure"] == fit.reference_pressure);
+  CHECK(found["r_squared"] == fit.r_squared);
+  CHECK(found["window"]["points"] == fit.window.points);
+  for (const auto& [name, weights] : {std::pair{"spacing", FitWeights::spacing},
+                                      {"equal", FitWeights::equal},
+                                      {"force", FitWeights::force}})
+    CHECK(found["decay_length_by_weights"][name] ==
+          fit_exponential(curve, window, weights).decay_length);
+  const ExponentialTest bend = test_exponential(curve, window, FitWeights::force);
+  CHECK(found["test"]["significance"] == bend.significance);
+  CHECK(found["test"]["decay_length_closest"] == bend.decay_length_closest);
+  CHECK(found["test"]["decay_length_farthest"] == bend.decay_length_farthest);
+  const WindowSensitivity parts = window_sensitivity(curve, window, FitWeights::force);
+  CHECK(found["window_sensitivity"]["decay_length_min"] == parts.decay_length_min);
+  CHECK(found["window_sensitivity"]["decay_length_max"] == parts.decay_length_max);
+  check_refused(test.run("fit curve.h5 --pressure-window 40MPa,3MPa"), "--pressure-window");
 }
 
 TEST_CASE("A sweep leads to a curve, its fit and a damping constant", "[sweep][fit]") {
