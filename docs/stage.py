@@ -22,16 +22,33 @@ MODULES = {
 }
 
 
-PYTHON = """Python reference
+def python_reference():
+    """The page of the package: its classes, which autodoc finds, and its functions, which it does not take for any."""
+    import salebra
+
+    def functions(module):
+        names = [name for name in dir(module) if type(getattr(module, name)).__name__ == "nb_func" and not name.startswith("_")]
+        return "\n".join(f".. autofunction:: {module.__name__}.{name}\n" for name in names)
+
+    return f"""Python reference
 ================
 
 .. automodule:: salebra
    :members:
    :imported-members:
 
+Functions
+---------
+
+{functions(salebra)}
+
+Closed forms
+------------
+
 .. automodule:: salebra.closed_form
    :members:
-"""
+
+{functions(salebra.closed_form)}"""
 
 
 def put(target, text):
@@ -148,7 +165,7 @@ def main(program, doxygen, folder):
         for source in root.glob(pattern):
             kept.add(copy(source, folder / source.relative_to(root)))
     if importlib.util.find_spec("salebra"):
-        kept.add(put(folder / "docs/python_reference.rst", PYTHON))
+        kept.add(put(folder / "docs/python_reference.rst", python_reference()))
     # Pages that not every tree has.
     index = folder / "docs/index.md"
     missing = [name for name in ("python", "python_reference", "report") if name not in {page.stem for page in kept}]

@@ -118,8 +118,8 @@ precision : {"mixed", "full"}
     "mixed": transforms in float, residuals and acceptance in double.
 hardness : float
     Largest pressure that the bodies carry, Pa: cells saturate there.
-initial_pressure : array_like, (nx, ny), optional
-    Start of the iteration, Pa; not copied if C-contiguous float64.
+initial_pressure : array_like, optional
+    (nx, ny). Start of the iteration, Pa; not copied if C-contiguous float64.
 progress : bool or callable
     True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop.
 

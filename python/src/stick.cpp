@@ -58,8 +58,8 @@ void bind_stiffness(nb::module_& m) {
 
 Parameters
 ----------
-contact : array_like of bool, (nx, ny)
-    Cells in contact, such as ``state.pressure > 0``.
+contact : array_like of bool
+    (nx, ny). Cells in contact, such as ``state.pressure > 0``.
 grid : Grid2D
 material : Material
     With the constants of its bodies.

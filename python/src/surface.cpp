@@ -32,8 +32,8 @@ void bind_surface_class(nb::module_& m) {
 
 Parameters
 ----------
-heights : array_like, (nx, ny)
-    Heights in m, `heights[ix, iy]`, x first; NaN where the instrument has no value. A C-contiguous float64 array is not
+heights : array_like
+    (nx, ny). Heights in m, `heights[ix, iy]`, x first; NaN where the instrument has no value. A C-contiguous float64 array is not
     copied: the surface looks at the same memory.
 size_x, size_y : float
     Size, m. Point (ix, iy) lies at (ix·size_x/nx, iy·size_y/ny).
