@@ -210,23 +210,30 @@ TEST_CASE("The numbers of a comparison are those of its file, and the theories' 
   const auto row_begin =
       words.out.find_first_of("0123456789", words.out.find("largest/all", table));
   REQUIRE(row_begin != std::string::npos);
-  std::istringstream columns(words.out.substr(row_begin));
-  double load = 0, shown_gap = 0, gap_error = 0, area = 0, area_error = 0, corrected = 0;
-  std::string plus_minus;
-  columns >> load >> shown_gap >> plus_minus >> gap_error >> area >> plus_minus >> area_error >>
-      corrected;
+  std::istringstream rows(words.out.substr(row_begin));
   const Values relative = numbers(two["relative_pressure"]);
-  std::size_t k = 0;
-  while (k < loads && std::abs(relative[k] / load - 1) > 0.05) ++k;
-  REQUIRE(k < loads);
   const json& fraction = two["models"]["bem"]["curve"]["contact_area_fraction"];
-  const auto at_load = [k](const json& list) { return list[k].get<double>(); };
-  // Three digits of a value, two of an error.
-  CHECK(area == Approx(100 * at_load(fraction["mean"])).epsilon(6e-3));
-  CHECK(area_error ==
-        Approx(50 * (at_load(fraction["high"]) - at_load(fraction["low"]))).epsilon(6e-2));
-  CHECK(corrected ==
-        Approx(100 * at_load(two["spots"]["corrected_area_fraction"]["mean"])).epsilon(6e-3));
+  int shown = 0;
+  for (std::string row; std::getline(rows, row) && !row.empty(); ++shown) {
+    INFO(row);
+    std::istringstream columns(row);
+    double load = 0, gap_mean = 0, gap_error = 0, area = 0, area_error = 0, corrected = 0;
+    std::string plus_minus;
+    REQUIRE(columns >> load >> gap_mean >> plus_minus >> gap_error >> area >> plus_minus >>
+            area_error >> corrected);
+    std::size_t k = 0;
+    while (k < loads && std::abs(relative[k] / load - 1) > 0.05) ++k;
+    REQUIRE(k < loads);
+    const auto at_load = [k](const json& list) { return list[k].get<double>(); };
+    // Three digits of a value, two of an error.
+    CHECK(area == Approx(100 * at_load(fraction["mean"])).epsilon(6e-3));
+    CHECK(area_error == Approx(50 * (at_load(fraction["high"]) - at_load(fraction["low"])))
+                            .epsilon(6e-2)
+                            .margin(1e-9));
+    CHECK(corrected ==
+          Approx(100 * at_load(two["spots"]["corrected_area_fraction"]["mean"])).epsilon(6e-3));
+  }
+  CHECK(shown >= 4);
 }
 
 TEST_CASE("The numbers of a study's answer are those of its file", "[study]") {

@@ -104,6 +104,9 @@ TEST_CASE("Shells carry the rms height and slope of the spectrum", "[theories]")
   CHECK(curve.samples[0].pressure == 0.1);
   CHECK(curve.samples[0].force == 0.2);
   CHECK(curve.samples[0].mean_gap > curve.samples[1].mean_gap);
+  CHECK(curve.samples[1].mean_gap == theory.mean_gap(0.3));
+  CHECK(curve.samples[1].contact_area_fraction == theory.contact_area_fraction(0.3));
+  CHECK(curve.samples[1].normal_stiffness == 2 * theory.stiffness_per_area(0.3));
   CHECK(curve.samples[1].tangential_stiffness ==
         material.modulus_ratio() * curve.samples[1].normal_stiffness);
 }
