@@ -83,7 +83,8 @@ std::string study_text(const StudyResult& result, const Files& files) {
     const EnsembleMean length = result.decay_length(model.result);
     const EnsembleMean ratio = result.decay_length_over_rms_height(model.result);
     rows.push_back({model.title, format_quantity(length.mean, Dimension::length),
-                    interval(length, Dimension::length), fmt::format("{:.3f}", ratio.mean),
+                    interval(length, Dimension::length),
+                    std::isnan(ratio.mean) ? "n/a" : fmt::format("{:.3f}", ratio.mean),
                     interval(ratio, Dimension::dimensionless)});
   }
   text += to_table(rows, 2, true) + "  (" + result.interval_method() + ")\n" + law_verdict(result) +

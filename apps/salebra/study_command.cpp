@@ -276,6 +276,8 @@ std::string law_verdict(const StudyResult& result) {
       closest.mean, farthest.mean);
   const EnsembleMean bend = result.law_bend(&Realisation::bem);
   if (result.realisations.size() > 1) {
+    // One surface of several that has a fit tells nothing of the others.
+    if (std::isnan(bend.low)) return text;
     const bool refuted = bend.low > 0 || bend.high < 0;
     text += fmt::format(
         "  That is a change of {:+.0f} % ({:+.0f} to {:+.0f} % at 95 %): {}\n", 100 * bend.mean,
@@ -302,6 +304,7 @@ std::string law_verdict(const StudyResult& result) {
   const double equal =
       result
           .mean([&](const Realisation& r) {
+            if (std::isnan(r.bem.fit.decay_length)) return r.bem.fit.decay_length;
             return fit_exponential(r.bem.curve, result.configuration.window, FitWeights::equal)
                        .decay_length /
                    r.heights.rms_height;
@@ -321,16 +324,15 @@ std::string ensemble_remarks(const StudyResult& result) {
   if (means.size() >= 3) {
     text += "l/h_rms of boundary elements over the first surfaces\n";
     std::vector<std::vector<std::string>> rows{{"surfaces", "mean", "95 % interval"}};
-    for (std::size_t count = 2; count <= means.size() + 1; count *= 2) {
-      const bool last = 2 * count > means.size() + 1;
-      const std::size_t shown = last ? means.size() + 1 : count;
-      if (last && shown != count) {
-        rows.push_back({fmt::format("{}", count), fmt::format("{:.4f}", means[count - 2].mean),
-                        interval(means[count - 2], Dimension::dimensionless)});
-      }
-      rows.push_back({fmt::format("{}", shown), fmt::format("{:.4f}", means[shown - 2].mean),
-                      interval(means[shown - 2], Dimension::dimensionless)});
-    }
+    const auto add_row = [&](std::size_t count) {
+      const EnsembleMean& estimate = means[count - 2];
+      rows.push_back({fmt::format("{}", count),
+                      std::isnan(estimate.mean) ? "n/a" : fmt::format("{:.4f}", estimate.mean),
+                      interval(estimate, Dimension::dimensionless)});
+    };
+    const std::size_t all = means.size() + 1;
+    for (std::size_t count = 2; count < all; count *= 2) add_row(count);
+    add_row(all);
     text += to_table(rows) + "\n";
   }
   if (result.precision_reached)

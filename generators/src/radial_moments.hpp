@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <salebra/base/error.hpp>
 #include <salebra/base/spectral_moments.hpp>
 
 namespace salebra::detail {
@@ -10,6 +11,12 @@ namespace salebra::detail {
 inline double power_integral(double ratio, double exponent) {
   const double log_ratio = std::log(ratio);
   return exponent == 0 ? log_ratio : std::expm1(exponent * log_ratio) / exponent;
+}
+
+/// A spectrum is made of squares, which below this would be 0 and above it infinite.
+inline void require_square(double rms, const char* field) {
+  require_positive(rms, field);
+  require(rms > 1e-140 && rms < 1e140, field, rms, "must lie in 1e-140 … 1e140; check the unit");
 }
 
 /// Moments from integral(order) = ∫|q|^order C d²q: the mean over directions of cos² is 1/2, of cos⁴ 3/8.

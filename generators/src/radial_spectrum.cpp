@@ -128,7 +128,7 @@ std::string TabulatedSpectrum::description() const {
 }
 
 FunctionSpectrum gaussian_correlation_spectrum(double rms_height, double correlation_length) {
-  require_positive(rms_height, "rms_height");
+  detail::require_square(rms_height, "rms_height");
   require_positive(correlation_length, "correlation_length");
   const double square = correlation_length * correlation_length;
   const double peak = rms_height * rms_height * square / (4 * pi);
@@ -142,7 +142,7 @@ FunctionSpectrum gaussian_correlation_spectrum(double rms_height, double correla
 
 FunctionSpectrum exponential_correlation_spectrum(double rms_height, double correlation_length,
                                                   double short_cutoff) {
-  require_positive(rms_height, "rms_height");
+  detail::require_square(rms_height, "rms_height");
   require_positive(correlation_length, "correlation_length");
   require_positive(short_cutoff, "short_cutoff");
   const double square = correlation_length * correlation_length;

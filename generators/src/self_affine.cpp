@@ -38,8 +38,8 @@ void detail::validate(const SelfAffineParameters& p) {
           p.rms_height ? "given" : "none",
           p.rms_height ? "together with rms_slope; give one of them"
                        : "and no rms_slope; give one of them");
-  if (p.rms_height) require_positive(*p.rms_height, "rms_height");
-  if (p.rms_slope) require_positive(*p.rms_slope, "rms_slope");
+  if (p.rms_height) require_square(*p.rms_height, "rms_height");
+  if (p.rms_slope) require_square(*p.rms_slope, "rms_slope");
 }
 
 std::string detail::describe(const SelfAffineParameters& p) {

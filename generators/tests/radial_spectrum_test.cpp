@@ -71,11 +71,13 @@ TEST_CASE("Gaussian correlation has its moments and its correlation", "[generato
   }
 }
 
-TEST_CASE("Moments below the least normal number are summed in the usual time",
+TEST_CASE("Densities below the least normal number are integrated in the usual time",
           "[generators][radial]") {
   // A tolerance of 0 would halve every panel to the end of its depth, 2³⁰ times.
-  const FunctionSpectrum spectrum = gaussian_correlation_spectrum(1e-170, 0.02);
+  const FunctionSpectrum spectrum([](double q) { return 1e-320 * std::exp(-q * q); }, 0, 6,
+                                  "faint");
   CHECK(spectrum.moments().moment0 < std::numeric_limits<double>::min());
+  CHECK_THROWS_AS(gaussian_correlation_spectrum(1e-170, 0.02), InvalidInput);
 }
 
 TEST_CASE("Exponential correlation keeps its rms height for every cut-off",

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity_sampling.hpp>
 #include <salebra/contact/contact_spots.hpp>
@@ -69,8 +70,15 @@ double area_slope(const std::vector<double>& pressures, const std::vector<double
 std::vector<DampingPoint> damping_curve(const ModelResult& model,
                                         const StudyConfiguration& configuration) {
   const double modulus_ratio = configuration.material.modulus_ratio();
-  const TabulatedLaw curve_law(model.curve, modulus_ratio);
-  const ExponentialLaw fitted_law(1, model.fit.decay_length, modulus_ratio);
+  std::optional<ExponentialLaw> fitted_law;
+  if (std::isfinite(model.fit.decay_length))
+    fitted_law.emplace(1, model.fit.decay_length, modulus_ratio);
+  std::optional<TabulatedLaw> curve_law;
+  try {
+    curve_law.emplace(model.curve, modulus_ratio);
+  } catch (const InvalidInput&) {
+    // Too few samples for a law: nothing to lose energy by.
+  }
   DampingOptions small = configuration.damping;
   small.amplitude = Amplitude::small;
   std::vector<DampingPoint> points;
@@ -81,56 +89,55 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
     points.push_back(point);
     if (!sample.converged || !(sample.force > 0)) continue;
     const AtForce position{sample.force};
-    const auto by_law = relaxation_damping(fitted_law, position, configuration.motion, small);
-    point.law_work = by_law.work_per_cycle;
-    point.law_damping_constant = by_law.damping_constant;
-    try {
-      const auto by_curvature =
-          relaxation_damping(curve_law, position, configuration.motion, small);
-      point.small_work = by_curvature.work_per_cycle;
-      point.small_damping_constant = by_curvature.damping_constant;
-      const auto by_curve =
-          relaxation_damping(curve_law, position, configuration.motion, configuration.damping);
-      if (by_curve.converged) {
-        point.curve_work = by_curve.work_per_cycle;
-        point.curve_damping_constant = by_curve.damping_constant;
+    if (fitted_law) {
+      const auto by_law = relaxation_damping(*fitted_law, position, configuration.motion, small);
+      point.law_work = by_law.work_per_cycle;
+      point.law_damping_constant = by_law.damping_constant;
+    }
+    if (curve_law) {
+      try {
+        const auto by_curvature =
+            relaxation_damping(*curve_law, position, configuration.motion, small);
+        point.small_work = by_curvature.work_per_cycle;
+        point.small_damping_constant = by_curvature.damping_constant;
+        const auto by_curve =
+            relaxation_damping(*curve_law, position, configuration.motion, configuration.damping);
+        if (by_curve.converged) {
+          point.curve_work = by_curve.work_per_cycle;
+          point.curve_damping_constant = by_curve.damping_constant;
+        }
+      } catch (const InvalidInput&) {
+        // Near its ends the curve does not cover the whole cycle: no value there.
       }
-    } catch (const InvalidInput&) {
-      // Near its ends the curve does not cover the whole cycle: no value there.
     }
     points.back() = point;
   }
   return points;
 }
 
-ModelResult fitted(ForceCurve curve, const StudyConfiguration& configuration, double scale) {
+/// What can be said of a model's curve. One that has too few samples in the window has no decay length, and no loss by Eq. (16).
+ModelResult analysed(ForceCurve curve, const StudyConfiguration& configuration, double scale) {
+  constexpr double unknown = ForceSample::unknown;
   ModelResult result;
-  result.fit = fit_exponential(curve, configuration.window);
-  if (result.fit.window.points >= 4) result.test = test_exponential(curve, configuration.window);
-  result.sensitivity = window_sensitivity(curve, configuration.window);
-  result.local = local_decay_length(curve);
+  const PressureWindow nowhere{unknown, unknown, 0};
+  result.fit = {unknown, unknown, unknown, unknown, unknown, nowhere, unknown};
+  result.test = {unknown, unknown, unknown, unknown, unknown, nowhere};
+  result.sensitivity = {unknown, unknown, 0};
+  try {
+    result.fit = fit_exponential(curve, configuration.window);
+    if (result.fit.window.points >= 4) result.test = test_exponential(curve, configuration.window);
+    result.sensitivity = window_sensitivity(curve, configuration.window);
+  } catch (const InvalidInput&) {
+  }
+  try {
+    result.local = local_decay_length(curve);
+  } catch (const InvalidInput&) {
+  }
   result.area_slope = area_slope(curve.column(&ForceSample::pressure),
                                  curve.column(&ForceSample::contact_area_fraction), scale);
   result.curve = std::move(curve);
   result.damping = damping_curve(result, configuration);
   return result;
-}
-
-/// The same for a model that may have nothing to say at these loads: then its fit and its damping are unknown.
-ModelResult fitted_if_possible(const ForceCurve& curve, const StudyConfiguration& configuration,
-                               double scale) {
-  try {
-    return fitted(curve, configuration, scale);
-  } catch (const InvalidInput&) {
-    ModelResult result;
-    constexpr double unknown = ForceSample::unknown;
-    result.fit = {unknown, unknown, unknown, unknown, unknown, {unknown, unknown, 0}, unknown};
-    result.sensitivity = {unknown, unknown, 0};
-    result.curve = curve;
-    for (const ForceSample& sample : curve.samples)
-      result.damping.push_back({.pressure = sample.pressure, .force = sample.force});
-    return result;
-  }
 }
 
 /// The modes that the surface has, ring by ring.
@@ -174,20 +181,20 @@ void add_other_models(Realisation& realisation, const Surface& surface, const Su
         draw_summits(ensemble, count, std::sqrt(area), realisation.seed), material, area,
         -ensemble.mean_height, rms_height);
     realisation.gw_monte_carlo =
-        fitted_if_possible(curve_at_pressures(drawn, pressures), configuration, scale);
+        analysed(curve_at_pressures(drawn, pressures), configuration, scale);
   }
   if (configuration.has(ContactModel::persson)) {
     const PerssonTheory theory(shells_of(surface), material.contact_modulus);
     ForceCurve persson = persson_curve(theory, material, area, pressures);
     persson.rms_height = rms_height;
-    realisation.persson = fitted_if_possible(persson, configuration, scale);
+    realisation.persson = analysed(persson, configuration, scale);
     realisation.persson_decay_length = theory.asymptote().decay_length;
   }
   if (configuration.has(ContactModel::gw_interacting)) {
     const InteractingSummits interacting(summits.summits, material, surface.grid,
                                          realisation.heights.mean, rms_height);
-    realisation.gw_interacting = fitted_if_possible(
-        curve_at_pressures(interacting, pressures, progress), configuration, scale);
+    realisation.gw_interacting =
+        analysed(curve_at_pressures(interacting, pressures, progress), configuration, scale);
   }
 }
 
@@ -227,6 +234,13 @@ std::vector<double> study_pressures(const StudyConfiguration& configuration) {
     const double scale = contact_scale(configuration);
     for (double& pressure : pressures) pressure *= scale;
   }
+  if (const auto& window = configuration.window) {
+    const auto inside = std::ranges::count_if(pressures, [&](double pressure) {
+      return pressure >= window->pressure_min && pressure <= window->pressure_max;
+    });
+    require(inside >= 3, "pressure_window", inside,
+            "pressures lie in it and a fit needs 3; widen it or compute more of them");
+  }
   return pressures;
 }
 
@@ -252,12 +266,13 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
   realisation.ensemble = summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
   realisation.ensemble.rms_height = realisation.heights.rms_height;
   const StatisticalSummits statistical(realisation.ensemble, material, surface.grid.area());
-  realisation.gw_moments = fitted(curve_at_pressures(statistical, pressures), configuration, scale);
+  realisation.gw_moments =
+      analysed(curve_at_pressures(statistical, pressures), configuration, scale);
   const DeterministicSummits deterministic(summits.summits, material, summits.searched_area,
                                            realisation.heights.mean,
                                            realisation.heights.rms_height);
   realisation.gw_deterministic =
-      fitted(curve_at_pressures(deterministic, pressures), configuration, scale);
+      analysed(curve_at_pressures(deterministic, pressures), configuration, scale);
 
   bool stopped = false;
   // The share of the interacting summits in the time.
@@ -294,7 +309,7 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
         fmt::format("contact: only {} of {} pressures converged to {}; allow a larger tolerance",
                     converged, pressures.size(), configuration.tolerance));
   }
-  realisation.bem = fitted(std::move(curve), configuration, scale);
+  realisation.bem = analysed(std::move(curve), configuration, scale);
   std::vector<double> corrected;
   for (const SpotStatistics& spots : realisation.spots)
     corrected.push_back(spots.corrected_area_fraction);

@@ -37,6 +37,18 @@ void warn(StudyResult& result) {
     result.warnings.push_back(fmt::format("{} contacts did not converge to {} and were left out",
                                           unconverged, result.configuration.tolerance));
   }
+  for (const StudyModel& model : result.models()) {
+    const auto without = std::ranges::count_if(result.realisations, [&](const Realisation& r) {
+      return std::isnan((r.*model.result).fit.decay_length);
+    });
+    if (without > 0)
+      result.warnings.push_back(fmt::format(
+          "{}: no decay length on {} of {} surfaces, whose curves have fewer than 3 pressures {}",
+          name_of(model.model), without, result.realisations.size(),
+          result.configuration.window ? "in the pressure_window; widen it"
+                                      : "at mean gaps of 1 to 2.5 rms heights; compute more of "
+                                        "them or give a pressure_window"));
+  }
   const auto total = result.realisations.size() * result.pressures.size();
   if (lost > 0 && std::size_t(lost) == total) {
     result.warnings.push_back(

@@ -55,6 +55,19 @@ TEST_CASE("A study's summary puts Eq. (16) beside the curve's own damping", "[st
   CHECK(test.run("study study.toml -o other.h5 --no-report --quiet --progress never").err.empty());
 }
 
+TEST_CASE("A study without a decay length answers with what it has", "[study]") {
+  const ProgramTest test;
+  test.write("few.toml", close_study_text());
+  const auto text = test.run("study few.toml");
+  REQUIRE(text.status == 0);
+  CHECK_THAT(text.out, Contains("n/a") && !Contains("nan"));
+  CHECK_THAT(text.err, Contains("no decay length on 2 of 2 surfaces"));
+  const auto answer = test.run("study few.toml --json --quiet -o few.h5").json();
+  CHECK(answer["decay_length"]["mean"].is_null());
+  CHECK(answer["damping"]["curve_damping_constant"]["mean"][1] > 0);
+  CHECK(test.run("compare few.toml --quiet").status == 0);
+}
+
 TEST_CASE("A study of a measured surface says that it is continued periodically", "[study]") {
   const std::filesystem::path scan =
       std::filesystem::path(SALEBRA_SHARED) / "surfaces/matrix-3.txt";

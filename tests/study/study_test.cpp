@@ -108,6 +108,30 @@ TEST_CASE("A study without a surface is refused", "[study]") {
   CHECK_THROWS_AS(run_study(configuration), InvalidInput);
 }
 
+TEST_CASE("A window of the fit that holds no pressures is refused before anything is computed",
+          "[study]") {
+  // Relative pressures are known only with the surface: here of order 1e6 Pa and more.
+  const StudyConfiguration configuration =
+      small_study("[fit]\npressure_window = [\"1Pa\", \"2Pa\"]\n");
+  CHECK_THROWS_WITH(run_study(configuration), Catch::Contains("pressure_window: 0 pressures"));
+}
+
+TEST_CASE("Curves without a decay length keep their damping, and the study says so", "[study]") {
+  const StudyResult result = run_study(parse_study_configuration(close_study_text(), "few.toml"));
+  REQUIRE(result.realisations.size() == 2);
+  for (const Realisation& realisation : result.realisations) {
+    CHECK(std::isnan(realisation.bem.fit.decay_length));
+    CHECK(std::isnan(realisation.bem.test.decay_length_closest));
+    CHECK(realisation.bem.damping.size() == 5);
+    for (const DampingPoint& point : realisation.bem.damping) CHECK(std::isnan(point.law_work));
+    CHECK(std::ranges::any_of(realisation.bem.damping,
+                              [](const DampingPoint& point) { return point.curve_work > 0; }));
+  }
+  CHECK(std::ranges::any_of(result.warnings, [](const std::string& warning) {
+    return warning.starts_with("bem: no decay length on 2 of 2 surfaces");
+  }));
+}
+
 TEST_CASE("Damping of a study rests on K_t of stick solves, which at nu = 0 is (G*/E*)K",
           "[study]") {
   StudyConfiguration configuration = small_study();

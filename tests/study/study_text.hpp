@@ -31,3 +31,10 @@ rms_height = "10nm"
 )" + seeds +
          "\n" + contact_text(loads);
 }
+
+/// The same at loads so high that no mean gap exceeds the rms height: there is nothing to fit a decay length to.
+inline std::string close_study_text() {
+  std::string text = study_text("seeds = [1, 2]", 5);
+  const std::string usual = "1e-3:0.2:5";
+  return text.replace(text.find(usual), usual.size(), "0.2:1:5");
+}

@@ -38,9 +38,10 @@ struct DampingPoint {
 /// What one contact model says about one surface.
 struct ModelResult {
   ForceCurve curve;  ///< empty where the model was not asked for
-  ExponentialFit fit;
-  ExponentialTest
-      test;  ///< how far the law bends over the window of the fit; all zero for fewer than four points
+  ExponentialFit
+      fit;  ///< unknown for fewer than three points in the window, as the law's damping is
+  /// How far the law bends over the window of the fit; unknown for fewer than four points.
+  ExponentialTest test;
   WindowSensitivity sensitivity;
   LocalDecayLength local;
   /// κ of A/A0 = κ p/(E*h'): least squares through the origin over loads of 0.002 to 0.05 E*h', h' that of the surface.
@@ -111,7 +112,7 @@ Surface study_surface(const StudyConfiguration& configuration, std::uint64_t see
 /// The unit of relative pressures, E*h'_rms, Pa, without looking at chance: what the lattice has in the mean, or what was measured.
 double contact_scale(const StudyConfiguration& configuration);
 
-/// Pressures of the sweep in Pa.
+/// Pressures of the sweep in Pa. Throws InvalidInput for a window of the fit with fewer than three of them.
 std::vector<double> study_pressures(const StudyConfiguration& configuration);
 
 /// Surface → statistics → contact models → exponential law → damping for one surface of the configuration, whose ensemble lists
