@@ -147,6 +147,7 @@ Json to_json(const OscillationOutcome& outcome) {
   object["error_contains"] = outcome.error_contains();
   object["work_by_levels"] = levels.work_per_cycle;
   object["work_by_levels_error"] = levels.error_estimate;
+  object["work_by_whole_cells"] = levels.work_by_levels;
   if (outcome.cycle)
     object["routes_agree"] =
         std::abs(levels.work_per_cycle - outcome.cycle->work_per_cycle) <=
@@ -226,6 +227,7 @@ void write_outcome(ResultFile& file, const std::string& prefix, const Oscillatio
       "contact area over nominal area");
   group.attribute("work_per_cycle", outcome.levels.work_per_cycle);
   group.attribute("error_estimate", outcome.levels.error_estimate);
+  group.attribute("work_by_whole_cells", outcome.levels.work_by_levels);
 }
 
 PlotPanel contact_panel(const OscillationOutcome& outcome, const std::string& title) {

@@ -154,6 +154,7 @@ TEST_CASE("The file of oscillate holds what its answer says", "[oscillate]") {
   CHECK(attribute("cycle", "work_per_cycle") == number(answer, "work_per_cycle"));
   CHECK(attribute("levels", "work_per_cycle") == number(answer, "work_by_levels"));
   CHECK(attribute("levels", "error_estimate") == number(answer, "work_by_levels_error"));
+  CHECK(attribute("levels", "work_by_whole_cells") == number(answer, "work_by_whole_cells"));
   // The map of the cells: 2 always in contact, 1 sometimes.
   const Field map = file.field("cycle/contact");
   const double cell = 1e-6 / static_cast<double>(map.size());

@@ -311,3 +311,33 @@ TEST_CASE("On rough surfaces levels and steps agree within a per cent", "[levels
     CHECK(by_steps.released_energy == Approx(by_steps.work_per_cycle).epsilon(1e-6));
   }
 }
+
+TEST_CASE("The theorem with K_t of the contact sets is the work of the steps on the same cells",
+          "[levels]") {
+  // A load and a sweep so small that some dozens of cells change: nothing here is smooth, but W = ½∮ s² dK_t is no statement about
+  // smooth contacts. What is left is where between two levels, or two steps, a cell enters; it falls with their number. Measured on
+  // three surfaces, two loads and three sweeps with 64 levels and 128 steps: 0.01 to 0.56 %.
+  const Grid2D cells{64, 64, 1e-3, 1e-3};
+  SelfAffineParameters parameters;
+  parameters.rolloff = cells.lx / 4;
+  parameters.short_cutoff = cells.lx / 8;
+  parameters.rms_slope = 0.1;
+  const Surface surface = random_phase(cells, SelfAffineSpectrum(parameters), 2);
+  const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
+  const NormalContactState mean =
+      press_to_pressure(surface, contact_modulus, 0.02 * 0.1 * contact_modulus);
+  const double amplitude = 0.05 * std::sqrt(surface.heights.square().mean());
+  const ContactLevels levels =
+      boundary_element_levels(surface, contact_modulus, {.tolerance = 1e-9});
+  for (const Oscillation& motion : {Oscillation(EqualFrequency{amplitude, 1e-7, pi / 4}),
+                                    Oscillation(Drag{amplitude, 1e-3, 1e4})}) {
+    const LevelQuadratureResult by_levels =
+        level_quadrature(levels, cells, material, motion, mean.indentation, {.levels = 64});
+    CycleOptions steps;
+    steps.steps = 128;
+    const CycleResult by_steps =
+        simulate_cycle(levels, cells, material, trajectory_of(motion, mean.indentation), steps);
+    REQUIRE(by_steps.converged);
+    CHECK(by_levels.work_by_levels == Approx(by_steps.work_per_cycle).epsilon(0.01));
+  }
+}
