@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -56,6 +57,9 @@ TEST_CASE("oscillate reproduces the paper's experiment by the name of a shape", 
   CHECK(answer["error_estimate"].get<double>() < 0.02 * answer["work_per_cycle"].get<double>());
   CHECK(answer["converged"] == true);
   CHECK(test.files().count("cycle.h5") == 1);
+  CHECK(salebra::ResultReader(test.folder() / "cycle.h5")
+            .number_attribute("cycle", "error_estimate")
+            .value() == answer["error_estimate"]);
   // A round contact: 1 up to the 20 cells across it and h²/24 = 0.3 % of the steps.
   CHECK(answer["ratio_finite"].get<double>() == Approx(1).epsilon(0.02));
   CHECK(answer["released_energy"].get<double>() ==
@@ -218,7 +222,25 @@ TEST_CASE("oscillate couples pressures and tractions by Dundurs' constant", "[os
     CHECK(answer["friction"]["coefficient"].is_null());
     return answer["coupling"];
   };
-  const auto with = change("--poisson 0.3");
+  const auto with = change("--poisson 0.3 --output f.h5");
+  // The largest change over the cycle against the largest force, from the columns of the file.
+  const salebra::ResultReader file(test.folder() / "f.h5");
+  const auto changed = [&](const std::string& quantity) {
+    const auto coupled = file.numbers("coupling/" + quantity),
+               alone = file.numbers("friction/" + quantity);
+    double most = 0, scale = 0;
+    for (std::size_t k = 0; k < alone.size(); ++k) {
+      most = std::max(most, std::abs(coupled[k] - alone[k]));
+      scale = std::max(scale, std::abs(alone[k]));
+    }
+    return most / scale;
+  };
+  CHECK(with["force_change"].get<double>() == Approx(changed("force")));
+  CHECK(with["tangential_force_change"].get<double>() == Approx(changed("tangential_force")));
+  CHECK(with["work_change"].get<double>() ==
+        Approx(file.number_attribute("coupling", "work_per_cycle").value() /
+                   file.number_attribute("friction", "work_per_cycle").value() -
+               1));
   CHECK(with["dundurs"].get<double>() == Approx(2.0 / 7));
   CHECK(std::abs(with["work_change"].get<double>()) > 1e-3);
   CHECK(with["force_change"].get<double>() > 1e-3);
@@ -230,6 +252,11 @@ TEST_CASE("oscillate couples pressures and tractions by Dundurs' constant", "[os
   CHECK(std::abs(without["work_change"].get<double>()) < 1e-4);
   CHECK(without["force_change"].get<double>() < 1e-5);
   CHECK(change("--poisson 0.5")["dundurs"].get<double>() == Approx(0).margin(1e-12));
+  // Nor does it slip less.
+  const auto slipping = test.run(command + "--poisson 0.3 --coupling 0 --friction 0.3").json();
+  CHECK(slipping["friction"]["slip_work"].get<double>() >
+        0.1 * slipping["friction"]["work_per_cycle"].get<double>());
+  CHECK(std::abs(slipping["coupling"]["work_change"].get<double>()) < 1e-3);
 }
 
 TEST_CASE("oscillate knows which of two bodies is the softer one", "[oscillate]") {
