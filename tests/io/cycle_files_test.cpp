@@ -274,6 +274,10 @@ TEST_CASE("Fields of an interrupted cycle stay in the list of the resumed one", 
   CHECK(list.find("step 2") != std::string::npos);
   CHECK(list.find("step 3") != std::string::npos);
   CHECK(list.find("step 1") == std::string::npos);
+  // A later period writes the step again, and it is listed once.
+  resumed.write(states[3], 0.375, {});
+  const std::string again = text_of(scratch / "f.xdmf");
+  CHECK(again.find("step 3") == again.rfind("step 3"));
 }
 
 TEST_CASE("Fields of a cycle with friction say where it was lost", "[io]") {
