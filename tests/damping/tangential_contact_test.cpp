@@ -200,6 +200,16 @@ TEST_CASE("The memory holds one descent, not the past", "[tangential]") {
   CHECK(merged < kept / 2);
   CHECK(memory_after(2, 80000, 1e-13).first < 1.2 * static_cast<double>(merged));
   CHECK(merged_loss == Approx(kept_loss).epsilon(1e-6));
+  // Two rises with a step in x between them, whose ends lie on one line: nothing may be merged.
+  auto force_after = [&](double merge_tolerance) {
+    TangentialContact contact(law, 1e-7, 1e-6, {.merge_tolerance = merge_tolerance});
+    contact.start(1e-7, 0);
+    contact.move_to(4e-7, 0);
+    contact.move_to(4e-7, 1e-7);
+    contact.move_to(7e-7, 2e-7);
+    return contact.tangential_force();
+  };
+  CHECK(force_after(1e-12) == Approx(force_after(0)).epsilon(1e-9));
 }
 
 TEST_CASE("Cattaneo–Mindlin: force, stick and the loop of a paraboloid", "[tangential]") {
