@@ -252,7 +252,8 @@ TEST_CASE("oscillate couples pressures and tractions by Dundurs' constant", "[os
   CHECK(std::abs(without["work_change"].get<double>()) < 1e-4);
   CHECK(without["force_change"].get<double>() < 1e-5);
   CHECK(change("--poisson 0.5")["dundurs"].get<double>() == Approx(0).margin(1e-12));
-  // Nor does it slip less.
+  CHECK(change("--poisson 0.3 --coupling 0.1")["dundurs"].get<double>() == Approx(0.1));
+  // Without coupling it slips as the other one does.
   const auto slipping = test.run(command + "--poisson 0.3 --coupling 0 --friction 0.3").json();
   CHECK(slipping["friction"]["slip_work"].get<double>() >
         0.1 * slipping["friction"]["work_per_cycle"].get<double>());
