@@ -195,6 +195,7 @@ TEST_CASE("A killed cycle with friction resumes to the same numbers and lists al
   slipping->contact.converged = false;
   salebra::write_cycle_checkpoint(test.folder() / "other.h5", stuck, settings, {}, &*slipping);
   const auto other = test.run(command + "--checkpoint other.h5 --resume");
+  INFO(other.err);  // a setting that settings_in does not know is named here
   CHECK(other.status != 0);
   CHECK(other.json()["friction"]["converged"] == false);
   CHECK(other.json()["converged"] == false);
