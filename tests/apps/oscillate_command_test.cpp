@@ -30,6 +30,7 @@ salebra::CycleSettings settings_in(const std::filesystem::path& checkpoint) {
                            "direction",
                            "steps",
                            "tolerance",
+                           "max_iterations",
                            "boundary",
                            "lateral",
                            "friction",
