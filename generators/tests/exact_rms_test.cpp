@@ -50,3 +50,18 @@ TEST_CASE("What has no rms value is not scaled", "[generators][exact_rms]") {
   flat.heights(0, 0) = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_AS(scale_to_rms(flat, Rms::height, 1.0), InvalidInput);
 }
+
+TEST_CASE("A wave of two cells has the slope π/dy of its amplitude", "[generators][exact_rms]") {
+  // Sampled at its crests it is its own conjugate, on axes and in the corner of the spectrum.
+  const Grid2D grid{8, 6, 4.0, 1.5};
+  const bool along_x = GENERATE(false, true), along_y = GENERATE(false, true);
+  if (!along_x && !along_y) return;
+  Surface wave{grid, Field(8, 6), true, "two cells"};
+  for (Index ix = 0; ix < 8; ++ix)
+    for (Index iy = 0; iy < 6; ++iy)
+      wave.heights(ix, iy) = ((along_x ? ix : 0) + (along_y ? iy : 0)) % 2 == 0 ? 1 : -1;
+  const double slope =
+      std::numbers::pi * std::hypot(along_x ? 1 / grid.dx() : 0.0, along_y ? 1 / grid.dy() : 0.0);
+  const Surface scaled = scale_to_rms(wave, Rms::slope, 0.1);
+  CHECK(scaled.heights(0, 0) == Approx(0.1 / slope).epsilon(1e-13));
+}

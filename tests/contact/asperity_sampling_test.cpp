@@ -91,6 +91,38 @@ TEST_CASE("Realisations do not depend on threads, and differ from each other", "
   CHECK(draw_summits(ensemble, 1, 1, 1)[0].height != draw_summits(ensemble, 1, 1, 2)[0].height);
 }
 
+TEST_CASE("Heights of drawn summits have nothing to do with their places", "[sampling]") {
+  const auto distribution = GENERATE(SummitDistribution::gaussian, SummitDistribution::exponential);
+  const int count = 4000;
+  const std::vector<Summit> summits = draw_summits(ensemble_of(distribution), count, 1, 5);
+  double height = 0;
+  for (const Summit& summit : summits) height += summit.height / count;
+  double with_x = 0, with_y = 0, x_with_y = 0;
+  for (const Summit& summit : summits) {
+    with_x += (summit.x - 0.5) * (summit.height - height) * std::sqrt(12) / count;
+    with_y += (summit.y - 0.5) * (summit.height - height) * std::sqrt(12) / count;
+    x_with_y += (summit.x - 0.5) * (summit.y - 0.5) * 12 / count;
+  }
+  // Coefficients of correlation (σ = 1) have the standard deviation 1/√4000 = 0.016; four of them.
+  CHECK(std::abs(with_x) < 0.064);
+  CHECK(std::abs(with_y) < 0.064);
+  CHECK(std::abs(x_with_y) < 0.064);
+}
+
+TEST_CASE("The scatter of two realisations is their difference over √2", "[sampling]") {
+  const SummitEnsemble ensemble = ensemble_of(SummitDistribution::gaussian);
+  const MonteCarloCurve curve =
+      monte_carlo_curve(ensemble, soft, 1, {0.4}, {.realisations = 2, .seed = 6});
+  double force[2];
+  for (int realisation = 0; realisation < 2; ++realisation) {
+    const DeterministicSummits drawn(draw_summits(ensemble, 300, 1, 6, realisation), soft, 1);
+    force[realisation] = drawn.at(0.4 - drawn.common().mean_height).force;
+  }
+  CHECK(curve.mean.samples[0].force == Approx((force[0] + force[1]) / 2).epsilon(1e-13));
+  CHECK(curve.deviation[0].force ==
+        Approx(std::abs(force[0] - force[1]) / std::sqrt(2)).epsilon(1e-10));
+}
+
 TEST_CASE("Sampling says what it cannot draw", "[sampling]") {
   const SummitEnsemble ensemble = ensemble_of(SummitDistribution::gaussian);
   CHECK_THROWS_AS(draw_summits(ensemble, 0, 1, 1), InvalidInput);

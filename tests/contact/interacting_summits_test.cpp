@@ -162,7 +162,10 @@ TEST_CASE("The sums for thousands of summits agree with the plain ones", "[inter
   double mean = 0;
   for (const Summit& summit : summits) mean += summit.height / 2500;
   const double deepest = std::ranges::max(state.indentation);
-  for (std::size_t i = 0; i < summits.size(); i += 101) {
+  // Every third of those in contact, and some of the others.
+  int contacts = 0;
+  for (std::size_t i = 0; i < summits.size(); ++i) {
+    if (state.loads[i] > 0 ? ++contacts % 3 != 0 : i % 101 != 0) continue;
     double depth = summits[i].height - mean - separation;
     for (std::size_t j = 0; j < summits.size(); ++j)
       if (state.loads[j] > 0)

@@ -368,6 +368,17 @@ TEST_CASE("A SUR file of a replica is turned over, with the axis that it names",
   CHECK(same(read(1), -plain));
   CHECK(same(read(2), -plain.colwise().reverse()));
   CHECK(same(read(3), -plain.rowwise().reverse()));
+  // Each axis has a unit of its own: 16 characters, x at 180, y at 196.
+  const auto size_with = [&](std::size_t place) {
+    std::string changed = content;
+    changed.replace(place, 16, std::string("m").append(15, ' '));
+    return read_surface(scratch.file("b.sur", changed)).grid;
+  };
+  const Grid2D grid = read_surface(scratch.file("b.sur", content)).grid;
+  CHECK(size_with(180).lx > 100 * grid.lx);
+  CHECK(size_with(180).ly == grid.ly);
+  CHECK(size_with(196).ly > 100 * grid.ly);
+  CHECK(size_with(196).lx == grid.lx);
 }
 
 TEST_CASE("A damaged HDF5 file is refused, without a word on standard error", "[read]") {

@@ -5,8 +5,11 @@
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/random.hpp>
 #include <salebra/contact/asperity_sampling.hpp>
+#include <salebra/contact/contact_spots.hpp>
 #include <salebra/contact/fit.hpp>
 #include <salebra/contact/greenwood_williamson.hpp>
+#include <salebra/contact/normal.hpp>
+#include <salebra/contact/theories.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/generators/composite.hpp>
@@ -378,6 +381,23 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
   CHECK(first.spots[6].mean_area * spots ==
         Approx(first.bem.curve.samples[6].contact_area_fraction * 16e-12).epsilon(1e-12));
   CHECK(first.spots[6].corrected_area_fraction < first.bem.curve.samples[6].contact_area_fraction);
+  // The same contact once more: spots of n cells count where 2^k <= n < 2^(k+1), and the largest is the largest.
+  const Surface surface = study_surface(result.configuration, first.seed);
+  const NormalContactState state =
+      press_to_pressure(surface, 1e10, result.pressures[6], {.tolerance = 1e-8});
+  std::vector<double> sizes(13, 0.0);
+  double largest = 0;
+  for (const ContactSpot& spot : contact_spots(state.pressure, surface.grid).spots) {
+    sizes[std::size_t(std::floor(std::log2(std::round(spot.area / surface.grid.cell_area()))))] +=
+        1;
+    largest = std::max(largest, spot.area);
+  }
+  CHECK(first.spots[6].sizes == sizes);
+  CHECK(first.spots[6].largest_area == Approx(largest).epsilon(1e-12));
+  // Persson's theory has the slope of the surface's own modes; a ring's mean radius differs from its rms one by 2^(1/16) − 1 at most.
+  CHECK(first.persson.curve.samples[6].contact_area_fraction ==
+        Approx(persson_area_fraction(result.pressures[6], 1e10, first.moments.rms_slope()))
+            .epsilon(0.02));
 }
 
 TEST_CASE("A comparison computes the models it was asked for, and no others", "[ensemble]") {

@@ -9,6 +9,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
+#include <sstream>
 #include <thread>
 
 #include "../../src/study/study_lock.hpp"
@@ -229,6 +230,27 @@ TEST_CASE("The lock of a dead process is taken over at once", "[parts]") {
   waitpid(child, nullptr, 0);
   REQUIRE(fs::exists(scratch.folder / "lock"));
   CHECK_NOTHROW(StudyParts(scratch.folder, false));
+}
+
+TEST_CASE("The lock of a dead process is taken over though another has got its number", "[parts]") {
+  const Scratch scratch;
+  fs::create_directory(scratch.folder);
+  const fs::path file = scratch.folder / "lock";
+  std::string own;
+  {
+    const detail::StudyLock lock(file);
+    std::ifstream stream(file);
+    own.assign(std::istreambuf_iterator<char>(stream), {});
+  }
+  std::ofstream(file) << own;  // as this process would leave it, which lives
+  CHECK_THROWS_WITH(detail::StudyLock(file), Contains("in use by process"));
+  // Host, number, and the moment at which the process began: in the first second after boot.
+  std::istringstream lines(own);
+  std::string space, number;
+  std::getline(lines, space);
+  std::getline(lines, number);
+  std::ofstream(file) << space << '\n' << number << "\n1\nword\n";
+  CHECK_NOTHROW(detail::StudyLock(file));
 }
 
 TEST_CASE("The lock of another host holds as long as it is touched", "[parts]") {

@@ -189,7 +189,8 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
 
   // Two surfaces make one mean, that of both.
   CHECK(reader.numbers("convergence/surfaces") == std::vector<double>{2});
-  file.interval("convergence/decay_length_over_rms_height", {"surfaces"}, result.convergence());
+  file.interval("convergence/decay_length_over_rms_height", {"surfaces"},
+                {result.decay_length_over_rms_height(&Realisation::bem)});
 }
 
 TEST_CASE("A study's file holds the damping, the spots and the comparison that the study found",

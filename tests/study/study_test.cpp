@@ -23,6 +23,9 @@ TEST_CASE("The Student interval of a mean is the textbook's", "[study]") {
   CHECK(estimate.high - 2.5 == Approx(3.18244630528371 * std::sqrt(5. / 3) / 2).epsilon(1e-10));
   CHECK(2.5 - estimate.low == Approx(estimate.high - 2.5).epsilon(1e-14));
   CHECK(student_mean({1, std::nan(""), 3}).mean == 2);
+  // A precision of 25 % is ±25 % of the mean, of either sign.
+  CHECK(EnsembleMean{2, 1.5, 2.5}.relative_precision() == 0.25);
+  CHECK(EnsembleMean{-2, -2.5, -1.5}.relative_precision() == 0.25);
   CHECK(std::isnan(student_mean({7}).low));
   CHECK(std::isnan(student_mean({}).mean));
 }
