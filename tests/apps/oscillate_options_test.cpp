@@ -116,6 +116,23 @@ TEST_CASE("oscillate frees the lateral displacement in all its simulations", "[o
         Approx(steps).epsilon(0.2));
 }
 
+TEST_CASE("oscillate moves in its direction by levels and by steps", "[oscillate]") {
+  const ProgramTest test;
+  const auto run = [&](const char* direction) {
+    return test
+        .run(std::string("oscillate --shape ellipsoid --points 32 --steps 16 --levels 8 "
+                         "--contact-modulus 1GPa --poisson 0.5 --json --direction ") +
+             direction)
+        .json();
+  };
+  const auto along = run("0deg"), across = run("90deg");
+  // The contact is longer along x: stiffer across it, by both routes alike up to the errors of the cells, which they share.
+  const double steps = number(across, "work_per_cycle") / number(along, "work_per_cycle");
+  CHECK(std::abs(steps - 1) > 0.05);
+  CHECK(number(across, "work_by_levels") / number(along, "work_by_levels") ==
+        Approx(steps).epsilon(0.01));
+}
+
 TEST_CASE("oscillate keeps one boundary in all its solves", "[oscillate]") {
   const ProgramTest test;
   const auto run = [&](const std::string& options) {
