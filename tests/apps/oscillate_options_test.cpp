@@ -33,6 +33,8 @@ TEST_CASE("oscillate takes a position as depth, force, pressure or gap", "[oscil
   // The sweep goes with the depth, u_z = 0.3 δ, and a² = Rδ.
   CHECK(number(deep, "contact_area_max") / number(deep, "contact_area_min") ==
         Approx(1.3 / 0.7).epsilon(0.02));
+  // A longer cell has more of the same cells.
+  CHECK(test.run(parabola + "--indentation 5um --size-x 1mm --size-y 2mm").json()["ny"] == 64);
   // The force of the levels' fit at this depth, whose four levels leave 1e-3 of F, two thirds of it in the depth.
   const std::string force = std::to_string(number(deep, "force"));
   CHECK(number(test.run(parabola + "--force-newton " + force).json(), "indentation") ==
