@@ -110,8 +110,8 @@ class Runner:
         environment = dict(os.environ, OMP_NUM_THREADS=str(cores), OPENBLAS_NUM_THREADS=str(cores),
                            MKL_NUM_THREADS=str(cores), NUMBA_NUM_THREADS=str(cores),
                            EARLIER_NUMPI=str(self.arguments.earlier_numpi))
-        if command[0] == self.arguments.salebra:  # its threads wait as those of the program and of the Python package: asleep
-            environment["OMP_WAIT_POLICY"] = "passive"
+        if command[0] == self.arguments.salebra:  # its threads wait as those of the program and of the Python package
+            environment.update(OMP_WAIT_POLICY="passive", GOMP_SPINCOUNT="1000")
         pinned = ["taskset", "-c", ",".join(map(str, self.arguments.cpus[:cores])), *map(str, command)]
         try:
             done = subprocess.run(pinned, env=environment, capture_output=True, text=True,

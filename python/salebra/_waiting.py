@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Loads the extension so that its threads sleep while they wait for each other.
+"""Loads the extension so that its threads sleep, after a thousand looks, while they wait for each other.
 
 By default OpenMP's threads spin, which makes a solve on two cores more than ten times slower as soon as another program runs on one
 of them, and gains nothing on a quiet machine. OpenMP reads the choice from the environment when it is loaded; a choice of the user
@@ -8,13 +8,14 @@ stands, and the environment is left as it was.
 
 import os
 
-_NAME = "OMP_WAIT_POLICY"
+_CHOICE = {"OMP_WAIT_POLICY": "passive", "GOMP_SPINCOUNT": "1000"}
 
-if _NAME in os.environ:
+if _CHOICE.keys() & os.environ.keys():
     from . import _core as _core
 else:
-    os.environ[_NAME] = "passive"
+    os.environ.update(_CHOICE)
     try:
         from . import _core as _core
     finally:
-        del os.environ[_NAME]
+        for _name in _CHOICE:
+            del os.environ[_name]
