@@ -238,11 +238,8 @@ void run(const CompareArguments& arguments, Session& session) {
   const std::vector<StudyResult> results =
       run_and_keep(configuration, arguments.study.resume, report, session);
   if (results.empty()) return;
-  const std::string file = session.has_output() ? session.output().string() : "";
-  const std::string page = report.write();
+  const StudyFiles files{session.has_output() ? session.output().string() : "", report.write()};
   session.plot(compare_figure(results, configuration.ensemble));
-  const Json files{{"results", file.empty() ? Json() : Json(file)},
-                   {"report", page.empty() ? Json() : Json(page)}};
   Json answer = Json::object();
   std::string text;
   if (configuration.ensemble.empty()) {
@@ -257,9 +254,8 @@ void run(const CompareArguments& arguments, Session& session) {
       text += "== " + name + " ==\n" + comparison_text(result) + "\n";
     }
   }
-  answer["files"] = files;
-  if (!file.empty()) text += fmt::format("\nresults: {}\n", file);
-  if (!page.empty()) text += fmt::format("report:  {}\n", page);
+  answer["files"] = files.json();
+  if (const std::string where = files.text(); !where.empty()) text += "\n" + where;
   session.answer(answer, text);
   if (std::ranges::any_of(results, &StudyResult::interrupted))
     throw Interrupted("compare: interrupted; the surfaces that were finished are in the answer");

@@ -16,21 +16,7 @@
 namespace salebra::cli {
 namespace {
 
-/// Where the run left its results and their page; empty: nowhere.
-struct Files {
-  std::string results, report;
-
-  Json json() const {
-    return {{"results", results.empty() ? Json() : Json(results)},
-            {"report", report.empty() ? Json() : Json(report)}};
-  }
-  std::string text() const {
-    return (results.empty() ? "" : fmt::format("results: {}\n", results)) +
-           (report.empty() ? "" : fmt::format("report:  {}\n", report));
-  }
-};
-
-Json study_json(const StudyResult& result, const Files& files) {
+Json study_json(const StudyResult& result, const StudyFiles& files) {
   Json comparison;
   for (const StudyModel& model : result.models()) {
     comparison[name_of(model.model)] = {
@@ -74,7 +60,7 @@ std::string verdict(const std::vector<EnsembleMean>& deviation, const std::strin
       law, 100 * low, 100 * high);
 }
 
-std::string study_text(const StudyResult& result, const Files& files) {
+std::string study_text(const StudyResult& result, const StudyFiles& files) {
   std::string text = heading(result);
   text += "Decay length l of pressure = p0 exp(-mean gap/l)\n";
   std::vector<std::vector<std::string>> rows{
@@ -121,7 +107,7 @@ void run(const StudyArguments& arguments, Session& session) {
   const std::vector<StudyResult> results =
       run_and_keep(configuration, arguments.resume, report, session);
   if (results.empty()) return;
-  const Files files{session.has_output() ? session.output().string() : "", report.write()};
+  const StudyFiles files{session.has_output() ? session.output().string() : "", report.write()};
   if (results.size() == 1 && configuration.ensemble.empty()) {
     session.answer(study_json(results.front(), files), study_text(results.front(), files));
   } else {

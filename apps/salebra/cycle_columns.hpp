@@ -8,13 +8,6 @@
 /// What results on a grid and records of a cycle, with friction or without, have in common in a file.
 namespace salebra::cli {
 
-/// Where the rows or columns of a grid lie, m.
-inline std::vector<double> positions(Index count, double spacing) {
-  std::vector<double> values;
-  for (Index k = 0; k < count; ++k) values.push_back(static_cast<double>(k) * spacing);
-  return values;
-}
-
 inline void write_axes(ResultGroup& group, const Grid2D& grid) {
   group.coordinate("x", positions(grid.nx, grid.dx()), "m", "position along x");
   group.coordinate("y", positions(grid.ny, grid.dy()), "m", "position along y");

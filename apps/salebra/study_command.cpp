@@ -135,6 +135,16 @@ StudyConfiguration StudyArguments::study() const {
   return study;
 }
 
+Json StudyFiles::json() const {
+  return {{"results", results.empty() ? Json() : Json(results)},
+          {"report", report.empty() ? Json() : Json(report)}};
+}
+
+std::string StudyFiles::text() const {
+  return (results.empty() ? "" : fmt::format("results: {}\n", results)) +
+         (report.empty() ? "" : fmt::format("report:  {}\n", report));
+}
+
 std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, bool resume,
                                       StudyReport& page, Session& session) {
   if (resume) {
@@ -143,11 +153,10 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, b
   const std::filesystem::path folder = session.output().string() + ".parts";
   if (resume && is_result_of(session.output(), configuration)) {
     StudyParts(folder, true).discard();
-    const std::string results = session.output().string(), html = page.complete();
-    session.answer(
-        {{"files", {{"results", results}, {"report", html.empty() ? Json() : Json(html)}}}},
-        fmt::format("results: {}, complete already\n", results) +
-            (html.empty() ? "" : fmt::format("report:  {}\n", html)));
+    const StudyFiles files{session.output().string(), page.complete()};
+    session.answer({{"files", files.json()}},
+                   fmt::format("results: {}, complete already\n", files.results) +
+                       StudyFiles{"", files.report}.text());
     return {};
   }
   session.require_free_output();

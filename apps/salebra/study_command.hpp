@@ -50,6 +50,14 @@ class StudyReport {
   std::filesystem::path page_;
 };
 
+/// Where a run left its results and their page; empty: nowhere.
+struct StudyFiles {
+  std::string results, report;
+
+  Json json() const;
+  std::string text() const;
+};
+
 /// Runs the ensembles with progress, keeps finished surfaces beside the session's output as it goes, and writes the result there. Without
 /// an output nothing is kept. Where a resumed study has its result already, tidies up after it, makes a page that is missing, answers so
 /// and returns nothing.

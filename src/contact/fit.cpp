@@ -36,11 +36,8 @@ std::vector<Point> points_in_window(const ForceCurve& curve,
     require(window->pressure_min >= 0, "pressure_window", window->pressure_min, "must be >= 0");
     require(window->pressure_max > window->pressure_min, "pressure_window", window->pressure_max,
             "must be larger than the lower limit");
-    // A load of 2 MPa comes back as a sum over cells: its last digit must not put it outside a window of 2 MPa.
-    constexpr double slack = 1e-9;
     std::erase_if(points, [&](const Point& point) {
-      return point.pressure < window->pressure_min * (1 - slack) ||
-             point.pressure > window->pressure_max * (1 + slack);
+      return !window->contains(point.pressure, PressureWindow::round_off);
     });
   } else if (by_gap) {
     std::erase_if(points, [&](const Point& point) {

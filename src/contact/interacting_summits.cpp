@@ -80,7 +80,7 @@ struct Watch {
 
   void operator()() const {
     if (progress && !progress({.stage = stage, .step = step, .residual = residual}))
-      throw Interrupted("interacting summits: interrupted");
+      throw Interrupted(std::string(stage) + ": interrupted");
   }
 };
 

@@ -130,10 +130,9 @@ class FieldGroup {
   ResultGroup& group_;
 };
 
-long whole(const ResultReader& reader, const std::string& group, const char* name,
-           const std::filesystem::path& file) {
+long whole(const ResultReader& reader, const std::string& group, const char* name) {
   const std::optional<double> value = reader.number_attribute(group, name);
-  require(value.has_value(), file.string(), name, "is missing; remove the damaged file");
+  require(value.has_value(), reader.file().string(), name, "is missing; remove the damaged file");
   return static_cast<long>(*value);
 }
 
@@ -219,6 +218,33 @@ void write_friction(ResultFile& output, const FrictionalCycleState& state) {
   write_samples(output.group("friction/samples"), state.samples, friction_columns);
 }
 
+FrictionalCycleState read_friction(const ResultReader& reader) {
+  const auto count = [&](const char* name) { return whole(reader, "friction", name); };
+  const auto field = [&](const char* name) {
+    return reader.field(std::string("friction/") + name);
+  };
+  FrictionalCycleState state;
+  state.period = static_cast<int>(count("period"));
+  state.step = static_cast<int>(count("step"));
+  SlidingState& contact = state.contact;
+  contact.slipping = count("slipping");
+  contact.iterations = count("iterations");
+  contact.fft_count = count("fft_count");
+  contact.converged = count("converged") != 0;
+  read_numbers(reader, "friction", state, friction_numbers);
+  read_numbers(reader, "friction/contact", contact, sliding_numbers);
+  contact.pressure = field("pressure");
+  contact.shift = {field("shift_x"), field("shift_y")};
+  contact.traction = {field("traction_x"), field("traction_y")};
+  contact.displacement = {field("displacement_x"), field("displacement_y")};
+  contact.loss = field("loss");
+  state.loss_at_period_start = field("loss_at_period_start");
+  state.smallest = set_of(field("smallest"));
+  state.largest = set_of(field("largest"));
+  state.samples = read_samples(reader, "friction/samples", friction_columns);
+  return state;
+}
+
 }  // namespace
 
 CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
@@ -281,7 +307,7 @@ CycleState read_cycle_checkpoint(const std::filesystem::path& file, const CycleS
   require(reader.has("settings") && reader.has("state") && reader.has("samples"), file.string(), "",
           "is no checkpoint of a cycle; name the file that --checkpoint wrote");
   require_settings(reader, settings);
-  const auto count = [&](const char* name) { return whole(reader, "state", name, file); };
+  const auto count = [&](const char* name) { return whole(reader, "state", name); };
   const auto field = [&](const char* name) { return reader.field(std::string("state/") + name); };
   CycleState state;
   state.period = static_cast<int>(count("period"));
@@ -303,30 +329,7 @@ CycleState read_cycle_checkpoint(const std::filesystem::path& file, const CycleS
 std::optional<FrictionalCycleState> read_friction_checkpoint(const std::filesystem::path& file) {
   const ResultReader reader(file);
   if (!reader.has("friction")) return {};
-  const auto count = [&](const char* name) { return whole(reader, "friction", name, file); };
-  const auto field = [&](const char* name) {
-    return reader.field(std::string("friction/") + name);
-  };
-  FrictionalCycleState state;
-  state.period = static_cast<int>(count("period"));
-  state.step = static_cast<int>(count("step"));
-  SlidingState& contact = state.contact;
-  contact.slipping = count("slipping");
-  contact.iterations = count("iterations");
-  contact.fft_count = count("fft_count");
-  contact.converged = count("converged") != 0;
-  read_numbers(reader, "friction", state, friction_numbers);
-  read_numbers(reader, "friction/contact", contact, sliding_numbers);
-  contact.pressure = field("pressure");
-  contact.shift = {field("shift_x"), field("shift_y")};
-  contact.traction = {field("traction_x"), field("traction_y")};
-  contact.displacement = {field("displacement_x"), field("displacement_y")};
-  contact.loss = field("loss");
-  state.loss_at_period_start = field("loss_at_period_start");
-  state.smallest = set_of(field("smallest"));
-  state.largest = set_of(field("largest"));
-  state.samples = read_samples(reader, "friction/samples", friction_columns);
-  return state;
+  return read_friction(reader);
 }
 
 void write_friction_checkpoint(const std::filesystem::path& file, const FrictionalCycleState& state,
@@ -343,7 +346,7 @@ FrictionalCycleState read_friction_checkpoint(const std::filesystem::path& file,
   require(reader.has("settings") && reader.has("friction"), file.string(), "",
           "is no checkpoint of a cycle with friction; name one, or remove the file");
   require_settings(reader, settings);
-  return *read_friction_checkpoint(file);
+  return read_friction(reader);
 }
 
 }  // namespace salebra

@@ -38,8 +38,8 @@ CycleFields::CycleFields(std::filesystem::path prefix, const Surface& surface,
       heights_(surface.heights),
       provenance_(std::move(provenance)) {
   require_output(with_ending(prefix_, ".xdmf"), options);
-  for (Index ix = 0; ix < grid_.nx; ++ix) x_.push_back(static_cast<double>(ix) * grid_.dx());
-  for (Index iy = 0; iy < grid_.ny; ++iy) y_.push_back(static_cast<double>(iy) * grid_.dy());
+  x_ = positions(grid_.nx, grid_.dx());
+  y_ = positions(grid_.ny, grid_.dy());
   std::vector<double> points;
   points.reserve(static_cast<std::size_t>(3 * grid_.points()));
   for (const double x : x_)

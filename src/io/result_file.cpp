@@ -8,6 +8,12 @@ namespace salebra {
 
 using detail::hdf5::Output;
 
+std::vector<double> positions(Index count, double step) {
+  std::vector<double> values;
+  for (Index k = 0; k < count; ++k) values.push_back(static_cast<double>(k) * step);
+  return values;
+}
+
 /// Output is shared with the groups, so that their handles never outlive it.
 struct ResultFile::State {
   std::shared_ptr<Output> output;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
+#include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <vector>
 
@@ -18,13 +19,6 @@
 
 namespace salebra {
 namespace {
-
-std::vector<double> positions(Index points, double step) {
-  std::vector<double> values(static_cast<std::size_t>(points));
-  for (Index i = 0; i < points; ++i)
-    values[static_cast<std::size_t>(i)] = static_cast<double>(i) * step;
-  return values;
-}
 
 void write_hdf5(const std::filesystem::path& file, const Surface& surface,
                 const Provenance& provenance, const WriteOptions& options) {

@@ -224,7 +224,7 @@ void read_fit(TomlTable table, StudyConfiguration& configuration) {
     configuration.window = PressureWindow{window[0], window[1], 0};
     if (!configuration.relative_pressures) {
       const auto inside = std::ranges::count_if(configuration.pressures, [&](double pressure) {
-        return pressure >= window[0] && pressure <= window[1];
+        return configuration.window->contains(pressure);
       });
       table.check(
           inside >= 3, "pressure_window",

@@ -235,9 +235,8 @@ std::vector<double> study_pressures(const StudyConfiguration& configuration) {
     for (double& pressure : pressures) pressure *= scale;
   }
   if (const auto& window = configuration.window) {
-    const auto inside = std::ranges::count_if(pressures, [&](double pressure) {
-      return pressure >= window->pressure_min && pressure <= window->pressure_max;
-    });
+    const auto inside = std::ranges::count_if(
+        pressures, [&](double pressure) { return window->contains(pressure); });
     require(inside >= 3, "pressure_window", inside,
             "pressures lie in it and a fit needs 3; widen it or compute more of them");
   }

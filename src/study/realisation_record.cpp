@@ -15,7 +15,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view magic = "salebra realisation 2\n";
+constexpr std::string_view magic = "salebra realisation 3\n";
 
 /// Appends the bytes of numbers, and of lists and texts after their lengths.
 class Writer {

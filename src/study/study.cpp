@@ -84,8 +84,7 @@ void flag(StudyResult& result) {
   double fewest = std::numeric_limits<double>::infinity();
   for (const Realisation& realisation : result.realisations)
     for (std::size_t k = 0; k < realisation.spots.size(); ++k)
-      if (result.pressures[k] >= realisation.bem.fit.window.pressure_min * (1 - 1e-9) &&
-          result.pressures[k] <= realisation.bem.fit.window.pressure_max * (1 + 1e-9) &&
+      if (realisation.bem.fit.window.contains(result.pressures[k], PressureWindow::round_off) &&
           !std::isnan(realisation.spots[k].count))
         fewest = std::min(fewest, realisation.spots[k].count);
   if (fewest < least_spots)

@@ -335,11 +335,6 @@ void write_convergence(ResultGroup group, const StudyResult& result) {
 }
 
 void write_picture(ResultGroup group, const SurfacePicture& picture) {
-  const auto positions = [](Index count, double step) {
-    std::vector<double> values;
-    for (Index i = 0; i < count; ++i) values.push_back(double(i) * step);
-    return values;
-  };
   group.coordinate("x", positions(picture.nx, picture.step_x), "m", "position");
   group.coordinate("y", positions(picture.ny, picture.step_y), "m", "position");
   group.dataset("heights", picture.heights, {"x", "y"}, "m", "height above the mean");

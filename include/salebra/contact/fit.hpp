@@ -11,6 +11,13 @@ struct PressureWindow {
   double pressure_min = 0;  ///< Pa
   double pressure_max = 0;  ///< Pa
   int points = 0;
+
+  /// slack: relative, of both limits.
+  bool contains(double pressure, double slack = 0) const {
+    return pressure >= pressure_min * (1 - slack) && pressure <= pressure_max * (1 + slack);
+  }
+  /// A load of 2 MPa comes back as a sum over cells: its last digit must not put it outside a window of 2 MPa.
+  static constexpr double round_off = 1e-9;
 };
 
 /// What a sample counts for in the least squares of ln p.

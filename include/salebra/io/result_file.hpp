@@ -15,6 +15,9 @@
 
 namespace salebra {
 
+/// 0, step, 2 step, …: where the rows or columns of a grid lie, m.
+std::vector<double> positions(Index count, double step);
+
 /// One group of a ResultFile: coordinates, and datasets on them. Opened as it is by
 /// xarray.open_dataset(file, engine="h5netcdf", group=…).
 /// Every dataset has `units` (SI, "1" for pure numbers) and a `long_name`; the values of unknown quantities are NaN.
