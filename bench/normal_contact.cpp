@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
 // Time, transform pairs, residual and memory of one normal contact.
 //   normal_contact [points [load [cut-off [threads [tolerance [mixed|full [hurst [seed]]]]]]]]
 //   normal_contact 2048 0.02 8 1 1e-8

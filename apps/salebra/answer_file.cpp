@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A command's answer as HDF5: scalars, arrays, groups and texts from JSON.
 #include "answer_file.hpp"
 
 #include <limits>

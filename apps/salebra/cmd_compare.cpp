@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra compare`: contact models side by side on the same surfaces.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra completion`: completion scripts for bash and zsh.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra contact`: one contact by boundary elements.
 #include <fmt/format.h>
 
 #include <chrono>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra convert`: a surface from one file format to another.
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/io/write_surface.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra damper`: damping constant as a damper, decay of an oscillator, stability border.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra damping`: loss per cycle of a contact law under an oscillation.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra figure3`: the paper's Fig. 3, contact regions and work of a cycle for four shapes.
 #include <fmt/format.h>
 
 #include <memory>

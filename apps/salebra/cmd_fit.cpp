@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra fit`: exponential law of a force curve from a file, with its test.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra generate`: random surfaces, analytic shapes and profiles.
 #include <fmt/format.h>
 
 #include <charconv>

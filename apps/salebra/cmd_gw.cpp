@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra gw`: Greenwood-Williamson curves of a surface or of given parameters.
 #include <fmt/format.h>
 
 #include <memory>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra info`: short description of a surface file.
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/surface/moments.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra init`: a commented study file to start from.
 #include <fmt/format.h>
 
 #include <algorithm>

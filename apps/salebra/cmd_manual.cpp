@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra manual`: manual pages in roff from the commands' own help.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

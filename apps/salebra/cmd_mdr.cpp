@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra mdr`: contact, stress map and friction map of an axisymmetric indenter.
 #include <fmt/format.h>
 
 #include <cmath>

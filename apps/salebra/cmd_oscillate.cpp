@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra oscillate`: direct simulation of an oscillating contact, next to the theorem.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra report`: report page of a result file.
 #include <fmt/format.h>
 
 #include <filesystem>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra statistics`: roughness parameters, spectra and correlations of a surface.
 #include <fmt/format.h>
 
 #include <limits>

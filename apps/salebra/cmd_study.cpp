@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra study`: the path from surfaces to damping for an ensemble.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra sweep`: force curve of a surface over a list of pressures.
 #include <fmt/format.h>
 
 #include <algorithm>

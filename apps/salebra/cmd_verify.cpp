@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra verify`: check of the installation against known solutions.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Commands and options as data, for completion scripts and manual pages.
 #include "command_options.hpp"
 
 namespace salebra::cli {

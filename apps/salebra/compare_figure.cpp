@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Figure of `compare`: curves of all models with 95 % bands.
 #include "compare_figure.hpp"
 
 #include <algorithm>

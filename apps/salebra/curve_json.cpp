@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Force curve as JSON.
 #include "curve_json.hpp"
 
 namespace salebra::cli {

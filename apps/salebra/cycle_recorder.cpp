@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Checkpoints and field output of a simulated cycle, as the command line requests them.
 #include "cycle_recorder.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Answer of --dry-run: what a study would compute, its cost, and its output file.
 #include "dry_run.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Figures of the damping commands: contact, cycle, damping curve, stress, friction and damper maps.
 #include "figures.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Losses along a sampled path, from a file or of a motion with finite friction.
 #include "follow.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Frictional and coupled cycles of `oscillate`: options, run, JSON, HDF5 and figure.
 #include "friction_run.hpp"
 
 #include <fmt/format.h>

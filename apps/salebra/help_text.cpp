@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Help of each command beyond its one line, and the layout of --help.
 #include "help_text.hpp"
 
 #include <unistd.h>

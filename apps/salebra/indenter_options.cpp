@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Options that describe an axisymmetric indenter.
 #include "indenter_options.hpp"
 
 #include <salebra/base/error.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Options that give a contact law, or a force curve file, and the position on it.
 #include "law_options.hpp"
 
 #include <fmt/format.h>

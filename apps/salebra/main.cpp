@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Entry point of the program; sets the wait policy of OpenMP's threads before they start.
 #include <unistd.h>
 
 #include <cstdlib>

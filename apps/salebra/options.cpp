@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Options that several commands share: quantities, material, surface, position, motion.
 #include "options.hpp"
 
 #include <fmt/format.h>

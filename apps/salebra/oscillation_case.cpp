@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// One oscillating contact by theorem and by direct simulation: run, JSON, HDF5 and panels.
 #include "oscillation_case.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Command line: commands, errors of usage, exit statuses.
 #include "program.hpp"
 
 #include <fmt/format.h>

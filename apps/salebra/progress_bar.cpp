@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Progress line on stderr, redrawn in place.
 #include "progress_bar.hpp"
 
 #include <fmt/format.h>

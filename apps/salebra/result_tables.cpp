@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tables of a command's result in HDF5, JSON, CSV and text.
 #include "result_tables.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// What one command run needs: common options, output checks, progress, notes, answer, interruption.
 #include "session.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Options that describe an analytic shape on a grid.
 #include "shape_options.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Options that describe the power spectrum of a random surface.
 #include "spectrum_options.hpp"
 
 #include <numbers>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Common part of `study` and `compare`: options, run, files, text of the ensemble.
 #include "study_command.hpp"
 
 #include <fmt/format.h>

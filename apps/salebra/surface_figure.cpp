@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Figure of a surface: height map, spectrum with fit, height distribution.
 #include "surface_figure.hpp"
 
 #include <fmt/format.h>

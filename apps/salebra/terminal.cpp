@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Colour on terminals.
 #include "terminal.hpp"
 
 #include <fmt/format.h>

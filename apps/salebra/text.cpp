@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// JSON answers as aligned text with units.
 #include "text.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Answer that is a text for another program: to a file or to stdout.
 #include "written_text.hpp"
 
 #include <fstream>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
 // Cost of a generated surface beside that of one bare complex-to-real FFT of the same size, as one JSON object.
 //   generate [points [cells [threads [repeats]]]]
 // cells: the shortest wavelength in cells. Times are medians of alternating runs, of processor time on one thread, which a busy

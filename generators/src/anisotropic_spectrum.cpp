@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Anisotropic spectrum: an isotropic one stretched along a lay by Peklenik's number.
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Sum of two surfaces, and crop of a surface.
 #include <algorithm>
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Random surface scaled to an exact RMS height or RMS slope.
 #include <cmath>
 #include <complex>
 #include <numbers>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Gaussian random surface: random amplitudes and phases for a spectrum.
 #include <salebra/generators/filtered_noise.hpp>
 
 #include "synthesis.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Expected roughness, its scatter and the memory of a surface before it is generated.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

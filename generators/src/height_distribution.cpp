@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Height distributions by quantile: Gaussian, Weibull, sampled, and Johnson's curves.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Wave vectors that a grid carries of a spectrum, and their random complex amplitudes.
 #include "modes.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Surface with given heights and spectrum by iterated amplitude-adjusted Fourier transform.
 #include <algorithm>
 #include <cmath>
 #include <complex>

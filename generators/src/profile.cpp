@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Random profiles: self-affine spectrum of a profile, filtered noise and random phase.
 #include <algorithm>
 #include <cmath>
 #include <complex>

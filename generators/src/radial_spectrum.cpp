@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Isotropic spectra from a function or a table, and those of Gaussian and exponential correlation.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Random surface with exact amplitudes and random phases for a spectrum.
 #include <salebra/generators/random_phase.hpp>
 
 #include "synthesis.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Self-affine spectrum with roll-off and cut-offs, scaled to an RMS height or RMS slope.
 #include "self_affine.hpp"
 
 #include <algorithm>

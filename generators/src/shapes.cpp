@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Analytic surfaces: paraboloid, sphere, cone, wedge, punches, pyramids, sinusoid.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Spectral moments of the modes that a grid carries, and checks that it carries a spectrum.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

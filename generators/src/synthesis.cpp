@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Heights from random modes by inverse transform, after a check of the memory.
 #include "synthesis.hpp"
 
 #include <salebra/base/column_fft.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of the closed-form losses.
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/variant.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of material, normal contact and contact patches.
 #include "interop/contact.hpp"
 
 #include <nanobind/stl/optional.h>

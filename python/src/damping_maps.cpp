@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of the friction map, the stress map and the damping of asperities.
 #include <nanobind/stl/variant.h>
 
 #include <salebra/damping/asperity_damping.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of reading and writing surfaces and force curves.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 

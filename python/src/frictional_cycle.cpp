@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of the cycle with friction, uncoupled and coupled.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/variant.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of contact laws.
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/vector.h>
 

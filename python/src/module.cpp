@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Module salebra._core: calls the bindings of each module in turn.
 #include "bindings.hpp"
 
 NB_MODULE(_core, m) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of the result reader and of the report.
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 

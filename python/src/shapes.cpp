@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of analytic shapes.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of tangential stiffness, partial slip and sliding contact.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 

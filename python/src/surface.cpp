@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of the surface class, its statistics, summits and areal parameters.
 #include "interop/surface.hpp"
 
 #include <nanobind/stl/optional.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of the tangential contact along a path and its damping.
 #include <limits>
 #include <salebra/damping/tangential_contact.hpp>
 #include <salebra/damping/trajectory_damping.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Real field from the columns of its half-spectrum, so that no full complex array is held.
 #include <algorithm>
 #include <salebra/base/column_fft.hpp>
 #include <salebra/base/loop_progress.hpp>

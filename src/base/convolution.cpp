@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Cyclic convolution of fields with stored kernels by FFT, two real rows in one complex transform.
 #include <algorithm>
 #include <salebra/base/convolution.hpp>
 #include <salebra/base/memory.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Check shared by all modules: a value is a finite number > 0.
 #include <cmath>
 #include <salebra/base/error.hpp>
 

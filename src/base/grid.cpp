@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Validity of a grid, count of undefined points of a surface, and the demand for complete data.
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>

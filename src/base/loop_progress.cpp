@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Progress of a loop that several threads share: rate-limited reports, and interruption.
 #include <salebra/base/error.hpp>
 #include <salebra/base/loop_progress.hpp>
 #include <string>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Large-page allocation, uninitialised fields, and the memory that the machine has available.
 #include <cstdint>
 #include <fstream>
 #include <limits>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Loops, sums and minima over slabs of rows, with the same bits for every number of threads.
 #include <omp.h>
 
 #include <algorithm>

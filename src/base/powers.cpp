@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Elementwise power of positive numbers, compiled for each vector width.
 #include <cstddef>
 #include <salebra/base/powers.hpp>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Table of result names: dimension and long name of each quantity in files and answers.
 #include <algorithm>
 #include <array>
 #include <salebra/base/quantity.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// RMS height, RMS slope and Nayak's parameter from the spectral moments.
 #include <cmath>
 #include <salebra/base/spectral_moments.hpp>
 

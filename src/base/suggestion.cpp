@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Nearest name by edit distance, for "did you mean" in messages.
 #include <algorithm>
 #include <salebra/base/suggestion.hpp>
 

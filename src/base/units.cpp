@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Quantities with units and SI prefixes: parsing, formatting, lists and geometric ranges.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The widest vector instruction set of this processor.
 #include "vector_width.hpp"
 
 namespace salebra::detail {

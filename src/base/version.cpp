@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Version string of the library.
 #include <salebra/base/version.hpp>
 
 namespace salebra {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Conjugate gradients on the contact set: the iteration, its restarts and its exact residual.
 #include "active_set_cg.hpp"
 
 #include <algorithm>

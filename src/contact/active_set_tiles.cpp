@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Choice of the tiles that the active-set CG works on, and change of its set of free cells.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Monte Carlo sampling of a summit ensemble: means and intervals of the GW force curve.
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Complementarity error of a contact solution over all cells, and its mean gap or level.
 #include "contact_residual.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Frictional contact with Dundurs coupling: normal and slip solves in turn until nothing changes.
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>

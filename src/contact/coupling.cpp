@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Dundurs' coupling of two bodies, and the displacements it adds across normal and tangential.
 #include <cmath>
 #include <complex>
 #include <numbers>

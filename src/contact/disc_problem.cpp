@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Quadratic programme of partial slip: tractions within |τ| <= μp, by Newton steps on faces.
 #include "disc_problem.hpp"
 
 #include <algorithm>

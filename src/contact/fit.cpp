@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Fits of F ∝ exp(−ū/l): weighted least squares, test of the law, window sensitivity, local l.
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>

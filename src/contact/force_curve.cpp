@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Columns of a force curve.
 #include <algorithm>
 #include <salebra/contact/force_curve.hpp>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Hertzian caps and common parameters of a list of measured summits.
 #include "given_summits.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Fallback contact solver: gradient projection with CG on each face, where the active set cycles.
 #include "gradient_projection.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Greenwood and Tripp: two rough sides as one ensemble of summit pairs.
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>

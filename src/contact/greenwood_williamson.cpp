@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Greenwood-Williamson model, statistical and summit by summit: its curves and its contact law.
 #include <algorithm>
 #include <cmath>
 #include <functional>

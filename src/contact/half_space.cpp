@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Elastic half-space kernels, normal and tangential, as convolutions; stencil of their inverse.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Density of summit heights (Gaussian, exponential, tabulated) and its partial moments.
 #include "height_density.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Monotone piecewise cubic interpolation, its derivatives and its inverse.
 #include "hermite.hpp"
 
 #include <algorithm>

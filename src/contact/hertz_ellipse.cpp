@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Hertz contact of an elliptic paraboloid by complete elliptic integrals.
 #include "hertz_ellipse.hpp"
 
 #include <gsl/gsl_sf_ellint.h>

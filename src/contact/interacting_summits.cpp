@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Hertzian summits that displace each other elastically: Newton's method with CG inside.
 #include <algorithm>
 #include <cmath>
 #include <limits>

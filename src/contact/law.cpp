@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Contact laws F(δ): power law, exponential law, and a law tabulated from a force curve.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Contact modulus E* and tangential modulus G* of two elastic bodies.
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>

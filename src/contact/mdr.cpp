@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Method of dimensionality reduction: transform, inverse, and the law of an axisymmetric indenter.
 #include <algorithm>
 #include <cmath>
 #include <limits>

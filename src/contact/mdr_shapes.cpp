@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Indenter profiles with closed-form images: cone, paraboloid, power, sphere, flat, rounded punch.
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Indenter profile interpolated from a table of radii and heights, and its image.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Coarser grids of a contact problem, and transfer of a solution to the next finer grid.
 #include "nested_contact.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Normal contact of a surface at a given pressure, mean gap or indentation, from coarse to fine.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Partial-slip solver on a contact set: tractions for given displacements and friction limits.
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Periodic sum of Boussinesq displacements of point loads by Ewald splitting and gridding.
 #include "periodic_point_loads.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Normal stiffness of a contact set: the load under a unit rigid displacement of its cells.
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Adaptive quadrature with break points, and root search, by GSL; exceptions cross GSL's C code.
 #include "quadrature.hpp"
 
 #include <gsl/gsl_errno.h>

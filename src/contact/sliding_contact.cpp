@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tangential contact with Coulomb friction in increments of pressure and of the rigid displacement.
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/sliding_contact.hpp>

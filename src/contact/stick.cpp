@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tangential stiffness of a stuck contact set, and its tractions for given displacements.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

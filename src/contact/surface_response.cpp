@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Displacements of the points of a contact set under their tractions, and the CG solve on that set.
 #include "surface_response.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Force curve of a surface: contacts at a list of pressures, several at a time, with stiffnesses.
 #include <omp.h>
 
 #include <algorithm>

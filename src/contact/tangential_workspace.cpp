@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// State that the solvers with and without slip share: kernels kept between calls, fields to points.
 #include "tangential_workspace.hpp"
 
 #include <cmath>

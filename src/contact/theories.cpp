@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Bearing area, Bush-Gibson-Thomas, and Persson: contact area, mean gap and stiffness.
 #include <gsl/gsl_integration.h>
 
 #include <algorithm>

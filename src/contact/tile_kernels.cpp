@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Choice of the tile kernels for the processor at hand, in float and double.
 #include "tile_kernels.hpp"
 
 #include "base/vector_width.hpp"

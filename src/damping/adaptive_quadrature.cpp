@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Level quadrature refined until the estimated error of the loss meets a tolerance.
 #include <algorithm>
 #include <cmath>
 #include <limits>

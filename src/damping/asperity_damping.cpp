@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Loss per cycle of each Hertzian summit of a surface, and their sum.
 #include <algorithm>
 #include <array>
 #include <cmath>

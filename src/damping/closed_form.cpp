@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Equations (6) to (16) of the paper and the closed forms beyond them, stable at any argument.
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sf_bessel.h>
 

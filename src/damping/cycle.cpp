@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Direct simulation of a cycle without slip: cells stick, and those that leave lose their energy.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Contact under fast oscillation as a damper: map of its constant, decay, stability border.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The theorem W = ½∮s² dK_t for any contact law, at fixed indentation or fixed force.
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Loss at finite friction over the loss at full stick, over friction number and phase.
 #include <cmath>
 #include <limits>
 #include <salebra/base/error.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Direct simulation of a cycle with Coulomb friction, uncoupled or coupled, to its steady period.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The theorem by quadrature over phase nodes, with a contact set and its stiffness at each.
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Sampled paths of harmonic and two-frequency motions, and their common period.
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Piecewise polynomial table of K_t(δ) of a law, with exact moments of its derivative.
 #include "stiffness_table.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Pressure and shear stress under an oscillating axisymmetric indenter, over phase and radius.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Indentations within a sweep at which a contact law is not smooth.
 #include "sweep_breaks.hpp"
 
 #include <algorithm>

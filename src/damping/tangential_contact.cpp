@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tangential force and loss of a contact law along any path, from the turning points it remembers.
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Loss, mean forces and energy balance of a contact law driven along a sampled path.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

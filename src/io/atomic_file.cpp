@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// File that appears under its name complete or not at all.
 #include "atomic_file.hpp"
 
 #include <fcntl.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Checkpoints of simulated cycles in HDF5, with the settings that a resumed run must match.
 #include <fmt/format.h>
 
 #include <array>

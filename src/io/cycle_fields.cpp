@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Pressure, traction and slip fields of chosen steps of a cycle, one file a frame, with a list.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Axis of a picture: range, SI prefix, logarithm and tics.
 #include "display_axis.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Force curves in HDF5 groups and files.
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// gnuplot script of a figure: panels, curves, bands, images and legends.
 #include "gnuplot_script.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Text header that Gwyddion's formats GSF and GXYZF share.
 #include "gwyddion_header.hpp"
 
 #include <bit>

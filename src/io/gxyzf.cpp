@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reader and writer of Gwyddion XYZ Field (.gxyzf).
 #include <fmt/format.h>
 
 #include <bit>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// HDF5 file in the making: datasets with units, long names and dimension scales.
 #include "hdf5_output.hpp"
 
 #include <hdf5_hl.h>

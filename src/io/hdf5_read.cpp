@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Members, shapes and attributes of HDF5 objects, read with checks.
 #include "hdf5_read.hpp"
 
 #include <algorithm>

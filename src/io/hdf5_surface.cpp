@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reader of a surface from an HDF5 file.
 #include <unistd.h>
 
 #include "hdf5_handle.hpp"

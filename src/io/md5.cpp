@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// MD5 checksum (RFC 1321), as X3P files require it.
 #include "md5.hpp"
 
 #include <fmt/format.h>

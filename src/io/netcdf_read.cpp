@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reader of classic NetCDF surfaces (CDF-1, 2 and 5) as SurfaceTopography writes them.
 #include <array>
 #include <bit>
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Writer of NetCDF surfaces (CDF-2) as SurfaceTopography reads them.
 #include <bit>
 #include <cmath>
 #include <cstdint>

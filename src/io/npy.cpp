@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reader of NumPy arrays (.npy), with size and unit from the JSON file next to them.
 #include <algorithm>
 #include <array>
 #include <bit>

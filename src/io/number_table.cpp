@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tables of numbers from text files with a fixed number of columns.
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/io/number_table.hpp>

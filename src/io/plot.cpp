@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Drawing of a figure by gnuplot in a child process, to a file that appears whole.
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Resampling of an image to the equal cells that a picture draws.
 #include "plot_raster.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reading of a surface: format by content, then size, unit and period from options or file.
 #include <algorithm>
 #include <array>
 #include <cerrno>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Trial run of a risky read in a child process whose effects are discarded.
 #include "rehearsal.hpp"
 
 #include <fcntl.h>

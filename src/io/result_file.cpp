@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Writer of results: HDF5 groups with named, unit-bearing datasets over coordinates.
 #include <numeric>
 #include <salebra/io/result_file.hpp>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reader of results: groups, datasets, labels and attributes of an HDF5 file.
 #include <hdf5_hl.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reader of Digital Surf's SUR format.
 #include <bit>
 #include <cmath>
 #include <cstdint>

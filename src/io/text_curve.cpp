@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reader and writer of force curves as text tables with units in their titles.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers in lines of text: separators, decimal commas, line ends and encodings.
 #include "text_numbers.hpp"
 
 #include <algorithm>

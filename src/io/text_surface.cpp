@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reader of a surface from a text matrix, with the headers of Gwyddion and of instruments.
 #include <charconv>
 #include <cmath>
 #include <optional>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Writing of a surface: format by extension, and the writers of HDF5, NPY and text.
 #include <fmt/format.h>
 
 #include <array>

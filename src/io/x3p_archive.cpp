@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Members of an X3P archive (ISO 25178-72), unpacked with limits on their size.
 #include <zip.h>
 
 #include <memory>

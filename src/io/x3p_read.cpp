@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Surface from the main.xml and the binary members of an X3P file, with their checksums.
 #include <algorithm>
 #include <bit>
 #include <charconv>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Writer of X3P files: main.xml, heights, valid points and checksums in a ZIP archive.
 #include <fmt/format.h>
 #include <zip.h>
 

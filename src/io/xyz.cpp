@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Regular grid from points (x, y, z), and writer of such points.
 #include "xyz.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// HTML, CSS, JavaScript and plotly.js of the report, embedded in the program.
 #include "assets.hpp"
 
 // The assembler takes in the bytes, which costs no compile time and needs no file beside the program.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Data of a report page as JSON, from the results of a study and of direct simulations.
 #include "payload.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Report page: template, style, scripts and data in one HTML file.
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/io/text_file.hpp>

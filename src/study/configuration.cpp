@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Study configuration from TOML: tables, defaults, checks, and names of the contact models.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Estimated time, memory and disk space of a study before it runs.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

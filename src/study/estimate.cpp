@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Means over realisations with Student and bootstrap intervals.
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Configurations of all combinations of varied parameters, and their descriptions.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

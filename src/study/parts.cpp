@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Folder of finished realisations from which an interrupted study resumes.
 #include <fmt/format.h>
 
 #include <atomic>

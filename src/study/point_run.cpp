@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Run of one parameter combination: realisations in parallel until the requested precision is met.
 #include "point_run.hpp"
 
 #include <fmt/format.h>

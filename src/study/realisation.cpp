@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Analysis of one surface: statistics, force curves of all models, fits and damping.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Binary record of a realisation with its key and checksum.
 #include "realisation_record.hpp"
 
 #include <array>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Run of a whole study: all parameter combinations, flags and warnings.
 #include <fmt/format.h>
 
 #include <algorithm>

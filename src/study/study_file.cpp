@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Result file of a study, and whether an existing file holds the same study.
 #include <fmt/format.h>
 
 #include <salebra/base/error.hpp>

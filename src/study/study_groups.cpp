@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// HDF5 groups of a study's result: surfaces, curves, fits, damping, spots, comparison, convergence.
 #include "study_groups.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Lock file of a folder of realisations, valid across hosts and taken over from dead processes.
 #include "study_lock.hpp"
 
 #include <fcntl.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Ensemble means of a study: decay length, area slope, curves, damping, ratios to BEM.
 #include <fmt/format.h>
 
 #include <functional>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reduced maps and spectra of one surface of a study, for the report.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// One TOML table read key by key, with errors that name file, line and key.
 #include "toml_reader.hpp"
 
 #include <fmt/format.h>

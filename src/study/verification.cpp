@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Checks of an installation against known solutions: Hertz, Westergaard, GW, the theorem.
 #include <cmath>
 #include <functional>
 #include <numbers>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Areal texture parameters of ISO 25178-2.
 #include <algorithm>
 #include <array>
 #include <cmath>

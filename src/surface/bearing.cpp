@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Bearing (material ratio) curve, its core parameters and the height histogram.
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Autocorrelation map of a surface, its profiles along the axes and its radial mean.
 #include <algorithm>
 #include <cmath>
 #include <complex>

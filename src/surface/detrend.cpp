@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Removal of the mean, of a plane or of a quadratic surface by least squares.
 #include <Eigen/QR>
 #include <cmath>
 #include <salebra/surface/detrend.hpp>

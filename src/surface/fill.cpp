@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Undefined points filled by the discrete Laplace equation.
 #include <Eigen/SparseCholesky>
 #include <array>
 #include <cmath>

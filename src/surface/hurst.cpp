@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Hurst exponent and self-affine range from a power spectrum, by maximum likelihood.
 #include <gsl/gsl_cdf.h>
 
 #include <Eigen/Dense>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Height statistics and spectral moments of a surface, by spectrum and by finite differences.
 #include <algorithm>
 #include <cmath>
 #include <complex>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Peaks by ISO 25178-2: Wolf's pruning of hills by prominence.
 #include <algorithm>
 #include <array>
 #include <cmath>

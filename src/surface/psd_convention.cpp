@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Conversion of power spectra to the conventions of other programs.
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// RMS slope and curvature over distance, and the shortest wavelength that is reliable.
 #include <algorithm>
 #include <cmath>
 #include <limits>

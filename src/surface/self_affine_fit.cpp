@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Roll-off and short cut-off of a self-affine spectrum by maximum likelihood, with intervals.
 #include <gsl/gsl_cdf.h>
 
 #include <Eigen/Dense>

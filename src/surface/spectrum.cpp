@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Power spectral density of a surface with windows: two-dimensional, radial, and of profiles.
 #include <algorithm>
 #include <cmath>
 #include <complex>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Summits of a surface on the 3 x 3 neighbourhood, their curvatures and statistics.
 #include <algorithm>
 #include <array>
 #include <cmath>

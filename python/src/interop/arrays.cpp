@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// NumPy arrays from and to fields, without a copy where the layout allows it.
 #include "interop/arrays.hpp"
 
 #include <cstring>

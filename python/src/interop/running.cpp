@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Python progress callbacks and signals during a computation without the interpreter's lock.
 #include "interop/running.hpp"
 
 namespace salebra::python {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Surface that shares the memory of a NumPy array, and texts for repr().
 #include "interop/surface.hpp"
 
 #include <salebra/base/quantity.hpp>
