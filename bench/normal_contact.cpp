@@ -14,7 +14,7 @@
 #include <numbers>
 #include <salebra/base/fft.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/contact/normal.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <string>
 #include <vector>
 

@@ -124,7 +124,7 @@ def module_pages():
     """docs/cpp/<module>.rst: every public header of a module, in the order of their names."""
     for module, about in MODULES.items():
         above = root / ("generators/include" if module == "generators" else "include")
-        headers = sorted(p.relative_to(above) for p in (above / "salebra" / module).glob("*.hpp"))
+        headers = sorted(p.relative_to(above) for p in (above / "salebra" / module).rglob("*.hpp"))
         title = f"salebra/{module}: {about}"
         text = f"{title}\n{'=' * len(title)}\n\n"
         for header in headers:

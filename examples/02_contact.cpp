@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/contact/normal.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/theories.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/surface/moments.hpp>

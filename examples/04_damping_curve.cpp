@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/fit.hpp>
-#include <salebra/contact/law.hpp>
+#include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/law/law.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>

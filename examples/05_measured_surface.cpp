@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/contact/fit.hpp>
+#include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/surface/detrend.hpp>

@@ -8,7 +8,7 @@
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/mdr.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <string>

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/greenwood_williamson.hpp>
-#include <salebra/contact/law.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/contact/law/law.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/generators/random_phase.hpp>

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/mdr.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/dissipation.hpp>

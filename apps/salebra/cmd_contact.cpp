@@ -5,7 +5,7 @@
 #include <chrono>
 #include <memory>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/normal.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <salebra/io/result_file.hpp>
 
 #include "cycle_columns.hpp"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/contact/fit.hpp>
+#include <salebra/contact/law/fit.hpp>
 #include <salebra/io/force_curve_file.hpp>
 
 #include "answer_file.hpp"

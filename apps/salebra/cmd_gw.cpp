@@ -4,7 +4,7 @@
 
 #include <memory>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/greenwood_williamson.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/io/force_curve_file.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/summits.hpp>

@@ -7,7 +7,7 @@
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/mdr.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/stress_map.hpp>

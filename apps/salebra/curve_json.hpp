@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/contact/force_curve.hpp>
+#include <salebra/contact/law/force_curve.hpp>
 
 #include "session.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <optional>
-#include <salebra/contact/law.hpp>
+#include <salebra/contact/law/law.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <string>
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/coupling.hpp>
+#include <salebra/contact/half_space/coupling.hpp>
 #include <utility>
 
 #include "cycle_columns.hpp"

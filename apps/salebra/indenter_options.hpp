@@ -3,7 +3,7 @@
 
 #include <memory>
 #include <optional>
-#include <salebra/contact/mdr.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
 #include <string>
 
 #include "options.hpp"

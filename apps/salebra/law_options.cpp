@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/mdr.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/io/force_curve_file.hpp>
 #include <utility>
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 #include <optional>
-#include <salebra/contact/law.hpp>
+#include <salebra/contact/law/law.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <string>
 #include <vector>

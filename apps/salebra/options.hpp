@@ -6,7 +6,7 @@
 #include <optional>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/contact/material.hpp>
+#include <salebra/contact/half_space/material.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/surface/detrend.hpp>

@@ -18,12 +18,12 @@
 #include <numeric>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/contact/normal.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <salebra/generators/exact_rms.hpp>
 #include <vector>
 
-#include "contact/active_set_cg.hpp"
-#include "contact/nested_contact.hpp"
+#include "contact/normal/active_set_cg.hpp"
+#include "contact/normal/nested_contact.hpp"
 
 namespace {
 
@@ -108,14 +108,14 @@ void profile(const Surface& surface, double load, double bandwidth) {
 
   Share coarse, fine;
   double start = now();
-  const auto levels = detail::contact_levels(grid, {surface.heights.data(), highest},
+  const auto levels = detail::multigrid_levels(grid, {surface.heights.data(), highest},
                                              Boundary::periodic, std::numeric_limits<int>::max());
   coarse.setup += now() - start;
   Field pressure, gap;
   detail::ActiveSetOutcome outcome;
   double bytes_apart = 0, bytes_within = 0, pair = 0, solves = 0;
   for (std::size_t k = levels.size(); k-- > 0;) {
-    const detail::ContactLevel& level = levels[k];
+    const detail::MultigridLevel& level = levels[k];
     Share& share = k == 0 ? fine : coarse;
     start = now();
     Field guess(level.grid.nx, level.grid.ny);

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "../../tests/contact/polonsky_keer.hpp"
+#include "../../tests/contact/normal/polonsky_keer.hpp"
 #include "process_cost.hpp"
 
 int main(int argc, char** argv) {

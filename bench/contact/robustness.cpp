@@ -7,13 +7,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <salebra/base/parallel.hpp>
-#include <salebra/contact/normal.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <string>
 #include <vector>
 
-#include "../../tests/contact/awkward_contacts.hpp"
-#include "../../tests/contact/independent_residual.hpp"
-#include "../../tests/contact/measured_surfaces.hpp"
+#include "../../tests/contact/normal/awkward_contacts.hpp"
+#include "../../tests/contact/normal/independent_residual.hpp"
+#include "../../tests/contact/normal/measured_surfaces.hpp"
 
 namespace {
 

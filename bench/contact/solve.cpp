@@ -11,9 +11,9 @@
 #include <fstream>
 #include <limits>
 #include <salebra/base/parallel.hpp>
-#include <salebra/contact/normal.hpp>
+#include <salebra/contact/normal/normal.hpp>
 
-#include "contact/nested_contact.hpp"
+#include "contact/normal/nested_contact.hpp"
 #include "process_cost.hpp"
 
 namespace {
@@ -27,7 +27,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 double setup_seconds(const Surface& surface) {
   const auto start = std::chrono::steady_clock::now();
   const double side = static_cast<double>(surface.grid.nx);
-  const auto levels = detail::contact_levels({surface.grid.nx, surface.grid.ny, side, side},
+  const auto levels = detail::multigrid_levels({surface.grid.nx, surface.grid.ny, side, side},
                                              {surface.heights.data(), surface.heights.maxCoeff()},
                                              Boundary::periodic, std::numeric_limits<int>::max());
   for (const auto& level : levels)

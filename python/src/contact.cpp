@@ -9,9 +9,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <salebra/contact/contact_spots.hpp>
-#include <salebra/contact/material.hpp>
-#include <salebra/contact/normal.hpp>
+#include <salebra/contact/normal/contact_spots.hpp>
+#include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/sweep.hpp>
 
 #include "bindings.hpp"

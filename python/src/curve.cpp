@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <salebra/contact/fit.hpp>
-#include <salebra/contact/force_curve.hpp>
+#include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/sweep.hpp>
 
 #include "bindings.hpp"

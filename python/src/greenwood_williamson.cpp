@@ -7,10 +7,10 @@
 #include <nanobind/stl/vector.h>
 
 #include <memory>
-#include <salebra/contact/asperity_sampling.hpp>
-#include <salebra/contact/greenwood_tripp.hpp>
-#include <salebra/contact/greenwood_williamson.hpp>
-#include <salebra/contact/interacting_summits.hpp>
+#include <salebra/contact/asperity/asperity_sampling.hpp>
+#include <salebra/contact/asperity/greenwood_tripp.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/contact/asperity/interacting_summits.hpp>
 
 #include "bindings.hpp"
 #include "interop/choice.hpp"

@@ -4,9 +4,9 @@
 #include <nanobind/stl/vector.h>
 
 #include <memory>
-#include <salebra/contact/greenwood_williamson.hpp>
-#include <salebra/contact/law.hpp>
-#include <salebra/contact/mdr.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/contact/law/law.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
 
 #include "bindings.hpp"
 #include "interop/citations.hpp"

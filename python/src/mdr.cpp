@@ -4,7 +4,7 @@
 #include <nanobind/stl/unique_ptr.h>
 
 #include <memory>
-#include <salebra/contact/mdr.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
 
 #include "bindings.hpp"
 #include "interop/citations.hpp"

@@ -4,9 +4,10 @@
 #include <nanobind/stl/string.h>
 
 #include <memory>
-#include <salebra/contact/coupled_contact.hpp>
-#include <salebra/contact/sliding_contact.hpp>
-#include <salebra/contact/stick.hpp>
+#include <salebra/contact/normal/punch.hpp>
+#include <salebra/contact/tangential/coupled_contact.hpp>
+#include <salebra/contact/tangential/sliding_contact.hpp>
+#include <salebra/contact/tangential/stick.hpp>
 
 #include "bindings.hpp"
 #include "interop/choice.hpp"
@@ -89,7 +90,7 @@ InvalidInput
       [](const ContactArgument& contact, const Grid2D& grid, double contact_modulus,
          double tolerance, int max_iterations, const Choice<Boundary>& boundary,
          const ProgressArgument& progress) {
-        StickOptions options{.tolerance = tolerance,
+        PunchOptions options{.tolerance = tolerance,
                              .max_iterations = max_iterations,
                              .boundary = boundary.value("boundary")};
         return interruptible(progress, [&](Progress told) {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/contact/stick.hpp>
+#include <salebra/contact/tangential/stick.hpp>
 #include <salebra/contact/sweep.hpp>
 
 namespace salebra {

@@ -9,8 +9,8 @@
 #include <salebra/damping/asperity_damping.hpp>
 #include <salebra/damping/closed_form.hpp>
 
-#include "../contact/given_summits.hpp"
-#include "../contact/quadrature.hpp"
+#include "contact/asperity/given_summits.hpp"
+#include "contact/quadrature.hpp"
 
 namespace salebra {
 namespace {

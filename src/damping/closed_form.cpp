@@ -9,7 +9,7 @@
 #include <numbers>
 #include <salebra/damping/closed_form.hpp>
 
-#include "../contact/quadrature.hpp"
+#include "contact/quadrature.hpp"
 
 namespace salebra::closed_form {
 namespace {

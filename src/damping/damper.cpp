@@ -7,7 +7,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/damping/damper.hpp>
 
-#include "../contact/quadrature.hpp"
+#include "contact/quadrature.hpp"
 
 namespace salebra {
 namespace {

@@ -10,7 +10,7 @@
 #include <salebra/damping/dissipation.hpp>
 #include <sstream>
 
-#include "../contact/quadrature.hpp"
+#include "contact/quadrature.hpp"
 #include "sweep_breaks.hpp"
 
 namespace salebra {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/coupled_contact.hpp>
+#include <salebra/contact/tangential/coupled_contact.hpp>
 #include <salebra/damping/frictional_cycle.hpp>
 #include <utility>
 

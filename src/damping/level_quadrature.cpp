@@ -7,6 +7,8 @@
 #include <functional>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/normal/punch.hpp>
+#include <salebra/contact/tangential/stick.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/level_quadrature.hpp>
 #include <vector>
@@ -202,8 +204,12 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
     values.sample.converged = level.converged;
     if (with_stiffness) {
       Field pressure;
-      const PunchStiffness punch =
-          punch_stiffness(level.contact, grid, material.contact_modulus, options.stick, &pressure);
+      const PunchStiffness punch = punch_stiffness(level.contact, grid, material.contact_modulus,
+                                                   {.tolerance = options.stick.tolerance,
+                                                    .max_iterations = options.stick.max_iterations,
+                                                    .boundary = options.stick.boundary,
+                                                    .on_progress = options.stick.on_progress},
+                                                   &pressure);
       const StickStiffness stick =
           stick_stiffness(level.contact, grid, material, options.stick, options.direction == 0,
                           Field(pressure * modulus_ratio));

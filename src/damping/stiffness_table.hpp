@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstddef>
-#include <salebra/contact/law.hpp>
+#include <salebra/contact/law/law.hpp>
 #include <vector>
 
 namespace salebra::detail {

@@ -8,7 +8,7 @@
 #include <salebra/base/parallel.hpp>
 #include <salebra/damping/stress_map.hpp>
 
-#include "../contact/quadrature.hpp"
+#include "contact/quadrature.hpp"
 
 namespace salebra {
 namespace {

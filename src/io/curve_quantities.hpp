@@ -3,7 +3,7 @@
 
 #include <array>
 #include <filesystem>
-#include <salebra/contact/force_curve.hpp>
+#include <salebra/contact/law/force_curve.hpp>
 #include <salebra/io/provenance.hpp>
 #include <string>
 #include <string_view>

@@ -8,10 +8,10 @@
 #include <mutex>
 #include <optional>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/asperity_sampling.hpp>
-#include <salebra/contact/contact_spots.hpp>
-#include <salebra/contact/interacting_summits.hpp>
-#include <salebra/contact/law.hpp>
+#include <salebra/contact/asperity/asperity_sampling.hpp>
+#include <salebra/contact/normal/contact_spots.hpp>
+#include <salebra/contact/asperity/interacting_summits.hpp>
+#include <salebra/contact/law/law.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/contact/theories.hpp>
 #include <salebra/damping/dissipation.hpp>

@@ -4,10 +4,10 @@
 #include <functional>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/greenwood_williamson.hpp>
-#include <salebra/contact/law.hpp>
-#include <salebra/contact/mdr.hpp>
-#include <salebra/contact/normal.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/contact/law/law.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/generators/random_phase.hpp>

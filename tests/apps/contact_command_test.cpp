@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <salebra/contact/fit.hpp>
+#include <salebra/contact/law/fit.hpp>
 #include <salebra/io/force_curve_file.hpp>
 #include <salebra/io/result_file.hpp>
 

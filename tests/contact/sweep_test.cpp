@@ -4,7 +4,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/sweep.hpp>
 
-#include "rough_surface.hpp"
+#include "normal/rough_surface.hpp"
 
 using namespace salebra;
 using namespace salebra::test;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/law.hpp>
+#include <salebra/contact/law/law.hpp>
 #include <salebra/damping/adaptive_quadrature.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/generators/shapes.hpp>

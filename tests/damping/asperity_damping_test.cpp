@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/asperity_sampling.hpp>
+#include <salebra/contact/asperity/asperity_sampling.hpp>
 #include <salebra/damping/asperity_damping.hpp>
 #include <salebra/damping/dissipation.hpp>
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/contact_spots.hpp>
+#include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/damping/cycle.hpp>
 
 using namespace salebra;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/mdr.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/frictional_cycle.hpp>
 #include <salebra/generators/shapes.hpp>

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/law.hpp>
+#include <salebra/contact/law/law.hpp>
+#include <salebra/contact/normal/punch.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/level_quadrature.hpp>
@@ -233,9 +234,13 @@ TEST_CASE("A level that fails makes the quadrature fail, and bad input is named"
     for (std::size_t k = 1; k + 1 < result.curve.samples.size(); ++k) {
       const ContactSet contact = paraboloid()(result.curve.samples[k].indentation).contact;
       Field pressure;
-      punches =
-          punch_stiffness(contact, grid, contact_modulus, options.stick, &pressure).converged &&
-          punches;
+      punches = punch_stiffness(contact, grid, contact_modulus,
+                                {.tolerance = options.stick.tolerance,
+                                 .max_iterations = options.stick.max_iterations,
+                                 .boundary = options.stick.boundary},
+                                &pressure)
+                    .converged &&
+                punches;
       sticks = stick_stiffness(contact, grid, without_ratio, options.stick, true,
                                Field(pressure * without_ratio.modulus_ratio()))
                    .converged &&

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <salebra/contact/mdr.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/stress_map.hpp>

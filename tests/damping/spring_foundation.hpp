@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/contact/law.hpp>
+#include <salebra/contact/law/law.hpp>
 #include <vector>
 
 namespace salebra_test {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/mdr.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/tangential_contact.hpp>
 #include <vector>
 

@@ -1,12 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake -D ROOT=<tree> -P CheckLayers.cmake: fails where a file includes a header of a higher layer than its own, or one
-# of the three contact models includes another. A file's layer is the folder that it stands in.
+# cmake -D ROOT=<tree> -P CheckLayers.cmake: fails where a file includes a header of a higher layer than its own, or, inside
+# contact/, of a room that its own room must not see. A file's layer and room are the folders that it stands in.
 cmake_minimum_required(VERSION 3.25)
 set(layers base generators surface contact damping io study report apps)
-set(strangers contact/greenwood_williamson contact/half_space contact/normal contact/mdr)  # normal may use half_space
+
+# The rooms of contact/, and which others each of them sees: folders, and single files of that name.
+set(rooms half_space/ law/ normal/ asperity/ mdr/ tangential/ theories. sweep. hermite. quadrature.)
+set(half_space_sees)                                  # the elastic bodies: their constants, kernels and loads
+set(law_sees hermite)                                 # what every model returns: ForceCurve and ContactLaw
+set(normal_sees half_space)                           # pressures by boundary elements
+set(asperity_sees half_space law quadrature)          # summits
+set(mdr_sees half_space law hermite quadrature)       # axisymmetric indenters
+set(theories_sees half_space law quadrature)          # closed theories
+set(tangential_sees half_space normal)                # tractions with and without slip
+set(sweep_sees half_space law normal tangential)      # a surface's force curve
+set(hermite_sees)
+set(quadrature_sees)
 
 file(GLOB_RECURSE files RELATIVE ${ROOT}
-  ${ROOT}/include/*.[hc]pp ${ROOT}/src/*.[hc]pp ${ROOT}/generators/*.[hc]pp ${ROOT}/apps/*.[hc]pp)
+  ${ROOT}/include/*.[hc]pp ${ROOT}/src/*.[hc]pp ${ROOT}/src/*.inl ${ROOT}/generators/*.[hc]pp ${ROOT}/apps/*.[hc]pp)
 list(FILTER files EXCLUDE REGEX "^generators/tests/")  # tests may look at anything
 set(seen 0)
 
@@ -23,15 +35,12 @@ function(layer_of path out)
   set(${out} -1 PARENT_SCOPE)
 endfunction()
 
-# model_of(path out): which of the contact models the path belongs to, or empty; all files of normal* are one model.
-function(model_of path out)
+# room_of(path out): the folder or file below contact/, or empty for a path elsewhere.
+function(room_of path out)
   set(${out} "" PARENT_SCOPE)
-  foreach(model IN LISTS strangers)
-    if(path MATCHES "${model}[._a-z0-9]*[.][hc]pp$")
-      string(REPLACE "half_space" "normal" model "${model}")
-      set(${out} ${model} PARENT_SCOPE)
-    endif()
-  endforeach()
+  if(path MATCHES "^(include/salebra|salebra|src)/contact/([a-z_]+[./])")
+    set(${out} ${CMAKE_MATCH_2} PARENT_SCOPE)
+  endif()
 endfunction()
 
 foreach(file IN LISTS files)
@@ -40,16 +49,20 @@ foreach(file IN LISTS files)
     message(SEND_ERROR "${file} stands in no layer (${layers})")
     continue()
   endif()
-  model_of(${file} this_model)
+  room_of(${file} this_room)
+  if(this_room AND NOT this_room IN_LIST rooms)
+    message(SEND_ERROR "${file} stands in no room of contact (${rooms})")
+    continue()
+  endif()
   get_filename_component(folder ${file} DIRECTORY)
   file(STRINGS ${ROOT}/${file} lines REGEX "^[ \t]*#[ \t]*include")
   foreach(line IN LISTS lines)
     if(line MATCHES "[<\"](salebra/[^>\"]+)[>\"]")
       set(target ${CMAKE_MATCH_1})
     elseif(line MATCHES "\"([^\"]+)\"")
-      # A private header: relative to the file, else to src/ ("contact/x.hpp").
+      # A private header: relative to the file, else to src/ ("contact/quadrature.hpp").
       set(target ${CMAKE_MATCH_1})
-      if(NOT target MATCHES "^[a-z]+/" OR EXISTS ${ROOT}/${folder}/${target})
+      if(NOT target MATCHES "^[a-z_]+/" OR EXISTS ${ROOT}/${folder}/${target})
         cmake_path(SET target NORMALIZE "${folder}/${target}")
       else()
         set(target src/${target})
@@ -62,9 +75,13 @@ foreach(file IN LISTS files)
     if(there GREATER here)
       message(SEND_ERROR "${file} must not ${line}: layers only look down (${layers})")
     endif()
-    model_of(${target} that_model)
-    if(this_model AND that_model AND NOT this_model STREQUAL that_model)
-      message(SEND_ERROR "${file} must not ${line}: contact models never include each other")
+    room_of(${target} that_room)
+    if(this_room AND that_room AND NOT this_room STREQUAL that_room)
+      string(REGEX REPLACE "[./]$" "" this_name ${this_room})
+      string(REGEX REPLACE "[./]$" "" that_name ${that_room})
+      if(NOT that_name IN_LIST ${this_name}_sees)
+        message(SEND_ERROR "${file} must not ${line}: contact/${this_name} sees only ${${this_name}_sees}")
+      endif()
     endif()
   endforeach()
 endforeach()

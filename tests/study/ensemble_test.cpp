@@ -4,11 +4,11 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/random.hpp>
-#include <salebra/contact/asperity_sampling.hpp>
-#include <salebra/contact/contact_spots.hpp>
-#include <salebra/contact/fit.hpp>
-#include <salebra/contact/greenwood_williamson.hpp>
-#include <salebra/contact/normal.hpp>
+#include <salebra/contact/asperity/asperity_sampling.hpp>
+#include <salebra/contact/normal/contact_spots.hpp>
+#include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/theories.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
-#include <salebra/contact/greenwood_williamson.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <sstream>
 #include <string>

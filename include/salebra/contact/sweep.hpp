@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <functional>
-#include <salebra/contact/force_curve.hpp>
-#include <salebra/contact/material.hpp>
-#include <salebra/contact/normal.hpp>
+#include <salebra/contact/law/force_curve.hpp>
+#include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <vector>
 
 namespace salebra {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/contact/greenwood_williamson.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <vector>
 

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <functional>
-#include <salebra/contact/stick.hpp>
+#include <salebra/contact/normal/normal.hpp>
+#include <salebra/contact/tangential/stick.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <vector>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <salebra/base/grid.hpp>
-#include <salebra/contact/law.hpp>
+#include <salebra/contact/law/law.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <vector>
 

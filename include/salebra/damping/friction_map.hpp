@@ -3,7 +3,7 @@
 
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/contact/law.hpp>
+#include <salebra/contact/law/law.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <vector>
 

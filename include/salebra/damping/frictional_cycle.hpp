@@ -4,8 +4,8 @@
 #include <functional>
 #include <limits>
 #include <optional>
-#include <salebra/contact/normal.hpp>
-#include <salebra/contact/sliding_contact.hpp>
+#include <salebra/contact/normal/normal.hpp>
+#include <salebra/contact/tangential/sliding_contact.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <vector>
 

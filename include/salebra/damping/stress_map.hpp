@@ -3,7 +3,7 @@
 
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/contact/mdr.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <vector>
 

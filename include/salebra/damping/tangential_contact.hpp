@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
-#include <salebra/contact/law.hpp>
+#include <salebra/contact/law/law.hpp>
 
 namespace salebra {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <salebra/contact/force_curve.hpp>
+#include <salebra/contact/law/force_curve.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/provenance.hpp>
 #include <salebra/io/result_file.hpp>

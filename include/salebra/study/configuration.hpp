@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 #include <salebra/base/grid.hpp>
-#include <salebra/contact/fit.hpp>
-#include <salebra/contact/material.hpp>
+#include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/half_space/material.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/generators/spectrum.hpp>

@@ -6,9 +6,9 @@
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/base/spectral_moments.hpp>
-#include <salebra/contact/fit.hpp>
-#include <salebra/contact/force_curve.hpp>
-#include <salebra/contact/greenwood_williamson.hpp>
+#include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/law/force_curve.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/study/surface_picture.hpp>
 #include <salebra/surface/moments.hpp>

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <salebra/base/grid.hpp>
-#include <salebra/contact/normal.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <salebra/study/configuration.hpp>
 #include <string>
 #include <vector>

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 #include <salebra/base/grid.hpp>
-#include <salebra/contact/stick.hpp>
+#include <salebra/contact/tangential/stick.hpp>
 #include <string_view>
 #include <vector>
 

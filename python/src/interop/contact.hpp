@@ -3,7 +3,7 @@
 
 #include <optional>
 #include <salebra/base/grid.hpp>
-#include <salebra/contact/normal.hpp>
+#include <salebra/contact/normal/normal.hpp>
 
 #include "interop/arrays.hpp"
 #include "interop/choice.hpp"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <salebra/base/fft.hpp>
-#include <salebra/contact/material.hpp>
+#include <salebra/contact/half_space/material.hpp>
 
 // Touches a header-only type, a compiled function of salebra::salebra, and FFTW behind salebra::base.
 int main() {

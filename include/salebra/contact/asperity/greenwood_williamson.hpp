@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <salebra/contact/law/force_curve.hpp>
+#include <salebra/contact/law/law.hpp>
+#include <salebra/contact/half_space/material.hpp>
+#include <salebra/surface/summits.hpp>
+#include <string>
+#include <vector>
+
+/// Contact as a sum over independent Hertzian summits: Greenwood and Williamson, Proc. R. Soc. Lond. A 295 (1966) 300.
+namespace salebra {
+
+namespace detail {
+class HeightDensity;
+}
+
+enum class SummitDistribution { gaussian, exponential, tabulated };
+
+/// A point of a height density that is linear between its points and zero beyond them.
+struct HeightDensityPoint {
+  double height = 0;   ///< z, m
+  double density = 0;  ///< φ(z), 1/m, or any multiple of it: a table is normalised in use
+};
+
+/// A statistical ensemble of equal spherical caps whose heights z are distributed as φ(z):
+///     gaussian      exp(−z²/2σ_s²)/(√(2π)σ_s); z = 0 is the mean plane of the summits
+///     exponential   exp(−z/σ_s)/σ_s for z >= 0; z = 0 is the plane of the lowest summits, σ_s below their mean
+///     tabulated     as `table` says
+struct SummitEnsemble {
+  double density = 0;  ///< η, 1/m²
+  double radius = 0;   ///< R, m
+  /// σ_s, m: standard deviation (Gaussian), decay length (exponential); not used with a table.
+  double summit_rms = 0;
+  double mean_height = 0;  ///< height of the plane z = 0 above the mean plane of the surface, m
+  SummitDistribution distribution = SummitDistribution::gaussian;
+  double rms_height = ForceSample::unknown;    ///< h_rms of the surface, m, where there is one
+  std::vector<HeightDensityPoint> table = {};  ///< heights increasing, at least two
+};
+
+/// The ensemble of a Gaussian isotropic surface, from its profile moments m0, m2, m4 (Nayak; McCool, Wear 107 (1986) 37):
+///     η = m4/(6√3 π m2), R = (3/8)√(π/m4), σ_s² = (1 − 0.8968/α) m0, mean height 4√(m0/(πα)), α = m0 m4/m2².
+/// moment0 m², moment2 –, moment4 1/m². Throws InvalidInput unless they are > 0 with α >= 1, which holds for any surface.
+SummitEnsemble summit_ensemble(double moment0, double moment2, double moment4);
+
+/// The ensemble with the density, mean radius, and mean and standard deviation of the heights of summits that were counted.
+/// mean_plane: mean of the surface's heights, m, from the same zero as the summits' heights.
+SummitEnsemble summit_ensemble(const SummitStatistics& statistics, double mean_plane = 0);
+
+/// Sums over the summits in contact. K = −dF/ds and F'' = d²F/ds², since δ = const − s.
+struct AsperityContact {
+  double contacts = 0;          ///< N; an expectation for a statistical ensemble
+  double contact_area = 0;      ///< A_c, m²
+  double force = 0;             ///< F, N
+  double normal_stiffness = 0;  ///< K, N/m
+  double curvature = 0;         ///< F'', N/m²
+  bool converged = true;        ///< only a model that iterates may say no
+};
+
+/// A smooth rigid plane at separation s from the plane z = 0 of an ensemble of summits. Immutable.
+class AsperityModel {
+ public:
+  struct Common {
+    std::string name;             ///< becomes ForceCurve::model
+    Material material;            ///< G* may be unknown: then K_t is
+    double nominal_area = 0;      ///< A0 > 0, m²
+    double mean_height = 0;       ///< of the plane z = 0 above the mean plane of the surface, m
+    double first_touch = 0;       ///< s where δ = 0; 0 where there is no highest summit
+    double upper_separation = 0;  ///< no force above this s, m
+    /// A step > 0 of s in which the force changes by a factor of a few, m.
+    double height_scale = 0;
+    double rms_height = ForceSample::unknown;  ///< m
+  };
+  /// Throws InvalidInput unless material.contact_modulus and nominal_area are > 0.
+  explicit AsperityModel(Common common);
+  virtual ~AsperityModel();
+
+  virtual AsperityContact at(double separation) const = 0;
+  /// One member of at(separation), where it can be had for less.
+  virtual double force(double separation) const { return at(separation).force; }
+  virtual double normal_stiffness(double separation) const {
+    return at(separation).normal_stiffness;
+  }
+  virtual double curvature(double separation) const { return at(separation).curvature; }
+  /// s at which F, K or K' is not smooth: where summits of given height touch, or where the height density begins or bends.
+  virtual std::vector<double> break_separations() const { return {}; }
+
+  /// s at which the summits carry the force > 0, N: a bracketed root, exact to round-off.
+  virtual double separation_of(double force) const;
+  /// δ = first_touch − s: from first touch for given summits, −s for a statistical ensemble.
+  double indentation(double separation) const { return common_.first_touch - separation; }
+  /// ū = s + mean_height, the distance of the smooth plane from the *undeformed* mean plane of the surface: the theory does
+  /// not know how far the material between the summits moves, so that ū is too small by the mean displacement of
+  /// the surface, which matters where the contact area is no longer small.
+  double mean_gap(double separation) const { return separation + common_.mean_height; }
+  const Common& common() const { return common_; }
+
+ private:
+  Common common_;
+};
+
+/// N = ηA0∫_s^∞φ, A_c = πRηA0∫(z−s)φ, F = (4/3)E*√R ηA0∫(z−s)^{3/2}φ, K = 2E*√R ηA0∫(z−s)^{1/2}φ,
+/// F'' = E*√R ηA0∫(z−s)^{−1/2}φ. Closed forms for tabulated heights and for exponential ones with s >= 0; else GSL
+/// quadrature over t = √(z−s), in which no integrand is singular, with a relative error below 1e-10.
+class StatisticalSummits final : public AsperityModel {
+ public:
+  /// Throws InvalidInput unless density, radius, summit_rms, nominal_area and E* are > 0, or where the table of a tabulated
+  /// density is not one.
+  StatisticalSummits(const SummitEnsemble& ensemble, const Material& material, double nominal_area);
+  ~StatisticalSummits() override;
+  AsperityContact at(double separation) const override;
+  double force(double separation) const override;
+  double normal_stiffness(double separation) const override;
+  double curvature(double separation) const override;
+  std::vector<double> break_separations() const override;
+
+ private:
+  StatisticalSummits(const SummitEnsemble& ensemble, const Material& material, double nominal_area,
+                     std::unique_ptr<const detail::HeightDensity> heights);
+
+  double count_, radius_;  ///< ηA0, R
+  double scale_;           ///< E*√R ηA0
+  std::unique_ptr<const detail::HeightDensity> heights_;
+};
+
+/// What a summit's two principal curvatures become.
+enum class SummitShape {
+  circular,   ///< a sphere of R = 1/(mean curvature)
+  elliptical  ///< Hertz's elliptical contact, exact; ratios below 1e-3 count as 1e-3
+};
+
+/// Deterministic ensemble: each summit of one surface with its own height and radius,
+///     F = Σ(4/3)E*√R_i (z_i−s)^{3/2} and so on, over the summits with z_i > s.
+/// s counts from the mean of the summit heights. F'' is infinite where a summit just touches; its integral is not.
+/// Cost: one pass over the summits in contact.
+class DeterministicSummits final : public AsperityModel {
+ public:
+  /// mean_plane: mean of the surface's heights, m, from the same zero as the summits'. nominal_area: of the
+  /// region that was searched for summits. Throws InvalidInput for no summits or a curvature that is not > 0.
+  DeterministicSummits(const std::vector<Summit>& summits, const Material& material,
+                       double nominal_area, double mean_plane = 0,
+                       double rms_height = ForceSample::unknown,
+                       SummitShape shape = SummitShape::circular);
+  AsperityContact at(double separation) const override;
+  std::vector<double> break_separations() const override;
+
+ private:
+  struct Cap {
+    double height, force_radius, area_radius;
+  };
+  std::vector<Cap> caps_;  ///< highest first, heights from their mean
+};
+
+/// What a curve of the model holds at a separation, where at(separation) is known.
+ForceSample force_sample(const AsperityModel& model, double separation,
+                         const AsperityContact& contact);
+
+/// Samples at the given separations (m, any order) or pressures (Pa, > 0, any order), from the lowest force to the highest;
+/// every quantity but K_t without G* is filled in, δ and ū as AsperityModel defines them.
+ForceCurve curve_at_separations(const AsperityModel& model, const std::vector<double>& separations);
+ForceCurve curve_at_pressures(const AsperityModel& model, const std::vector<double>& pressures);
+
+/// F(δ) of an ensemble of summits, exact: no table, no fit. δ is AsperityModel::indentation.
+class GreenwoodWilliamsonLaw final : public ContactLaw {
+ public:
+  /// Throws InvalidInput where G* of the model's material is not known.
+  explicit GreenwoodWilliamsonLaw(std::shared_ptr<const AsperityModel> model);
+  GreenwoodWilliamsonLaw(const SummitEnsemble& ensemble, const Material& material,
+                         double nominal_area);
+  double force(double indentation) const override;
+  double normal_stiffness(double indentation) const override;
+  double curvature(double indentation) const override;
+  double indentation_of(double force) const override;
+  std::vector<double> break_points() const override;
+  const AsperityModel& model() const { return *model_; }
+
+ private:
+  double separation(double indentation) const;
+
+  std::shared_ptr<const AsperityModel> model_;
+};
+
+}  // namespace salebra

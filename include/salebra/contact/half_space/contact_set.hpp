@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/base/grid.hpp>
+
+namespace salebra {
+
+/// Cells of a grid that are in contact: (nx, ny), x first, y contiguous.
+using ContactSet = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// A tangential vector in each cell: traction in Pa, or displacement in m.
+struct TangentialField {
+  Field x;  ///< (nx, ny)
+  Field y;  ///< (nx, ny)
+};
+
+}  // namespace salebra

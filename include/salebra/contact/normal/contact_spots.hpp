@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/contact/normal/normal.hpp>
+#include <vector>
+
+namespace salebra {
+
+/// A connected patch of contact: cells with p > 0 that share edges.
+struct ContactSpot {
+  double area = 0;   ///< m²
+  double force = 0;  ///< N
+};
+
+struct ContactSpots {
+  std::vector<ContactSpot> spots;    ///< largest area first
+  double contact_area_fraction = 0;  ///< cells with p > 0 over all cells
+  double perimeter = 0;              ///< of all spots, along cell edges, m
+  /// A/A0 without the cells that a boundary element solution counts in excess along the edges of contacts,
+  ///     A = A_cells − (π − 1 + ln 2)/24 · Σ (perimeter edges × cell width across them)
+  /// [Yastrebov, Anciaux, Molinari, Tribol. Int. 114 (2017) 161]. Never below 0.
+  double corrected_area_fraction = 0;
+};
+
+/// Spots of a pressure field (nx, ny), Pa; neighbours wrap for Boundary::periodic, while at a free boundary the
+/// edge of the grid is an edge of the contact. Throws InvalidInput unless pressure has the shape of the grid.
+/// Cost: two passes.
+ContactSpots contact_spots(const Field& pressure, const Grid2D& grid,
+                           Boundary boundary = Boundary::periodic);
+
+}  // namespace salebra

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <salebra/base/grid.hpp>
+#include <salebra/base/progress.hpp>
+#include <salebra/contact/half_space/contact_set.hpp>
+#include <salebra/contact/half_space/half_space.hpp>
+
+namespace salebra {
+
+/// mixed: transforms in float, residuals and acceptance in double.
+enum class Precision { mixed, full };
+
+struct NormalContactOptions {
+  /// Stop at e_c = Σp(g − g_min)/(Σp · h_rms) < tolerance, checked densely in double precision; 1e-14 … 1e-1. For a flat punch h_rms
+  /// is replaced by the indentation, or by pressure·√area/E*.
+  double tolerance = 1e-10;
+  int max_iterations = 1000;  ///< on the finest level, >= 1
+  Boundary boundary = Boundary::periodic;
+  Precision precision = Precision::mixed;
+  /// Largest pressure that the bodies carry, Pa: perfectly plastic cells saturate there and sink in without further load.
+  double hardness = std::numeric_limits<double>::infinity();
+  /// Start of the iteration, (nx, ny), Pa, >= 0, instead of one from coarser grids. It must outlive the call.
+  const Field* initial_pressure = nullptr;
+  Progress on_progress = {};
+};
+
+/// Result of a normal contact. Unless converged, the numbers describe the last iterate and must not be used as the answer.
+struct NormalContactState {
+  Field pressure;            ///< (nx, ny), Pa, >= 0
+  Field gap;                 ///< (nx, ny), m, >= 0 up to the tolerance; 0 where pressure saturates
+  double mean_pressure = 0;  ///< Pa
+  double force = 0;          ///< N
+  double mean_gap = 0;       ///< ū: mean of gap over all cells, m
+  double indentation =
+      0;  ///< rigid approach from first touch, m; periodic and elastic: max h − mean h − ū
+  double contact_area_fraction = 0;  ///< cells with p > 0 over all cells
+  double elastic_energy = 0;         ///< ½∫p u dA with zero-mean u (periodic), J
+  double residual = 0;               ///< e_c reached
+  int iterations = 0;                ///< on the finest level
+  int fft_count = 0;  ///< forward-and-backward pairs of the finest level, both precisions
+  bool converged = false;
+  bool interrupted = false;  ///< the progress callback said stop
+};
+
+/// Cells with p > 0.
+ContactSet contact_set(const NormalContactState& state);
+
+/// Frictionless contact of a rigid rough surface with an elastic half-space, for a given nominal pressure:
+///     minimise ½p·Gp − p·h, 0 <= p <= hardness, mean p = nominal_pressure;  û(q) = 2 p̂(q)/(E*|q|), û(0) = 0 (periodic)
+/// by nested conjugate gradients on the contact set with a preconditioner that needs no transform. It departs from the usual
+/// constrained CG (Polonsky and Keer 1999, doi:10.1016/S0043-1648(99)00113-1) in that CG is not restarted when the set changes.
+/// contact_modulus   E* > 0, Pa;   nominal_pressure > 0, Pa, below the hardness
+/// throws            InvalidInput before any work; non-convergence is returned, not thrown
+/// cost              one transform pair an iteration, 15 to 100 iterations; 57 to 67 bytes a cell with heights and result, the more the
+///                   larger the contact (docs/performance.md)
+NormalContactState press_to_pressure(const Surface& surface, double contact_modulus,
+                                     double nominal_pressure,
+                                     const NormalContactOptions& options = {});
+
+/// The same contact for a given mean gap ū in (0, max h − mean h): the inverse of press_to_pressure.
+/// Periodic and elastic contacts only: a free one has no mean gap, and hardness makes the gap depend on more than the approach.
+NormalContactState press_to_mean_gap(const Surface& surface, double contact_modulus,
+                                     double mean_gap, const NormalContactOptions& options = {});
+
+/// The same contact for a rigid approach from first touch, > 0, m; below max h − mean h for periodic contacts.
+NormalContactState press_to_indentation(const Surface& surface, double contact_modulus,
+                                        double indentation,
+                                        const NormalContactOptions& options = {});
+
+/// Normal stiffness K = dF/dδ of the contact set {0 < p < hardness} of a state, by one linear solve with the set held: N/m.
+/// punch_pressure, where given, receives dp/dδ of the cells, Pa/m (left alone where K is not found by a solve).
+/// +infinity for a periodic cell in full contact, NaN where the solve did not converge within max_iterations or was interrupted.
+/// Cost: one transform pair an iteration, about as many as the contact took.
+double normal_stiffness(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
+                        const NormalContactOptions& options = {}, Field* punch_pressure = nullptr);
+
+}  // namespace salebra

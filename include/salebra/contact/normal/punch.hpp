@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/base/grid.hpp>
+#include <salebra/base/progress.hpp>
+#include <salebra/contact/half_space/contact_set.hpp>
+#include <salebra/contact/half_space/half_space.hpp>
+
+namespace salebra {
+
+struct PunchOptions {
+  /// Of the displacement, relative; the error of K is of the order of the square. 1e-14 … 1e-1.
+  double tolerance = 1e-6;
+  int max_iterations = 1000;  ///< >= 1
+  Boundary boundary = Boundary::periodic;
+  Progress on_progress = {};
+};
+
+/// Normal stiffness K = dF/dδ of a contact set: a flat punch of that shape. normal_stiffness() is the same for a state's elastic cells.
+struct PunchStiffness {
+  double normal_stiffness = 0;  ///< N/m
+  int iterations = 0;
+  int fft_count = 0;
+  double residual =
+      0;  ///< rms error of the displacement over the set, relative; that of K is of the order of its square
+  bool converged = false;    ///< K settled to the square of the tolerance, or to 1e-14
+  bool interrupted = false;  ///< the progress callback said stop
+};
+
+/// pressure, where given, receives that of a unit approach, Pa/m.
+/// Throws InvalidInput for a bad grid or option, and if every cell of a periodic grid is in contact.
+/// Cost: one transform pair an iteration, in float, and one in double.
+PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
+                               double contact_modulus, const PunchOptions& options = {},
+                               Field* pressure = nullptr);
+
+}  // namespace salebra

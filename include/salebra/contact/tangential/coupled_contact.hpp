@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <salebra/contact/half_space/coupling.hpp>
+#include <salebra/contact/normal/normal.hpp>
+#include <salebra/contact/tangential/sliding_contact.hpp>
+
+namespace salebra {
+
+struct CoupledContactOptions {
+  SlidingContactOptions sliding = {};
+  NormalContactOptions contact = {};  ///< its boundary must be that of sliding.stick
+  /// β/(πE*), 1/Pa, as coupling_constant() of the two bodies tells; not given: that of the material, coupling_constant(material).
+  std::optional<double> coupling = {};
+  /// Stop the sweeps where (Σ|Δp| + Σ|Δτ|)/Σp < tolerance from one to the next; 1e-12 … 1e-1.
+  double tolerance = 1e-6;
+  int max_sweeps = 60;  ///< of each increment, >= 1
+};
+
+/// How an increment of a coupled contact ended.
+struct CoupledReport {
+  int sweeps = 0;
+  double change = 0;  ///< (Σ|Δp| + Σ|Δτ|)/Σp of the last sweep
+  bool converged = false;
+  bool interrupted = false;
+};
+
+/// A rough contact with friction and with the coupling of normal and tangential directions (Dundurs' β), which history leads from one
+/// state to the next. In each increment a normal solve on the heights lowered by u_z[τ] and a partial-slip solve with the displacement
+/// u_t[p] follow each other until nothing changes (Panagiotopoulos); the error falls by about β² a sweep or faster.
+/// With β = 0 it is SlidingContact on the pressures of press_to_indentation, in two sweeps.
+class CoupledContact {
+ public:
+  /// Throws InvalidInput for a bad surface, material or option.
+  CoupledContact(const Surface& surface, const Material& material,
+                 const CoupledContactOptions& options = {});
+  CoupledContact(CoupledContact&&) noexcept;
+  CoupledContact& operator=(CoupledContact&&) noexcept;
+  ~CoupledContact();
+
+  /// To a rigid approach, m, counted from the first touch of the undeformed bodies, while the body moves tangentially.
+  /// Cost: sweeps × (a warm normal solve and one or two partial-slip solves).
+  CoupledReport advance(double indentation, const TangentialMove& move = {});
+
+  /// Pressures, tractions, slip and losses.
+  const SlidingContact& sliding() const;
+  double indentation() const;   ///< m
+  double normal_force() const;  ///< N
+  /// ½∫(p u_z + τ·u_t) dA with all displacements, J
+  double stored_energy() const;
+  double normal_work() const;  ///< ∫F dδ since the start by the trapezoidal rule, J
+  /// Of normal_work(), what the rule counts for cells that touch in a part of an increment only, while their gap closes or opens, J:
+  /// ½Σ∫p g. Work less this, stored energy and losses balance to the tolerance of the sweeps. It vanishes with the increments unless
+  /// cells part at a finite pressure.
+  double gap_work() const;
+  bool converged() const;  ///< every increment and every solve in it did
+  bool interrupted() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace salebra

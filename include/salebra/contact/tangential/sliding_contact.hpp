@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <salebra/base/grid.hpp>
+#include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/tangential/partial_slip.hpp>
+
+namespace salebra {
+
+struct SlidingContactOptions {
+  /// μ >= 0: |τ| <= μp in every cell; infinite: full stick.
+  double friction = std::numeric_limits<double>::infinity();
+  /// m, > 0: the tangential displacement that the tolerance of `stick` refers to, such as the range of the motion.
+  double motion_scale = 1;
+  StickOptions stick = {.tolerance = 1e-8};
+};
+
+/// A rigid tangential displacement of the body, m.
+struct TangentialMove {
+  double x = 0;
+  double y = 0;
+};
+
+/// All that a sliding contact remembers from one increment to the next.
+struct SlidingState {
+  Field pressure;                ///< (nx, ny), Pa
+  TangentialField shift;         ///< displacement by other causes, m
+  TangentialField traction;      ///< Pa
+  TangentialField displacement;  ///< of the cells in contact, `shift` included, m
+  Field loss;                    ///< since the start, J in each cell
+  Index slipping = 0;            ///< cells at their limit after the last increment
+  double work = 0;               ///< ∫F dx since the start, J
+  double released = 0;           ///< of the sum of `loss`, by cells as they opened, J
+  bool converged = true;         ///< every increment did
+  long iterations = 0;
+  long fft_count = 0;
+};
+
+/// A rough contact with friction that remembers: where each of its cells has been drawn to. It goes from one state of rest to the next
+/// by increments (a new field of pressures and a move of the body, at once), each solved implicitly by PartialSlipSolver:
+///     stay      a cell that sticks keeps its displacement relative to the body; one that slips has |τ| = μp along its slip
+///     leave     p = 0 and so τ = 0; at finite μ the cell slips while its pressure goes
+///     enter     a cell enters on the way, with the displacement that the others have given it by then, and sticks to the body from
+///               there. The entries of an increment are spread over it in the order of their pressures: if all were at the middle, the
+///               last ones would slip that ought to stick
+/// An increment is exact in the sense of Cattaneo and Mindlin, however large, while the slipping part only grows in it; a smooth path
+/// is followed at second order. (Pressures and motion in turn, as a stuck contact allows, would be of first order: a body that moves
+/// back while its load falls then ratchets.) Energies are sums over increments by the trapezoidal rule, in which work, stored energy
+/// and losses balance to the solver's tolerance.
+class SlidingContact {
+ public:
+  /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.
+  SlidingContact(const Grid2D& grid, const Material& material,
+                 const SlidingContactOptions& options = {});
+
+  /// A state that an increment may lead to, and what it costs.
+  struct Increment {
+    Field pressure;                       ///< (nx, ny), Pa
+    TangentialField shift;                ///< displacement by other causes at the end, m
+    TangentialField traction;             ///< Pa
+    TangentialField traction_halfway;     ///< that led to the entering cells' displacement, Pa
+    TangentialField displacement;         ///< of the cells in contact, `shift` included, m
+    TangentialField displacement_before;  ///< the same before the increment, of all these cells, m
+    TangentialField slip;                 ///< of the body over the cells in contact, m
+    TangentialMove move;
+    PartialSlipReport report;
+  };
+  /// Where an increment would lead.
+  /// shift   tangential displacement of the surface by causes other than τ (the coupling to the pressures) at the end; nullptr: as
+  ///         it was
+  /// guess   an earlier attempt to begin from
+  Increment attempt(const Field& pressure, const TangentialMove& move,
+                    const TangentialField* shift = nullptr, const Increment* guess = nullptr);
+  void accept(Increment increment);
+  /// attempt and accept.
+  PartialSlipReport advance(const Field& pressure, const TangentialMove& move = {});
+
+  /// Another motion_scale for the increments to come, > 0, m.
+  void set_motion_scale(double scale);
+
+  /// Prepares the kernels for every contact within `largest`, so that none of them has to rebuild them.
+  void reserve(const ContactSet& largest);
+
+  const SlidingState& state() const { return state_; }
+  /// Goes on from the state of a contact with the same grid, material and options. Throws InvalidInput for another grid.
+  void restore(SlidingState state);
+
+  const Field& pressure() const { return state_.pressure; }
+  const TangentialField& traction() const { return state_.traction; }
+  TangentialMove tangential_force() const;  ///< the body's on the surface: x, y in N
+  Index slipping() const {
+    return state_.slipping;
+  }  ///< cells at their limit after the last increment
+  /// ½∫τ·(u − shift) dA, J
+  double stored_energy() const;
+  double tangential_energy() const;  ///< ½∫τ·u dA, the shift included, J
+  /// ∫F dx since the start, J; in an increment, a cell that enters counts from its entry.
+  double work() const { return state_.work; }
+  /// Friction's ∫τ·ds since the start, (nx, ny), J in each cell: by slip and, where a cell leaves with a traction, by its release.
+  const Field& loss() const { return state_.loss; }
+  /// Of the sum of loss(), what cells had left in the increment in which they opened, J: all of it at μ = ∞; at finite μ it
+  /// vanishes with the increments, since a cell slips to zero before it opens.
+  double released_energy() const { return state_.released; }
+  bool converged() const { return state_.converged; }  ///< every increment did
+  bool interrupted() const { return interrupted_; }
+  long iterations() const { return state_.iterations; }
+  long fft_count() const { return state_.fft_count; }
+
+ private:
+  TangentialField displacement_under(const ContactSet& loaded, const TangentialField& traction,
+                                     const TangentialField& shift, const ContactSet& where);
+  TangentialField displacement_halfway(const TangentialMove& move, const TangentialField& shift,
+                                       const ContactSet& entering, Increment& increment);
+  void count(const PartialSlipReport& report);
+
+  double cell_area_;
+  SlidingContactOptions options_;
+  PartialSlipSolver solver_;
+  SlidingState state_;
+  ContactSet contact_;  // cells that carry traction: p > 0 and μ > 0
+  bool interrupted_ = false;
+};
+
+}  // namespace salebra

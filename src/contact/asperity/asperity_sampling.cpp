@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Monte Carlo sampling of a summit ensemble: means and intervals of the GW force curve.
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/base/random.hpp>
+#include <salebra/contact/asperity/asperity_sampling.hpp>
+
+#include "height_density.hpp"
+
+namespace salebra {
+namespace {
+
+// Streams of the random numbers: heights and positions of one summit are independent.
+constexpr std::uint32_t height_stream = 0x67770001, position_stream = 0x67770002;
+
+constexpr double AsperityContact::*sums[] = {
+    &AsperityContact::contacts, &AsperityContact::contact_area, &AsperityContact::force,
+    &AsperityContact::normal_stiffness};
+
+}  // namespace
+
+std::vector<Summit> draw_summits(const SummitEnsemble& ensemble, int count, double size,
+                                 std::uint64_t seed, int realisation) {
+  require(count >= 1, "count", count, "must be >= 1");
+  require_positive(size, "size");
+  require_positive(ensemble.radius, "radius");
+  const detail::HeightDensity heights(ensemble);
+  const bool gaussian = ensemble.distribution == SummitDistribution::gaussian;
+  std::vector<Summit> summits;
+  summits.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const RandomPair position = uniform_pair(seed, i, realisation, position_stream);
+    const double height =
+        gaussian ? ensemble.summit_rms * gaussian_pair(seed, i, realisation, height_stream).first
+                 : heights.quantile(uniform_pair(seed, i, realisation, height_stream).first);
+    summits.push_back({.x = size * position.first,
+                       .y = size * position.second,
+                       .height = height,
+                       .curvature1 = 1 / ensemble.radius,
+                       .curvature2 = 1 / ensemble.radius});
+  }
+  return summits;
+}
+
+double MonteCarloCurve::interval(double standard_deviation) const {
+  return gsl_cdf_tdist_Pinv(0.975, realisations - 1) * standard_deviation /
+         std::sqrt(static_cast<double>(realisations));
+}
+
+MonteCarloCurve monte_carlo_curve(const SummitEnsemble& ensemble, const Material& material,
+                                  double nominal_area, const std::vector<double>& separations,
+                                  const MonteCarloOptions& options) {
+  require(options.realisations >= 2, "realisations", options.realisations, "must be >= 2");
+  const StatisticalSummits statistical(ensemble, material, nominal_area);
+  const double expected = std::max(1.0, std::round(ensemble.density * nominal_area));
+  require(expected < std::numeric_limits<int>::max(), "nominal_area", nominal_area,
+          "holds too many summits to draw; use the statistical ensemble");
+
+  MonteCarloCurve result;
+  result.realisations = options.realisations;
+  result.summits = static_cast<int>(expected);
+  std::vector<double> descending = separations;
+  std::ranges::sort(descending, std::ranges::greater{});
+  // Positions, separations and K_t come from the statistical model; what follows puts in the drawn sums.
+  result.mean = curve_at_separations(statistical, descending);
+  result.mean.model = "greenwood-williamson-monte-carlo";
+
+  std::vector<std::vector<AsperityContact>> contacts(
+      static_cast<std::size_t>(options.realisations));
+  parallel::for_slabs(options.realisations, [&](Index begin, Index end) {
+    for (Index realisation = begin; realisation < end; ++realisation) {
+      const DeterministicSummits drawn(
+          draw_summits(ensemble, result.summits, std::sqrt(nominal_area), options.seed,
+                       static_cast<int>(realisation)),
+          material, nominal_area);
+      // DeterministicSummits counts from the mean of the drawn heights, the ensemble from z = 0.
+      for (const double separation : descending)
+        contacts[static_cast<std::size_t>(realisation)].push_back(
+            drawn.at(separation - drawn.common().mean_height));
+    }
+  });
+
+  const double count = options.realisations;
+  for (std::size_t i = 0; i < descending.size(); ++i) {
+    AsperityContact mean, deviation;
+    for (const auto sum : sums) {
+      for (const auto& contact : contacts) mean.*sum += contact[i].*sum / count;
+      for (const auto& contact : contacts) {
+        const double difference = contact[i].*sum - mean.*sum;
+        deviation.*sum += difference * difference / (count - 1);
+      }
+      deviation.*sum = std::sqrt(deviation.*sum);
+    }
+    deviation.curvature = std::numeric_limits<double>::quiet_NaN();
+    ForceSample& sample = result.mean.samples[i];
+    sample.force = mean.force;
+    sample.pressure = mean.force / nominal_area;
+    sample.contact_area_fraction = mean.contact_area / nominal_area;
+    sample.normal_stiffness = mean.normal_stiffness;
+    sample.tangential_stiffness =
+        material.tangential_modulus / material.contact_modulus * mean.normal_stiffness;
+    result.deviation.push_back(deviation);
+  }
+  return result;
+}
+
+}  // namespace salebra

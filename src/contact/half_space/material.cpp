@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contact modulus E* and tangential modulus G* of two elastic bodies.
+#include <cmath>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/half_space/material.hpp>
+
+namespace salebra {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+void require_poisson(double poisson) {
+  require(poisson > -1 && poisson <= 0.5, "poisson", poisson, "must satisfy -1 < poisson <= 0.5");
+}
+
+}  // namespace
+
+double Material::modulus_ratio() const {
+  if (!(tangential_modulus > 0))
+    throw InvalidInput(
+        "tangential_modulus: not given, but tangential stiffness and damping need it; give "
+        "Poisson's "
+        "ratio or the tangential modulus");
+  return tangential_modulus / contact_modulus;
+}
+
+Material Material::of_bodies(const ElasticBody& first, const ElasticBody& second) {
+  double normal_compliance = 0, tangential_compliance = 0;
+  Material material;
+  for (const ElasticBody& body : {first, second}) {
+    require(body.young > 0, "young", body.young, "must be > 0 (infinity: rigid)");
+    require_poisson(body.poisson);
+    normal_compliance += (1 - body.poisson * body.poisson) / body.young;
+    tangential_compliance += (2 - body.poisson) / (4 * body.shear());
+    material.cerruti_isotropic += (1 - body.poisson) / (2 * std::numbers::pi * body.shear());
+    material.cerruti_directed += body.poisson / (2 * std::numbers::pi * body.shear());
+  }
+  require(normal_compliance > 0, "young", first.young, "must be finite for at least one body");
+  material.contact_modulus = 1 / normal_compliance;
+  material.tangential_modulus = 1 / tangential_compliance;
+  return material;
+}
+
+Material Material::of_contact_modulus(double contact_modulus, double poisson) {
+  require_positive(contact_modulus, "contact_modulus");
+  require_poisson(poisson);
+  return of_bodies({.young = contact_modulus * (1 - poisson * poisson), .poisson = poisson});
+}
+
+Material Material::of_moduli(double contact_modulus, double tangential_modulus) {
+  require_positive(contact_modulus, "contact_modulus");
+  require_positive(tangential_modulus, "tangential_modulus");
+  // G*/E* = 2(1−ν)/(2−ν) solved for ν.
+  const double ratio = tangential_modulus / contact_modulus;
+  const double poisson = 2 * (1 - ratio) / (2 - ratio);
+  Material material;
+  if (ratio < 2 && poisson > -1 && poisson <= 0.5)
+    material = of_contact_modulus(contact_modulus, poisson);
+  else
+    material.cerruti_isotropic = material.cerruti_directed = unknown;
+  material.contact_modulus = contact_modulus;
+  material.tangential_modulus = tangential_modulus;
+  return material;
+}
+
+Material Material::of_contact_modulus(double contact_modulus) {
+  require_positive(contact_modulus, "contact_modulus");
+  return {.contact_modulus = contact_modulus,
+          .tangential_modulus = unknown,
+          .cerruti_isotropic = unknown,
+          .cerruti_directed = unknown};
+}
+
+}  // namespace salebra

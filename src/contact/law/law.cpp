@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contact laws F(δ): power law, exponential law, and a law tabulated from a force curve.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/law/law.hpp>
+#include <sstream>
+#include <vector>
+
+#include "contact/hermite.hpp"
+
+namespace salebra {
+
+ContactLaw::ContactLaw(double modulus_ratio) : modulus_ratio_(modulus_ratio) {
+  require_positive(modulus_ratio, "modulus_ratio");
+}
+
+double ContactLaw::tangential_stiffness(double indentation) const {
+  return modulus_ratio_ * normal_stiffness(indentation);
+}
+
+double ContactLaw::tangential_curvature(double indentation) const {
+  return modulus_ratio_ * curvature(indentation);
+}
+
+double ContactLaw::lowest_indentation() const { return -std::numeric_limits<double>::infinity(); }
+
+double ContactLaw::highest_indentation() const { return std::numeric_limits<double>::infinity(); }
+
+std::vector<double> ContactLaw::break_points() const { return {}; }
+
+std::vector<double> PowerLaw::break_points() const { return {0}; }
+
+PowerLaw::PowerLaw(double coefficient, double exponent, double modulus_ratio)
+    : ContactLaw(modulus_ratio), coefficient_(coefficient), exponent_(exponent) {
+  require_positive(coefficient, "coefficient");
+  // Below 1 the contact would soften under load, which no indenter does; 1 is the flat punch.
+  require(std::isfinite(exponent) && exponent >= 1, "exponent", exponent,
+          "must be finite and >= 1");
+}
+
+double PowerLaw::force(double indentation) const {
+  return indentation > 0 ? coefficient_ * std::pow(indentation, exponent_) : 0;
+}
+
+double PowerLaw::normal_stiffness(double indentation) const {
+  return indentation > 0 ? coefficient_ * exponent_ * std::pow(indentation, exponent_ - 1) : 0;
+}
+
+double PowerLaw::curvature(double indentation) const {
+  return indentation > 0
+             ? coefficient_ * exponent_ * (exponent_ - 1) * std::pow(indentation, exponent_ - 2)
+             : 0;
+}
+
+double PowerLaw::indentation_of(double force) const {
+  require_positive(force, "force");
+  return std::pow(force / coefficient_, 1 / exponent_);
+}
+
+ExponentialLaw::ExponentialLaw(double reference_force, double decay_length, double modulus_ratio)
+    : ContactLaw(modulus_ratio), reference_force_(reference_force), decay_length_(decay_length) {
+  require_positive(reference_force, "reference_force");
+  require_positive(decay_length, "decay_length");
+}
+
+double ExponentialLaw::force(double indentation) const {
+  return reference_force_ * std::exp(indentation / decay_length_);
+}
+
+double ExponentialLaw::normal_stiffness(double indentation) const {
+  return force(indentation) / decay_length_;
+}
+
+double ExponentialLaw::curvature(double indentation) const {
+  return force(indentation) / (decay_length_ * decay_length_);
+}
+
+double ExponentialLaw::indentation_of(double force) const {
+  require_positive(force, "force");
+  return decay_length_ * std::log(force / reference_force_);
+}
+
+// With y = ln F: K = F y', F'' = F (y'² + y''). One interpolant gives all three, so that F' = K
+// exactly and the by-parts forms of the damping, which need F or K_t alone, agree with each other.
+// y and not F is interpolated because it is nearly straight for a rough surface, however many
+// decades of force lie between two nodes. Where every sample has its own K, the slopes y' = K/F at
+// the nodes are data and not differences of data; both ways F, K and F'' are of order 4, 3 and 2 in
+// the node spacing, with constants that are several times less when K is known. F'' jumps at the
+// nodes. K_t, where it is given, is an independent measurement: ln K_t gets an interpolant of its
+// own, K_t' is its derivative.
+struct TabulatedLaw::Splines {
+  detail::MonotoneHermite log_force;
+  std::unique_ptr<const detail::MonotoneHermite> log_tangential_stiffness;  // null: (G*/E*)K
+
+  double clamp(double indentation) const {
+    // Round-off in δ0 ± u_z must not turn a sweep over the whole table into an error.
+    const double low = log_force.front(), high = log_force.back(), slack = 1e-12 * (high - low);
+    if (!(indentation >= low - slack && indentation <= high + slack)) {
+      std::ostringstream constraint;
+      constraint.precision(12);
+      constraint << "lies outside the curve's range [" << low << ", " << high
+                 << "] m; reduce the amplitude or extend the curve";
+      require(false, "indentation", indentation, constraint.str());
+    }
+    return std::clamp(indentation, low, high);
+  }
+};
+
+namespace {
+
+struct Column {
+  double indentation, force, normal_stiffness, tangential_stiffness;
+};
+
+std::vector<Column> usable_samples(const ForceCurve& curve) {
+  auto force_of = [&](const ForceSample& sample) {
+    return std::isnan(sample.force) ? sample.pressure * curve.nominal_area : sample.force;
+  };
+  std::vector<const ForceSample*> usable;
+  for (const ForceSample& sample : curve.samples)
+    if (sample.converged && force_of(sample) > 0) usable.push_back(&sample);
+  const bool has_indentation = std::ranges::all_of(
+      usable, [](const ForceSample* sample) { return std::isfinite(sample->indentation); });
+  std::vector<Column> columns;
+  for (const ForceSample* sample : usable) {
+    const double indentation = has_indentation ? sample->indentation : -sample->mean_gap;
+    if (std::isfinite(indentation) && std::isfinite(force_of(*sample)))
+      columns.push_back(
+          {indentation, force_of(*sample), sample->normal_stiffness, sample->tangential_stiffness});
+  }
+  require(columns.size() >= 4, "curve", columns.size(),
+          "usable samples (converged, F > 0, δ or ū known) are too few; a tabulated law needs at "
+          "least four");
+  std::ranges::sort(columns, {}, &Column::indentation);
+  for (std::size_t i = 1; i < columns.size(); ++i) {
+    require(columns[i].indentation > columns[i - 1].indentation, "curve.indentation",
+            columns[i].indentation, "occurs twice; remove one of the samples");
+    require(columns[i].force > columns[i - 1].force, "curve.force", columns[i].force,
+            "does not grow with the indentation; remove or smooth the sample");
+  }
+  return columns;
+}
+
+bool known(const std::vector<Column>& columns, double Column::*quantity) {
+  return std::ranges::all_of(columns, [&](const Column& column) {
+    return std::isfinite(column.*quantity) && column.*quantity > 0;
+  });
+}
+
+}  // namespace
+
+TabulatedLaw::TabulatedLaw(const ForceCurve& curve, double modulus_ratio)
+    : ContactLaw(modulus_ratio) {
+  const std::vector<Column> columns = usable_samples(curve);
+  std::vector<double> indentation, log_force, slope, log_tangential;
+  const bool has_normal = known(columns, &Column::normal_stiffness);
+  const bool has_tangential = known(columns, &Column::tangential_stiffness);
+  for (const Column& column : columns) {
+    indentation.push_back(column.indentation);
+    log_force.push_back(std::log(column.force));
+    if (has_normal) slope.push_back(column.normal_stiffness / column.force);
+    if (has_tangential) log_tangential.push_back(std::log(column.tangential_stiffness));
+  }
+  auto splines = std::make_unique<Splines>(
+      Splines{detail::MonotoneHermite(indentation, std::move(log_force), std::move(slope)), {}});
+  if (has_tangential)
+    splines->log_tangential_stiffness = std::make_unique<const detail::MonotoneHermite>(
+        std::move(indentation), std::move(log_tangential));
+  splines_ = std::move(splines);
+}
+
+TabulatedLaw::~TabulatedLaw() = default;
+
+double TabulatedLaw::force(double indentation) const {
+  return std::exp(splines_->log_force.at(splines_->clamp(indentation)).value);
+}
+
+double TabulatedLaw::normal_stiffness(double indentation) const {
+  const auto log_force = splines_->log_force.at(splines_->clamp(indentation));
+  return std::exp(log_force.value) * log_force.slope;
+}
+
+double TabulatedLaw::curvature(double indentation) const {
+  const auto log_force = splines_->log_force.at(splines_->clamp(indentation));
+  return std::exp(log_force.value) * (log_force.slope * log_force.slope + log_force.curvature);
+}
+
+double TabulatedLaw::tangential_stiffness(double indentation) const {
+  if (!splines_->log_tangential_stiffness) return ContactLaw::tangential_stiffness(indentation);
+  return std::exp(splines_->log_tangential_stiffness->at(splines_->clamp(indentation)).value);
+}
+
+double TabulatedLaw::tangential_curvature(double indentation) const {
+  if (!splines_->log_tangential_stiffness) return ContactLaw::tangential_curvature(indentation);
+  const auto log_stiffness = splines_->log_tangential_stiffness->at(splines_->clamp(indentation));
+  return std::exp(log_stiffness.value) * log_stiffness.slope;
+}
+
+double TabulatedLaw::lowest_indentation() const { return splines_->log_force.front(); }
+
+double TabulatedLaw::highest_indentation() const { return splines_->log_force.back(); }
+
+std::vector<double> TabulatedLaw::break_points() const { return splines_->log_force.nodes(); }
+
+double TabulatedLaw::indentation_of(double force) const {
+  require_positive(force, "force");
+  const double log_force = std::log(force);
+  const double low = splines_->log_force.at(lowest_indentation()).value;
+  const double high = splines_->log_force.at(highest_indentation()).value;
+  // The same allowance for round-off as in clamp().
+  const double slack = 1e-12 * (high - low);
+  if (!(log_force >= low - slack && log_force <= high + slack)) {
+    std::ostringstream constraint;
+    constraint.precision(12);
+    constraint << "lies outside the curve's range [" << std::exp(low) << ", " << std::exp(high)
+               << "] N; choose a force within it or extend the curve";
+    require(false, "force", force, constraint.str());
+  }
+  return splines_->log_force.where(std::clamp(log_force, low, high));
+}
+
+}  // namespace salebra

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <salebra/base/convolution.hpp>
+#include <salebra/base/memory.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/contact/half_space/half_space.hpp>
+#include <vector>
+
+#include "contact_residual.hpp"
+#include "load_correction.hpp"
+#include "tile_kernels.hpp"
+
+namespace salebra::detail {
+
+// Adds the seconds until its end.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point start_ = Clock::now();
+};
+
+// Minimises ½p·Gp − p·h over 0 <= p <= bound on one grid: conjugate gradients on the free cells, preconditioned by
+// InverseStencil, that are not restarted when the set of free cells changes. Search directions and their images are Real;
+// p and g are double, and a result is accepted on a residual computed afresh over all cells.
+//
+// The pressure is in any unit that makes `compliance` give metres.
+template <class Real>
+class ActiveSetCg {
+ public:
+  ActiveSetCg(const Grid2D& grid, double contact_modulus, Boundary boundary, const Heights& heights,
+              double rms_height);
+
+  // p: the start on entry, the solution on return; g = Gp − h on return.
+  ActiveSetOutcome solve(const ContactTarget& target, const ActiveSetLimits& limits, double* p,
+                         double* g);
+
+  // Σq with Gq = 1 on the cells where 0 < p < bound and q = 0 elsewhere: the load that a unit of rigid approach adds.
+  // `pressure`, where given, receives q.
+  PunchOutcome punch_load(const double* p, double bound, const PunchLimits& limits,
+                          Field* pressure = nullptr);
+
+ private:
+  // The state of one call of solve().
+  struct Run {
+    ContactTarget target;
+    ActiveSetLimits limits;
+    double* p;
+    double* g;
+    ActiveSetOutcome outcome = {};
+
+    double count = 0;                                       // free cells
+    double level = 0;                                       // λ
+    bool has_direction = false;                             // t, w hold a direction and its image
+    double curvature = 1;                                   // <t, w>
+    double threshold = 0;                                   // see worth_a_change in iterate()
+    double best = std::numeric_limits<double>::infinity();  // estimate of e_c, for patience
+    int since_best = 0;
+    std::size_t stalls = 0;
+    double at_refresh = 1;  // e_c at the last refresh
+    int refreshes = 0;
+    double estimate = 0;
+    bool finished = false;
+
+    bool load_given() const { return target.load_given(); }
+  };
+
+  Index points() const { return grid_.points(); }
+  Index tile_points() const { return static_cast<Index>(tiles_.size()) * tile_width; }
+  Index first_tile(Index row) const { return row_begins_[static_cast<std::size_t>(row)]; }
+  TileArrays<Real> arrays(double bound);
+
+  // Dense passes: body(begin, end) over the slabs of rows.
+  template <class Body>
+  void for_rows(const Body& body) const {
+    parallel::for_slabs(grid_.nx, body, points());
+  }
+  template <class Sums, class Body>
+  std::vector<Sums> over_rows(const Body& body) const {
+    return parallel::map_slabs<Sums>(grid_.nx, body, points());
+  }
+
+  template <class Body>
+  double sum_rows(const Body& body) const {
+    return parallel::sum_slabs(grid_.nx, body, points());
+  }
+
+  // Passes over the tiles in fixed slabs of their list.
+  template <class Body>
+  void for_tiles(const Body& body) const {
+    parallel::for_slabs(static_cast<Index>(tiles_.size()), body, tile_points());
+  }
+  template <class Sums, class Body>
+  std::vector<Sums> over_tiles(const Body& body) const {
+    return parallel::map_slabs<Sums>(static_cast<Index>(tiles_.size()), body, tile_points());
+  }
+
+  // Gx of a field x that lives on the tiles: spread(begin, end, row) writes the tiles [begin, end) of a row into it, collect(begin, end,
+  // row) takes them from the row of Gx and returns its sums. Row by row, those of rows without tiles being Sums{}.
+  template <class Sums, class Spread, class Collect>
+  std::vector<Sums> displace(const Spread& spread, const Collect& collect) {
+    std::vector<Sums> sums(static_cast<std::size_t>(grid_.nx));
+    compliance_.apply(
+        [&](Index row, Real* room) -> const Real* {
+          const Index begin = first_tile(row), end = first_tile(row + 1);
+          if (begin == end) return nullptr;
+          std::fill_n(room, grid_.ny, Real(0));
+          spread(begin, end, room);
+          return room;
+        },
+        [&](Index row, const Real* values) {
+          const Index begin = first_tile(row), end = first_tile(row + 1);
+          if (begin < end) sums[static_cast<std::size_t>(row)] = collect(begin, end, values);
+        });
+    return sums;
+  }
+  // w = Gt for the next direction t, with <t, w> and Σw over the free cells.
+  CurvatureSums take_direction(double z_mean, double beta, double t_mean);
+
+  void reset();
+  void correct_load(const ContactTarget& target, double* p) const;
+  Convolution2D<double>& exact_compliance();
+  ContactResidual dense_gap(Run& run, bool exact);
+  void choose_tiles(Run& run, double margin);
+  void list_tiles();
+  void keep_directions(const std::vector<Tile>& before, const std::vector<Index>& begins_before);
+  std::byte* pool(std::size_t bytes);
+  void collect_pressure(Run& run);
+  void begin_set(Run& run, const std::vector<SetSums>& parts);
+  void frame_residual();
+  bool iterate(Run& run);
+  LoadCorrection correction_over_tiles(const Run& run, double pressure) const;
+  void change_set(Run& run, bool truncate, double pressure);
+  void refresh(Run& run);
+
+  Grid2D grid_;
+  Boundary boundary_;
+  Heights heights_;
+  double rms_height_;
+  double cell_compliance_;
+  double contact_modulus_;
+  Convolution2D<Real> compliance_;
+  std::optional<Convolution2D<double>> exact_compliance_;  // made when it is first needed
+  std::array<Real, stencil_size> stencil_;
+  const TileKernels<Real>& kernels_;
+
+  Index tiles_per_row_, framed_stride_;
+  std::vector<Tile> tiles_;            // row by row
+  std::vector<Index> row_begins_;      // the first tile of each row, and the number of tiles
+  std::vector<unsigned char> in_use_;  // (nx, tiles_per_row)
+  // See TileArrays. Between two refreshes p and g are up to date only on the tiles.
+  LargeArray<Real> r_;
+  double *p_ = nullptr, *g_ = nullptr;
+  Real *z_ = nullptr, *m_ = nullptr;
+  LargeArray<Real> t_, w_;  // outlive a new list of tiles
+  std::size_t directions_size_ = 0;
+  std::vector<unsigned char> quiet_;
+  // Holds the tiles' other arrays and, while they are not needed, the spectrum of the exact check.
+  LargeArray<std::byte> pool_;
+  std::size_t pool_size_ = 0;
+};
+
+}  // namespace salebra::detail

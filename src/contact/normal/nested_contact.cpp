@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Coarser grids of a contact problem, and transfer of a solution to the next finer grid.
+#include "nested_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/memory.hpp>
+#include <salebra/base/parallel.hpp>
+
+namespace salebra::detail {
+namespace {
+
+constexpr Index coarsest_points = 64 * 64;
+constexpr Index least_cells_across = 16;
+
+Index halved(Index n) {
+  if (n <= least_cells_across) return n;
+  return n % 2 == 0 ? n / 2 : fast_transform_size(n / 2);
+}
+
+Index into(Index k, Index n, Boundary boundary) {
+  return boundary == Boundary::periodic ? (k % n + n) % n : std::clamp<Index>(k, 0, n - 1);
+}
+
+// Where the points of one axis lie on an axis with another number of points over the same length.
+struct Place {
+  Index base;       // the point at or before
+  double fraction;  // of the way to the next
+};
+Place place(Index k, Index from, Index to) {
+  const Index position = k * to;
+  return {position / from, static_cast<double>(position % from) / static_cast<double>(from)};
+}
+
+// Four-point interpolation at one place: linear and cubic (Lagrange) weights of the points base − 1 … base + 2.
+struct Weights {
+  std::array<Index, 4> point;
+  std::array<float, 4> linear, cubic;
+};
+std::vector<Weights> interpolation(Index coarse, Index fine, Boundary boundary) {
+  std::vector<Weights> weights(static_cast<std::size_t>(fine));
+  for (Index k = 0; k < fine; ++k) {
+    const auto [base, f] = place(k, fine, coarse);
+    Weights& w = weights[static_cast<std::size_t>(k)];
+    for (Index i = 0; i < 4; ++i)
+      w.point[static_cast<std::size_t>(i)] = into(base - 1 + i, coarse, boundary);
+    w.linear = {0, static_cast<float>(1 - f), static_cast<float>(f), 0};
+    w.cubic = {static_cast<float>(-f * (f - 1) * (f - 2) / 6),
+               static_cast<float>((f + 1) * (f - 1) * (f - 2) / 2),
+               static_cast<float>(-(f + 1) * f * (f - 2) / 2),
+               static_cast<float>((f + 1) * f * (f - 1) / 6)};
+  }
+  return weights;
+}
+
+Field sampled(const Grid2D& fine, const Heights& heights, Index nx, Index ny, Boundary boundary) {
+  Field coarse(nx, ny);
+  const auto at = [&](Index i, Index j) {
+    return heights[into(i, fine.nx, boundary) * fine.ny + into(j, fine.ny, boundary)];
+  };
+  std::vector<Place> along_y;
+  for (Index j = 0; j < ny; ++j) along_y.push_back(place(j, ny, fine.ny));
+  parallel::for_slabs(
+      nx,
+      [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+          const auto [a, x] = place(i, nx, fine.nx);
+          const double* row = heights.values + a * fine.ny;
+          for (Index j = 0; j < ny; ++j) {
+            const auto [b, y] = along_y[static_cast<std::size_t>(j)];
+            double value = row[b] - heights.zero;
+            if (x > 0 || y > 0)
+              value = (1 - x) * ((1 - y) * value + y * at(a, b + 1)) +
+                      x * ((1 - y) * at(a + 1, b) + y * at(a + 1, b + 1));
+            coarse(i, j) = value;
+          }
+        }
+      },
+      nx * ny);
+  return coarse;
+}
+
+}  // namespace
+
+std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const Heights& heights,
+                                         Boundary boundary, int most) {
+  std::vector<MultigridLevel> levels;
+  levels.push_back({grid, {}, heights});
+  while (levels.back().grid.points() > coarsest_points && static_cast<int>(levels.size()) < most) {
+    const MultigridLevel& fine = levels.back();
+    const Index nx = halved(fine.grid.nx), ny = halved(fine.grid.ny);
+    if (nx == fine.grid.nx && ny == fine.grid.ny) break;
+    MultigridLevel coarse{
+        {nx, ny, grid.lx, grid.ly}, sampled(fine.grid, fine.heights, nx, ny, boundary), {}};
+    levels.push_back(std::move(coarse));
+    levels.back().heights = {
+        levels.back().coarse_heights.data()};  // a moved Eigen array keeps its memory
+  }
+  return levels;
+}
+
+void prolong(const MultigridLevel& coarse, const Field& coarse_pressure, const Field& coarse_gap,
+             double level, const MultigridLevel& fine, Boundary boundary, double step,
+             double* pressure) {
+  const Index coarse_ny = coarse.grid.ny, ny = fine.grid.ny;
+  const auto along_y = interpolation(coarse_ny, ny, boundary);
+  const auto along_x = interpolation(coarse.grid.nx, fine.grid.nx, boundary);
+  const auto size = static_cast<std::size_t>(coarse.grid.nx * ny);
+  const auto p_rows = large_array<float>(size), u_rows = large_array<float>(size);
+  parallel::for_slabs(
+      coarse.grid.nx,
+      [&](Index begin, Index end) {
+        // One point before and two beyond, as the interpolation between two points wants them.
+        std::vector<float> p_framed(static_cast<std::size_t>(coarse_ny + 3)), u_framed(p_framed);
+        float *p = p_framed.data() + 1, *u = u_framed.data() + 1;
+        for (Index i = begin; i < end; ++i) {
+          const double* heights = coarse.heights.values + i * coarse_ny;
+          for (Index j = 0; j < coarse_ny; ++j) {
+            p[j] = static_cast<float>(coarse_pressure(i, j));
+            u[j] =
+                static_cast<float>(coarse_gap(i, j) + (heights[j] - coarse.heights.zero) - level);
+          }
+          for (const Index j : {Index(-1), coarse_ny, coarse_ny + 1}) {
+            p[j] = p[into(j, coarse_ny, boundary)];
+            u[j] = u[into(j, coarse_ny, boundary)];
+          }
+          float *p_row = p_rows.get() + i * ny, *u_row = u_rows.get() + i * ny;
+          if (ny == 2 * coarse_ny) {
+            const Weights& between = along_y[1];
+            const float outer = between.cubic[0], inner = between.cubic[1];
+            for (Index j = 0; j < coarse_ny; ++j) {
+              p_row[2 * j] = p[j];
+              p_row[2 * j + 1] = 0.5f * (p[j] + p[j + 1]);
+              u_row[2 * j] = u[j];
+              u_row[2 * j + 1] = inner * (u[j] + u[j + 1]) + outer * (u[j - 1] + u[j + 2]);
+            }
+          } else {
+            for (Index j = 0; j < ny; ++j) {
+              const Weights& w = along_y[static_cast<std::size_t>(j)];
+              p_row[j] = w.linear[1] * p[w.point[1]] + w.linear[2] * p[w.point[2]];
+              u_row[j] = 0;
+              for (std::size_t k = 0; k < 4; ++k) u_row[j] += w.cubic[k] * u[w.point[k]];
+            }
+          }
+        }
+      },
+      coarse.grid.points());
+  parallel::for_slabs(
+      fine.grid.nx,
+      [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+          const Weights& w = along_x[static_cast<std::size_t>(i)];
+          std::array<const float*, 4> p{}, u{};
+          for (std::size_t k = 0; k < 4; ++k) {
+            p[k] = p_rows.get() + w.point[k] * ny;
+            u[k] = u_rows.get() + w.point[k] * ny;
+          }
+          const double* heights = fine.heights.values + i * ny;
+          const double zero = fine.heights.zero;
+          double* row = pressure + i * ny;
+          const auto predict = [&](Index j, float p_here, float u_here) {
+            const double predicted = static_cast<double>(p_here) -
+                                     step * (static_cast<double>(u_here) - (heights[j] - zero));
+            row[j] = predicted > 0 ? predicted : 0;
+          };
+          if (w.linear[2] == 0) {
+            for (Index j = 0; j < ny; ++j) predict(j, p[1][j], u[1][j]);
+          } else {
+            for (Index j = 0; j < ny; ++j)
+              predict(j, w.linear[1] * p[1][j] + w.linear[2] * p[2][j],
+                      w.cubic[0] * u[0][j] + w.cubic[1] * u[1][j] + w.cubic[2] * u[2][j] +
+                          w.cubic[3] * u[3][j]);
+          }
+        }
+      },
+      fine.grid.points());
+}
+
+}  // namespace salebra::detail

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Normal contact of a surface at a given pressure, mean gap or indentation, from coarse to fine.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/contact/normal/normal.hpp>
+#include <vector>
+
+#include "nested_contact.hpp"
+
+namespace salebra {
+namespace {
+
+using detail::ActiveSetCg;
+using detail::ActiveSetLimits;
+using detail::ActiveSetOutcome;
+using detail::MultigridLevel;
+using detail::ContactTarget;
+using detail::Heights;
+
+// Coarse levels only give a start: solving them further gains nothing.
+constexpr double coarse_tolerance = 1e-3;
+// Part of a full Jacobi step that the prolongation takes.
+constexpr double prediction = 0.6;
+
+// What the targets need of the heights, counted downwards from the highest point.
+struct Depths {
+  double highest = 0;  // height of first touch
+  double mean = 0;     // mean of highest − h: the mean gap at first touch
+  double rms = 0;      // h_rms
+
+  explicit Depths(const Field& heights) {
+    const double* h = heights.data();
+    const double points = static_cast<double>(heights.size()), origin = h[0];
+    // Counted from one of them, heights lose no digits to a large mean.
+    Sums total;
+    total.highest = origin;
+    for (const Sums& part : sums(heights, origin)) {
+      total.highest = std::max(total.highest, part.highest);
+      total.first += part.first;
+    }
+    highest = total.highest;
+    const double mean_height = origin + total.first / points;
+    mean = (highest - origin) - total.first / points;
+    double square = 0, first = 0;
+    for (const Sums& part : sums(heights, mean_height)) {
+      square += part.second;
+      first += part.first;
+    }
+    const double mean_square = square / points;
+    require(mean_square < 1e200, "rms height", std::sqrt(mean_square),
+            "must be below 1e100 m; check the unit of the heights");
+    rms = std::sqrt(std::max(0.0, mean_square - first / points * (first / points)));
+  }
+
+ private:
+  struct Sums {
+    double highest = 0, first = 0, second = 0;  // largest h, Σ(h − origin), Σ(h − origin)²
+  };
+  static std::vector<Sums> sums(const Field& heights, double origin) {
+    return parallel::map_slabs<Sums>(
+        heights.rows(),
+        [&](Index begin, Index end) {
+          // Several partial sums, because one alone waits for each of its additions.
+          constexpr Index lanes = 8;
+          const double* h = heights.data() + begin * heights.cols();
+          const Index count = (end - begin) * heights.cols();
+          std::array<double, lanes> top, first{}, second{};
+          top.fill(h[0]);
+          const auto add = [&](std::size_t lane, double height) {
+            const double deviation = height - origin;
+            top[lane] = height > top[lane] ? height : top[lane];
+            first[lane] += deviation;
+            second[lane] += deviation * deviation;
+          };
+          Index k = 0;
+          for (; k + lanes <= count; k += lanes)
+            for (Index lane = 0; lane < lanes; ++lane)
+              add(static_cast<std::size_t>(lane), h[k + lane]);
+          for (; k < count; ++k) add(0, h[k]);
+          Sums result{top[0], 0, 0};
+          for (std::size_t lane = 0; lane < lanes; ++lane) {
+            result.highest = std::max(result.highest, top[lane]);
+            result.first += first[lane];
+            result.second += second[lane];
+          }
+          return result;
+        },
+        heights.size());
+  }
+};
+
+void check(const Surface& surface, double contact_modulus, const NormalContactOptions& options) {
+  surface.require_complete("a contact calculation");
+  require_positive(contact_modulus, "contact_modulus");
+  require(options.tolerance >= 1e-14 && options.tolerance <= 1e-1, "tolerance", options.tolerance,
+          "must lie in 1e-14 … 1e-1");
+  require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "must be >= 1");
+  require(options.hardness > 0, "hardness", options.hardness, "must be > 0");
+  if (const Field* start = options.initial_pressure)
+    require(start->rows() == surface.grid.nx && start->cols() == surface.grid.ny &&
+                start->isFinite().all() && start->minCoeff() >= 0,
+            "initial_pressure", start->size(),
+            "cells must fill the grid with finite pressures >= 0");
+}
+
+// Heights stay in metres; pressures are counted in E*/(cell size), which makes Gp a number of order p whatever the units.
+struct Scaled {
+  Grid2D grid;           // in cell sizes
+  double pressure_unit;  // Pa
+  explicit Scaled(const Grid2D& physical, double contact_modulus) {
+    const double cell = std::sqrt(physical.cell_area());
+    grid = {physical.nx, physical.ny, physical.lx / cell, physical.ly / cell};
+    pressure_unit = contact_modulus / cell;
+  }
+};
+
+struct Solution {
+  Field pressure, gap;  // gap = Gp − h, not yet counted from the level
+  ActiveSetOutcome outcome;
+};
+
+// From the coarsest level to the finest.
+template <class Real>
+Solution solve_nested(const Scaled& scaled, const Heights& heights, double rms_height,
+                      const ContactTarget& target, const NormalContactOptions& options) {
+  auto levels =
+      detail::multigrid_levels(scaled.grid, heights, options.boundary,
+                             options.initial_pressure ? 1 : std::numeric_limits<int>::max());
+  Solution solution;
+  for (std::size_t k = levels.size(); k-- > 0;) {
+    const MultigridLevel& level = levels[k];
+    const Index nx = level.grid.nx, ny = level.grid.ny;
+    Field pressure;
+    if (options.initial_pressure) {
+      pressure = (*options.initial_pressure / scaled.pressure_unit).min(target.bound);
+    } else if (k + 1 == levels.size()) {
+      pressure = Field::Constant(
+          nx, ny, target.kind == ContactTarget::Kind::mean_pressure ? target.value : 0.0);
+    } else {
+      pressure.resize(nx, ny);
+      const double step = prediction / cell_compliance(level.grid, 1);
+      detail::prolong(levels[k + 1], solution.pressure, solution.gap, solution.outcome.level, level,
+                      options.boundary, step, pressure.data());
+    }
+    solution.pressure = std::move(pressure);
+    solution.gap = Field(nx, ny);
+    ActiveSetLimits limits{
+        k == 0 ? options.tolerance : std::max(coarse_tolerance, options.tolerance),
+        options.max_iterations, k == 0};
+    if (options.on_progress)
+      limits.keep_going = [&](int iteration, double residual) {
+        const double decades = std::log10(std::clamp(residual, options.tolerance, 1.0));
+        const double share = k == 0 ? decades / std::log10(options.tolerance) : 0.0;
+        return options.on_progress(
+            {"contact", std::isfinite(share) ? share : 0.0, iteration, residual});
+      };
+    ActiveSetCg<Real> solver(level.grid, 1, options.boundary, level.heights, rms_height);
+    solution.outcome = solver.solve(target, limits, solution.pressure.data(), solution.gap.data());
+    if (solution.outcome.interrupted && k > 0) {
+      // Nothing on the finest grid to show: an empty contact that says so.
+      solution.pressure = Field::Zero(scaled.grid.nx, scaled.grid.ny);
+      solution.gap = Field::NullaryExpr(scaled.grid.nx, scaled.grid.ny, [&](Index i, Index j) {
+        return -heights[i * scaled.grid.ny + j];
+      });
+      solution.outcome.level = 0;
+      solution.outcome.converged = false;
+      break;
+    }
+  }
+  return solution;
+}
+
+NormalContactState state_of(Solution&& solution, const ContactTarget& target, const Scaled& scaled,
+                            const Surface& surface, const Heights& below_summit, double hardness) {
+  NormalContactState state;
+  const ActiveSetOutcome& outcome = solution.outcome;
+  const Field& heights = surface.heights;
+  struct Sums {
+    double pressure = 0, contact = 0, work = 0, gap = 0;
+  };
+  Sums total;
+  for (const Sums& part : parallel::map_slabs<Sums>(
+           heights.rows(),
+           [&](Index begin, Index end) {
+             Sums sums;
+             for (Index k = begin * heights.cols(); k < end * heights.cols(); ++k) {
+               double &gap = solution.gap.data()[k], &pressure = solution.pressure.data()[k];
+               sums.pressure += pressure;
+               sums.contact += pressure > 0 ? 1 : 0;
+               sums.work += pressure * (gap + below_summit[k]);
+               // A saturated cell sinks in: what is below the plane there is plastic flow, not a gap.
+               const bool flows = pressure >= target.bound;
+               gap = flows ? 0 : gap - outcome.level;
+               pressure = flows ? hardness : pressure * scaled.pressure_unit;
+               sums.gap += gap;
+             }
+             return sums;
+           },
+           heights.size())) {
+    total.pressure += part.pressure;
+    total.contact += part.contact;
+    total.work += part.work;
+    total.gap += part.gap;
+  }
+  const double points = static_cast<double>(heights.size());
+  state.pressure = std::move(solution.pressure);
+  state.gap = std::move(solution.gap);
+  state.mean_pressure = total.pressure / points * scaled.pressure_unit;
+  state.force = state.mean_pressure * surface.grid.area();
+  state.mean_gap = total.gap / points;
+  state.indentation = outcome.level;
+  state.contact_area_fraction = total.contact / points;
+  state.elastic_energy = 0.5 * total.work * scaled.pressure_unit * surface.grid.cell_area();
+  state.residual = outcome.residual;
+  state.iterations = outcome.iterations;
+  state.fft_count = outcome.fft_count;
+  // Numbers beyond the range of double pass every comparison.
+  const bool finite = std::isfinite(state.force) && std::isfinite(state.mean_gap) &&
+                      std::isfinite(state.elastic_energy);
+  if (!finite) state.residual = std::numeric_limits<double>::infinity();
+  state.converged = outcome.converged && finite;
+  state.interrupted = outcome.interrupted;
+  return state;
+}
+
+// A plane touches everywhere under any pressure.
+NormalContactState full_contact_of_plane(const Surface& surface, double nominal_pressure) {
+  NormalContactState state;
+  state.pressure = Field::Constant(surface.grid.nx, surface.grid.ny, nominal_pressure);
+  state.gap = Field::Zero(surface.grid.nx, surface.grid.ny);
+  state.mean_pressure = nominal_pressure;
+  state.force = nominal_pressure * surface.grid.area();
+  state.contact_area_fraction = 1;
+  state.converged = true;
+  return state;
+}
+
+// Heights count from the highest point, so that the level of the plane is the indentation.
+NormalContactState press(const Surface& surface, double contact_modulus, const Depths& depths,
+                         ContactTarget::Kind kind, double value,
+                         const NormalContactOptions& options) {
+  const Scaled scaled(surface.grid, contact_modulus);
+  const bool load_given = kind == ContactTarget::Kind::mean_pressure;
+  const ContactTarget target{kind, load_given ? value / scaled.pressure_unit : value,
+                             options.hardness / scaled.pressure_unit};
+  const Heights heights{surface.heights.data(), depths.highest};
+  // A flat punch has no roughness to compare a gap with, and its problem is linear: the displacement is the length.
+  const double displacement =
+      load_given ? value / contact_modulus * std::sqrt(surface.grid.area()) : value;
+  const double length = depths.rms > 0 ? depths.rms : displacement;
+  auto solution = options.precision == Precision::mixed
+                      ? solve_nested<float>(scaled, heights, length, target, options)
+                      : solve_nested<double>(scaled, heights, length, target, options);
+  return state_of(std::move(solution), target, scaled, surface, heights, options.hardness);
+}
+
+}  // namespace
+
+ContactSet contact_set(const NormalContactState& state) { return state.pressure > 0; }
+
+NormalContactState press_to_pressure(const Surface& surface, double contact_modulus,
+                                     double nominal_pressure, const NormalContactOptions& options) {
+  check(surface, contact_modulus, options);
+  require_positive(nominal_pressure, "nominal_pressure");
+  require(nominal_pressure <= 1e12 * contact_modulus, "nominal_pressure", nominal_pressure,
+          fmt::format("must not exceed 1e12 times the contact modulus, {} Pa; check the units",
+                      contact_modulus));
+  require(nominal_pressure < options.hardness, "hardness", options.hardness,
+          "must exceed the nominal pressure: no contact carries more than its hardness");
+  const Depths depths(surface.heights);
+  if (!(depths.rms > 0) && options.boundary == Boundary::periodic)
+    return full_contact_of_plane(surface, nominal_pressure);
+  return press(surface, contact_modulus, depths, ContactTarget::Kind::mean_pressure,
+               nominal_pressure, options);
+}
+
+NormalContactState press_to_mean_gap(const Surface& surface, double contact_modulus,
+                                     double mean_gap, const NormalContactOptions& options) {
+  check(surface, contact_modulus, options);
+  require(options.boundary == Boundary::periodic, "boundary", "free",
+          "has no mean gap; give a force or an indentation");
+  require(std::isinf(options.hardness), "hardness", options.hardness,
+          "makes the mean gap depend on more than the approach; give a pressure or an indentation");
+  require_positive(mean_gap, "mean_gap");
+  const Depths depths(surface.heights);
+  require(mean_gap < depths.mean, "mean_gap", mean_gap,
+          fmt::format("must be below {} m, where the highest point first touches", depths.mean));
+  // The mean of Gp is zero, so approach and mean gap add up to the mean gap at first touch.
+  return press(surface, contact_modulus, depths, ContactTarget::Kind::level, depths.mean - mean_gap,
+               options);
+}
+
+NormalContactState press_to_indentation(const Surface& surface, double contact_modulus,
+                                        double indentation, const NormalContactOptions& options) {
+  check(surface, contact_modulus, options);
+  require_positive(indentation, "indentation");
+  const Depths depths(surface.heights);
+  require(options.boundary == Boundary::free || indentation < depths.mean, "indentation",
+          indentation,
+          fmt::format("must be below {} m, where a periodic contact is full", depths.mean));
+  return press(surface, contact_modulus, depths, ContactTarget::Kind::level, indentation, options);
+}
+
+}  // namespace salebra

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Normal stiffness of a contact set: the load under a unit rigid displacement of its cells.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/contact/normal/normal.hpp>
+#include <salebra/contact/normal/punch.hpp>
+
+#include "active_set_cg.hpp"
+#include "contact/half_space/cell_window.hpp"
+
+namespace salebra {
+namespace detail {
+namespace {
+
+// The load is a maximum over q, so its error is the square of the error of q: a loose solve is enough for a sharp load.
+constexpr int gains_in_a_row = 2;
+
+}  // namespace
+
+// CG as in solve(), on a set of cells that does not change: minimises ½q·Gq − Σq. The load is then taken from
+// 2Σq − q·Gq in double precision, whose error is quadratic in that of q.
+template <class Real>
+PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const PunchLimits& limits,
+                                           Field* pressure) {
+  PunchOutcome outcome;
+  reset();
+  const auto in_set = [bound](double x) { return x > 0 && x < bound; };
+  for_rows([&](Index begin, Index end) {
+    for (Index k = begin * tiles_per_row_; k < end * tiles_per_row_; ++k) {
+      const Index first = k / tiles_per_row_ * grid_.ny + k % tiles_per_row_ * tile_width;
+      const Index width = std::min<Index>(tile_width, grid_.ny - k % tiles_per_row_ * tile_width);
+      in_use_[static_cast<std::size_t>(k)] = std::any_of(p + first, p + first + width, in_set);
+    }
+  });
+  list_tiles();
+  for (std::size_t k = 0; k < tiles_.size(); ++k) {
+    const Index first = tiles_[k].row * grid_.ny + tiles_[k].column;
+    const Index width = std::min<Index>(tile_width, grid_.ny - tiles_[k].column);
+    const std::size_t packed = k * tile_width;
+    std::fill_n(p_ + packed, tile_width, 0.0);
+    std::fill_n(g_ + packed, tile_width, -1.0);
+    std::fill_n(m_ + packed, tile_width, Real(0));
+    for (Index i = 0; i < width; ++i)
+      if (in_set(p[first + i])) m_[packed + static_cast<std::size_t>(i)] = Real(1);
+  }
+  const auto a = arrays(std::numeric_limits<double>::infinity());
+  for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, 0); });
+  double curvature = 1, gained = 0;
+  int small_gains = 0;
+  while (small_gains < gains_in_a_row && outcome.iterations < limits.max_iterations) {
+    if (limits.keep_going && !limits.keep_going(outcome.iterations)) {
+      outcome.interrupted = true;
+      break;
+    }
+    frame_residual();
+    double zw = 0, zr = 0, tr = 0;
+    for (const auto& part : over_tiles<PreconditionSums>(
+             [&](Index begin, Index end) { return kernels_.precondition(a, begin, end); })) {
+      zw += part.zw;
+      zr += part.zr;
+      tr += part.tr;
+    }
+    const double beta = outcome.iterations > 0 ? -zw / curvature : 0;
+    const double descent = zr + beta * tr;
+    const double tw = take_direction(0, beta, 0).tw;
+    ++outcome.fft_count;
+    if (!(tw > 0)) {
+      // Nothing is left to gain, as after one step on a single cell; or the numbers are none.
+      if (tw == 0) small_gains = gains_in_a_row;
+      break;
+    }
+    curvature = tw;
+    over_tiles<StepSums>(
+        [&](Index begin, Index end) { return kernels_.step(a, begin, end, descent / tw, 0); });
+    const double gain = descent * descent / tw;
+    gained += gain;
+    small_gains = gain < limits.relative_gain * gained ? small_gains + 1 : 0;
+    ++outcome.iterations;
+  }
+  outcome.converged = small_gains == gains_in_a_row;
+  Field q = Field::Zero(grid_.nx, grid_.ny), image(grid_.nx, grid_.ny);
+  for (std::size_t k = 0; k < tiles_.size(); ++k)
+    std::copy_n(p_ + k * tile_width, std::min<Index>(tile_width, grid_.ny - tiles_[k].column),
+                q.data() + tiles_[k].row * grid_.ny + tiles_[k].column);
+  if (pressure) *pressure = q;
+  exact_compliance().apply(q.data(), image.data());
+  ++outcome.fft_count;
+  struct Sums {
+    double load = 0, misfit = 0, cells = 0;
+  };
+  Sums total;
+  for (const Sums& part : over_rows<Sums>([&](Index begin, Index end) {
+         Sums sums;
+         for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) {
+           const double q_k = q.data()[k], image_k = image.data()[k];
+           sums.load += q_k * (2 - image_k);
+           if (!in_set(p[k])) continue;
+           sums.misfit += (1 - image_k) * (1 - image_k);
+           sums.cells += 1;
+         }
+         return sums;
+       })) {
+    total.load += part.load;
+    total.misfit += part.misfit;
+    total.cells += part.cells;
+  }
+  outcome.load = total.load;
+  outcome.residual = std::sqrt(total.misfit / total.cells);
+  return outcome;
+}
+
+template PunchOutcome ActiveSetCg<float>::punch_load(const double*, double, const PunchLimits&,
+                                                     Field*);
+template PunchOutcome ActiveSetCg<double>::punch_load(const double*, double, const PunchLimits&,
+                                                      Field*);
+
+}  // namespace detail
+
+namespace {
+
+// The cells where 0 < p < bound pressed in as one piece. Alone on a half-space, they need no more of the grid than they span.
+PunchStiffness press_punch(const Field& p, double bound, const Grid2D& grid, double contact_modulus,
+                           Boundary boundary, Precision precision,
+                           const detail::PunchLimits& limits, Field* punch_pressure) {
+  const double cell = std::sqrt(grid.cell_area());
+  const bool alone = boundary == Boundary::free;
+  const auto window = alone ? detail::bounding_window(ContactSet(p > 0 && p < bound))
+                            : detail::CellWindow{0, 0, grid.nx, grid.ny};
+  Field spanned;
+  if (alone) spanned = p.block(window.x0, window.y0, window.nx, window.ny);
+  const Grid2D scaled{window.nx, window.ny, static_cast<double>(window.nx) * grid.dx() / cell,
+                      static_cast<double>(window.ny) * grid.dy() / cell};
+  Field q;
+  const auto press = [&]<class Real>(Real) {
+    return detail::ActiveSetCg<Real>(scaled, 1, boundary, {}, 0)
+        .punch_load((alone ? spanned : p).data(), bound, limits, punch_pressure ? &q : nullptr);
+  };
+  const detail::PunchOutcome outcome = precision == Precision::mixed ? press(0.0f) : press(0.0);
+  if (punch_pressure) {
+    *punch_pressure = Field::Zero(grid.nx, grid.ny);
+    punch_pressure->block(window.x0, window.y0, window.nx, window.ny) =
+        q * (contact_modulus / cell);
+  }
+  // With lengths in cells and E* = 1, Σq counts forces in E*·(cell size)² for an approach of one cell size.
+  return {.normal_stiffness = outcome.load * contact_modulus * cell,
+          .iterations = outcome.iterations,
+          .fft_count = outcome.fft_count,
+          .residual = outcome.residual,
+          .converged = outcome.converged,
+          .interrupted = outcome.interrupted};
+}
+
+std::function<bool(int)> keep_going(const Progress& progress) {
+  if (!progress) return {};
+  return [&progress](int iteration) { return progress({"stiffness", 0, iteration, 0}); };
+}
+
+}  // namespace
+
+double normal_stiffness(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
+                        const NormalContactOptions& options, Field* punch_pressure) {
+  grid.validate();
+  require_positive(contact_modulus, "contact_modulus");
+  require(state.pressure.rows() == grid.nx && state.pressure.cols() == grid.ny, "pressure",
+          state.pressure.size(), "points do not fill the grid");
+  // In full contact the periodic cell approaches no further: its compliance has no mean.
+  const auto elastic = state.pressure > 0 && state.pressure < options.hardness;
+  if (options.boundary == Boundary::periodic && elastic.all())
+    return std::numeric_limits<double>::infinity();
+  if (!elastic.any()) return 0;
+  const PunchStiffness punch = press_punch(
+      state.pressure, options.hardness, grid, contact_modulus, options.boundary, options.precision,
+      {.max_iterations = options.max_iterations, .keep_going = keep_going(options.on_progress)},
+      punch_pressure);
+  return punch.converged ? punch.normal_stiffness : std::numeric_limits<double>::quiet_NaN();
+}
+
+PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
+                               double contact_modulus, const PunchOptions& options,
+                               Field* pressure) {
+  grid.validate();
+  require_positive(contact_modulus, "contact_modulus");
+  detail::require_limits(options.tolerance, options.max_iterations);
+  detail::require_contact(contact, grid, options.boundary);
+  if (!contact.any()) {
+    if (pressure) *pressure = Field::Zero(grid.nx, grid.ny);
+    return {.converged = true};
+  }
+  // K is a minimum: its relative error is of the order of the square of the displacement's.
+  const double gain = std::clamp(options.tolerance * options.tolerance, 1e-14, 1e-4);
+  return press_punch(contact.cast<double>(), std::numeric_limits<double>::infinity(), grid,
+                     contact_modulus, options.boundary, Precision::mixed,
+                     {.relative_gain = gain,
+                      .max_iterations = options.max_iterations,
+                      .keep_going = keep_going(options.on_progress)},
+                     pressure);
+}
+
+}  // namespace salebra

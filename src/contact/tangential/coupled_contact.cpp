@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Frictional contact with Dundurs coupling: normal and slip solves in turn until nothing changes.
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/tangential/coupled_contact.hpp>
+#include <utility>
+
+namespace salebra {
+
+struct CoupledContact::Parts {
+  Surface surface;
+  double contact_modulus;
+  CoupledContactOptions options;
+  double highest;
+  double dundurs;
+  NormalTangentialCoupling coupling;
+  SlidingContact sliding;
+  double indentation = 0, normal_work = 0, gap_work = 0;
+  Field gap;  // now
+  bool converged = true, interrupted = false;
+
+  Parts(const Surface& given, const Material& material, const CoupledContactOptions& wanted)
+      : surface(given),
+        contact_modulus(material.contact_modulus),
+        options(wanted),
+        highest(given.heights.maxCoeff()),
+        dundurs(dundurs_constant(material.contact_modulus,
+                                 wanted.coupling ? *wanted.coupling : coupling_constant(material))),
+        coupling(given.grid, wanted.coupling ? *wanted.coupling : coupling_constant(material),
+                 wanted.contact.boundary),
+        sliding(given.grid, material, wanted.sliding),
+        gap(highest - given.heights) {}
+
+  double force() const { return surface.grid.cell_area() * sliding.pressure().sum(); }
+
+  // The same rigid approach above a surface that the tractions have displaced by `sunk`; cells `out` stay out of the contact, so that
+  // the others carry what these would. Their gap may be below 0.
+  NormalContactState press(double approach, const Field& sunk, Field guess,
+                           const ContactSet& out) const {
+    Surface lowered{surface.grid, surface.heights - sunk, surface.periodic, surface.origin};
+    const double depth =
+        std::abs(approach) + lowered.heights.maxCoeff() - lowered.heights.minCoeff();
+    lowered.heights -= out.select(Field::Constant(out.rows(), out.cols(), depth), 0.0);
+    guess = out.select(0.0, guess);
+    NormalContactOptions contact = options.contact;
+    if ((guess > 0).any()) contact.initial_pressure = &guess;
+    const double from_first_touch = approach + lowered.heights.maxCoeff() - highest;
+    if (!(from_first_touch > 0)) {
+      NormalContactState apart;
+      apart.pressure = Field::Zero(surface.grid.nx, surface.grid.ny);
+      apart.gap = highest - (surface.heights - sunk) - approach;
+      apart.converged = true;
+      return apart;
+    }
+    NormalContactState state =
+        press_to_indentation(lowered, contact_modulus, from_first_touch, contact);
+    state.gap = out.select(state.gap - depth, state.gap);
+    return state;
+  }
+};
+
+CoupledContact::CoupledContact(const Surface& surface, const Material& material,
+                               const CoupledContactOptions& options) {
+  surface.require_complete("a contact");
+  require(options.tolerance >= 1e-12 && options.tolerance <= 0.1, "tolerance", options.tolerance,
+          "must lie in 1e-12 … 0.1");
+  require(options.max_sweeps >= 1, "max_sweeps", options.max_sweeps, "must be >= 1");
+  if (options.contact.boundary != options.sliding.stick.boundary)
+    throw InvalidInput("boundary: differs between the normal and the tangential solves; give one");
+  parts_ = std::make_unique<Parts>(surface, material, options);
+}
+CoupledContact::CoupledContact(CoupledContact&&) noexcept = default;
+CoupledContact& CoupledContact::operator=(CoupledContact&&) noexcept = default;
+CoupledContact::~CoupledContact() = default;
+
+CoupledReport CoupledContact::advance(double indentation, const TangentialMove& move) {
+  Parts& p = *parts_;
+  const double force_before = p.force();
+  // While the contact is small, so are the displacements that the coupling makes: sweeps end only if the solves resolve them.
+  const double scale =
+      std::hypot(move.x, move.y) + std::abs(p.dundurs) * std::max(indentation, 0.0);
+  if (scale > 0) p.sliding.set_motion_scale(std::min(p.options.sliding.motion_scale, scale));
+  CoupledReport report;
+  SlidingContact::Increment increment;
+  increment.pressure = p.sliding.pressure();
+  increment.traction = p.sliding.traction();
+  Field gap;
+  bool solved = false;
+  // Without a limit a cell at the edge carries traction or not, and may do so in turn: one that has left once too often stays out.
+  constexpr int patience = 8;
+  ContactSet barred = ContactSet::Constant(p.surface.grid.nx, p.surface.grid.ny, false);
+  while (report.sweeps < p.options.max_sweeps) {
+    NormalContactState state =
+        p.press(indentation, p.coupling.normal_displacement(increment.traction), increment.pressure,
+                barred);
+    if (report.sweeps > patience)
+      barred = barred || (increment.pressure > 0 && state.pressure <= 0);
+    const TangentialField shift = p.coupling.tangential_displacement(state.pressure);
+    SlidingContact::Increment next =
+        p.sliding.attempt(state.pressure, move, &shift, report.sweeps > 0 ? &increment : nullptr);
+    const double change = (next.pressure - increment.pressure).abs().sum() +
+                          (next.traction.x - increment.traction.x).abs().sum() +
+                          (next.traction.y - increment.traction.y).abs().sum();
+    const double total = next.pressure.sum();
+    increment = std::move(next);
+    gap = std::move(state.gap);
+    solved = state.converged && increment.report.converged;
+    report.change = total > 0 ? change / total : 0;
+    report.interrupted = state.interrupted || increment.report.interrupted;
+    ++report.sweeps;
+    // Round-off of the last digits apart, nothing that is less than the solvers' own error can be asked for.
+    if (report.interrupted || report.change < p.options.tolerance) break;
+  }
+  report.converged = solved && report.change < p.options.tolerance && !report.interrupted;
+  p.converged = p.converged && report.converged;
+  p.interrupted = p.interrupted || report.interrupted;
+  const Field &pressure = p.sliding.pressure(), &next_pressure = increment.pressure;
+  const Field across = (pressure <= 0).select(next_pressure * p.gap, 0.0) -
+                       (next_pressure <= 0).select(pressure * gap, 0.0);
+  p.gap_work += p.surface.grid.cell_area() / 2 * across.sum();
+  p.gap = std::move(gap);
+  p.sliding.accept(std::move(increment));
+  p.normal_work += (force_before + p.force()) / 2 * (indentation - p.indentation);
+  p.indentation = indentation;
+  return report;
+}
+
+const SlidingContact& CoupledContact::sliding() const { return parts_->sliding; }
+double CoupledContact::indentation() const { return parts_->indentation; }
+double CoupledContact::normal_force() const { return parts_->force(); }
+double CoupledContact::normal_work() const { return parts_->normal_work; }
+double CoupledContact::gap_work() const { return parts_->gap_work; }
+bool CoupledContact::converged() const { return parts_->converged; }
+bool CoupledContact::interrupted() const { return parts_->interrupted; }
+
+double CoupledContact::stored_energy() const {
+  const Parts& p = *parts_;
+  // In contact the surface lies where the body is.
+  const Field normal = p.sliding.pressure() * (p.indentation - (p.highest - p.surface.heights));
+  return p.sliding.tangential_energy() + p.surface.grid.cell_area() / 2 * normal.sum();
+}
+
+}  // namespace salebra

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tangential contact with Coulomb friction in increments of pressure and of the rigid displacement.
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/tangential/sliding_contact.hpp>
+#include <utility>
+
+namespace salebra {
+namespace {
+
+TangentialField zero(const Grid2D& grid) {
+  return {Field::Zero(grid.nx, grid.ny), Field::Zero(grid.nx, grid.ny)};
+}
+
+Field dot(const TangentialField& a, const TangentialField& b) { return a.x * b.x + a.y * b.y; }
+
+TangentialField mean(const TangentialField& a, const TangentialField& b) {
+  return {(a.x + b.x) / 2, (a.y + b.y) / 2};
+}
+
+// a + part · move on `where`, 0 elsewhere.
+TangentialField moved(const TangentialField& a, const TangentialMove& move, double part,
+                      const ContactSet& where) {
+  return {where.select(a.x + part * move.x, 0.0), where.select(a.y + part * move.y, 0.0)};
+}
+
+void validate(const SlidingContactOptions& options) {
+  require(options.friction >= 0, "friction", options.friction,
+          "must be >= 0 (infinity: full stick)");
+  require_positive(options.motion_scale, "motion_scale");
+}
+
+Field limit_of(const Field& pressure, double friction) {
+  if (std::isfinite(friction)) return friction * pressure;
+  return (pressure > 0).select(Field::Constant(pressure.rows(), pressure.cols(), friction), 0.0);
+}
+
+// For how much of an increment the entering cells were in contact, 0 … 1: half of it on average. Near the edge of a contact p² grows in
+// proportion to the indentation, so that the part is c p² where that is less than 1.
+Field part_in_contact(const Field& pressure, const ContactSet& entering) {
+  const Field squared = entering.select(pressure.square(), 0.0);
+  const double count = static_cast<double>(entering.count());
+  double low = 0, high = 1 / (entering.select(squared, squared.maxCoeff()).minCoeff());
+  for (int halving = 0; halving < 100; ++halving) {
+    const double factor = (low + high) / 2;
+    ((factor * squared).min(1.0).sum() < count / 2 ? low : high) = factor;
+  }
+  return (high * squared).min(1.0);
+}
+
+}  // namespace
+
+SlidingContact::SlidingContact(const Grid2D& grid, const Material& material,
+                               const SlidingContactOptions& options)
+    : cell_area_(grid.cell_area()),
+      options_(options),
+      solver_(grid, material, options.stick),
+      contact_(ContactSet::Constant(grid.nx, grid.ny, false)) {
+  state_.pressure = state_.loss = Field::Zero(grid.nx, grid.ny);
+  state_.shift = state_.traction = state_.displacement = zero(grid);
+  validate(options);
+}
+
+void SlidingContact::set_motion_scale(double scale) {
+  require_positive(scale, "motion_scale");
+  options_.motion_scale = scale;
+}
+
+void SlidingContact::restore(SlidingState state) {
+  for (const Field* field :
+       {&state.pressure, &state.loss, &state.shift.x, &state.shift.y, &state.traction.x,
+        &state.traction.y, &state.displacement.x, &state.displacement.y})
+    require(field->rows() == contact_.rows() && field->cols() == contact_.cols(), "state",
+            field->size(), "cells do not match the grid; resume with the run's own settings");
+  state_ = std::move(state);
+  contact_ = limit_of(state_.pressure, options_.friction) > 0;
+}
+
+void SlidingContact::reserve(const ContactSet& largest) { solver_.reserve(largest); }
+
+TangentialField SlidingContact::displacement_under(const ContactSet& loaded,
+                                                   const TangentialField& traction,
+                                                   const TangentialField& shift,
+                                                   const ContactSet& where) {
+  TangentialField displacement = solver_.displacement(loaded, traction, where);
+  state_.fft_count += 2;
+  displacement.x += where.select(shift.x, 0.0);
+  displacement.y += where.select(shift.y, 0.0);
+  return displacement;
+}
+
+// Half of the increment with the cells that are in contact already: where it takes those that enter in its middle.
+TangentialField SlidingContact::displacement_halfway(const TangentialMove& move,
+                                                     const TangentialField& shift,
+                                                     const ContactSet& entering,
+                                                     Increment& increment) {
+  const TangentialField halfway = mean(state_.shift, shift);
+  TangentialField target = moved(state_.displacement, move, 0.5, contact_), slip;
+  target.x -= contact_.select(halfway.x, 0.0);
+  target.y -= contact_.select(halfway.y, 0.0);
+  const PartialSlipReport report =
+      solver_.solve(limit_of(state_.pressure, options_.friction), target, options_.motion_scale,
+                    increment.traction_halfway, slip);
+  count(report);
+  increment.report.converged = report.converged;
+  increment.report.interrupted = report.interrupted;
+  return displacement_under(contact_, increment.traction_halfway, halfway, entering);
+}
+
+SlidingContact::Increment SlidingContact::attempt(const Field& pressure, const TangentialMove& move,
+                                                  const TangentialField* shift,
+                                                  const Increment* guess) {
+  require(pressure.rows() == state_.pressure.rows() && pressure.cols() == state_.pressure.cols(),
+          "pressure", pressure.size(), "values do not match the grid; give nx × ny values");
+  require((pressure >= 0).all(), "pressure", pressure.minCoeff(), "must be >= 0 in every cell");
+  require(options_.stick.hold_lateral || move.y == 0, "move", move.y,
+          "along y must be 0 where the lateral displacement is free; turn the surface instead");
+  const Field limit = limit_of(pressure, options_.friction);
+  const ContactSet contact = limit > 0, entering = contact && !contact_;
+  Increment increment{.pressure = pressure,
+                      .shift = shift ? *shift : state_.shift,
+                      .traction = guess ? guess->traction : state_.traction,
+                      .traction_halfway = guess ? guess->traction_halfway : state_.traction,
+                      .displacement = moved(state_.displacement, move, 1, contact && contact_),
+                      .displacement_before = state_.displacement,
+                      .slip = {},
+                      .move = move,
+                      .report = {.converged = true}};
+  if (entering.any()) {
+    const TangentialField present =
+        displacement_under(contact_, state_.traction, state_.shift, entering);
+    increment.displacement_before.x += present.x;
+    increment.displacement_before.y += present.y;
+    const bool at_rest = !shift && move.x == 0 && move.y == 0;
+    const TangentialField halfway =
+        at_rest || !contact_.any()
+            ? present
+            : displacement_halfway(move, increment.shift, entering, increment);
+    const Field stay = part_in_contact(pressure, entering);
+    // Linear in time before and after the middle.
+    const auto enter = [&](const Field& at_start, const Field& in_middle, double distance,
+                           Field& displacement) {
+      displacement += entering.select(
+          in_middle + (1 - 2 * stay) * (in_middle - at_start) + stay * distance, 0.0);
+    };
+    enter(present.x, halfway.x, move.x, increment.displacement.x);
+    enter(present.y, halfway.y, move.y, increment.displacement.y);
+  }
+  const TangentialField target{increment.displacement.x - increment.shift.x,
+                               increment.displacement.y - increment.shift.y};
+  const PartialSlipReport halfway = increment.report;
+  increment.report =
+      solver_.solve(limit, target, options_.motion_scale, increment.traction, increment.slip);
+  count(increment.report);
+  increment.report.converged = increment.report.converged && halfway.converged;
+  increment.report.interrupted = increment.report.interrupted || halfway.interrupted;
+  increment.displacement.x -= increment.slip.x;
+  increment.displacement.y -= increment.slip.y;
+  return increment;
+}
+
+void SlidingContact::count(const PartialSlipReport& report) {
+  state_.iterations += report.iterations;
+  state_.fft_count += report.fft_count;
+}
+
+void SlidingContact::accept(Increment increment) {
+  state_.converged = state_.converged && increment.report.converged;
+  interrupted_ = interrupted_ || increment.report.interrupted;
+  state_.slipping = increment.report.slipping;
+  const ContactSet contact = limit_of(increment.pressure, options_.friction) > 0;
+  const ContactSet leaving = contact_ && !contact, entering = contact && !contact_;
+  const TangentialField middle = mean(state_.traction, increment.traction);
+  // The body's motion as the cells feel it, those that enter from their entry on.
+  TangentialField motion{Field::Constant(contact.rows(), contact.cols(), increment.move.x),
+                         Field::Constant(contact.rows(), contact.cols(), increment.move.y)};
+  const auto from_entry = [&](Field& whole, const Field& before, const Field& after,
+                              const Field& slip) {
+    whole = entering.select(after + slip - before, whole);
+  };
+  from_entry(motion.x, increment.displacement_before.x, increment.displacement.x, increment.slip.x);
+  from_entry(motion.y, increment.displacement_before.y, increment.displacement.y, increment.slip.y);
+  state_.work += cell_area_ * dot(middle, motion).sum();
+  state_.loss += cell_area_ * contact.select(dot(middle, increment.slip), 0.0);
+  if (leaving.any()) {
+    const TangentialField carried = moved(state_.displacement, increment.move, 1, leaving);
+    const TangentialField relaxed =
+        displacement_under(contact, increment.traction, increment.shift, leaving);
+    const Field released = cell_area_ * dot(middle, {carried.x - relaxed.x, carried.y - relaxed.y});
+    state_.loss += released;
+    state_.released += released.sum();
+  }
+  contact_ = contact;
+  state_.pressure = std::move(increment.pressure);
+  state_.shift = std::move(increment.shift);
+  state_.traction = std::move(increment.traction);
+  state_.displacement = std::move(increment.displacement);
+}
+
+PartialSlipReport SlidingContact::advance(const Field& pressure, const TangentialMove& move) {
+  Increment increment = attempt(pressure, move);
+  const PartialSlipReport report = increment.report;
+  accept(std::move(increment));
+  return report;
+}
+
+TangentialMove SlidingContact::tangential_force() const {
+  return {cell_area_ * state_.traction.x.sum(), cell_area_ * state_.traction.y.sum()};
+}
+
+double SlidingContact::stored_energy() const {
+  const TangentialField elastic{state_.displacement.x - state_.shift.x,
+                                state_.displacement.y - state_.shift.y};
+  return cell_area_ / 2 * dot(state_.traction, elastic).sum();
+}
+
+double SlidingContact::tangential_energy() const {
+  return cell_area_ / 2 * dot(state_.traction, state_.displacement).sum();
+}
+
+}  // namespace salebra

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tangential stiffness of a stuck contact set, and its tractions for given displacements.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/tangential/stick.hpp>
+
+#include "surface_response.hpp"
+#include "tangential_workspace.hpp"
+
+namespace salebra {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+struct UnitMotion {
+  std::vector<double> tractions, misfit;
+  StickReport report;
+};
+
+double sum_of(const std::vector<double>& values, Index first, Index count) {
+  double sum = 0;
+  for (Index k = first; k < first + count; ++k) sum += values[static_cast<std::size_t>(k)];
+  return sum;
+}
+
+// K_ij = e_i·τ_j at the solution τ_j; adding τ_i·(e_j − Kτ_j) makes the error of unfinished iterates quadratic.
+double correction(const UnitMotion& i, const UnitMotion& j) {
+  return std::inner_product(i.tractions.begin(), i.tractions.end(), j.misfit.begin(), 0.0);
+}
+
+// Component `moving` of the displacement is 1 on the contact set, the other 0.
+// guess: tractions of that component on the grid to start from; empty: none.
+UnitMotion move_by_one(detail::ContactSystem& system, const detail::PointList& points, int moving,
+                       const StickOptions& options, const Field& guess = {}) {
+  const int components = system.response().components();
+  const std::size_t count = points.cell.size();
+  std::vector<double> displacements(count * static_cast<std::size_t>(components), 0.0);
+  std::fill_n(displacements.begin() + static_cast<std::ptrdiff_t>(count) * moving, count, 1.0);
+  UnitMotion motion;
+  motion.tractions.assign(displacements.size(), 0.0);
+  if (guess.size() > 0)
+    for (std::size_t k = 0; k < count; ++k)
+      motion.tractions[count * static_cast<std::size_t>(moving) + k] = guess.data()[points.cell[k]];
+  // The residual is a mean over the components; the tolerance is one over the contact set.
+  motion.report =
+      system.solve(points, displacements, options.tolerance / std::sqrt(components),
+                   options.max_iterations, options.on_progress, motion.tractions, motion.misfit);
+  motion.report.residual *= std::sqrt(components);
+  return motion;
+}
+
+}  // namespace
+
+struct StickSolver::Parts {
+  detail::TangentialWorkspace workspace;
+};
+
+StickSolver::StickSolver(const Grid2D& grid, const Material& material, const StickOptions& options)
+    : parts_(std::make_unique<Parts>(Parts{detail::TangentialWorkspace(grid, material, options)})) {
+}
+StickSolver::StickSolver(StickSolver&&) noexcept = default;
+StickSolver& StickSolver::operator=(StickSolver&&) noexcept = default;
+StickSolver::~StickSolver() = default;
+
+StickReport StickSolver::solve(const ContactSet& contact, const TangentialField& displacement,
+                               double scale, TangentialField& traction) {
+  detail::TangentialWorkspace& workspace = parts_->workspace;
+  const StickOptions& options = workspace.options();
+  detail::require_contact(contact, workspace.grid(), options.boundary);
+  workspace.require_field(displacement, "displacement");
+  require_positive(scale, "scale");
+  detail::ContactSystem& system = workspace.system_for(contact);
+  const detail::PointList points = system.points(contact);
+  const std::vector<double> displacements = workspace.gather(displacement, points);
+  std::vector<double> tractions(displacements.size(), 0.0), misfit;
+  if (traction.x.size() > 0) {
+    workspace.require_field(traction, "traction");
+    tractions = workspace.gather(traction, points);
+  }
+  const double per_point = std::sqrt(static_cast<double>(system.response().components()));
+  StickReport report = system.solve(points, displacements, options.tolerance * scale / per_point,
+                                    options.max_iterations, options.on_progress, tractions, misfit);
+  report.residual *= per_point / scale;
+  workspace.scatter(tractions, points, traction);
+  return report;
+}
+
+TangentialField StickSolver::displacement(const ContactSet& loaded, const TangentialField& traction,
+                                          const ContactSet& where) {
+  return parts_->workspace.displacement(loaded, traction, where);
+}
+
+void StickSolver::reserve(const ContactSet& largest) {
+  detail::require_contact(largest, parts_->workspace.grid(), Boundary::free);
+  parts_->workspace.system_for(largest);
+}
+
+StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
+                               const Material& material, const StickOptions& options,
+                               bool along_x_only, const Field& guess) {
+  grid.validate();
+  detail::require_limits(options.tolerance, options.max_iterations);
+  detail::require_tangential(material);
+  detail::require_contact(contact, grid, options.boundary);
+  const detail::CellWindow window = detail::loading_window(contact, grid, options.boundary);
+  const auto system_of = [&](detail::Traction traction) {
+    return detail::ContactSystem(grid, material, options.boundary, traction, window);
+  };
+  detail::ContactSystem system =
+      system_of(options.hold_lateral ? detail::Traction::tangential : detail::Traction::along_x);
+  const detail::PointList points = system.points(contact);
+  const Index count = points.size();
+  require(guess.size() == 0 || (guess.rows() == grid.nx && guess.cols() == grid.ny), "guess",
+          guess.size(), "values do not match the grid; give nx × ny values");
+  const UnitMotion along_x = move_by_one(system, points, 0, options, guess);
+  StickStiffness stiffness;
+  const auto add = [&](const StickReport& report) {
+    stiffness.iterations += report.iterations;
+    stiffness.fft_count += report.fft_count;
+    stiffness.residual = std::max(stiffness.residual, report.residual);
+    stiffness.converged = stiffness.converged && report.converged;
+  };
+  stiffness.converged = true;
+  add(along_x.report);
+  stiffness.xx =
+      (sum_of(along_x.tractions, 0, count) + correction(along_x, along_x)) * grid.cell_area();
+  if (along_x_only) {
+    stiffness.yy = stiffness.xy = unknown;
+    return stiffness;
+  }
+  if (!options.hold_lateral) {
+    detail::ContactSystem across = system_of(detail::Traction::along_y);
+    const UnitMotion along_y = move_by_one(across, across.points(contact), 0, options, guess);
+    add(along_y.report);
+    stiffness.yy =
+        (sum_of(along_y.tractions, 0, count) + correction(along_y, along_y)) * grid.cell_area();
+    return stiffness;
+  }
+  const UnitMotion along_y = move_by_one(system, points, 1, options, guess);
+  add(along_y.report);
+  stiffness.yy =
+      (sum_of(along_y.tractions, count, count) + correction(along_y, along_y)) * grid.cell_area();
+  stiffness.xy =
+      (sum_of(along_x.tractions, count, count) + correction(along_y, along_x)) * grid.cell_area();
+  return stiffness;
+}
+
+}  // namespace salebra

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Displacements of the points of a contact set under their tractions, and the CG solve on that set.
+#include "surface_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/parallel.hpp>
+
+namespace salebra::detail {
+namespace {
+
+std::size_t size_of(Index count) { return static_cast<std::size_t>(count); }
+
+Grid2D grid_of(const CellWindow& window, const Grid2D& grid) {
+  return {window.nx, window.ny, static_cast<double>(window.nx) * grid.dx(),
+          static_cast<double>(window.ny) * grid.dy()};
+}
+
+// Below this many points a team of threads costs more than it saves.
+constexpr Index worth_threads = 1 << 14;
+
+template <class Body>
+void for_points(Index count, const Body& body) {
+  if (count < worth_threads)
+    body(Index{0}, count);
+  else
+    parallel::for_slabs(count, body);
+}
+
+}  // namespace
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto part = [&](Index begin, Index end) {
+    double sum = 0;
+    for (std::size_t i = size_of(begin); i < size_of(end); ++i) sum += a[i] * b[i];
+    return sum;
+  };
+  const Index count = static_cast<Index>(a.size());
+  return count < worth_threads ? part(0, count) : parallel::sum_slabs(count, part);
+}
+
+SurfaceResponse::SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,
+                                 Traction traction, const CellWindow& window)
+    : window_(window),
+      traction_(traction),
+      compliance_(tangential_compliance<double>(grid_of(window, grid), material, boundary)) {
+  for (std::size_t c = 0; c < 2; ++c) {
+    loads_[c].assign(size_of(window.nx * window.ny), 0);
+    values_[c] = loads_[c];
+  }
+}
+
+void SurfaceResponse::apply(const PointList& loaded, const double* tractions, const PointList& read,
+                            double* displacements) {
+  const std::size_t loads = loaded.windowed.size(), reads = read.windowed.size();
+  const std::size_t first = traction_ == Traction::along_y ? 1 : 0;
+  const std::size_t count = size_of(components());
+  for (std::size_t c = 0; c < count; ++c)
+    for (std::size_t k = 0; k < loads; ++k)
+      loads_[first + c][size_of(loaded.windowed[k])] = tractions[c * loads + k];
+  compliance_.apply({loads_[0].data(), loads_[1].data()}, {values_[0].data(), values_[1].data()});
+  for (std::size_t c = 0; c < count; ++c) {
+    for (const Index at : loaded.windowed) loads_[first + c][size_of(at)] = 0;
+    for (std::size_t k = 0; k < reads; ++k)
+      displacements[c * reads + k] = values_[first + c][size_of(read.windowed[k])];
+  }
+  fft_count_ += 2;
+}
+
+StencilPreconditioner::StencilPreconditioner(const Grid2D& grid, Boundary boundary,
+                                             const CellWindow& window)
+    : window_(window),
+      periodic_(boundary == Boundary::periodic),
+      field_(size_of((window.nx + 2 * reach) * row_length())) {
+  const InverseStencil stencil(grid);
+  for (int a = 0; a < width; ++a)
+    for (int b = 0; b < width; ++b)
+      weights_[size_of(a * width + b)] = stencil.weight(a - reach, b - reach);
+}
+
+void StencilPreconditioner::fill_ghosts() {
+  const Index length = row_length();
+  const auto wrap = [](Index i, Index n) { return ((i % n) + n) % n; };
+  for (Index ix = 0; ix < window_.nx; ++ix) {
+    double* row = field_.data() + (ix + reach) * length + reach;
+    for (Index k = 1; k <= reach; ++k) {
+      row[-k] = row[wrap(-k, window_.ny)];
+      row[window_.ny + k - 1] = row[wrap(k - 1, window_.ny)];
+    }
+  }
+  for (Index k = 1; k <= reach; ++k) {
+    const auto copy_row = [&](Index from, Index to) {
+      std::copy_n(field_.begin() + (from + reach) * length, length,
+                  field_.begin() + (to + reach) * length);
+    };
+    copy_row(wrap(-k, window_.nx), -k);
+    copy_row(wrap(k - 1, window_.nx), window_.nx + k - 1);
+  }
+}
+
+void StencilPreconditioner::apply(const PointList& points, const double* in, double* out) {
+  const Index length = row_length();
+  for (std::size_t k = 0; k < points.framed.size(); ++k) field_[size_of(points.framed[k])] = in[k];
+  if (periodic_) fill_ghosts();
+  for_points(points.size(), [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) {
+      const double* corner = field_.data() + points.framed[size_of(k)] - reach * length - reach;
+      double sum = 0;
+      for (Index a = 0; a < width; ++a)
+        for (Index b = 0; b < width; ++b)
+          sum += weights_[size_of(a * width + b)] * corner[a * length + b];
+      out[k] = sum;
+    }
+  });
+  for (const Index at : points.framed) field_[size_of(at)] = 0;
+}
+
+ContactSystem::ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary,
+                             Traction traction, const CellWindow& window)
+    : window_(window),
+      response_(grid, material, boundary, traction, window),
+      preconditioner_(grid, boundary, window) {}
+
+PointList ContactSystem::points(const ContactSet& cells) const {
+  PointList list;
+  for (Index ix = window_.x0; ix < window_.x0 + window_.nx; ++ix)
+    for (Index iy = window_.y0; iy < window_.y0 + window_.ny; ++iy)
+      if (cells(ix, iy)) {
+        list.cell.push_back(ix * cells.cols() + iy);
+        list.windowed.push_back(response_.window_index(ix, iy));
+        list.framed.push_back(preconditioner_.framed_index(ix, iy));
+      }
+  return list;
+}
+
+StickReport ContactSystem::solve(const PointList& points, const std::vector<double>& displacements,
+                                 double tolerance, int max_iterations, const Progress& progress,
+                                 std::vector<double>& tractions, std::vector<double>& misfit) {
+  StickReport report;
+  const int first_fft = response_.fft_count();
+  const std::size_t unknowns = displacements.size();
+  misfit = displacements;
+  if (unknowns == 0) {
+    report.converged = true;
+    return report;
+  }
+  std::vector<double> response(unknowns), preconditioned(unknowns), direction(unknowns, 0.0);
+  if (std::any_of(tractions.begin(), tractions.end(), [](double t) { return t != 0; })) {
+    response_.apply(points, tractions.data(), points, response.data());
+    for (std::size_t i = 0; i < unknowns; ++i) misfit[i] -= response[i];
+  }
+  const double root = std::sqrt(static_cast<double>(unknowns));
+  double previous = 0;
+  for (;;) {
+    report.residual = std::sqrt(dot(misfit, misfit)) / root;
+    report.converged = report.residual < tolerance;
+    if (report.converged || report.iterations == max_iterations) break;
+    if (progress && !progress({"stick", report.iterations / static_cast<double>(max_iterations),
+                               report.iterations, report.residual})) {
+      report.interrupted = true;
+      break;
+    }
+    for (int c = 0; c < response_.components(); ++c) {
+      const std::size_t offset = size_of(c * points.size());
+      preconditioner_.apply(points, misfit.data() + offset, preconditioned.data() + offset);
+    }
+    const double weight = dot(misfit, preconditioned);
+    const double beta = previous > 0 ? weight / previous : 0;
+    previous = weight;
+    for (std::size_t i = 0; i < unknowns; ++i)
+      direction[i] = preconditioned[i] + beta * direction[i];
+    response_.apply(points, direction.data(), points, response.data());
+    const double curvature = dot(direction, response);
+    if (!(curvature > 0)) break;  // round-off has used up the system's accuracy
+    const double step = weight / curvature;
+    for (std::size_t i = 0; i < unknowns; ++i) {
+      tractions[i] += step * direction[i];
+      misfit[i] -= step * response[i];
+    }
+    ++report.iterations;
+  }
+  report.fft_count = response_.fft_count() - first_fft;
+  return report;
+}
+
+}  // namespace salebra::detail

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <salebra/base/convolution.hpp>
+#include <salebra/base/grid.hpp>
+#include <salebra/base/progress.hpp>
+#include <salebra/contact/half_space/half_space.hpp>
+#include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/tangential/stick.hpp>
+#include <vector>
+
+#include "contact/half_space/cell_window.hpp"
+
+namespace salebra::detail {
+
+/// Σ a_i b_i, with the same bits for every thread count.
+double dot(const std::vector<double>& a, const std::vector<double>& b);
+
+/// Cells of a set in row order, as positions in the window and in the preconditioner's framed window.
+struct PointList {
+  std::vector<Index> cell;      ///< ix·ny + iy in the grid
+  std::vector<Index> windowed;  ///< in SurfaceResponse's fields
+  std::vector<Index> framed;    ///< in StencilPreconditioner's field
+  Index size() const { return static_cast<Index>(cell.size()); }
+};
+
+/// Which displacements of which tractions: shear along one axis with the other component of traction absent and the other component of
+/// displacement not asked for, or both components.
+enum class Traction { along_x, along_y, tangential };
+
+/// Displacements of the surface of a half-space under tractions in cells, on a window: the whole grid where periodic, any rectangle
+/// where free. A component of a vector of points is contiguous.
+class SurfaceResponse {
+ public:
+  SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,
+                  Traction traction, const CellWindow& window);
+
+  int components() const { return traction_ == Traction::tangential ? 2 : 1; }
+  Index window_index(Index ix, Index iy) const {
+    return (ix - window_.x0) * window_.ny + iy - window_.y0;
+  }
+  /// displacements (components × read.size()) of tractions (components × loaded.size()).
+  void apply(const PointList& loaded, const double* tractions, const PointList& read,
+             double* displacements);
+  int fft_count() const { return fft_count_; }
+
+ private:
+  CellWindow window_;
+  Traction traction_;
+  Convolution2D<double> compliance_;
+  std::array<std::vector<double>, 2> loads_, values_;
+  int fft_count_ = 0;
+};
+
+/// Approximate inverse of each component of a response: InverseStencil on the points of a contact set alone, which costs nothing
+/// where there is no contact.
+class StencilPreconditioner {
+ public:
+  StencilPreconditioner(const Grid2D& grid, Boundary boundary, const CellWindow& window);
+
+  Index framed_index(Index ix, Index iy) const {
+    return (ix - window_.x0 + reach) * row_length() + iy - window_.y0 + reach;
+  }
+  double diagonal() const { return weights_[reach * width + reach]; }  ///< 1/m, of E* = 1
+  /// One component; out may not be in.
+  void apply(const PointList& points, const double* in, double* out);
+
+ private:
+  static constexpr Index reach = InverseStencil::radius;
+  static constexpr Index width = InverseStencil::width;
+  Index row_length() const { return window_.ny + 2 * reach; }
+  void fill_ghosts();
+
+  CellWindow window_;
+  bool periodic_;
+  std::array<double, width * width> weights_;
+  std::vector<double> field_;
+};
+
+/// A response with its preconditioner and the points of a contact set: solves K τ = u on the set.
+class ContactSystem {
+ public:
+  ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary, Traction traction,
+                const CellWindow& window);
+
+  const CellWindow& window() const { return window_; }
+  SurfaceResponse& response() { return response_; }
+  StencilPreconditioner& preconditioner() { return preconditioner_; }
+  PointList points(const ContactSet& cells) const;
+
+  /// Preconditioned conjugate gradients from the guess in `tractions`; stops at rms(u − Kτ) < tolerance, in m.
+  /// On return residual is in m, and `misfit` (components × points) holds u − Kτ.
+  StickReport solve(const PointList& points, const std::vector<double>& displacements,
+                    double tolerance, int max_iterations, const Progress& progress,
+                    std::vector<double>& tractions, std::vector<double>& misfit);
+
+ private:
+  CellWindow window_;
+  SurfaceResponse response_;
+  StencilPreconditioner preconditioner_;
+};
+
+}  // namespace salebra::detail

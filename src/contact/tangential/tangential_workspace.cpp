@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// State that the solvers with and without slip share: kernels kept between calls, fields to points.
+#include "tangential_workspace.hpp"
+
+#include <cmath>
+#include <salebra/base/error.hpp>
+
+namespace salebra::detail {
+
+void require_tangential(const Material& material) {
+  require(
+      std::isfinite(material.cerruti_isotropic) && std::isfinite(material.cerruti_directed) &&
+          material.cerruti_isotropic > 0,
+      "material", material.cerruti_isotropic,
+      "as Cerruti's constant cannot be used for a stick solve; give Young's moduli and Poisson's "
+      "ratios, or a contact modulus with Poisson's ratio");
+}
+
+TangentialWorkspace::TangentialWorkspace(const Grid2D& grid, const Material& material,
+                                         const StickOptions& options)
+    : grid_(grid), material_(material), options_(options) {
+  grid.validate();
+  require_limits(options.tolerance, options.max_iterations);
+  require_tangential(material);
+}
+
+ContactSystem& TangentialWorkspace::system_for(const ContactSet& contact) {
+  const CellWindow window = loading_window(contact, grid_, options_.boundary);
+  if (!system_ || !system_->window().contains(window))
+    system_.emplace(grid_, material_, options_.boundary,
+                    options_.hold_lateral ? Traction::tangential : Traction::along_x, window);
+  return *system_;
+}
+
+std::vector<double> TangentialWorkspace::gather(const TangentialField& field,
+                                                const PointList& points) const {
+  std::vector<double> values;
+  values.reserve(points.cell.size() * 2);
+  for (const Index cell : points.cell) values.push_back(field.x.data()[cell]);
+  if (options_.hold_lateral)
+    for (const Index cell : points.cell) values.push_back(field.y.data()[cell]);
+  return values;
+}
+
+void TangentialWorkspace::scatter(const std::vector<double>& values, const PointList& points,
+                                  TangentialField& field) const {
+  field.x = Field::Zero(grid_.nx, grid_.ny);
+  field.y = Field::Zero(grid_.nx, grid_.ny);
+  const std::size_t count = points.cell.size();
+  for (std::size_t k = 0; k < count; ++k) field.x.data()[points.cell[k]] = values[k];
+  if (options_.hold_lateral)
+    for (std::size_t k = 0; k < count; ++k) field.y.data()[points.cell[k]] = values[count + k];
+}
+
+void TangentialWorkspace::require_field(const TangentialField& field, const char* name) const {
+  for (const Field* component : {&field.x, &field.y})
+    require(component->rows() == grid_.nx && component->cols() == grid_.ny, name, component->size(),
+            "values do not match the grid; give both components with nx × ny values");
+}
+
+TangentialField TangentialWorkspace::displacement(const ContactSet& loaded,
+                                                  const TangentialField& traction,
+                                                  const ContactSet& where) {
+  require_contact(loaded, grid_, Boundary::free);
+  require_contact(where, grid_, Boundary::free);
+  require_field(traction, "traction");
+  ContactSystem& system = system_for(loaded || where);
+  const PointList sources = system.points(loaded), readings = system.points(where);
+  const std::vector<double> tractions = gather(traction, sources);
+  std::vector<double> values(readings.cell.size() * components());
+  system.response().apply(sources, tractions.data(), readings, values.data());
+  TangentialField result;
+  scatter(values, readings, result);
+  return result;
+}
+
+}  // namespace salebra::detail

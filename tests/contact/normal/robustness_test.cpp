@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/normal/normal.hpp>
+
+#include "contact/normal/active_set_cg.hpp"
+#include "awkward_contacts.hpp"
+#include "contact/normal/gradient_projection.hpp"
+#include "independent_residual.hpp"
+#include "measured_surfaces.hpp"
+
+using namespace salebra;
+using namespace salebra::test;
+
+namespace {
+
+// bench/contact/robustness runs the whole set, 200 surfaces and finer grids.
+void check(const AwkwardContact& contact, Boundary boundary = Boundary::periodic) {
+  INFO(contact.name);
+  NormalContactOptions options;
+  options.boundary = boundary;
+  for (const auto& [precision, tolerance] :
+       {std::pair{Precision::mixed, 1e-8}, std::pair{Precision::full, 1e-12}}) {
+    options.precision = precision;
+    options.tolerance = tolerance;
+    const auto sound = [&, tolerance = tolerance](const NormalContactState& state) {
+      CHECK(state.converged);
+      CHECK(state.residual < tolerance);
+      // Transforms of another kind round differently, by 1e-15 of the heights.
+      CHECK(independent_residual(state.pressure, contact.surface, 1, boundary) < 1.1 * tolerance);
+    };
+    const auto state = press_to_pressure(contact.surface, 1, contact.pressure, options);
+    sound(state);
+    CHECK(state.pressure.mean() == Approx(contact.pressure).epsilon(1e-10));
+    const double first_touch = contact.surface.heights.maxCoeff() - contact.surface.heights.mean();
+    const bool periodic = boundary == Boundary::periodic;
+    // In full contact the gap tells the pressure no more.
+    if (periodic &&
+        (state.mean_gap < 1e-6 * first_touch || state.mean_gap > (1 - 1e-9) * first_touch))
+      continue;
+    const auto back = periodic
+                          ? press_to_mean_gap(contact.surface, 1, state.mean_gap, options)
+                          : press_to_indentation(contact.surface, 1, state.indentation, options);
+    sound(back);
+    // e_c is an energy; pressures differ by its root.
+    CHECK(back.mean_pressure == Approx(contact.pressure).epsilon(10 * std::sqrt(tolerance)));
+  }
+}
+
+// A solver of one grid with lengths in cells, as press_to_pressure runs it on the finest level.
+struct SingleGrid {
+  Surface surface = rough_surface({64, 64, 64, 64}, {.rms_slope = 0.1});
+  double rms = rms_height(surface);
+  detail::ContactTarget target{detail::ContactTarget::Kind::mean_pressure, 0.005};
+  detail::ActiveSetLimits limits{.tolerance = 1e-12};
+  Field p = Field::Constant(64, 64, 0.005), g = Field::Zero(64, 64);
+
+  template <class Real>
+  detail::ActiveSetOutcome solve() {
+    detail::ActiveSetCg<Real> solver(surface.grid, 1, Boundary::periodic, {surface.heights.data()},
+                                     rms);
+    return solver.solve(target, limits, p.data(), g.data());
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Random surfaces of any exponent, cut-off and load converge, by pressure and by gap",
+          "[normal]") {
+  for (int k = 0; k < 12; ++k) check(awkward_surface(k, 64));
+}
+
+TEST_CASE("Punches, steps, single cells and full contact converge, by pressure and by gap",
+          "[normal]") {
+  for (const auto& contact : awkward_shapes(32)) check(contact);
+}
+
+TEST_CASE("A single point and constant heights are in full contact under any pressure",
+          "[normal]") {
+  const Precision precision = GENERATE(Precision::mixed, Precision::full);
+  const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
+  NormalContactOptions options{.tolerance = 1e-8, .boundary = boundary, .precision = precision};
+  if (precision == Precision::full) options.tolerance = 1e-12;
+  for (const Index n : {1, 24})
+    for (const double pressure : {1e-6, 1.0, 1e6}) {
+      const Surface plane = surface_of({n, n, 1, 1}, [](double, double) { return -3.25; });
+      const auto state = press_to_pressure(plane, 1, pressure, options);
+      CHECK(state.converged);
+      CHECK(state.contact_area_fraction == 1);
+      CHECK(state.pressure.mean() == Approx(pressure).epsilon(1e-12));
+      // Uniform where the cell repeats; alone, a flat punch is pressed hardest at its edges. e_c is an energy: gaps are of the order of its root.
+      CHECK(state.gap.abs().maxCoeff() < 10 * std::sqrt(options.tolerance) * pressure);
+      if (boundary == Boundary::periodic || n == 1) CHECK((state.pressure == pressure).all());
+    }
+}
+
+TEST_CASE("Measured surfaces converge, as cells that repeat and as isolated bodies", "[normal]") {
+  const auto measured = measured_surfaces(SALEBRA_SHARED "/surfaces", 96);
+  if (measured.unusable.empty()) return;  // the folder is absent
+  CHECK(measured.usable.size() >= 6);
+  for (const auto& [name, surface, slope, undefined] : measured.usable)
+    for (const double load : {1e-3, 0.3})
+      for (const Boundary boundary : {Boundary::periodic, Boundary::free})
+        check({name + ", pressure over E*·(rms slope) " + std::to_string(load), surface,
+               load * slope},
+              boundary);
+  // One is text without heights, one has no surface's shape.
+  CHECK(std::count_if(measured.unusable.begin(), measured.unusable.end(), [](const auto& why) {
+          return why.find("nonsense") != std::string::npos ||
+                 why.find("wrong") != std::string::npos;
+        }) == 2);
+}
+
+TEST_CASE("Undefined points of a measured surface are named, not pressed", "[normal]") {
+  if (!std::filesystem::exists(SALEBRA_SHARED "/surfaces/sur-2.sur")) return;
+  const Surface surface = read_surface(SALEBRA_SHARED "/surfaces/sur-2.sur");
+  REQUIRE(surface.undefined_points() == 117);
+  CHECK_THROWS_WITH(press_to_pressure(surface, 1e9, 1e3), Catch::Contains("117"));
+}
+
+TEST_CASE("Where conjugate gradients stall, gradient projection finds the same contact",
+          "[normal]") {
+  SingleGrid usual, stalled;
+  const auto reference = usual.solve<double>();
+  REQUIRE(reference.converged);
+  // Without patience the first iterations that do not halve e_c exhaust the other thresholds.
+  stalled.limits.patience = 0;
+  const bool mixed = GENERATE(false, true);
+  const auto outcome = mixed ? stalled.solve<float>() : stalled.solve<double>();
+  CHECK(outcome.converged);
+  CHECK(outcome.iterations > reference.iterations);
+  CHECK(((stalled.p > 0) == (usual.p > 0)).all());
+  CHECK((stalled.p - usual.p).abs().maxCoeff() < 1e-5 * usual.p.maxCoeff());
+  CHECK(outcome.level == Approx(reference.level).epsilon(1e-7));
+}
+
+TEST_CASE("Gradient projection solves a contact on its own, from any start", "[normal]") {
+  SingleGrid usual, projected;
+  const bool load_given = GENERATE(true, false);
+  const double bound = GENERATE(std::numeric_limits<double>::infinity(), 0.05);
+  usual.target.bound = projected.target.bound = bound;
+  const auto reference = usual.solve<double>();
+  REQUIRE(reference.converged);
+  if (!load_given) {
+    projected.target = {detail::ContactTarget::Kind::level, reference.level, bound};
+    projected.p.setZero();
+  }
+  auto compliance = normal_compliance<double>(projected.surface.grid, 1, Boundary::periodic);
+  detail::ActiveSetOutcome outcome;
+  detail::gradient_projection(compliance, projected.surface.grid, Boundary::periodic,
+                              {projected.surface.heights.data()}, projected.rms, projected.target,
+                              projected.limits, projected.p.data(), projected.g.data(), outcome);
+  CHECK(outcome.converged);
+  CHECK(((projected.p > 0) == (usual.p > 0)).all());
+  CHECK(projected.p.mean() == Approx(0.005).epsilon(1e-8));
+  CHECK(projected.p.maxCoeff() <= bound);
+}
+
+TEST_CASE("A fallback that runs out of iterations says so", "[normal]") {
+  SingleGrid stalled;
+  stalled.limits.patience = 0;
+  stalled.limits.max_iterations = 12;
+  const auto outcome = stalled.solve<double>();
+  CHECK_FALSE(outcome.converged);
+  CHECK(outcome.residual > stalled.limits.tolerance);
+}
+
+TEST_CASE("A start near the solution saves iterations and gives the same contact", "[normal]") {
+  const Surface surface = rough_surface({128, 128, 1e-3, 1e-3});
+  NormalContactOptions options;
+  const auto cold = press_to_pressure(surface, 1e9, 3e6, options);
+  options.initial_pressure = &cold.pressure;
+  const auto warm = press_to_pressure(surface, 1e9, 3e6, options);
+  CHECK(warm.converged);
+  CHECK(warm.iterations < cold.iterations);
+  CHECK(warm.mean_gap == Approx(cold.mean_gap).epsilon(1e-6));
+  const Field wrong = Field::Zero(3, 3);
+  options.initial_pressure = &wrong;
+  CHECK_THROWS_AS(press_to_pressure(surface, 1e9, 3e6, options), InvalidInput);
+}
