@@ -83,7 +83,7 @@ Field sampled(const Grid2D& fine, const Heights& heights, Index nx, Index ny, Bo
 }  // namespace
 
 std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const Heights& heights,
-                                         Boundary boundary, int most) {
+                                             Boundary boundary, int most) {
   std::vector<MultigridLevel> levels;
   levels.push_back({grid, {}, heights});
   while (levels.back().grid.points() > coarsest_points && static_cast<int>(levels.size()) < most) {

@@ -17,7 +17,7 @@ struct MultigridLevel {
 // Halves the grid while it has more than 64² cells, by point sampling where it divides and by interpolation where it does not.
 // levels.front() is the finest; there are at most `most`.
 std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const Heights& heights,
-                                         Boundary boundary, int most);
+                                             Boundary boundary, int most);
 
 // A start for the finer level: bilinear pressure, then one pointwise step towards the gap that the cubic displacement predicts,
 //     p = max(p_c − step·(u_c − h), 0),   u_c = g_c + h_c − level.

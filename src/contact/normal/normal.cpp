@@ -131,7 +131,7 @@ Solution solve_nested(const Scaled& scaled, const Heights& heights, double rms_h
                       const ContactTarget& target, const NormalContactOptions& options) {
   auto levels =
       detail::multigrid_levels(scaled.grid, heights, options.boundary,
-                             options.initial_pressure ? 1 : std::numeric_limits<int>::max());
+                               options.initial_pressure ? 1 : std::numeric_limits<int>::max());
   Solution solution;
   for (std::size_t k = levels.size(); k-- > 0;) {
     const MultigridLevel& level = levels[k];

@@ -6,9 +6,10 @@
 
 namespace salebra::detail {
 
-// The pointwise passes of the active-set solver. They walk tiles: runs of 16 cells of one row that hold contact or are close to
-// it, since short runs of any length do not vectorise. One source is compiled for each vector width; no header with inline
-// functions may be included there, because the linker could then give code for a wide machine to a narrow one.
+// The pointwise passes of the active-set solver; reference_kernels.hpp says in plain loops what each of them does. They walk tiles:
+// runs of 16 cells of one row that hold contact or are close to it, since short runs of any length do not vectorise. One source is
+// compiled for each vector width; no header with inline functions may be included there, because the linker could then give code for a
+// wide machine to a narrow one.
 
 inline constexpr int tile_width = 16;
 inline constexpr int frame = 3;  // cells around the residual: the radius of InverseStencil
@@ -38,7 +39,7 @@ struct TileArrays {
   Real* m;  // packed: 1 on free cells, where g = level is wanted; 0 where p is held at a bound
   unsigned char*
       quiet;  // of each tile: 1 where no cell is free or loaded, and then r and t are zero
-  const Real* stencil;  // stencil_size weights
+  const Real* stencil;  // stencil_size weights, symmetric about both axes
   double bound;         // largest pressure allowed; may be infinite
 };
 

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tile_kernels.hpp"
+
+// The tile kernels in their plainest form, cell by cell: what tile_kernels.inl computes, without its vectors, lanes and prefetches.
+// The tests compare the fast kernels with these, and a reader begins here. The solver never calls them.
+namespace salebra::detail::reference {
+
+// One cell of a tile: its place in a packed array, in the framed residual, and in its row.
+struct Cell {
+  std::ptrdiff_t tile, packed, framed, column;
+};
+
+// Calls body(cell) for the cells of the tiles [begin, end) that lie within their row.
+template <class Real, class Body>
+void for_cells(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end,
+               const Body& body) {
+  for (std::ptrdiff_t k = begin; k < end; ++k) {
+    const Tile& tile = a.tiles[k];
+    for (std::ptrdiff_t i = 0; i < tile_width && tile.column + i < a.ny; ++i)
+      body(Cell{k, k * tile_width + i,
+                (tile.row + frame) * a.framed_stride + side_frame + tile.column + i,
+                tile.column + i});
+  }
+}
+
+// A quiet tile has no free and no loaded cell; it adds nothing to a sum over free or loaded cells.
+template <class Real, class Body>
+void for_active_cells(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end,
+                      const Body& body) {
+  for_cells(a, begin, end, [&](const Cell& c) {
+    if (!a.quiet[c.tile]) body(c);
+  });
+}
+
+template <class Real>
+void residual(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double level) {
+  for_active_cells(a, begin, end, [&](const Cell& c) {
+    a.r[c.framed] = a.m[c.packed] * static_cast<Real>(a.g[c.packed] - level);
+  });
+}
+
+// z = m (S r), S the stencil of 7 × 7 weights.
+template <class Real>
+PreconditionSums precondition(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  PreconditionSums sums;
+  for_active_cells(a, begin, end, [&](const Cell& c) {
+    Real smoothed = 0;
+    for (int i = -frame; i <= frame; ++i)
+      for (int j = -frame; j <= frame; ++j)
+        smoothed += a.stencil[(i + frame) * (2 * frame + 1) + j + frame] *
+                    a.r[c.framed + i * a.framed_stride + j];
+    a.z[c.packed] = a.m[c.packed] * smoothed;
+    const double z = a.z[c.packed], m = a.m[c.packed], t = m * double(a.t[c.packed]),
+                 w = a.w[c.packed], r = a.r[c.framed];
+    sums.z += z;
+    sums.zw += z * w;
+    sums.zz += z * z;
+    sums.t += t;
+    sums.w += m * w;
+    sums.r += r;
+    sums.zr += z * r;
+    sums.tr += t * r;
+  });
+  return sums;
+}
+
+template <class Real>
+void direct(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double z_mean,
+            double beta, double t_mean, Real* row) {
+  for_active_cells(a, begin, end, [&](const Cell& c) {
+    const double t = double(a.m[c.packed]) * (double(a.z[c.packed]) - z_mean +
+                                              beta * (double(a.t[c.packed]) - t_mean));
+    a.t[c.packed] = row[c.column] = static_cast<Real>(t);
+  });
+}
+
+template <class Real>
+CurvatureSums take_image(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end,
+                         const Real* row) {
+  CurvatureSums sums;
+  for_cells(a, begin, end, [&](const Cell& c) {
+    a.w[c.packed] = row[c.column];
+    if (a.quiet[c.tile]) return;
+    sums.tw += double(a.t[c.packed]) * double(a.w[c.packed]);
+    sums.w += double(a.m[c.packed]) * double(a.w[c.packed]);
+  });
+  return sums;
+}
+
+template <class Real>
+StepSums step(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double alpha,
+              double level) {
+  StepSums sums;
+  sums.least = std::numeric_limits<double>::infinity();
+  for_cells(a, begin, end, [&](const Cell& c) {
+    double &p = a.p[c.packed], &g = a.g[c.packed];
+    const double m = a.m[c.packed];
+    p -= alpha * double(a.t[c.packed]);
+    g -= alpha * double(a.w[c.packed]);
+    if (!a.quiet[c.tile]) a.r[c.framed] = static_cast<Real>(m * (g - level));
+    const double clipped = std::clamp(p, 0.0, a.bound), beyond = p - clipped;
+    const bool saturated = clipped >= a.bound;
+    sums.outside += beyond * beyond;
+    sums.clipped += std::abs(beyond);
+    // A held cell is wrong where its gap asks for a change: below the plane without load, above it at the bound.
+    const double wrong = saturated ? std::max(g - level, 0.0) : std::max(level - g, 0.0);
+    sums.wrong += (1 - m) * wrong * wrong;
+    if (saturated) {
+      sums.saturated += 1;
+      sums.misfit += a.bound * std::max(g - level, 0.0);
+      sums.signed_misfit += a.bound * std::max(g - level, 0.0);
+    } else {
+      sums.pressure += clipped;
+      sums.misfit += clipped * std::abs(g - level);
+      sums.signed_misfit += clipped * (g - level);
+      sums.least = std::min(sums.least, g);
+    }
+  });
+  return sums;
+}
+
+// A free cell stays free while its pressure is within its bounds; a held one becomes free where its gap has the wrong sign.
+inline bool becomes_free(bool free, double p, double g, double level, double bound) {
+  if (free) return p >= 0 && p <= bound;
+  return p > 0 ? g > level : g < level;
+}
+
+// Whether any cell of a tile lies below the plane: a quiet tile wakes then.
+template <class Real>
+bool any_below(const TileArrays<Real>& a, std::ptrdiff_t k, double level) {
+  bool below = false;
+  for_cells(a, k, k + 1, [&](const Cell& c) { below = below || a.g[c.packed] < level; });
+  return below;
+}
+
+// A tile without free and loaded cells becomes quiet, with t = r = 0.
+template <class Real>
+void rest(const TileArrays<Real>& a, std::ptrdiff_t k) {
+  bool active = false;
+  for_cells(a, k, k + 1,
+            [&](const Cell& c) { active = active || a.m[c.packed] != 0 || a.p[c.packed] != 0; });
+  if (active) return;
+  a.quiet[k] = 1;
+  for_cells(a, k, k + 1, [&](const Cell& c) { a.t[c.packed] = a.r[c.framed] = 0; });
+}
+
+template <class Real>
+SetSums change_set(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end,
+                   double level) {
+  SetSums sums;
+  for (std::ptrdiff_t k = begin; k < end; ++k) {
+    if (a.quiet[k] && !any_below(a, k, level)) continue;
+    a.quiet[k] = 0;
+    for_cells(a, k, k + 1, [&](const Cell& c) {
+      const bool free = becomes_free(a.m[c.packed] != 0, a.p[c.packed], a.g[c.packed], level,
+                                     a.bound);
+      a.m[c.packed] = free;
+      sums.count += free;
+      sums.g += free ? a.g[c.packed] : 0;
+    });
+    rest(a, k);
+  }
+  return sums;
+}
+
+template <class Real>
+void truncate(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double level,
+              double scale, double shift) {
+  for (std::ptrdiff_t k = begin; k < end; ++k) {
+    if (a.quiet[k] && shift == 0 && !any_below(a, k, level)) continue;
+    a.quiet[k] = 0;
+    for_cells(a, k, k + 1, [&](const Cell& c) {
+      double& p = a.p[c.packed];
+      const double corrected = std::min(scale * std::max(p, 0.0) + shift, a.bound);
+      const bool inside = corrected > 0 && corrected < a.bound;
+      a.m[c.packed] = inside || becomes_free(a.m[c.packed] != 0, p, a.g[c.packed], level, a.bound);
+      a.z[c.packed] = static_cast<Real>(corrected - p);
+      p = corrected;
+    });
+  }
+}
+
+template <class Real>
+void spread_change(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, Real* row) {
+  for_active_cells(a, begin, end, [&](const Cell& c) { row[c.column] = a.z[c.packed]; });
+}
+
+template <class Real>
+SetSums add_displacement(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end,
+                         const Real* row) {
+  SetSums sums;
+  for_cells(a, begin, end, [&](const Cell& c) {
+    a.g[c.packed] += double(row[c.column]);
+    if (a.quiet[c.tile]) return;
+    sums.count += double(a.m[c.packed]);
+    sums.g += double(a.m[c.packed]) * a.g[c.packed];
+  });
+  for (std::ptrdiff_t k = begin; k < end; ++k)
+    if (!a.quiet[k]) rest(a, k);
+  return sums;
+}
+
+template <class Displacement>
+GapSums gap(const Displacement* u, const double* heights, double zero, const double* p, double* g,
+            std::ptrdiff_t count, double bound, double plane) {
+  GapSums sums;
+  sums.least = std::numeric_limits<double>::infinity();
+  for (std::ptrdiff_t k = 0; k < count; ++k) {
+    g[k] = double(u[k]) - (heights[k] - zero);
+    sums.pressure += p[k];
+    if (p[k] > 0 && p[k] < bound) {
+      sums.count += 1;
+      sums.g += g[k];
+    }
+    sums.misfit += p[k] * (g[k] - plane);
+    sums.distance += std::abs(p[k] * (g[k] - plane));
+    sums.saturated += !(p[k] < bound);
+    sums.least = std::min(sums.least, g[k]);
+  }
+  return sums;
+}
+
+inline double clip(double* p, std::ptrdiff_t count, double bound) {
+  double sum = 0;
+  for (std::ptrdiff_t k = 0; k < count; ++k) sum += p[k] = std::clamp(p[k], 0.0, bound);
+  return sum;
+}
+
+template <class Real>
+TileKernels<Real> table() {
+  return {residual<Real>,
+          precondition<Real>,
+          direct<Real>,
+          take_image<Real>,
+          step<Real>,
+          change_set<Real>,
+          truncate<Real>,
+          spread_change<Real>,
+          add_displacement<Real>,
+          gap<Real>,
+          gap<double>,
+          clip};
+}
+
+}  // namespace salebra::detail::reference
