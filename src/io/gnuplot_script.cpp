@@ -266,7 +266,7 @@ class PanelScript {
 
 }  // namespace
 
-std::string gnuplot_script(const Figure& figure, PictureFormat format, const std::string& output) {
+std::string gnuplot_script(const Figure& figure, PictureFormat format) {
   require(!figure.panels.empty(), "figure", figure.panels.size(), "panels; give at least one");
   const int panels = static_cast<int>(figure.panels.size());
   const int columns =
@@ -289,13 +289,13 @@ std::string gnuplot_script(const Figure& figure, PictureFormat format, const std
         "dashlength 0.8 background '#ffffff'\n",
         width, height);
   }
-  out += "set encoding utf8\nset output " + literal(output) + "\n";
+  out += "set encoding utf8\n";
   out += fmt::format("set multiplot layout {},{}", rows, columns);
   if (!figure.title.empty()) out += " title " + literal(figure.title);
   out += '\n';
   int number = 0;
   for (const PlotPanel& panel : figure.panels) PanelScript(panel, ++number, out).write();
-  out += "unset multiplot\nunset output\n";
+  out += "unset multiplot\n";
   return out;
 }
 

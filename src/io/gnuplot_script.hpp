@@ -8,7 +8,8 @@ namespace salebra::detail {
 
 enum class PictureFormat { png, svg };
 
-/// The gnuplot program that draws the figure to `output`. Throws InvalidInput for a figure that cannot be drawn.
-std::string gnuplot_script(const Figure& figure, PictureFormat format, const std::string& output);
+/// The gnuplot program that draws the figure to its standard output. It holds no file name: gnuplot runs a name that starts with '|'
+/// as a command. Throws InvalidInput for a figure that cannot be drawn.
+std::string gnuplot_script(const Figure& figure, PictureFormat format);
 
 }  // namespace salebra::detail

@@ -5,11 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <salebra/base/error.hpp>
 #include <salebra/io/plot.hpp>
 #include <sstream>
@@ -95,13 +95,14 @@ std::string complaint(const std::string& text) {
   return last.substr(0, 200);
 }
 
-void run_gnuplot(const std::filesystem::path& file, std::string_view script) {
-  MemoryFile input("script"), errors("errors");
+/// What gnuplot draws; `file` is only named in messages.
+std::string run_gnuplot(const std::filesystem::path& file, std::string_view script) {
+  MemoryFile input("script"), picture("picture"), errors("errors");
   input.write(script);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, input.descriptor(), STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, errors.descriptor(), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, picture.descriptor(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, errors.descriptor(), STDERR_FILENO);
   std::string program = "gnuplot", defaults = "--default-settings", standard_input = "-";
   const std::array<char*, 4> arguments = {program.data(), defaults.data(), standard_input.data(),
@@ -117,19 +118,16 @@ void run_gnuplot(const std::filesystem::path& file, std::string_view script) {
   if (WIFSIGNALED(status))
     fail(file, "gnuplot was ended by signal " + std::to_string(WTERMSIG(status)));
   if (WEXITSTATUS(status) != 0) fail(file, "gnuplot failed (" + complaint(errors.read()) + ")");
+  return picture.read();
 }
 
-// gnuplot does not always tell that a write failed: on a full disk the end is missing.
-void require_whole(const std::filesystem::path& file, const std::filesystem::path& written,
+// gnuplot does not always report a failed write: then the end is missing.
+void require_whole(const std::filesystem::path& file, std::string_view picture,
                    detail::PictureFormat format) {
-  constexpr std::streamoff tail = 32;
-  std::ifstream in(written, std::ios::binary | std::ios::ate);
-  const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : 0;
-  std::string end(static_cast<std::size_t>(std::min(size, tail)), '\0');
-  in.seekg(size - static_cast<std::streamoff>(end.size()));
-  in.read(end.data(), static_cast<std::streamsize>(end.size()));
-  if (end.find(format == detail::PictureFormat::png ? "IEND" : "</svg>") == std::string::npos)
-    fail(file, "gnuplot left the picture incomplete; is the disk full?");
+  constexpr std::size_t tail = 32;
+  const std::string_view end = picture.substr(picture.size() - std::min(picture.size(), tail));
+  if (end.find(format == detail::PictureFormat::png ? "IEND" : "</svg>") == std::string_view::npos)
+    fail(file, "gnuplot left the picture incomplete; is the memory full?");
 }
 
 }  // namespace
@@ -154,8 +152,9 @@ void write_plot(const std::filesystem::path& file, const Figure& figure,
   const detail::PictureFormat format = format_of(file);
   require_gnuplot(file);
   detail::AtomicFile target(file, options);
-  run_gnuplot(file, detail::gnuplot_script(figure, format, target.temporary().string()));
-  require_whole(file, target.temporary(), format);
+  const std::string picture = run_gnuplot(file, detail::gnuplot_script(figure, format));
+  require_whole(file, picture, format);
+  target.write(picture);
   target.commit();
 }
 

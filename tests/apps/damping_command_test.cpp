@@ -227,6 +227,24 @@ TEST_CASE("Pictures of damping name what they show", "[damping][plot]") {
   CHECK(test.files() == std::set<std::string>{"curve.svg", "cycle.png"});
 }
 
+TEST_CASE("A picture is drawn where it was asked for, and its name never runs as a command",
+          "[plot]") {
+  const ProgramTest test;
+  // gnuplot starts a name that begins with '|' as a command; quotes would end the name.
+  const std::string folder = "|touch PWNED;'\"`touch PWNED`";
+  std::filesystem::create_directory(test.folder() / folder);
+  const std::string quoted = "\"|touch PWNED;'\\\"\\`touch PWNED\\`/x.png\"";
+  const auto drawn = test.run(
+      "damping --law exponential --force-newton 2 --decay-length 100nm "
+      "--poisson 0.3 --drag-velocity 1mm/s --frequency 20kHz "
+      "--normal-amplitude 50nm --plot " +
+      quoted);
+  INFO(drawn.err);
+  CHECK(drawn.status == 0);
+  CHECK(test.read(folder + "/x.png").substr(1, 3) == "PNG");
+  CHECK(test.files() == std::set<std::string>{folder});
+}
+
 TEST_CASE("Damping without what it needs is refused by name", "[damping]") {
   const ProgramTest test;
   const std::string law = "damping --law exponential --decay-length 100nm ";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <unistd.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -123,13 +124,19 @@ TEST_CASE("Names are shown as they are and never run", "[plot]") {
   Figure figure = force_figure();
   const std::string nasty =
       "my_file^2 {a} `touch " + (scratch / "ran").string() + "` it's \\ \"x\"";
-  figure.panels[0].curves[0].name = plot_text(nasty);
-  figure.panels[0].title = plot_text("a_b");
+  PlotPanel& panel = figure.panels[0];
+  panel.lines.push_back({.at = 100e-9, .vertical = true});
+  panel.lines.push_back({.at = 5e3});
+  const std::array<std::string*, 6> texts = {&figure.title,        &panel.title,
+                                             &panel.x.label,       &panel.curves[0].name,
+                                             &panel.lines[0].name, &panel.lines[1].name};
+  for (std::size_t k = 0; k < texts.size(); ++k)
+    *texts[k] = plot_text(std::to_string(k) + nasty + "\\");
   write_plot(scratch / "a.svg", figure);
   CHECK_FALSE(std::filesystem::exists(scratch / "ran"));
   const std::string text = content(scratch / "a.svg");
-  CHECK_THAT(text, Contains("a_b"));
-  CHECK_THAT(text, Contains("my_file^2 {a}"));
+  for (std::size_t k = 0; k < texts.size(); ++k)
+    CHECK_THAT(text, Contains(std::to_string(k) + nasty + "\\"));
 }
 
 TEST_CASE("A figure that cannot be drawn is refused by name", "[plot]") {
@@ -204,8 +211,7 @@ TEST_CASE("A map of more cells than a picture draws is averaged, each cell about
 }
 
 TEST_CASE("A band is drawn between its limits, the curve through its values", "[plot]") {
-  const std::string script =
-      detail::gnuplot_script(force_figure(), detail::PictureFormat::svg, "out.svg");
+  const std::string script = detail::gnuplot_script(force_figure(), detail::PictureFormat::svg);
   // Columns: x, y, lower and upper limit, in nm and kN.
   CHECK_THAT(script, Contains("\n2 2 1 3\n"));
   CHECK_THAT(script, Contains("using 1:3:4 with filledcurves") && Contains("using 1:2 with lines"));
