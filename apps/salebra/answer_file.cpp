@@ -3,7 +3,6 @@
 #include "answer_file.hpp"
 
 #include <limits>
-#include <salebra/base/quantity.hpp>
 #include <salebra/io/result_file.hpp>
 #include <vector>
 
@@ -17,16 +16,16 @@ double number(const Json& value) {
 
 }  // namespace
 
-std::string unit_of(const std::string& name) {
-  return name == "Spc" ? "1/m" : std::string(si_unit(find_quantity(name).dimension));
+Quantity quantity_of(const std::string& name, const std::string& object) {
+  return find_quantity(is_quantity(object) ? object : name);
 }
 
 void write_answer(ResultFile& file, const std::string& path, const Json& object) {
   ResultGroup group = file.group(path);
   bool has_samples = false;
   for (const auto& [name, value] : object.items()) {
-    const Quantity quantity = find_quantity(name);
-    const std::string unit = unit_of(name), long_name(quantity.long_name);
+    const Quantity quantity = quantity_of(name, path.substr(path.rfind('/') + 1));
+    const std::string unit(si_unit(quantity.dimension)), long_name(quantity.long_name);
     if (value.is_object()) {
       write_answer(file, path + "/" + name, value);
     } else if (value.is_string()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/quantity.hpp>
 #include <salebra/io/result_file.hpp>
 #include <string>
 
@@ -12,8 +13,9 @@ namespace salebra::cli {
 /// `sample` for each array, a group for each object, an attribute for each text. For commands whose answer is their whole result.
 void write_answer(const Session& session, const std::string& group, const Json& object);
 
-/// SI unit of a name in an answer. A curvature has none in Dimension, since no option takes one.
-std::string unit_of(const std::string& name);
+/// The quantity of a member of an answer. Members of an object that is itself a quantity share it: "decay_length_by_weights" holds
+/// lengths, one of which is called "force". object: name of the object; empty: the answer.
+Quantity quantity_of(const std::string& name, const std::string& object);
 
 /// The same into a file that holds more.
 void write_answer(ResultFile& file, const std::string& group, const Json& object);

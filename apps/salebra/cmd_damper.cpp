@@ -13,6 +13,7 @@
 #include "law_options.hpp"
 #include "options.hpp"
 #include "program.hpp"
+#include "text.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -78,6 +79,22 @@ Json decay_of(const OscillatorDecay& decay) {
           {"frequency_ratio", decay.frequency_ratio}};
 }
 
+// For people, a map is a row for each pair of amplitude and frequency: in one table with the list of amplitudes and that of
+// frequencies, each amplitude would stand beside a frequency it has nothing to do with.
+std::string text_of(const Json& answer, const DamperMap& map) {
+  Json pairs = Json::array();
+  for (std::size_t i = 0; i < map.normal_amplitude.size(); ++i)
+    for (std::size_t j = 0; j < map.angular_frequency.size(); ++j)
+      pairs.push_back({{"normal_amplitude", map.normal_amplitude[i]},
+                       {"angular_frequency", map.angular_frequency[j]},
+                       {"damping_constant", map.damping_constant(Index(i), Index(j))}});
+  std::string text = to_text({{"map", pairs}});
+  if (answer.contains("stabilising_amplitude"))
+    text += "\n" + to_text({{"angular_frequency", answer["angular_frequency"]},
+                            {"stabilising_amplitude", answer["stabilising_amplitude"]}});
+  return text;
+}
+
 // The least amplitude that stabilises, over frequency.
 void add_border(Figure& figure, const std::vector<double>& omega,
                 const std::vector<double>& least) {
@@ -107,12 +124,12 @@ void run(const DamperArguments& arguments, Session& session) {
 
   Json object;
   Figure figure;
+  DamperMap map;
+  if (arguments.normal_amplitude.size() > 1)
+    object["normal_amplitude"] = arguments.normal_amplitude;
+  if (omega.size() > 1) object["angular_frequency"] = omega;
   if (!arguments.normal_amplitude.empty()) {
-    const DamperMap map =
-        damper_map(*contact.law, position, arguments.normal_amplitude, omega, options);
-    if (arguments.normal_amplitude.size() > 1)
-      object["normal_amplitude"] = arguments.normal_amplitude;
-    if (omega.size() > 1) object["angular_frequency"] = omega;
+    map = damper_map(*contact.law, position, arguments.normal_amplitude, omega, options);
     object["damping_constant"] = constants(map);
     if (session.has_output()) write_map(map, arguments.falling_slope, session);
     if (!one) figure = damper_figure(map, arguments.falling_slope);
@@ -149,7 +166,8 @@ void run(const DamperArguments& arguments, Session& session) {
             "is no picture; give a range, --mass, or --falling-slope with several frequencies");
     session.plot(figure);
   }
-  session.answer(object);
+  const bool pairs = map.normal_amplitude.size() > 1 && map.angular_frequency.size() > 1;
+  session.answer(object, pairs ? text_of(object, map) : to_text(object));
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/base/quantity.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/io/text_file.hpp>
 
@@ -35,12 +34,13 @@ std::filesystem::path beside(std::filesystem::path file, const std::string& tabl
 void append_lines(std::string& text, const Json& object, const std::string& path) {
   for (const auto& [name, value] : object.items()) {
     const std::string full = path.empty() ? name : path + "." + name;
-    const Quantity quantity = find_quantity(name);
+    const Quantity quantity = quantity_of(name, path.substr(path.rfind('.') + 1));
     if (value.is_object())
       append_lines(text, value, full);
     else if (!value.is_array())
       text += fmt::format("{},{},{},\"{}\"\n", full, value.is_null() ? "nan" : value.dump(),
-                          value.is_number_float() ? unit_of(name) : "", quantity.long_name);
+                          value.is_number_float() ? si_unit(quantity.dimension) : "",
+                          quantity.long_name);
   }
 }
 

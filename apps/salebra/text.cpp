@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
-#include <salebra/base/quantity.hpp>
+#include <cstdint>
+
+#include "answer_file.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -16,36 +17,69 @@ std::size_t width_of(std::string_view text) {
   return std::size_t(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-std::string cell(const std::string& key, const Json& value) {
+std::string cell(const Json& value, Dimension dimension) {
   if (value.is_null()) return "n/a";
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  if (value.is_number_integer()) return fmt::format("{}", value.get<long long>());
-  if (value.is_number()) return format_quantity(value.get<double>(), find_quantity(key).dimension);
+  if (value.is_number_unsigned()) return fmt::format("{}", value.get<std::uint64_t>());
+  if (value.is_number_integer()) return fmt::format("{}", value.get<std::int64_t>());
+  if (value.is_number()) return format_quantity(value.get<double>(), dimension);
   if (value.is_string()) return value.get<std::string>();
   return value.dump();
 }
 
-void append(std::string& text, const Json& object, int indent) {
-  std::size_t key_width = 0;
-  for (const auto& [key, value] : object.items()) {
-    if (!value.is_structured()) key_width = std::max(key_width, key.size());
+/// Columns of one length, the heading first.
+using Columns = std::vector<std::vector<std::string>>;
+
+std::string columns_to_table(const Columns& columns, int indent) {
+  std::vector<std::vector<std::string>> rows(columns.front().size());
+  for (const auto& column : columns)
+    for (std::size_t row = 0; row < rows.size(); ++row) rows[row].push_back(column[row]);
+  return to_table(rows, indent);
+}
+
+/// A list of objects of the same keys, a row for each.
+std::string rows_to_table(const Json& list, const std::string& object, int indent) {
+  Columns columns;
+  for (const auto& [key, first] : list.front().items()) {
+    std::vector<std::string>& column = columns.emplace_back(1, key);
+    for (const Json& row : list)
+      column.push_back(cell(row.at(key), quantity_of(key, object).dimension));
   }
-  std::vector<std::vector<std::string>> table;
+  return columns_to_table(columns, indent);
+}
+
+/// What is not a list of numbers fits on a line.
+bool is_line(const Json& value) {
+  return !value.is_structured() || (value.is_array() && !value.empty() && value[0].is_string());
+}
+
+void append(std::string& text, const Json& object, const std::string& name, int indent) {
+  std::size_t key_width = 0;
+  for (const auto& [key, value] : object.items())
+    if (is_line(value)) key_width = std::max(key_width, key.size());
+  // Lists of different lengths have nothing to do with each other.
+  std::vector<Columns> tables;
   for (const auto& [key, value] : object.items()) {
-    if (value.is_object()) {
+    const Dimension dimension = quantity_of(key, name).dimension;
+    if (is_line(value)) {
+      std::string words = value.is_array() ? "" : cell(value, dimension);
+      for (const Json& word : value.is_array() ? value : Json::array())
+        words += (words.empty() ? "" : ", ") + word.get<std::string>();
+      text += fmt::format("{:{}}{:<{}}  {}\n", "", indent, key, key_width, words);
+    } else if (value.is_object()) {
       text += fmt::format("{:{}}{}\n", "", indent, key);
-      append(text, value, indent + 2);
-    } else if (value.is_array()) {
-      table.resize(std::max(table.size(), value.size() + 1));
-      for (std::size_t row = 0; row < table.size(); ++row) {
-        const bool blank = row > value.size();
-        table[row].push_back(row == 0 ? key : blank ? "" : cell(key, value[row - 1]));
-      }
+      append(text, value, key, indent + 2);
+    } else if (!value.empty() && value[0].is_object()) {
+      text += fmt::format("{:{}}{}\n{}", "", indent, key, rows_to_table(value, key, indent + 2));
     } else {
-      text += fmt::format("{:{}}{:<{}}  {}\n", "", indent, key, key_width, cell(key, value));
+      std::vector<std::string> column{key};
+      for (const Json& item : value) column.push_back(cell(item, dimension));
+      const auto alike = std::ranges::find_if(
+          tables, [&](const Columns& table) { return table[0].size() == column.size(); });
+      (alike == tables.end() ? tables.emplace_back() : *alike).push_back(std::move(column));
     }
   }
-  text += to_table(table, indent);
+  for (const Columns& table : tables) text += columns_to_table(table, indent);
 }
 
 }  // namespace
@@ -73,7 +107,7 @@ std::string to_table(const std::vector<std::vector<std::string>>& rows, int inde
 
 std::string to_text(const Json& object) {
   std::string text;
-  append(text, object, 0);
+  append(text, object, "", 0);
   return text;
 }
 

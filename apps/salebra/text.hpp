@@ -8,8 +8,8 @@
 
 namespace salebra::cli {
 
-/// A JSON answer for people: "name  value unit" lines, arrays of one length side by side as a table, objects indented.
-/// Units and prefixes come from find_quantity.
+/// A JSON answer for people: "name  value unit" lines, lists of one length side by side as a table, a list of objects as a table of
+/// its own, objects indented. Units and prefixes come from quantity_of.
 std::string to_text(const Json& object);
 
 /// Columns padded to their widest cell; the first row is the heading. names_first: the first column is text.

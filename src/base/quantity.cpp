@@ -13,7 +13,7 @@ constexpr std::array quantities{
     Quantity{"size_y", length, "length of the surface along y"},
     Quantity{"x", length, "position along x"},
     Quantity{"y", length, "position along y"},
-    Quantity{"heights", length, "height, a hill is positive"},
+    Quantity{"heights", length, "height, positive out of the material"},
     Quantity{"mean", length, "mean height"},
     Quantity{"rms_height", length, "root mean square height"},
     Quantity{"rms_slope", dimensionless, "root mean square of the gradient"},
@@ -46,7 +46,7 @@ constexpr std::array quantities{
     Quantity{"Smr1", dimensionless, "ISO 25178-2 material ratio of peaks and core"},
     Quantity{"Smr2", dimensionless, "ISO 25178-2 material ratio of core and valleys"},
     Quantity{"Spd", inverse_length_squared, "ISO 25178-2 density of peaks, pruned at 5 % of Sz"},
-    Quantity{"Spc", dimensionless, "ISO 25178-2 mean peak curvature"},
+    Quantity{"Spc", inverse_length, "ISO 25178-2 mean peak curvature"},
     Quantity{"pixel_limit", length, "two cells, the shortest wavelength of the grid"},
     Quantity{"tip_limit", length, "wavelength below which the tip shows in the curvatures"},
     Quantity{"resolution", length, "lateral resolution of the instrument"},
@@ -73,6 +73,7 @@ constexpr std::array quantities{
     Quantity{"decay_length", length, "decay length of force with mean gap"},
     Quantity{"decay_length_low", length, "decay length, lower 95 % limit"},
     Quantity{"decay_length_high", length, "decay length, upper 95 % limit"},
+    Quantity{"decay_length_by_weights", length, "decay length for each way to weight the loads"},
     Quantity{"decay_length_over_rms_height", dimensionless, "decay length over rms height"},
     Quantity{"local_decay_length", length, "local decay length -d(mean gap)/d ln(pressure)"},
     Quantity{"decay_length_min", length, "least decay length over parts of the window"},
@@ -109,8 +110,21 @@ constexpr std::array quantities{
     Quantity{"work_by_levels", energy, "energy dissipated in a cycle, from contact levels"},
     Quantity{"error_estimate", energy, "estimated error of the energy dissipated in a cycle"},
     Quantity{"work_by_levels_error", energy, "estimated error of the energy from contact levels"},
+    Quantity{"work_by_whole_cells", energy,
+             "energy dissipated in a cycle, from contact levels of whole cells"},
     Quantity{"predicted", energy, "energy dissipated in a cycle, Eq. (12) or (15)"},
     Quantity{"predicted_finite", energy, "energy dissipated in a cycle by K_t = (G*/E*)K"},
+    Quantity{"predicted_exponential", energy,
+             "energy dissipated in a cycle, Eq. (12) or (16) with F'' = F/l^2"},
+    Quantity{"predicted_exponential_finite", energy,
+             "energy dissipated in a cycle by the exponential law at this amplitude"},
+    Quantity{"work_over_elastic_energy", dimensionless,
+             "energy dissipated in a cycle over the largest tangential elastic energy"},
+    Quantity{"dissipated", energy, "energy dissipated by friction"},
+    Quantity{"stored_energy_change", energy, "change of the elastic energy in a cycle"},
+    Quantity{"normal_work", energy, "work of the normal force in a cycle"},
+    Quantity{"gap_work", energy, "work across gaps that close and open within a step"},
+    Quantity{"tangential", length, "tangential displacement"},
     Quantity{"released_energy", energy, "energy released by cells that leave the contact"},
     Quantity{"work", energy, "work of the tangential force since the start"},
     Quantity{"contact_area_min", length_squared, "least contact area of a cycle"},
@@ -147,6 +161,10 @@ constexpr std::array quantities{
 Quantity find_quantity(std::string_view name) {
   const auto* found = std::ranges::find(quantities, name, &Quantity::name);
   return found != quantities.end() ? *found : Quantity{name, dimensionless, name};
+}
+
+bool is_quantity(std::string_view name) {
+  return std::ranges::find(quantities, name, &Quantity::name) != quantities.end();
 }
 
 }  // namespace salebra

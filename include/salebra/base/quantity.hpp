@@ -16,4 +16,7 @@ struct Quantity {
 /// The entry of a name; a name that is not listed comes back dimensionless, with itself as its long name.
 Quantity find_quantity(std::string_view name);
 
+/// Whether a name is listed.
+bool is_quantity(std::string_view name);
+
 }  // namespace salebra

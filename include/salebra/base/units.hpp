@@ -13,6 +13,7 @@ enum class Dimension {
   dimensionless,
   length,                  ///< m
   length_squared,          ///< m²
+  inverse_length,          ///< 1/m; curvature of a surface
   inverse_length_squared,  ///< m⁻²; spectral moment 4 and the inverse of an area
   pressure,                ///< Pa
   force,                   ///< N
@@ -36,8 +37,9 @@ std::string_view si_unit(Dimension dimension);
 /// A number in SI units from "<number>[ ]<unit>", such as "10um", "115 GPa", "90deg", "0.1". A bare
 /// number is SI. Units take the prefixes f p n u µ m c k M G T where they make sense; lengths also
 /// "Å", angles "deg" and "°", pressures "bar" and "N/mm^2", pure numbers "%". Powers are written
-/// mm2, mm^2 or mm². field   names the option or key in errors throws  InvalidInput for anything
-/// but one finite number with a unit of the dimension
+/// mm2, mm^2 or mm².
+/// field   names the option or key in errors
+/// throws  InvalidInput for anything but one finite number with a unit of the dimension
 double parse_quantity(std::string_view text, Dimension dimension, std::string_view field);
 
 /// One value, a list "a,b,c", or a range "from:to:count" of count >= 2 values in geometric
