@@ -43,15 +43,16 @@ int main(int argc, char** argv) try {
                                               0.0, moments.rms_height()),
                          pressures);
 
-  // 4. One line for each: decay length over rms height with its 95 % interval, and its drift over the window.
-  std::printf("%-26s %8s %18s %22s\n", "model", "l/h_rms", "95 %", "closest … farthest");
+  // 4. One line for each: decay length over rms height, its range over parts of the window, and its drift along the window.
+  std::printf("%-26s %8s %18s %22s\n", "model", "l/h_rms", "parts of window", "closest … farthest");
   const auto report = [&](const char* name, const ForceCurve& curve) {
     const double h = moments.rms_height();
     const ExponentialFit fit = fit_exponential(curve);
     const ExponentialTest test = test_exponential(curve);
+    const WindowSensitivity parts = window_sensitivity(curve);
     std::printf("%-26s %8.3f    %.3f … %.3f        %.3f … %.3f\n", name,
-                fit.decay_length_over_rms_height, fit.decay_length_low / h,
-                fit.decay_length_high / h, test.decay_length_closest / h,
+                fit.decay_length_over_rms_height, parts.decay_length_min / h,
+                parts.decay_length_max / h, test.decay_length_closest / h,
                 test.decay_length_farthest / h);
   };
   report("boundary elements", by_elements);

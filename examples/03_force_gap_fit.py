@@ -35,14 +35,15 @@ curves = {
     "the surface's summits": salebra.curve_at_pressures(own_summits, pressures),
 }
 
-# 4. One line for each: decay length over rms height with its 95 % interval, and its drift over the window.
-print(f"{'model':26} {'l/h_rms':>8} {'95 %':>18} {'closest … farthest':>22}")
+# 4. One line for each: decay length over rms height, its range over parts of the window, and its drift along the window.
+print(f"{'model':26} {'l/h_rms':>8} {'parts of window':>18} {'closest … farthest':>22}")
 h = moments.rms_height
 for name, curve in curves.items():
     fit = salebra.fit_exponential(curve)
     test = salebra.test_exponential(curve)
+    parts = salebra.window_sensitivity(curve)
     print(
         f"{name:26} {fit.decay_length_over_rms_height:8.3f}    "
-        f"{fit.decay_length_low / h:.3f} … {fit.decay_length_high / h:.3f}        "
+        f"{parts.decay_length_min / h:.3f} … {parts.decay_length_max / h:.3f}        "
         f"{test.decay_length_closest / h:.3f} … {test.decay_length_farthest / h:.3f}"
     )

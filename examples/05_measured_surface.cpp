@@ -51,12 +51,12 @@ int main(int argc, char** argv) try {
   // 3. The exponential law, and the question whether it holds. Where it does not, use the curve itself, as in example 04.
   const ExponentialFit fit = fit_exponential(curve);
   const ExponentialTest test = test_exponential(curve);
-  std::printf("decay length %s, 95 %%: %s … %s\n",
+  const WindowSensitivity parts = window_sensitivity(curve);
+  std::printf("decay length %s; parts of the window give %s … %s\n",
               format_quantity(fit.decay_length, Dimension::length).c_str(),
-              format_quantity(fit.decay_length_low, Dimension::length).c_str(),
-              format_quantity(fit.decay_length_high, Dimension::length).c_str());
-  std::printf("the exponential law is %s: l runs from %s (closest) to %s (farthest)\n",
-              test.refuted() ? "refuted" : "not refuted",
+              format_quantity(parts.decay_length_min, Dimension::length).c_str(),
+              format_quantity(parts.decay_length_max, Dimension::length).c_str());
+  std::printf("over the window l runs from %s (closest) to %s (farthest)\n",
               format_quantity(test.decay_length_closest, Dimension::length).c_str(),
               format_quantity(test.decay_length_farthest, Dimension::length).c_str());
 } catch (const Error& error) {

@@ -11,6 +11,7 @@
 #include <salebra/io/force_curve_file.hpp>
 
 #include "answer_file.hpp"
+#include "law_words.hpp"
 #include "options.hpp"
 #include "program.hpp"
 #include "text.hpp"
@@ -30,21 +31,19 @@ constexpr std::array weightings{std::pair{"spacing", FitWeights::spacing},
 
 std::string length(double value) { return format_quantity(value, Dimension::length, 3); }
 
-/// What the numbers mean for a user who does not know the test.
-std::string in_words(const ExponentialTest& test, const WindowSensitivity& parts) {
-  const double change = test.decay_length_farthest / test.decay_length_closest - 1;
+/// What the numbers mean for a user who does not know the test. noisy: the samples scatter independently, as those of a load cell do;
+/// the residuals of a computed curve are the misfit of the law, to which no probability belongs.
+std::string in_words(const ExponentialTest& test, const WindowSensitivity& parts,
+                     const LawDescription& law, bool noisy) {
   return fmt::format(
-      "{} Over the window l changes from {} (closest) to {} (farthest), by {:+.0f} %{}.\n"
+      "{}{}\nOver the window l changes from {} (closest) to {} (farthest), by {:+.0f} %.\n"
       "Fits to parts of the window, of at least half its samples, give l from {} to {}.\n",
-      test.refuted()
-          ? fmt::format("F ~ exp(-gap/l) does not hold here: ln F bends, and scatter would make "
-                        "such a bend with a probability of {:.2g} only.",
-                        test.significance)
-          : fmt::format("F ~ exp(-gap/l) is not refuted: scatter alone would bend ln F so far with "
-                        "a probability of {:.2g}.",
-                        test.significance),
-      length(test.decay_length_closest), length(test.decay_length_farthest), 100 * change,
-      test.refuted() ? "; F'' = F/l^2 is off by about twice as much at its ends" : "",
+      in_words(law, "this curve"),
+      noisy ? fmt::format(" Scatter alone would bend ln F so far with a probability of {:.2g}.",
+                          test.significance)
+            : "",
+      length(test.decay_length_closest), length(test.decay_length_farthest),
+      100 * (test.decay_length_farthest / test.decay_length_closest - 1),
       length(parts.decay_length_min), length(parts.decay_length_max));
 }
 
@@ -60,16 +59,19 @@ void run(const FitArguments& arguments, Session& session) {
                                return std::string(item.first);
                              })->second;
   const ExponentialFit fit = fit_exponential(curve, window, weights);
-  Json answer{{"decay_length", fit.decay_length},
-              {"decay_length_low", fit.decay_length_low},
-              {"decay_length_high", fit.decay_length_high},
-              {"reference_pressure", fit.reference_pressure},
-              {"r_squared", fit.r_squared},
-              {"window",
-               {{"pressure_min", fit.window.pressure_min},
-                {"pressure_max", fit.window.pressure_max},
-                {"points", fit.window.points}}},
-              {"decay_length_over_rms_height", fit.decay_length_over_rms_height}};
+  const bool noisy = weights != FitWeights::spacing;
+  Json answer{{"decay_length", fit.decay_length}};
+  if (noisy) {
+    answer["decay_length_low"] = fit.decay_length_low;
+    answer["decay_length_high"] = fit.decay_length_high;
+  }
+  answer.update({{"reference_pressure", fit.reference_pressure},
+                 {"r_squared", fit.r_squared},
+                 {"window",
+                  {{"pressure_min", fit.window.pressure_min},
+                   {"pressure_max", fit.window.pressure_max},
+                   {"points", fit.window.points}}},
+                 {"decay_length_over_rms_height", fit.decay_length_over_rms_height}});
   Json by_weights = Json::object();
   for (const auto& [name, other] : weightings)
     by_weights[name] = fit_exponential(curve, window, other).decay_length;
@@ -81,11 +83,13 @@ void run(const FitArguments& arguments, Session& session) {
   std::string verdict = "Four samples in the window would be needed to test the law.\n";
   if (fit.window.points >= 4) {
     const ExponentialTest test = test_exponential(curve, window, weights);
-    answer["test"] = {{"significance", test.significance},
-                      {"refuted", test.refuted()},
+    const LawDescription law =
+        describe_law(fit.decay_length, test.decay_length_closest, test.decay_length_farthest);
+    answer["test"] = {{"fair", law.fair()},
                       {"decay_length_closest", test.decay_length_closest},
                       {"decay_length_farthest", test.decay_length_farthest}};
-    verdict = in_words(test, parts);
+    if (noisy) answer["test"]["significance"] = test.significance;
+    verdict = in_words(test, parts, law, noisy);
   }
   write_answer(session, "fit", answer);
   // Too long for the answer in words, and not a part of the fit.
@@ -113,7 +117,8 @@ void add_fit_command(Program& program) {
   command
       .add_option("--weights", arguments->weights,
                   "what a sample counts: spacing, the length of gap it stands for (computed "
-                  "curves); equal (noise in proportion to F); force, F^2 (noise of one size)")
+                  "curves); equal (noise in proportion to F); force, F^2 (noise of one size). The "
+                  "last two give a 95 % interval of l too")
       ->check(CLI::IsMember({"spacing", "equal", "force"}));
 }
 

@@ -56,31 +56,57 @@ std::string verdict(const std::vector<EnsembleMean>& deviation, const std::strin
   if (!(low <= high))
     return law + " could not be compared with the curve: the oscillation leaves it at every force.";
   return fmt::format(
-      "{} with the fitted decay length is between {:+.0f} % and {:+.0f} % off the damping that the "
-      "computed force curve itself gives; where they differ, the curve is right.",
+      "{} with the fitted decay length is between {:+.0f} % and {:+.0f} % off the damping of the "
+      "computed force curve.",
       law, 100 * low, 100 * high);
 }
 
+/// What one surface has in place of an interval: how l varies along its curve, and with the part of the window that is fitted.
+std::vector<std::string> one_surface_row(const std::string& title, const std::string& length,
+                                         const std::string& relative, const Realisation& surface,
+                                         ModelResult Realisation::*model) {
+  const ModelResult& result = surface.*model;
+  const auto range = [&](double from, double to) {
+    const double h = surface.heights.rms_height;
+    return from > 0 && to > 0 ? fmt::format("{:.3f} … {:.3f}", from / h, to / h) : "n/a";
+  };
+  return {title, length, relative,
+          range(result.test.decay_length_closest, result.test.decay_length_farthest),
+          range(result.sensitivity.decay_length_min, result.sensitivity.decay_length_max)};
+}
+
 std::string study_text(const StudyResult& result, const StudyFiles& files) {
+  const bool sample = result.realisations.size() > 1;
   std::string text = heading(result);
   text += "Decay length l of pressure = p0 exp(-mean gap/l)\n";
   std::vector<std::vector<std::string>> rows{
-      {"model", "l", "95 % interval", "l/h_rms", "95 % interval"}};
+      sample ? std::vector<std::string>{"model", "l", "95 % interval", "l/h_rms", "95 % interval"}
+             : std::vector<std::string>{"model", "l", "l/h_rms", "closest … farthest",
+                                        "parts of the window"}};
   for (const StudyModel& model : result.models()) {
     const EnsembleMean length = result.decay_length(model.result);
     const EnsembleMean ratio = result.decay_length_over_rms_height(model.result);
-    rows.push_back({model.title, format_quantity(length.mean, Dimension::length),
-                    interval(length, Dimension::length),
-                    std::isnan(ratio.mean) ? "n/a" : fmt::format("{:.3f}", ratio.mean),
-                    interval(ratio, Dimension::dimensionless)});
+    const std::string l = format_quantity(length.mean, Dimension::length);
+    const std::string relative = std::isnan(ratio.mean) ? "n/a" : fmt::format("{:.3f}", ratio.mean);
+    if (sample)
+      rows.push_back({model.title, l, interval(length, Dimension::length), relative,
+                      interval(ratio, Dimension::dimensionless)});
+    else
+      rows.push_back(
+          one_surface_row(model.title, l, relative, result.realisations.front(), model.result));
   }
-  text += to_table(rows, 2, true) + "  (" + result.interval_method() + ")\n" + law_verdict(result) +
-          "\n";
+  text += to_table(rows, 2, true) +
+          (sample ? "  (" + result.interval_method() + ")\n"
+                  : "  (l/h_rms at the closest and the farthest gap of the window, and of fits to "
+                    "parts of it; an interval needs several surfaces)\n") +
+          law_verdict(result) + "\n";
 
   const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
   const std::string law = drag ? "Eq. (16)" : "Eq. (12)";
   text += "Damping constant: " + describe_motion(result.configuration.motion) + "\n";
-  rows = {{"pressure", "force", law, "measured curve", "95 % interval", law + " is off by"}};
+  rows = {{"pressure", "force", law, "computed curve"}};
+  if (sample) rows[0].push_back("95 % interval");
+  rows[0].push_back(law + " is off by");
   const auto by_law = result.damping(&DampingPoint::law_damping_constant);
   const auto by_curve = result.damping(&DampingPoint::curve_damping_constant);
   const auto deviation = result.damping_deviation();
@@ -88,11 +114,10 @@ std::string study_text(const StudyResult& result, const StudyFiles& files) {
     rows.push_back({format_quantity(result.pressures[i], Dimension::pressure),
                     format_quantity(result.pressures[i] * result.grid.area(), Dimension::force),
                     format_quantity(by_law[i].mean, Dimension::damping),
-                    format_quantity(by_curve[i].mean, Dimension::damping),
-                    interval(by_curve[i], Dimension::damping),
-                    std::isnan(deviation[i].mean)
-                        ? "n/a"
-                        : fmt::format("{:+.1f} %", 100 * deviation[i].mean)});
+                    format_quantity(by_curve[i].mean, Dimension::damping)});
+    if (sample) rows.back().push_back(interval(by_curve[i], Dimension::damping));
+    rows.back().push_back(
+        std::isnan(deviation[i].mean) ? "n/a" : fmt::format("{:+.1f} %", 100 * deviation[i].mean));
   }
   text += to_table(rows) + "\n" + verdict(deviation, law) + "\n";
   if (const std::string remarks = ensemble_remarks(result); !remarks.empty())

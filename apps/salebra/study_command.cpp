@@ -15,6 +15,7 @@
 #include <salebra/study/study_file.hpp>
 
 #include "dry_run.hpp"
+#include "law_words.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {
@@ -56,9 +57,9 @@ void StudyArguments::add_to(CLI::App& command) {
              "loads of the boundary elements, such as 1MPa:1GPa:16");
   add_quantity(command, "--precision", precision, Dimension::dimensionless,
                "stop where the means of l and of the area slope are known so well, such as 2%");
-  command.add_flag(
-      "--no-stick", no_stick,
-      "K_t = (G*/E*)K in place of a stick solve on each contact: faster, exact at nu = 0");
+  command.add_flag("--no-stick", no_stick,
+                   "K_t = (G*/E*)K in place of a stick solve on each contact: faster, exact at nu "
+                   "= 0 without coupling");
   command.add_flag("--dry-run", dry_run,
                    "tell what would run, with its time and memory, and run nothing");
   command.add_flag("--resume", resume,
@@ -275,37 +276,22 @@ std::string heading(const StudyResult& result) {
 }
 
 std::string law_verdict(const StudyResult& result) {
-  const EnsembleMean closest = result.mean(
-      [](const Realisation& r) { return r.bem.test.decay_length_closest / r.heights.rms_height; });
-  if (!(closest.mean > 0)) return "";
-  const EnsembleMean farthest = result.mean(
-      [](const Realisation& r) { return r.bem.test.decay_length_farthest / r.heights.rms_height; });
+  const auto mean = [&](double ExponentialTest::*length) {
+    return result.mean(
+        [&](const Realisation& r) { return r.bem.test.*length / r.heights.rms_height; });
+  };
+  const double l = result.decay_length_over_rms_height(&Realisation::bem).mean,
+               closest = mean(&ExponentialTest::decay_length_closest).mean,
+               farthest = mean(&ExponentialTest::decay_length_farthest).mean;
+  if (!(closest > 0)) return "";
+  const EnsembleMean bend = result.law_bend(&Realisation::bem);
+  const bool sample = !std::isnan(bend.low);
   std::string text = fmt::format(
       "  Over the fitted window the local l of boundary elements runs from {:.2f} h_rms (closest) "
-      "to {:.2f} h_rms (farthest).\n",
-      closest.mean, farthest.mean);
-  const EnsembleMean bend = result.law_bend(&Realisation::bem);
-  if (result.realisations.size() > 1) {
-    // One surface of several that has a fit tells nothing of the others.
-    if (std::isnan(bend.low)) return text;
-    const bool refuted = bend.low > 0 || bend.high < 0;
-    text += fmt::format(
-        "  That is a change of {:+.0f} % ({:+.0f} to {:+.0f} % at 95 %): {}\n", 100 * bend.mean,
-        100 * bend.low, 100 * bend.high,
-        refuted
-            ? "F ~ exp(-gap/l) does not hold here, chance does not explain the bend; F'' = F/l^2 "
-              "is an approximation."
-            : "chance may explain the bend; these surfaces do not refute F ~ exp(-gap/l).");
-  } else {
-    const ExponentialTest& test = result.realisations.front().bem.test;
-    text += fmt::format(
-        "  {} (p = {:.2g}).\n",
-        test.refuted() ? "F ~ exp(-gap/l) does not hold for this surface: the bend stands out of "
-                         "the scatter about it"
-                       : "The bend does not stand out of the scatter about it: F ~ exp(-gap/l) is "
-                         "not refuted",
-        test.significance);
-  }
+      "to {:.2f} h_rms (farthest), a change of {:+.0f} %{}.\n  {}\n",
+      closest, farthest, 100 * bend.mean,
+      sample ? fmt::format(" ({:+.0f} to {:+.0f} % at 95 %)", 100 * bend.low, 100 * bend.high) : "",
+      in_words(describe_law(l, closest, farthest), sample ? "these surfaces" : "this surface"));
   const auto range = [&](double WindowSensitivity::*limit) {
     return result
         .mean([&](const Realisation& r) { return r.bem.sensitivity.*limit / r.heights.rms_height; })
@@ -348,7 +334,7 @@ std::string ensemble_remarks(const StudyResult& result) {
   if (result.precision_reached)
     text += fmt::format("{} surfaces were enough for a precision of {:.2g} %.\n",
                         result.realisations.size(), 100 * result.configuration.precision);
-  for (const StudyFlag& flag : result.flags) text += "Mind: " + flag.text + ".\n";
+  for (const StudyFlag& flag : result.flags) text += "Note: " + flag.text + ".\n";
   return text;
 }
 

@@ -170,8 +170,10 @@ void bind_fit(nb::module_& m) {
       .def_ro("pressure_min", &PressureWindow::pressure_min, "Pa")
       .def_ro("pressure_max", &PressureWindow::pressure_max, "Pa")
       .def_ro("points", &PressureWindow::points);
-  nb::class_<ExponentialFit>(m, "ExponentialFit",
-                             "p = reference_pressure·exp(−ū/decay_length), with 95 % limits.")
+  nb::class_<ExponentialFit>(
+      m, "ExponentialFit",
+      "p = reference_pressure·exp(−ū/decay_length). The 95 % limits are those of a curve "
+      "with independent noise; the residuals of a computed curve are misfit.")
       .def_ro("decay_length", &ExponentialFit::decay_length, "l, m.")
       .def_ro("decay_length_low", &ExponentialFit::decay_length_low, "Lower 95 % limit, m.")
       .def_ro("decay_length_high", &ExponentialFit::decay_length_high, "Upper 95 % limit, m.")
@@ -181,8 +183,6 @@ void bind_fit(nb::module_& m) {
       .def_ro("decay_length_over_rms_height", &ExponentialFit::decay_length_over_rms_height)
       .def("__repr__", [](const ExponentialFit& fit) {
         return describe("ExponentialFit", {{"decay_length", fit.decay_length},
-                                           {"decay_length_low", fit.decay_length_low},
-                                           {"decay_length_high", fit.decay_length_high},
                                            {"reference_pressure", fit.reference_pressure}});
       });
   m.def(
@@ -192,7 +192,7 @@ void bind_fit(nb::module_& m) {
         return fit_exponential(curve, window_of(window), weights.value("weights"));
       },
       nb::arg("curve"), nb::arg("window") = nb::none(), nb::arg("weights") = "spacing",
-      R"(Weighted least squares of ln p = a − ū/l over a window of a curve, with Student-t 95 % limits.
+      R"(Weighted least squares of ln p = a − ū/l over a window of a curve, with Student-t 95 % limits for independent noise.
 
 .. math:: \sum_i w_i\,(\ln p_i - a + \bar u_i/l)^2 = \min, \qquad p_0 = e^a
 

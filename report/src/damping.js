@@ -9,7 +9,7 @@ function routes(point) {
   return {
     law: {label: isDrag(point) ? "Eq. (16), fitted ‹l›" : "Eq. (12), fitted ‹l›", style: {color: "vermilion", symbol: "square", dash: "dash"}},
     small: {label: isDrag(point) ? "Eq. (15), ‹F›″ of the curve" : "Eq. (12), ‹F›″ of the curve", style: {color: "ochre", symbol: "diamond", dash: "dot"}},
-    curve: {label: "measured curve", style: {color: "blue", symbol: "circle", dash: "solid"}},
+    curve: {label: "computed curve", style: {color: "blue", symbol: "circle", dash: "solid"}},
   };
 }
 
@@ -45,7 +45,7 @@ function dampingFigure(parent, point) {
       select("damping-measure", "Show", Object.entries(MEASURES).map(([key, m]) => [key, m.title]), (key) => { measure = key; })],
     alt: () => {
       const curve = estimate("curve"), i = curve ? curve.mean.findLastIndex(known) : -1;
-      return `${MEASURES[measure].title} against force by three routes for ${model.title}.` + (i >= 0 ? ` At ${quantity(force[i], "N", 3)}: measured curve ${quantity(curve.mean[i], MEASURES[measure].unit, 3)}, ${plainText(routes(point).law.label)} ${quantity(estimate("law")?.mean[i], MEASURES[measure].unit, 3)}.` : "");
+      return `${MEASURES[measure].title} against force by three routes for ${model.title}.` + (i >= 0 ? ` At ${quantity(force[i], "N", 3)}: computed curve ${quantity(curve.mean[i], MEASURES[measure].unit, 3)}, ${plainText(routes(point).law.label)} ${quantity(estimate("law")?.mean[i], MEASURES[measure].unit, 3)}.` : "");
     },
     caption: () => `By the paper's closed form with the fitted law, by the same form with the curvature that the computed curve has at each force, and by the theorem ‹W› = ½∮‹s›² d‹K›_{t} on the computed curve itself, which holds at any amplitude. ${damping.interval_method && f.count > 1 ? `Bands: ${damping.interval_method}. ` : ""}Motion: ${describeMotion(damping)}. Near its ends the curve does not cover the whole cycle: no value there.${damping.direct ? " Stars: direct three-dimensional simulation of one surface." : ""}`,
     get axes() { return {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {...MEASURES[measure], log: true}}; },
@@ -58,7 +58,7 @@ function dampingFigure(parent, point) {
       const reference = estimate("curve");
       return band(route.label, force, values, route.style, {text: force.map((value, i) => `${plotText(route.label)}: ${quantity(values.mean[i], MEASURES[measure].unit)}`
         + (known(values.low?.[i]) ? `<br>95 %: ${interval({low: values.low[i], high: values.high[i]}, MEASURES[measure].unit)}` : "")
-        + (key !== "curve" && known(reference?.mean[i]) ? `<br>${percent(values.mean[i] / reference.mean[i] - 1)} of the measured curve` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>p</i> = ${quantity(point.pressure[i], "Pa", 3)}`)});
+        + (key !== "curve" && known(reference?.mean[i]) ? `<br>${percent(values.mean[i] / reference.mean[i] - 1)} of the computed curve` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>p</i> = ${quantity(point.pressure[i], "Pa", 3)}`)});
     })].sort((a, b) => Number(b.mode === "none") - Number(a.mode === "none"))}),
   };
   const figure = addFigure(parent, spec);
@@ -68,8 +68,8 @@ function dampingFigure(parent, point) {
   const law = plainText(routes(point).law.label);
   addFigure(parent, {
     id: "damping-deviation", title: `How far ${law.split(",")[0]} is off`, height: 300,
-    alt: () => `Deviation of ${law} from the damping of the measured curve, by force: from ${percent(Math.min(...deviation.mean.filter(known)))} to ${percent(Math.max(...deviation.mean.filter(known)))}.`,
-    caption: `${law} over the measured curve of the same boundary elements, less 1. Where the two differ, the curve is right: it needs no law and holds at any amplitude.`,
+    alt: () => `Deviation of ${law} from the damping of the computed curve, by force: from ${percent(Math.min(...deviation.mean.filter(known)))} to ${percent(Math.max(...deviation.mean.filter(known)))}.`,
+    caption: `${law} over the computed curve of the same boundary elements, less 1. The curve needs no law and holds at any amplitude; between two loads it is interpolated.`,
     axes: {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {label: "deviation", fixed: true, percent: true, layout: {zeroline: true, zerolinecolor: color("line"), zerolinewidth: 1.5}}},
     columns: () => [{label: "force", key: "force", unit: "N", values: force}, ...estimateColumns("deviation", "deviation", "1", deviation)],
     plot: () => ({series: band("deviation", force, deviation, {color: "vermilion", symbol: "square", dash: "solid"},

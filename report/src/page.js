@@ -33,10 +33,14 @@ function lawVerdict(point, f) {
   const closest = mean(fit.decay_length_closest) / f.rms, farthest = mean(fit.decay_length_farthest) / f.rms;
   if (!(closest > 0)) return null;
   const many = fit.decay_length.length > 1, bend = point.fit.bend;
-  const refuted = many ? bend && (bend.low > 0 || bend.high < 0) : fit.significance?.[0] < 0.05;
+  // F/l² has to be within a factor of two of F″ at both ends, as law_words.cpp has it.
+  const off = (local) => (mean(local) / mean(fit.decay_length)) ** 2 - 1;
+  const offs = [off(fit.decay_length_closest), farthest > 0 ? off(fit.decay_length_farthest) : Infinity];
+  const poor = offs.some((d) => !(d > -0.5 && d < 1));
   const run = `Across its window the local ‹l› runs from ${number(closest, 2)} to ${number(farthest, 2)} ‹h›_{rms}`;
   const size = bend ? `, a change of ${percent(bend.mean)}` + (many && known(bend.low) ? ` (95 %: ${percent(bend.low)} … ${percent(bend.high)})` : "") : "";
-  return {refuted, text: `${run}${size}. ` + (refuted ? "The exponential law is an approximation here; chance does not explain the bend." : "Chance may explain that: the exponential law is not refuted.")};
+  const ends = `‹F›/‹l›² is off ‹F›″ by ${percent(offs[0])} (closest) and ${percent(offs[1])} (farthest) at the ends of the window.`;
+  return {poor, text: `${run}${size}. ${ends}` + (poor ? " Do not use Eq. (16) here; use the computed curve." : "")};
 }
 
 function conclusion(main, point) {
@@ -59,12 +63,12 @@ function conclusion(main, point) {
         known(curve?.mean[i]) && known(law?.mean[i]) ? `${lawName} gives ${quantity(law.mean[i], "N s/m", 3)}, ${percent(law.mean[i] / curve.mean[i] - 1)}` : ""));
     }
     const verdict = lawVerdict(point, f);
-    if (verdict) element.append(h("p", {class: "verdict"}, h("strong", {}, verdict.refuted ? "The law is approximate. " : "The law holds as far as can be seen. "), rich(verdict.text)));
+    if (verdict) element.append(h("p", {class: "verdict"}, h("strong", {}, verdict.poor ? "The law is a poor description. " : "The law is a fair description. "), rich(verdict.text)));
     if (damping) element.append(h("p", {class: "verdict"}, h("strong", {}, "Motion. "), describeMotion(damping)[0].toUpperCase() + describeMotion(damping).slice(1) + "."));
     element.append(h("p", {class: "verdict"}, h("strong", {}, "Intervals. "), `${point.fit?.interval_method ?? "95 %"}.`));
     const warnings = warningsOf(point, f);
     element.append(h("div", {class: "warnings", role: "region", "aria-label": "Warnings"},
-      h("h3", {}, warnings.length ? "Mind" : "No warnings"), warnings.length ? h("ul", {}, warnings.map((text) => h("li", {}, text))) : h("p", {}, "The study raised none.")));
+      h("h3", {}, warnings.length ? "Notes" : "No warnings"), warnings.length ? h("ul", {}, warnings.map((text) => h("li", {}, text))) : h("p", {}, "The study raised none.")));
   });
 }
 
@@ -76,7 +80,7 @@ function warningsOf(point) {
   const deviation = (point.damping?.deviation?.deviation?.bem?.mean ?? []).filter(known);
   const law = isDrag(point) ? "Eq. (16)" : "Eq. (12)";
   if (deviation.some((d) => Math.abs(d) > 0.1))
-    warnings.push(`${law} with the fitted decay length is between ${percent(Math.min(...deviation))} and ${percent(Math.max(...deviation))} off the damping of the computed curve; where they differ, the curve is right.`);
+    warnings.push(`${law} with the fitted decay length is between ${percent(Math.min(...deviation))} and ${percent(Math.max(...deviation))} off the damping of the computed curve.`);
   return warnings;
 }
 

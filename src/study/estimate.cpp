@@ -105,8 +105,12 @@ EnsembleMean Bootstrap::mean(const std::vector<double>& values) const {
     // √n stands on both sides and is left out.
     statistic = shift / std::max(drawn.deviation, 1e-12 * sample.deviation);
   }
-  estimate.low = sample.mean - quantile(statistics, 0.975) * sample.deviation;
-  estimate.high = sample.mean - quantile(statistics, 0.025) * sample.deviation;
+  const double half = student_mean(kept).high - sample.mean;
+  const auto arm = [&](double statistic) {
+    return std::clamp(statistic * sample.deviation, half / 2, 2 * half);
+  };
+  estimate.low = sample.mean - arm(quantile(statistics, 0.975));
+  estimate.high = sample.mean + arm(-quantile(statistics, 0.025));
   return estimate;
 }
 

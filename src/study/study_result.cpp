@@ -14,20 +14,12 @@ EnsembleMean StudyResult::mean(const std::function<double(const Realisation&)>& 
 }
 
 EnsembleMean StudyResult::decay_length(ModelResult Realisation::*model) const {
-  if (realisations.size() != 1)
-    return mean([&](const Realisation& r) { return (r.*model).fit.decay_length; });
-  const ExponentialFit& fit = (realisations.front().*model).fit;
-  return {fit.decay_length, fit.decay_length_low, fit.decay_length_high};
+  return mean([&](const Realisation& r) { return (r.*model).fit.decay_length; });
 }
 
 EnsembleMean StudyResult::decay_length_over_rms_height(ModelResult Realisation::*model) const {
-  if (realisations.size() != 1) {
-    return mean(
-        [&](const Realisation& r) { return (r.*model).fit.decay_length / r.heights.rms_height; });
-  }
-  const EnsembleMean length = decay_length(model);
-  const double rms_height = realisations.front().heights.rms_height;
-  return {length.mean / rms_height, length.low / rms_height, length.high / rms_height};
+  return mean(
+      [&](const Realisation& r) { return (r.*model).fit.decay_length / r.heights.rms_height; });
 }
 
 EnsembleMean StudyResult::area_slope(ModelResult Realisation::*model) const {
@@ -119,9 +111,7 @@ std::vector<EnsembleMean> StudyResult::convergence() const {
 
 std::string StudyResult::interval_method() const {
   const std::size_t count = realisations.size();
-  if (count == 1)
-    return "95 % limits of the least-squares fit; one surface says nothing about the spread "
-           "between surfaces";
+  if (count == 1) return "one surface: no interval, which needs a sample of surfaces";
   return fmt::format("95 % {} interval of the mean over {} surfaces",
                      count < Bootstrap::least_bootstrap_count ? "Student-t" : "bootstrap-t", count);
 }

@@ -49,7 +49,7 @@ TEST_CASE("A study's summary puts Eq. (16) beside the curve's own damping", "[st
   REQUIRE(result.status == 0);
   CHECK_THAT(result.out, Contains("boundary elements") &&
                              Contains("GW, summits from spectral moments") && Contains("l/h_rms") &&
-                             Contains("Eq. (16)") && Contains("measured curve") &&
+                             Contains("Eq. (16)") && Contains("computed curve") &&
                              Contains("% off the damping") && Contains("results: result.h5"));
   CHECK_THAT(result.err, Contains("study"));
   CHECK(test.run("study study.toml -o other.h5 --no-report --quiet --progress never").err.empty());
@@ -165,5 +165,5 @@ TEST_CASE("A comparison has every model, its ratios and the theories", "[study]"
   REQUIRE(words.status == 0);
   CHECK_THAT(words.out, Contains("== H = 0.5 ==") && Contains("Bush, Gibson, Thomas") &&
                             Contains("area less its edge") && Contains("theorem") &&
-                            Contains("Mind: finite size"));
+                            Contains("Note: finite size"));
 }

@@ -102,6 +102,23 @@ TEST_CASE("Both limits of a bootstrap interval are 2.5 % quantiles", "[ensemble]
   CHECK(resampled.high == Approx(student.high).margin(0.08 * half));
 }
 
+TEST_CASE("No mean lies at the edge of its interval, however few or alike the values",
+          "[ensemble]") {
+  // Six seeds of which five agree: resampling without the sixth has no scatter, and would put the mean at the edge.
+  std::vector<double> values{0.4205, 0.4198, 0.4201, 0.4203, 0.4196, 0.54};
+  for (int count : {6, 12, 19, 20, 40}) {
+    INFO(count);
+    while (values.size() < std::size_t(count))
+      values.push_back(0.42 + 1e-4 * gaussian_pair(5, std::int64_t(values.size()), 0).first);
+    const EnsembleMean estimate = Bootstrap().mean(values), student = student_mean(values);
+    const double half = student.high - student.mean;
+    CHECK(estimate.mean - estimate.low >= 0.499 * half);
+    CHECK(estimate.high - estimate.mean >= 0.499 * half);
+    CHECK(estimate.mean - estimate.low <= 2.001 * half);
+    CHECK(estimate.high - estimate.mean <= 2.001 * half);
+  }
+}
+
 TEST_CASE("The lists of an ensemble make every combination, cells or size held", "[ensemble]") {
   StudyConfiguration configuration = quick_study(1);
   configuration.ensemble.hurst = {0.3, 0.8};

@@ -34,7 +34,7 @@ struct StudyResult {
   std::vector<StudyModel> models() const { return models_of(configuration); }
   /// Mean over the realisations of any number that belongs to one.
   EnsembleMean mean(const std::function<double(const Realisation&)>& value) const;
-  /// Over the realisations; with one only, the interval of its fit.
+  /// Over the realisations; one surface has no interval.
   EnsembleMean decay_length(ModelResult Realisation::*model) const;
   EnsembleMean decay_length_over_rms_height(ModelResult Realisation::*model) const;
   EnsembleMean area_slope(ModelResult Realisation::*model) const;
@@ -60,7 +60,7 @@ struct StudyResult {
   std::string interval_method() const;
 };
 
-/// What a run tells of each surface that it finished, from the thread that called it.
+/// Report on one finished surface, on the thread that called the run.
 struct RealisationReport {
   std::size_t point = 0, points = 1;     ///< of the parameter grid
   std::size_t finished = 0, wanted = 0;  ///< surfaces, over all points

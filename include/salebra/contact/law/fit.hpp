@@ -45,8 +45,8 @@ struct ExponentialFit {
 /// ū between 1 and 2.5 h_rms, where the law is at its best, or all samples if h_rms is unknown. Samples that did not converge, have
 /// no mean gap or no pressure > 0 are left out. window.points of the argument is not used; that of the result counts the samples.
 /// Where the 95 % interval of the slope reaches zero, decay_length_high is infinite.
-/// The interval holds for independent errors of ln p with one variance, whatever the weights; with a computed curve it measures the misfit of the law instead, and
-/// test_exponential tells whether that is systematic.
+/// The interval holds for independent errors of ln p with one variance, whatever the weights. The residuals of a computed curve are the
+/// misfit of the law: its interval means nothing, and test_exponential has the range of the local l instead.
 /// Throws InvalidInput for fewer than three points, equal gaps, or a pressure that does not fall with ū.
 ExponentialFit fit_exponential(const ForceCurve& curve,
                                const std::optional<PressureWindow>& window = {},
