@@ -206,7 +206,7 @@ void make_profile(const GenerateArguments& arguments, Session& session) {
 void run(const GenerateArguments& arguments, Session& session) {
   require(!arguments.shape.given() || (!arguments.spectrum.given() && !arguments.profile &&
                                        !arguments.non_gaussian() && arguments.method.empty()),
-          "--shape", arguments.shape.shape, "is no random surface; give it or a spectrum");
+          "--shape", arguments.shape.shape, "cannot be combined with a spectrum; give one of them");
   if (arguments.profile) return make_profile(arguments, session);
   const Grid2D grid = grid_of(arguments);
   Json answer{{"nx", grid.nx}, {"ny", grid.ny}, {"size_x", grid.lx}, {"size_y", grid.ly}};
@@ -302,7 +302,7 @@ void add_generate_command(Program& program) {
 
   arguments->shape.add_to(command);
 
-  const std::string after = "What is done with it";
+  const std::string after = "Post-processing";
   command
       .add_flag("--profile", arguments->profile,
                 "a line of heights in place of a surface: --points N, self-affine")

@@ -113,7 +113,7 @@ void check(const OscillateArguments& arguments, const Session& session) {
       "--coupled", "given",
       "beside --checkpoint or --fields, which do not know the coupled cycle; leave them out");
   require(!arguments.relative_error || arguments.levels == 0, "--levels", arguments.levels,
-          "cannot stand beside --relative-error, which chooses them; give one");
+          "cannot be combined with --relative-error, which chooses them; give one");
 }
 
 // Eq. (16), or Eq. (12) with F'' = F/l², and the exponential law at this amplitude, beside what the contact itself does.

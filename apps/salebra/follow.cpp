@@ -89,7 +89,7 @@ void follow_file(const FollowOptions& options, const ContactLaw& law, Session& s
     group.dataset("indentation", path.indentation, {"time"}, "m", "indentation");
     group.dataset("displacement", path.displacement, {"time"}, "m", "tangential displacement");
     group.dataset("tangential_force", loss.tangential_force, {"time"}, "N", "tangential force");
-    group.dataset("dissipated", loss.dissipated, {"time"}, "J", "energy lost since the first time");
+    group.dataset("dissipated", loss.dissipated, {"time"}, "J", "energy dissipated since the first time");
     file.commit();
   }
   if (loss.converged) session.plot(cycle_figure(path, loss));

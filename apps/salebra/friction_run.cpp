@@ -60,9 +60,9 @@ void add_cycle(Json& object, const FrictionalCycleResult& cycle, double uncertai
 
 void write_cycle(ResultGroup group, const FrictionalCycleResult& cycle, const Grid2D& grid) {
   write_axes(group, grid);
-  group.dataset("loss", cycle.loss, "x", "y", "J/m^2", "lost in a period by unit area");
+  group.dataset("loss", cycle.loss, "x", "y", "J/m^2", "energy dissipated in a period by unit area");
   CycleColumns<FrictionalSample, FrictionalCycleResult> columns(group, cycle);
-  columns.add("dissipated", &FrictionalSample::dissipated, "J", "lost to friction since the start");
+  columns.add("dissipated", &FrictionalSample::dissipated, "J", "energy dissipated by friction since the start");
   columns.add("slip_area", &FrictionalSample::slip_area, "m^2", "area of cells at their limit");
   group.attribute("work_per_cycle", cycle.work_per_cycle);
   group.attribute("relaxation_work", cycle.relaxation_work);

@@ -44,7 +44,7 @@ constexpr std::array descriptions{
     CommandHelp{
         "info", surfaces,
         "Size, roughness, moments, summits and Hurst exponent of a surface in any readable file.\n"
-        "A file that does not know its size needs --size-x and --size-y.\n\n"
+        "A file that does not state its size needs --size-x and --size-y.\n\n"
         "Next: salebra statistics for spectra and ISO 25178-2 parameters."},
     CommandHelp{
         "statistics", surfaces,
@@ -64,8 +64,8 @@ constexpr std::array descriptions{
         "Next: salebra sweep for a whole force-gap curve."},
     CommandHelp{
         "sweep", contact,
-        "The force-gap curve of a surface by boundary elements, over a range of pressures; each\n"
-        "contact starts from the last. With --stiffness also K and K_t, which damping needs.\n\n"
+        "The force-gap curve of a surface by boundary elements, over a range of pressures, each\n"
+        "solved independently. With --stiffness also K and K_t, which damping needs.\n\n"
         "Next: salebra fit for the decay length, salebra damping --curve for the damping."},
     CommandHelp{
         "gw", contact,
@@ -124,14 +124,30 @@ const CommandHelp* find_help(std::string_view command) {
 }
 
 std::string_view first_steps() {
-  return "First steps:\n"
-         "  salebra verify                          does this installation compute rightly?\n"
+  return "Which command?\n"
+         "  you have                 you want                             command\n"
+         "  a measured surface       its roughness and spectrum           info, statistics\n"
+         "                           its contact at one load              contact\n"
+         "                           its force-gap curve, decay length    sweep, fit\n"
+         "                           everything down to its damping       study --surface\n"
+         "  a spectrum, no file      a surface with it                    generate\n"
+         "                           the damping of such surfaces, with\n"
+         "                           an interval                          init, study\n"
+         "  a force-gap curve        its decay length                     fit\n"
+         "                           its damping for any motion           damping --curve\n"
+         "  a sphere, cone, punch    force, stresses, losses, slip        mdr\n"
+         "                           the same in three dimensions         oscillate, figure3\n"
+         "  a slider or oscillator   the amplitude that steadies it       damper\n"
+         "  several contact models   which one holds for your surface     compare, gw\n"
+         "  results of a study       a page to read and send              report\n\n"
+         "First steps:\n"
+         "  salebra verify                          check this installation\n"
          "  salebra init study.toml                 a study file with every key explained\n"
          "  salebra study study.toml --dry-run      what it would cost\n"
          "  salebra study study.toml -o study.h5    surfaces, contact, damping, with intervals\n"
          "  salebra info scan.x3p                   what is in a measured surface\n"
          "  salebra init --surface scan.x3p         a study file for it\n\n"
-         "salebra COMMAND --help explains a command and ends with two examples.\n"
+         "salebra help COMMAND explains a command and ends with two examples.\n"
          "Exit status: 0 done, 1 failed while running, 2 bad usage or input, 130 interrupted.";
 }
 

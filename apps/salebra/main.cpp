@@ -11,7 +11,7 @@ namespace {
 // By default OpenMP's threads spin while they wait for each other, which makes a run on a shared machine many times slower and gains
 // nothing on a quiet one. Asleep at once they are some 5 % slower than after a thousand looks, which GNU's OpenMP can be told. The
 // choice is read from the environment when the OpenMP library is loaded, before main, so the program starts itself once more with
-// it. Where that fails it goes on as it is: only slower.
+// it. Where that fails it continues, more slowly.
 void wait_without_spinning(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
   setenv("OMP_WAIT_POLICY", "passive", 1);

@@ -74,7 +74,7 @@ void MaterialOptions::add_to(CLI::App& app) {
 Material MaterialOptions::material() const {
   if (!young.empty()) {
     require(!contact_modulus && !tangential_modulus, "--young", fmt::format("{}", young.front()),
-            "cannot stand beside --contact-modulus or --tangential-modulus; give one kind");
+            "cannot be combined with --contact-modulus or --tangential-modulus; give one kind");
     require(young.size() <= 2, "--young", young.size(), "values are too many; give E1 or E1,E2");
     require(
         poisson.size() == young.size(), "--poisson", poisson.size(),
@@ -86,7 +86,7 @@ Material MaterialOptions::material() const {
   const double modulus = required(contact_modulus, "--contact-modulus",
                                   "the material is needed; give it, or --young with --poisson");
   require(poisson.empty() || !tangential_modulus, "--tangential-modulus",
-          tangential_modulus.value_or(0), "cannot stand beside --poisson; give one of them");
+          tangential_modulus.value_or(0), "cannot be combined with --poisson; give one of them");
   require(poisson.size() <= 1, "--poisson", poisson.size(),
           "values are too many beside --contact-modulus, which means one elastic body");
   if (tangential_modulus) return Material::of_moduli(modulus, *tangential_modulus);
@@ -116,7 +116,7 @@ void SurfaceOptions::add_to(CLI::App& app, bool needed, const std::string& field
       ->required(needed)
       ->type_name("FILE");
   const std::string group = "Surface";
-  add_quantity(app, "--size-x", size_x, Dimension::length, "for files that do not know their size")
+  add_quantity(app, "--size-x", size_x, Dimension::length, "for files that do not state their size")
       ->group(group);
   add_quantity(app, "--size-y", size_y, Dimension::length, "as --size-x")->group(group);
   app.add_option("--height-unit", height_unit,

@@ -200,7 +200,7 @@ void write_outcome(ResultFile& file, const std::string& prefix, const Oscillatio
     const Grid2D& grid = outcome.run.body.surface.grid;
     write_axes(group, grid);
     group.dataset("heights", outcome.run.body.surface.heights, "x", "y", "m",
-                  "height, a hill is positive");
+                  "height, positive out of the material");
     group.dataset("contact", map_of(cycle), "x", "y", "1",
                   "0 never in contact, 1 during a part of the cycle, 2 always");
     CycleColumns<CycleSample, CycleResult> columns(group, cycle);

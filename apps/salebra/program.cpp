@@ -45,7 +45,7 @@ std::string help_hint(const CLI::App& app) {
                         : "see salebra " + chosen.front()->get_name() + " --help";
 }
 
-/// What is wrong with a command line that CLI11 refused. A misspelt option is told before what it may have caused, such as the lack of
+/// What is wrong with a command line that CLI11 refused. Reports a misspelt option before its consequences, such as the lack of
 /// the right one.
 std::string describe(const CLI::App& app, const CLI::ParseError& error) {
   const auto chosen = app.get_subcommands();
@@ -100,7 +100,7 @@ CLI::App& Program::add_command(const std::string& name, const std::string& what,
                    ? std::string()
                    : text + " must be a whole number >= 0";
       });
-  command->add_flag("--quiet", common->quiet, "no remarks on stderr")->group(group);
+  command->add_flag("--quiet", common->quiet, "nothing on stderr but errors")->group(group);
   command->add_option("--progress", common->progress, "auto: on a terminal only; always; never")
       ->group(group)
       ->check(CLI::IsMember({"auto", "always", "never"}));
@@ -129,17 +129,25 @@ int run_program(int argc, char** argv) {
 #undef SALEBRA_COMMAND
   group_commands(app);
 
-  if (argc < 2) return fail(2, "command: none is given; see salebra --help");
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty()) words = {"--help"};
+  // salebra help [COMMAND]
+  if (words.front() == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-  const std::string word = argv[1];
-  if (word[0] != '-' && std::ranges::find(commands, word, &CLI::App::get_name) == commands.end()) {
+  const std::string word = words.front();
+  if (!word.starts_with('-') &&
+      std::ranges::find(commands, word, &CLI::App::get_name) == commands.end()) {
     std::vector<std::string> names;
     for (const CLI::App* command : commands) names.push_back(command->get_name());
     return fail(2, fmt::format("{}: is not a command{}; see salebra --help", word,
                                did_you_mean(word, names)));
   }
   try {
-    app.parse(argc, argv);
+    std::ranges::reverse(words);  // as CLI11 takes them
+    app.parse(words);
     return 0;
   } catch (const CLI::Success& request) {
     return app.exit(request);

@@ -73,6 +73,7 @@ void Session::note(std::string_view text) {
 }
 
 void Session::warn(std::string_view text) {
+  if (options_.quiet) return;
   bar_.clear();
   fmt::print(stderr, "salebra: {} {}\n", emphasised("warning:", Emphasis::warning, STDERR_FILENO),
              text);

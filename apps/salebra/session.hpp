@@ -33,7 +33,7 @@ enum class OutputCheck { at_start, by_command };
 /// One run of a command: where its answer, its remarks and its progress go.
 class Session {
  public:
-  /// Throws InvalidInput where the output may not be written, so that no work is done in vain.
+  /// Throws InvalidInput where the output may not be written, so that no work is done unnecessarily.
   Session(CommonOptions options, std::string command_line,
           OutputCheck check = OutputCheck::at_start);
 
@@ -52,7 +52,7 @@ class Session {
   /// For the library: draws the bar where one is wanted, and returns false after Ctrl-C.
   Progress progress();
 
-  /// A remark for the person at the terminal, on stderr; --quiet leaves out notes but never warnings.
+  /// A remark for the person at the terminal, on stderr; --quiet leaves out both, and errors only remain.
   void note(std::string_view text);
   void warn(std::string_view text);
 

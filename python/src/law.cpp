@@ -38,7 +38,7 @@ void bind_law(nb::module_& m) {
       R"(Force–indentation law of a contact: all that the damping problem needs to know of it.
 
 Indentation δ grows with approach. Functions take a number or an array and return the same shape. Evaluation outside
-[lowest_indentation, highest_indentation] raises InvalidInput; below first touch a law that knows it returns 0.
+[lowest_indentation, highest_indentation] raises InvalidInput; below first touch, laws that define it return 0.
 )");
   evaluation(law, "force", "indentation", &ContactLaw::force, SALEBRA_OF_INDENTATION("force"),
              "F(δ), N.");
@@ -91,7 +91,7 @@ Indentation δ grows with approach. Functions take a number or an array and retu
            nb::arg("modulus_ratio"))
       .def_prop_ro("decay_length", &ExponentialLaw::decay_length, "l, m.");
   nb::class_<TabulatedLaw, ContactLaw>(m, "TabulatedLaw",
-                                       R"(A computed or measured curve, shape-preserving.
+                                       R"(A curve, computed or read from a file, shape-preserving.
 
 ln F against δ is interpolated by a monotone cubic whose slopes at the nodes are K/F where every sample has K; K = F' and K' = F''
 are its exact derivatives. K_t: where every sample has one, interpolated likewise; otherwise (G*/E*)K. δ is the samples'

@@ -136,7 +136,7 @@ overwrite : bool
 Raises
 ------
 InvalidInput
-    For a file that is not there, damaged or holds no study, and for a page that exists.
+    For a file that is not there, damaged or contains no study, and for a page that exists.
 IoError
     Where :func:`can_report` is false, or the system refuses.
 )");

@@ -312,7 +312,7 @@ configuration : StudyConfiguration
 parts : str or os.PathLike, optional
     Folder in which each finished surface is kept, so that a run that was stopped can go on.
 resume : bool
-    A folder that holds surfaces already is welcome.
+    A folder that holds surfaces already is accepted.
 progress : bool or callable
 )");
   m.def(

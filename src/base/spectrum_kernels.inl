@@ -6,7 +6,7 @@ namespace salebra::detail::SALEBRA_SIMD {
 
 using Size = std::ptrdiff_t;
 
-// Columns are so far apart that the processor does not guess the next one: it is asked for this many columns earlier.
+// Columns are so far apart that the prefetcher does not predict them: prefetch this many columns ahead.
 inline constexpr Size ahead = 32;
 
 template <class Real>

@@ -44,7 +44,7 @@ ForceSample sample_of(const NormalContactState& state, const Surface& surface,
       sample.tangential_stiffness = stiffness.xx;
       sample.converged = sample.converged && stiffness.converged;
     } else if (std::isfinite(material.tangential_modulus)) {
-      // Exact for circular contacts and for ν = 0; about 1 % off for rough ones at ν = 0.3 (PHYSICS section 7).
+      // Exact for one circular contact and for ν = 0; about 1 % off for rough ones at ν = 0.3 (docs/theory.md, section 7).
       sample.tangential_stiffness = material.modulus_ratio() * sample.normal_stiffness;
     }
   }

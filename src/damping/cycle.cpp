@@ -108,7 +108,7 @@ class StuckContact {
   bool interrupted_ = false;
 };
 
-// Asks for each indentation once. Rounding them makes a level the same whoever asks first, so that a resumed run meets the same.
+// Caches levels by rounded indentation, so that a resumed run gets identical levels.
 class LevelStore {
  public:
   LevelStore(const ContactLevels& levels, double resolution)
@@ -128,10 +128,10 @@ class LevelStore {
   std::map<long long, ContactLevel> stored_;
 };
 
-// What one takes W for that sees the contact sets at some steps only.
+// Loss estimated from every stride-th contact set.
 struct LossInSteps {
   double lost = 0;
-  double variance = 0;  // since nobody knows where between two of these steps each cell enters
+  double variance = 0;  // from the unknown entry time of each cell within a step
 };
 
 // W = ½∮s² dK_t with the contact sets of every `stride`-th step, as the simulation would find it in steps of that length: what lies

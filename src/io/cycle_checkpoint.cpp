@@ -47,7 +47,7 @@ constexpr std::array friction_numbers{
                                  "loss of the period before"}};
 constexpr std::array sliding_numbers{
     Number<SlidingState>{"work", &SlidingState::work, "J", "work of the tangential force"},
-    Number<SlidingState>{"released", &SlidingState::released, "J", "lost by cells as they opened"}};
+    Number<SlidingState>{"released", &SlidingState::released, "J", "energy dissipated by cells as they opened"}};
 
 template <class Sample>
 struct Column {
@@ -211,9 +211,9 @@ void write_friction(ResultFile& output, const FrictionalCycleState& state) {
                "displacement of cells in contact along x");
   fields.write("displacement_y", contact.displacement.y, "m",
                "displacement of cells in contact along y");
-  fields.write("loss", contact.loss, "J", "lost by each cell since the start");
+  fields.write("loss", contact.loss, "J", "energy dissipated by each cell since the start");
   fields.write("loss_at_period_start", state.loss_at_period_start, "J",
-               "lost by each cell before the period");
+               "energy dissipated by each cell before the period");
   ResultGroup sums = output.group("friction/contact");
   write_numbers(sums, contact, sliding_numbers);
   write_samples(output.group("friction/samples"), state.samples, friction_columns);

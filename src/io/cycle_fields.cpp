@@ -51,7 +51,7 @@ CycleFields::CycleFields(std::filesystem::path prefix, const Surface& surface,
   mesh.coordinate("y", y_, "m", "position along y");
   mesh.labels("component", {"x", "y", "z"}, "component of a point");
   mesh.dataset("points", points, {"x", "y", "component"}, "m", "middles of the cells");
-  mesh.dataset("heights", heights_, "x", "y", "m", "height, a hill is positive");
+  mesh.dataset("heights", heights_, "x", "y", "m", "height, positive out of the material");
   file.commit();
 }
 
@@ -85,7 +85,7 @@ void CycleFields::write(const FrictionalCycleState& state, double time,
        {"displacement_y", "m", "displacement of cells in contact along y", contact.displacement.y},
        {"pressure", "Pa", "pressure", contact.pressure},
        {"gap", "m", "gap between the deformed surfaces", gap_of(normal)},
-       {"loss", "J/m^2", "lost by unit area since the start of the period",
+       {"loss", "J/m^2", "energy dissipated by unit area since the start of the period",
         (contact.loss - state.loss_at_period_start) / grid_.cell_area()}});
 }
 

@@ -45,7 +45,7 @@ void rehearse(const std::filesystem::path& file, const std::function<void()>& wo
   } while (ended < 0 && errno == EINTR);
   if (ended == child && WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
     refuse(file, "keeps the HDF5 library busy without end; it is damaged");
-  // These come from outside, SIGKILL from a system that is out of memory, and say nothing of the file.
+  // Signals sent by others, SIGKILL from a system that is out of memory, and say nothing of the file.
   const auto from_outside = [](int sign) {
     return sign == SIGINT || sign == SIGTERM || sign == SIGHUP || sign == SIGKILL;
   };

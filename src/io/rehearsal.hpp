@@ -6,7 +6,7 @@
 
 namespace salebra::detail {
 
-/// Does the work first in a child process, of which nothing stays, and throws InvalidInput naming the file if that dies of a signal
+/// Does the work first in a child process whose effects are discarded, and throws InvalidInput naming the file if that dies of a signal
 /// or takes more than `seconds`. For libraries with memory errors of their own on damaged files, such as HDF5 1.10: the caller goes
 /// on only where the same work, from the same state, has come to its end. What the work throws does not matter here.
 /// Where the system grants no process, there is no rehearsal.

@@ -116,7 +116,7 @@ void write_surface(const std::filesystem::path& file, const Surface& surface,
                    const Provenance& provenance, const WriteOptions& options) {
   surface.grid.validate();
   require(surface.heights.rows() == surface.grid.nx && surface.heights.cols() == surface.grid.ny,
-          "heights", surface.heights.size(), "points have not the shape of the grid");
+          "heights", surface.heights.size(), "points do not match the grid");
   const std::string extension = file.extension().string();
   if (extension == ".h5" || extension == ".hdf5")
     write_hdf5(file, surface, provenance, options);

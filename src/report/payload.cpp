@@ -355,7 +355,7 @@ Json report_payload(const ResultReader& results) {
   }
   if (where.empty())
     throw InvalidInput(results.file().string() +
-                       ": holds no study; give the result file of salebra study or compare");
+                       ": contains no study; give the result file of salebra study or compare");
   Json json;
   for (const char* name :
        {"program", "version", "libraries", "created", "command_line", "configuration"})
@@ -382,7 +382,7 @@ void add_direct(Json& payload, const ResultReader& oscillation) {
   if (payload["points"].size() != 1 || !payload["points"][0].contains("damping"))
     throw InvalidInput(
         file +
-        ": cannot stand beside these results; they hold no damping, or that of several points");
+        ": cannot be combined with these results; they hold no damping, or that of several points");
   Json& damping = payload["points"][0]["damping"];
   // A cycle in time steps passes its ends; levels of a quadrature lie a little within them.
   const bool stepped = oscillation.has("cycle/indentation");

@@ -59,7 +59,7 @@ std::vector<std::uint64_t> read_seeds(TomlTable& table) {
   const auto count = table.integers("seed_count");
   const auto first = table.integers("first_seed");
   table.check(given.empty() || (count.empty() && first.empty()), "seeds",
-              "cannot stand beside first_seed and seed_count; give one of the two");
+              "cannot be combined with first_seed and seed_count; give one of the two");
   std::vector<std::uint64_t> seeds;
   for (const auto seed : given) {
     table.check(seed >= 0, "seeds", fmt::format("{} must be >= 0", seed));
@@ -174,7 +174,7 @@ Material read_material(TomlTable table) {
   return table.located([&] {
     if (!young.empty()) {
       table.check(!modulus && !tangential, "young",
-                  "cannot stand beside contact_modulus or tangential_modulus; give one kind");
+                  "cannot be combined with contact_modulus or tangential_modulus; give one kind");
       table.check(young.size() <= 2 && poisson.size() == young.size(), "poisson",
                   "must have one value for each of the one or two of young");
       return Material::of_bodies({young[0], poisson[0]}, young.size() == 2
@@ -183,7 +183,7 @@ Material read_material(TomlTable table) {
     }
     if (!modulus) table.fail("contact_modulus", "is missing; add it, or young and poisson");
     if (tangential) {
-      table.check(poisson.empty(), "poisson", "cannot stand beside tangential_modulus; give one");
+      table.check(poisson.empty(), "poisson", "cannot be combined with tangential_modulus; give one");
       return Material::of_moduli(*modulus, *tangential);
     }
     table.check(poisson.size() == 1, "poisson",
@@ -195,7 +195,7 @@ Material read_material(TomlTable table) {
 void read_contact(TomlTable table, StudyConfiguration& configuration) {
   const bool relative = table.has("relative_pressures");
   table.check(!relative || !table.has("pressures"), "pressures",
-              "cannot stand beside relative_pressures; give one of them");
+              "cannot be combined with relative_pressures; give one of them");
   const char* key = relative ? "relative_pressures" : "pressures";
   configuration.relative_pressures = relative;
   configuration.pressures = relative ? table.values("relative_pressures", Dimension::dimensionless)
@@ -247,7 +247,7 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
   const double normal_amplitude = required_positive(table, "normal_amplitude", Dimension::length);
   std::optional<double> omega = table.quantity("angular_frequency", Dimension::angular_frequency);
   const auto frequency = table.quantity("frequency", Dimension::frequency);
-  table.check(!omega || !frequency, "frequency", "cannot stand beside angular_frequency; give one");
+  table.check(!omega || !frequency, "frequency", "cannot be combined with angular_frequency; give one");
   if (omega) check_positive(table, "angular_frequency", *omega);
   if (frequency) {
     check_positive(table, "frequency", *frequency);
@@ -313,7 +313,7 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
                                    error.description()));
   }
   TomlTable root(name, "", document, 1);
-  // A misspelt table must not be told as a missing one.
+  // Report a misspelt table as such, not as missing.
   for (const char* table :
        {"surface", "ensemble", "material", "contact", "fit", "damping", "compare"})
     root.table(table);

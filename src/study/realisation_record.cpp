@@ -97,7 +97,7 @@ class Reader {
 template <class S, class T>
 concept Of = std::is_same_v<std::remove_const_t<S>, T>;
 
-// A struct that grows must grow here too: the sizes remind of it.
+// Extend these when a struct grows; the static_assert is a reminder.
 static_assert(sizeof(ForceSample) == 9 * 8 && sizeof(DampingPoint) == 8 * 8 &&
               sizeof(ExponentialFit) == 9 * 8 && sizeof(ExponentialTest) == 8 * 8 &&
               sizeof(HeightStatistics) == 7 * 8 && sizeof(SpectralMoments) == 5 * 8 &&

@@ -134,11 +134,11 @@ bool StudyLock::try_link() {
         "{}: in use by process {} on {}, alive {:.0f} s ago; wait for it to end, or end it",
         file_.parent_path().string(), owner.process, owner.space.substr(0, owner.space.find(' ')),
         std::max(age, 0.0)));
-  // Of several that come to this conclusion one renames the file that all have read; who gets another puts it back.
+  // If several processes decide this, only the one that renames the file it read proceeds; the others restore it.
   const std::filesystem::path aside = file_.string() + ".stale." + word;
   if (rename(file_.c_str(), aside.c_str()) != 0) return false;
   if (read_text(aside) != found && link(aside.c_str(), file_.c_str()) != 0) {
-    // A third one was faster: the owner that was put aside notices that its name is gone.
+    // Another process took the name meanwhile: the owner that was put aside notices that its name is gone.
   }
   unlink(aside.c_str());
   return false;

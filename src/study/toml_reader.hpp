@@ -50,7 +50,7 @@ class TomlTable {
     }
   }
 
-  /// Throws for the first key that nobody asked for.
+  /// Throws for the first unused key.
   void require_no_other_keys() const;
 
  private:

@@ -99,7 +99,7 @@ TEST_CASE("A cone loses what Eqs (12) and (15) say at any amplitude", "[damping]
 
 TEST_CASE("damping says by how much the small-amplitude form is off", "[damping]") {
   const ProgramTest test;
-  // k = u_z/l = 0.5: J(0.5)/J(0) by PHYSICS section 7, Eq. (16) is 20 % too high.
+  // k = u_z/l = 0.5: J(0.5)/J(0) by docs/theory.md, section 7, Eq. (16) is 20 % too high.
   const auto run = test.run(
       "damping --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 "
       "--normal-amplitude 50nm --drag-velocity 1mm/s --frequency 20kHz --json");

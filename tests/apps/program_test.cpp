@@ -29,9 +29,33 @@ TEST_CASE("Help of every command ends with two examples of that command", "[prog
                            Contains("--force") && Contains("--quiet") && Contains("--progress"));
 }
 
+TEST_CASE("Help is what a bare call, help and --help show", "[program]") {
+  const ProgramTest test;
+  const auto help = test.run("--help");
+  CHECK(help.status == 0);
+  CHECK_THAT(help.out, Contains("Which command?"));
+  for (const char* words : {"", "help"}) {
+    CHECK(test.run(words).status == 0);
+    CHECK(test.run(words).out == help.out);
+  }
+  CHECK(test.run("help info").out == test.run("info --help").out);
+}
+
+TEST_CASE("--quiet leaves nothing on stderr but errors", "[program]") {
+  const ProgramTest test;
+  // Too coarse for its spectrum, which generate warns of.
+  const std::string coarse =
+      "generate --points 32 --size-x 10um --hurst 0.8 --rolloff 10um --short-cutoff 0.625um "
+      "--rms-height 30nm -o rough.h5 --force";
+  CHECK_THAT(test.run(coarse).err, Contains("warning"));
+  CHECK(test.run(coarse + " --quiet").err.empty());
+  CHECK_THAT(test.run("info none.txt --quiet").err, Contains("error"));
+}
+
 TEST_CASE("Wrong usage is refused in one line", "[program]") {
   const ProgramTest test;
-  check_refused(test.run(""), "command");
+  check_refused(test.run("''"), "is not a command");
+  check_refused(test.run("help polish"), "polish");
   check_refused(test.run("polish"), "polish");
   check_refused(test.run("info"), "SURFACE");
   check_refused(test.run("info a.txt --colour red"), "--colour");

@@ -76,6 +76,6 @@ TEST_CASE("report refuses what holds no study", "[report]") {
       test.run("generate --points 16 --size-x 1um --hurst 0.8 --rolloff 1um --short-cutoff 0.25um "
                "--rms-height 1nm -o surface.h5")
           .status == 0);
-  check_refused(test.run("report surface.h5"), "holds no study");
+  check_refused(test.run("report surface.h5"), "contains no study");
   CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5", "cut.h5", "surface.h5"});
 }

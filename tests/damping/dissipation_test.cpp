@@ -171,7 +171,7 @@ TEST_CASE("Power laws at finite amplitude are what the springs lose, open contac
 }
 
 TEST_CASE("The force form of the theorem needs no stiffness at all", "[dissipation]") {
-  // PHYSICS section 7: W = 4(G*/E*)(u_x² sin²φ0/u_z²)[u_z(F₊ + F₋) − ∫F dδ], here ∫F = Bδ^{n+1}/(n+1).
+  // docs/theory.md, section 7: W = 4(G*/E*)(u_x² sin²φ0/u_z²)[u_z(F₊ + F₋) − ∫F dδ], here ∫F = Bδ^{n+1}/(n+1).
   const double exponent = 1.5, coefficient = 1e9, indentation = 1e-6, amplitude = 7e-7;
   const PowerLaw law(coefficient, exponent, ratio);
   const auto motion = equal_frequency(amplitude, 0.4);

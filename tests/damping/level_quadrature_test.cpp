@@ -121,7 +121,7 @@ TEST_CASE("Along and across an elongated contact the loss differs as Mindlin's e
   const double axes =
       std::sqrt((square_y - mean_y * mean_y / cells) / (square_x - mean_x * mean_x / cells));
   CHECK(axes < 0.4);
-  // ∫_0^{2π} (1 − ν cos²φ)/√(a²cos²φ + b²sin²φ) dφ of PHYSICS section 7's kernel, by the trapezoidal rule: periodic, so exact.
+  // ∫_0^{2π} (1 − ν cos²φ)/√(a²cos²φ + b²sin²φ) dφ of docs/theory.md, section 7's kernel, by the trapezoidal rule: periodic, so exact.
   const auto compliance = [&](double a, double b) {
     double sum = 0;
     for (int k = 0; k < 400; ++k) {

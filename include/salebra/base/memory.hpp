@@ -14,7 +14,7 @@ namespace salebra {
 Field uninitialised_field(Index nx, Index ny);
 
 /// Makes the system provide the memory of a field that is not initialised, each page by one thread. Where a loop writes to all rows at
-/// once, threads that meet on a fresh page clear it both, and one of them in vain: at 4096² that is 6 ms of each thread.
+/// once, threads that meet on a fresh page clear it both, and one of them unnecessarily: at 4096² that is 6 ms of each thread.
 void touch_pages(Field& field);
 
 /// Memory that is not initialised, on boundaries of 64 bytes (a cache line, and the widest vector), on large pages where it fills

@@ -5,8 +5,8 @@
 
 namespace salebra {
 
-/// Some heights are undefined where each is needed, as Surface::require_complete() finds out. An InvalidInput of its own, so that a
-/// program can say how it fills them.
+/// Thrown when an operation needs complete data, by Surface::require_complete(). A separate type, so that a program can say how it
+/// fills undefined points.
 class UndefinedPoints : public InvalidInput {
  public:
   using InvalidInput::InvalidInput;

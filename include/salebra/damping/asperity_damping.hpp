@@ -7,7 +7,7 @@
 
 namespace salebra {
 
-/// Who loses what: the relaxation damping of every summit of a surface, moved by one body.
+/// The relaxation damping of every summit of a surface, moved by one body.
 struct AsperityDamping {
   std::vector<double> work;      ///< W_i of each summit, in the order given, J
   double work_per_cycle = 0;     ///< Σ W_i, J
@@ -20,10 +20,10 @@ struct AsperityDamping {
   double damping_constant = 0;  ///< γ, N s/m; NaN where ω or the velocity is not known
 };
 
-/// Each summit is an elastic foundation of its own (PHYSICS section 6, g = x²/R) that sticks: a spring of width dx touched at the level
+/// Each summit is an elastic foundation of its own (docs/theory.md, section 6, g = x²/R) that sticks: a spring of width dx touched at the level
 /// ζ = x²/R is released by the distance s of Eq. (7) or (13), so that
 ///     W_i = G* ∫ s(ζ(x) − δ_i)² dx over the springs that open and close, at any amplitude.
-/// By the theorem of PHYSICS section 7 the sum is relaxation_damping() of the GreenwoodWilliamsonLaw of the same summits, mean
+/// By the theorem of docs/theory.md, section 7 the sum is relaxation_damping() of the GreenwoodWilliamsonLaw of the same summits, mean
 /// indentation held; this way of computing it uses no force law at all.
 /// separation: mean, from the mean of the summits' heights, m.
 /// Throws InvalidInput as DeterministicSummits, for an unknown G*, u_z < 0, or ω <= 0 in Drag. Cost: 50 to 500 evaluations of s a summit.

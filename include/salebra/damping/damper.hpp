@@ -6,7 +6,7 @@
 #include <salebra/damping/dissipation.hpp>
 #include <vector>
 
-/// What case (b) is good for: a contact under fast normal oscillation is a linear damper that can be tuned.
+/// A contact under fast normal oscillation is a linear damper that can be tuned.
 namespace salebra {
 
 /// Fast normal oscillation of a contact.

@@ -23,7 +23,7 @@ using Position = std::variant<AtIndentation, AtForce>;
 
 enum class Amplitude {
   small,  ///< Eq. (12) or (15) with F'' of the law: the limit u_z → 0
-  finite  ///< the theorem of PHYSICS section 7, exact at every amplitude
+  finite  ///< the theorem of docs/theory.md, section 7, exact at every amplitude
 };
 
 struct DampingOptions {
@@ -60,13 +60,13 @@ struct DampingResult {
 
 /// Work lost per cycle by
 ///     W = ½∮ s² dK_t,  s = x_out − x_in of each indentation level, in the by-parts forms that need K_t alone:
-///     (a) W = 2u_x² sin²φ0 ∫_0^π K_t(δ(θ)) sin2θ dθ           (b) W = 4(v/ω)² ∫_0^π θ [K_t(δ(θ)) − K_t(δ0 − u_z)]
-///     dθ,
+///     (a) W = 2u_x² sin²φ0 ∫_0^π K_t(δ(θ)) sin2θ dθ
+///     (b) W = 4(v/ω)² ∫_0^π θ [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ,
 /// δ(θ) = δ0 + u_z cosθ, adaptively, with first touch as a break point: the contact may open during the cycle.
 /// No slip, contact sets that grow with δ, quasi-static.
 /// throws  InvalidInput for u_z < 0, an ω that is not > 0 in Drag or < 0 in EqualFrequency, values that are not
-/// finite, a force <= 0, and a motion
-///         that leaves the range of a tabulated law
+///         finite, a force <= 0,
+///         and a motion that leaves the range of a tabulated law
 /// cost    about 100 to 1000 evaluations of the law; 50 times that with Hold::force
 DampingResult relaxation_damping(const ContactLaw& law, const Position& position,
                                  const Oscillation& motion, const DampingOptions& options = {});

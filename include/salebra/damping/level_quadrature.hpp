@@ -33,7 +33,7 @@ struct LevelQuadratureResult {
   bool interrupted = false;
 };
 
-/// Relaxation damping of a contact without stepping through the cycle, W = ½∮ s² dK_t by parts (PHYSICS section 7):
+/// Relaxation damping of a contact without stepping through the cycle, W = ½∮ s² dK_t by parts (docs/theory.md, section 7):
 ///     (a) W = 2u_x² sin²φ0 ∫_0^π K_t(δ(θ)) sin2θ dθ        (b) W = 4(v/ω)² ∫_0^π θ [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ
 /// on Gauss–Legendre nodes of θ, δ(θ) = δ0 + u_z cosθ, with a normal contact, a stick and a punch solve at each.
 /// cost  levels + 2 normal contacts, and for each but one a stick and a punch solve

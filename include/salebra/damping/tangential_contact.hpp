@@ -22,7 +22,7 @@ struct TangentialContactOptions {
   double tangential_range = 0;
 };
 
-/// The tangential state of any contact with nested contact sets, along any path (PHYSICS sections 7 and 8):
+/// The tangential state of any contact with nested contact sets, along any path (docs/theory.md, sections 7 and 8):
 ///     F_x = ∫_{−∞}^{δ} K_t'(ζ)[x − x0(ζ)]dζ,
 /// x0(ζ): where the springs of indentation level ζ are anchored. A level is anchored where it touches. With finite
 /// friction its stretch obeys |x − x0| <= (μE*/G*)(δ − ζ), and its anchor slips along otherwise; without, it is let

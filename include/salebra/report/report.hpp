@@ -26,7 +26,7 @@ void require_report(const std::filesystem::path& html, const WriteOptions& optio
 /// fit and its residuals, the models side by side, damping with bands, settings and provenance; every figure with its numbers as a
 /// table and as CSV. The file loads nothing: plotly.js, data and maps (at most 512 × 512 points in all) are in it, a few MB.
 /// What an older results file does not hold is named as absent. The file appears complete or not at all.
-/// throws  InvalidInput for a file that is not there, damaged or holds no study, for direct results of another normal amplitude or
+/// throws  InvalidInput for a file that is not there, damaged or contains no study, for direct results of another normal amplitude or
 ///         beside several points of a parameter grid, and as require_report
 /// cost    reading what the report shows; some 0.1 s
 void write_report(const std::filesystem::path& results, const std::filesystem::path& html,

@@ -16,7 +16,7 @@ namespace salebra {
 /// taken over when its process of this host is gone, or has not been touched for a minute, by the clock of the file system.
 class StudyParts {
  public:
-  /// Creates the folder where it is not there. resume: a folder that holds realisations is welcome.
+  /// Creates the folder where it is not there. resume: a folder that holds realisations is accepted.
   /// Throws InvalidInput where it holds some and resume is false, and where another process has it; IoError where the folder cannot be
   /// created.
   StudyParts(const std::filesystem::path& folder, bool resume);

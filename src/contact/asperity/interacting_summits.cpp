@@ -73,7 +73,7 @@ struct Contacts {
   detail::PeriodicPointLoads kernel;
 };
 
-/// Tells how a state comes along, and ends it by Interrupted.
+/// Reports progress; throws Interrupted when asked to stop.
 struct Watch {
   const Progress& progress;
   int step = 0;

@@ -150,7 +150,7 @@ CurvatureSums ActiveSetCg<Real>::take_direction(double z_mean, double beta, doub
 // g = Gp − h and what follows from it.
 template <class Real>
 ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
-  // Counted from a plane near the true one, which is known only afterwards, Σp(g − plane) loses no digits.
+  // Σp(g − plane) is offset by an approximate plane against cancellation; the true one is known only after the pass.
   const double near = run.load_given() ? run.level : run.target.value;
   const double bound = run.target.bound;
   std::vector<GapSums> sums(static_cast<std::size_t>(grid_.nx));

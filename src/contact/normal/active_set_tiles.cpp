@@ -44,7 +44,7 @@ void ActiveSetCg<Real>::reset() {
 template <class Real>
 std::byte* ActiveSetCg<Real>::pool(std::size_t bytes) {
   if (bytes > pool_size_) {
-    pool_.reset();  // first, lest both are there at once
+    pool_.reset();  // free first, to avoid holding both
     pool_ = large_array<std::byte>(bytes);
     pool_size_ = bytes;
   }
@@ -100,7 +100,7 @@ void ActiveSetCg<Real>::keep_directions(const std::vector<Tile>& before,
       }
     });
     if (size > directions_size_) {
-      field->reset();  // first, lest both are there at once
+      field->reset();  // free first, to avoid holding both
       *field = large_array<Real>(size);
     }
     for_tiles([&](Index begin, Index end) {

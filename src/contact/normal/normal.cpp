@@ -37,7 +37,7 @@ struct Depths {
   explicit Depths(const Field& heights) {
     const double* h = heights.data();
     const double points = static_cast<double>(heights.size()), origin = h[0];
-    // Counted from one of them, heights lose no digits to a large mean.
+    // Offset by one height, so that a large mean does not cost precision.
     Sums total;
     total.highest = origin;
     for (const Sums& part : sums(heights, origin)) {

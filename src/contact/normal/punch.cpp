@@ -69,7 +69,7 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
     const double tw = take_direction(0, beta, 0).tw;
     ++outcome.fft_count;
     if (!(tw > 0)) {
-      // Nothing is left to gain, as after one step on a single cell; or the numbers are none.
+      // Nothing is left to gain, as after one step on a single cell; or the values are NaN.
       if (tw == 0) small_gains = gains_in_a_row;
       break;
     }

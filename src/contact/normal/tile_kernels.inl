@@ -31,7 +31,7 @@ struct FullWidth {
   constexpr operator Size() const { return tile_width; }
 };
 
-// The residual is read in pieces whose distances the processor does not guess: it is asked for them this many tiles earlier.
+// The residual is read in strides that the prefetcher does not predict: prefetch this many tiles ahead.
 inline constexpr Size ahead = 16;
 
 // What a pass reads of the residual: nothing, its own cells, or all that the stencil reaches.

@@ -20,7 +20,7 @@ struct Forecast {
   std::vector<std::string> warnings;  ///< sentences for the user; empty if there is nothing to say
 };
 
-/// Warns of fewer than eight cells in the shortest wavelength (contact areas come out too large, PHYSICS section 7), of a lattice
+/// Warns of fewer than eight cells in the shortest wavelength (contact areas come out too large, docs/theory.md, section 7), of a lattice
 /// rms height more than 5 % from the target, and of an rms_height_scatter above 5 % (a roll-off longer than about an eighth
 /// of the cell). Throws as Spectrum::require_carried_by. progress: "moments" and "scatter"; a stop throws Interrupted.
 /// Cost: three sums over all modes.

@@ -18,7 +18,7 @@ struct PlanePoint {
 using ShapeCenter = std::optional<PlanePoint>;
 
 /// The middle of the grid moved by (0.31, 0.17) of a cell. A body that is symmetric to the grid has a contact area that jumps by many
-/// cells at a time; off the grid the area-dependent error is 5–20 times smaller (PHYSICS section 7).
+/// cells at a time; off the grid the area-dependent error is 5–20 times smaller (docs/theory.md, section 7).
 PlanePoint off_grid_center(const Grid2D& grid);
 
 /// h = −r²/(2 radius).

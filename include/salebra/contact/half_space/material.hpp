@@ -18,7 +18,7 @@ struct ElasticBody {
 struct Material {
   double contact_modulus = 0;     ///< E*, Pa
   double tangential_modulus = 0;  ///< G*, Pa; NaN where only E* was given
-  /// Cerruti's constants, which give the tangential displacement of a shear traction (PHYSICS section 5), 1/Pa.
+  /// Cerruti's constants, which give the tangential displacement of a shear traction (docs/theory.md, section 5), 1/Pa.
   double cerruti_isotropic = 0;  ///< Σ (1−ν_i)/(2π G_i)
   double cerruti_directed = 0;   ///< Σ ν_i/(2π G_i)
 

@@ -7,10 +7,10 @@
 
 namespace salebra {
 
-/// Force–indentation law of a contact: all that the damping problem needs to know of it (PHYSICS section 7).
+/// Force–indentation law of a contact: all that the damping problem needs to know of it (docs/theory.md, section 7).
 /// Indentation δ grows with approach. A law is immutable and may be shared between threads.
 /// Units: m, N, N/m, N/m². Evaluation outside [lowest_indentation, highest_indentation] throws InvalidInput that names the
-/// range; below first touch a law that knows it returns 0.
+/// range; below first touch, laws that define it return 0.
 class ContactLaw {
  public:
   /// modulus_ratio: G*/E* > 0, which turns K into K_t.
@@ -68,7 +68,7 @@ class ExponentialLaw final : public ContactLaw {
   double reference_force_, decay_length_;
 };
 
-/// A computed or measured curve. ln F against δ is interpolated by one monotone cubic, whose slopes at the nodes are K/F where
+/// A curve, computed or read from a file. ln F against δ is interpolated by one monotone cubic, whose slopes at the nodes are K/F where
 /// every sample has K and four-point differences otherwise; K = F' and K' = F'' are its exact derivatives, of order 4, 3 and 2
 /// in the spacing of the samples (K' jumps at the samples). K_t: where every sample has one, ln K_t is interpolated likewise and
 /// modulus_ratio is not used; otherwise (G*/E*)K.

@@ -96,7 +96,7 @@ class TabulatedProfile final : public IndenterProfile {
   std::unique_ptr<const Table> table_;
 };
 
-/// The contact of a profile with an elastic half-space, exact (PHYSICS section 6):
+/// The contact of a profile with an elastic half-space, exact (docs/theory.md, section 6):
 ///     δ = g(a), F = 2E* ∫_0^a (δ − g) dx, K = 2E*a, F'' = 2E*/g'(a), K_t = (G*/E*)K.
 /// The general case of what PowerLaw is for cone, paraboloid and power profiles.
 class IndenterLaw final : public ContactLaw {
