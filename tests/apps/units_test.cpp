@@ -274,32 +274,32 @@ TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their qu
                                      "correlation_y", "scale_x",       "scale_y",
                                      "bearing",       "height_counts", "height_histogram",
                                      "histogram"};
-  for (const std::string& command :
-       {rough,
-        "generate --shape sphere --radius 2um --points 32 --size-x 1um",
-        std::string("info rough.h5"),
-        std::string("statistics rough.h5 --tip-radius 10nm"),
-        "contact rough.h5 --pressure 20MPa --stiffness" + body,
-        "sweep rough.h5 --pressures 2:60MPa:4 --stiffness --stick" + body,
-        "gw rough.h5 --summits deterministic --pressures 2:60MPa:5" + body,
-        std::string("fit curve.h5"),
-        "damping --normal-amplitude 5nm" + law + drag,
-        "damping --normal-amplitude 1:50nm:4" + law + drag,
-        "damping --normal-amplitude 5nm --friction 0.3" + law + drag,
-        "damping --mode two-frequencies --normal-amplitude 1nm --tangential-amplitude 1nm "
-        "--frequency 20kHz --tangential-frequency 1kHz" +
-            law,
-        "mdr --profile parabola --radius 10mm --indentation 1um" + body,
-        "mdr --profile parabola --radius 10mm --indentation 1um --normal-amplitude 300nm "
-        "--friction 0.3" +
-            drag + body,
-        "damper --normal-amplitude 20nm --frequency 20kHz --mass 10g --spring-stiffness 1kN/m" +
-            law,
-        "damper --normal-amplitude 20nm --frequency 1:100kHz:3 --falling-slope 5" + law,
-        "damper --frequency 1:100kHz:3 --falling-slope 5" + law,
-        shape,
-        shape + "--method levels --relative-error 5% --decay-length 1um",
-        shape + "--friction 0.5 --coupled"}) {
+  for (const std::string& command : std::vector<std::string>{
+           rough,
+           "generate --shape sphere --radius 2um --points 32 --size-x 1um",
+           std::string("info rough.h5"),
+           std::string("statistics rough.h5 --tip-radius 10nm"),
+           "contact rough.h5 --pressure 20MPa --stiffness" + body,
+           "sweep rough.h5 --pressures 2:60MPa:4 --stiffness --stick" + body,
+           "gw rough.h5 --summits deterministic --pressures 2:60MPa:5" + body,
+           std::string("fit curve.h5"),
+           "damping --normal-amplitude 5nm" + law + drag,
+           "damping --normal-amplitude 1:50nm:4" + law + drag,
+           "damping --normal-amplitude 5nm --friction 0.3" + law + drag,
+           "damping --mode two-frequencies --normal-amplitude 1nm --tangential-amplitude 1nm "
+           "--phase 40deg --frequency 20kHz --tangential-frequency 1kHz" +
+               law,
+           "mdr --profile parabola --radius 10mm --indentation 1um" + body,
+           "mdr --profile parabola --radius 10mm --indentation 1um --normal-amplitude 300nm "
+           "--friction 0.3" +
+               drag + body,
+           "damper --normal-amplitude 20nm --frequency 20kHz --mass 10g --spring-stiffness 1kN/m" +
+               law,
+           "damper --normal-amplitude 20nm --frequency 1:100kHz:3 --falling-slope 5" + law,
+           "damper --frequency 1:100kHz:3 --falling-slope 5" + law,
+           shape,
+           shape + "--method levels --relative-error 5% --decay-length 1um",
+           shape + "--friction 0.5 --coupled"}) {
     const auto json = test.run(command + " --json --quiet"), text = test.run(command + " --quiet");
     INFO(command << "\n" << json.err << text.out);
     REQUIRE(json.status == 0);
