@@ -81,7 +81,7 @@ def commands_of(script):
     text = re.sub(r'"[^"]*"', lambda words: re.sub(r"(?<!\$)\(|;", " ", words[0]), text)
     for command in re.split(r"\n|;|\|\|?|&&?|\$\(|`|<\(|\(|\{|\)", text):
         words = command.split()
-        while words and (re.fullmatch(r"if|then|elif|else|while|until|do|!|exec|env|nice|-n|19|[A-Za-z_]\w*=\S*", words[0])):
+        while words and (re.fullmatch(r"if|then|elif|else|while|until|do|!|exec|time|env|nice|-n|19|[A-Za-z_]\w*=\S*", words[0])):
             words.pop(0)
         if words and re.fullmatch(r"[A-Za-z][\w.+-]*", words[0]):
             yield words[0]
@@ -91,14 +91,15 @@ def steps(arguments, folder):
     """What runs on the programs of a folder: the name of each step and whether it works, with what it said."""
     environment = {**os.environ, "PATH": str(folder), "CMAKE_CXX_COMPILER_LAUNCHER": ""}
     # CMake also looks where systems have their programs, whatever the PATH.
-    only = "-DCMAKE_SYSTEM_IGNORE_PATH=" + ";".join(f"{top}{name}" for top in ("/", "/usr/", "/usr/local/") for name in ("bin", "sbin"))
+    # cpack takes its -D as a word of its own.
+    only = ["-D", "CMAKE_SYSTEM_IGNORE_PATH=" + ";".join(f"{top}{name}" for top in ("/", "/usr/", "/usr/local/") for name in ("bin", "sbin"))]
     scratch = arguments.scratch
     shutil.rmtree(scratch / "tree", ignore_errors=True)
     shutil.rmtree(scratch / "package", ignore_errors=True)
     for name, command in {
             "install": [arguments.root / "scripts/install-dependencies"],
-            "configure": ["cmake", "-S", arguments.root, "-B", scratch / "tree", "-G", "Ninja", only],
-            "package": ["cpack", "--config", arguments.build / "CPackConfig.cmake", "-B", scratch / "package", only]}.items():
+            "configure": ["cmake", "-S", arguments.root, "-B", scratch / "tree", "-G", "Ninja", *only],
+            "package": ["cpack", "--config", arguments.build / "CPackConfig.cmake", "-B", scratch / "package", *only]}.items():
         if not shutil.which(str(command[0]), path=str(folder)):
             yield name, False, f"no {command[0]}"
             continue
