@@ -93,7 +93,8 @@ struct LinearSolution {
 
 /// Conjugate gradients on I + √D G √D, whose spectrum starts near 1, with Σx = 0 held by projection where asked for. root: √D > 0.
 /// Stops where two contacts so close to each other that a point force no longer describes them make it indefinite, with the descent
-/// direction reached until then.
+/// direction reached until then. A separate loop, because the first direction is the result where the system is indefinite, and the
+/// projection acts on the residual, which the shift is read from.
 LinearSolution linear_solve(Contacts& contacts, const Values& root, const Values& right,
                             double tolerance, bool hold_sum, const Watch& watch) {
   const std::size_t n = root.size();

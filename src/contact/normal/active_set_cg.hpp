@@ -33,7 +33,8 @@ class Stopwatch {
 
 // Minimises ½p·Gp − p·h over 0 <= p <= bound on one grid: conjugate gradients on the free cells, preconditioned by
 // InverseStencil, that are not restarted when the set of free cells changes. Search directions and their images are Real;
-// p and g are double, and a result is accepted on a residual computed afresh over all cells.
+// p and g are double, and a result is accepted on a residual computed afresh over all cells. The iteration is a separate loop, not
+// tangential/conjugate_gradients.hpp: an iteration reads and writes each tile in three fused passes, and its cost is memory traffic.
 //
 // The pressure is in any unit that makes `compliance` give metres.
 template <class Real>

@@ -59,7 +59,8 @@ class Descent {
     return false;
   }
 
-  // Preconditioned CG on the cells strictly between their bounds, until a bound is met or little is gained.
+  // Preconditioned CG on the cells strictly between their bounds, until a bound is met or little is gained. A separate loop, because
+  // the last step ends at a bound and p and g change with each step, within bounds.
   void descend_on_face(int most) {
     const Field mask = (p_ > 0 && p_ < target_.bound).cast<double>();
     const double count = mask.sum();

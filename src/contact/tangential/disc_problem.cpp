@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "conjugate_gradients.hpp"
+
 namespace salebra::detail {
 namespace {
 
@@ -96,8 +98,7 @@ std::vector<double> DiscProblem::newton_direction(const Iterate& iterate, const 
                                                   double reduction, double tolerance,
                                                   int max_iterations, PartialSlipReport& report) {
   const std::size_t unknowns = targets_.size();
-  std::vector<double> solution(unknowns, 0.0), misfit(unknowns), direction(unknowns, 0.0);
-  std::vector<double> preconditioned(unknowns), response(unknowns), scale(count());
+  std::vector<double> solution(unknowns, 0.0), misfit(unknowns), scale(count());
   for (std::size_t i = 0; i < unknowns; ++i) misfit[i] = -iterate.gradient[i];
   project_on(face, misfit);
   // The stencil is the inverse of K, not of K + Λ: where the curvature Λ prevails, the inverse is 1/Λ.
@@ -109,35 +110,29 @@ std::vector<double> DiscProblem::newton_direction(const Iterate& iterate, const 
   };
   const double goal = std::max(reduction * std::sqrt(dot(misfit, misfit)),
                                tolerance * std::sqrt(static_cast<double>(count())));
-  double previous = 0;
-  for (;;) {
-    if (std::sqrt(dot(misfit, misfit)) <= goal || report.iterations >= max_iterations) break;
-    std::vector<double> scaled = misfit;
-    apply_scale(scaled);
-    for (std::size_t c = 0; c < components(); ++c)
-      system_.preconditioner().apply(points_, scaled.data() + c * count(),
-                                     preconditioned.data() + c * count());
-    for (double& value : preconditioned) value *= stencil_scale;
-    apply_scale(preconditioned);
-    project_on(face, preconditioned);
-    const double weight = dot(misfit, preconditioned);
-    const double beta = previous > 0 ? weight / previous : 0;
-    previous = weight;
-    for (std::size_t i = 0; i < unknowns; ++i)
-      direction[i] = preconditioned[i] + beta * direction[i];
-    system_.response().apply(points_, direction.data(), points_, response.data());
-    for (std::size_t i = 0; i < unknowns; ++i)
-      response[i] += face.curvature[i % count()] * direction[i];
-    project_on(face, response);
-    const double curvature = dot(direction, response);
-    ++report.iterations;
-    if (!(curvature > 0)) break;  // round-off has used up the system's accuracy
-    const double step = weight / curvature;
-    for (std::size_t i = 0; i < unknowns; ++i) {
-      solution[i] += step * direction[i];
-      misfit[i] -= step * response[i];
-    }
-  }
+  const int before = report.iterations;
+  const CgOutcome outcome = conjugate_gradients(
+      [&](const std::vector<double>& in, std::vector<double>& out) {
+        system_.response().apply(points_, in.data(), points_, out.data());
+        for (std::size_t i = 0; i < unknowns; ++i) out[i] += face.curvature[i % count()] * in[i];
+        project_on(face, out);
+      },
+      [&](const std::vector<double>& in, std::vector<double>& out) {
+        std::vector<double> scaled = in;
+        apply_scale(scaled);
+        for (std::size_t c = 0; c < components(); ++c)
+          system_.preconditioner().apply(points_, scaled.data() + c * count(),
+                                         out.data() + c * count());
+        for (double& value : out) value *= stencil_scale;
+        apply_scale(out);
+        project_on(face, out);
+      },
+      [&](double square, int iterations) {
+        return std::sqrt(square) <= goal || before + iterations >= max_iterations;
+      },
+      solution, misfit);
+  // A step that the system's accuracy did not allow has cost as much as one taken.
+  report.iterations += outcome.iterations + (outcome.exhausted ? 1 : 0);
   return solution;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <salebra/base/parallel.hpp>
 
+#include "conjugate_gradients.hpp"
+
 namespace salebra::detail {
 namespace {
 
@@ -144,41 +146,34 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
     report.converged = true;
     return report;
   }
-  std::vector<double> response(unknowns), preconditioned(unknowns), direction(unknowns, 0.0);
   if (std::any_of(tractions.begin(), tractions.end(), [](double t) { return t != 0; })) {
+    std::vector<double> response(unknowns);
     response_.apply(points, tractions.data(), points, response.data());
     for (std::size_t i = 0; i < unknowns; ++i) misfit[i] -= response[i];
   }
   const double root = std::sqrt(static_cast<double>(unknowns));
-  double previous = 0;
-  for (;;) {
-    report.residual = std::sqrt(dot(misfit, misfit)) / root;
+  const auto stop = [&](double square, int iterations) {
+    report.residual = std::sqrt(square) / root;
     report.converged = report.residual < tolerance;
-    if (report.converged || report.iterations == max_iterations) break;
-    if (progress && !progress({"stick", report.iterations / static_cast<double>(max_iterations),
-                               report.iterations, report.residual})) {
-      report.interrupted = true;
-      break;
-    }
-    for (int c = 0; c < response_.components(); ++c) {
-      const std::size_t offset = size_of(c * points.size());
-      preconditioner_.apply(points, misfit.data() + offset, preconditioned.data() + offset);
-    }
-    const double weight = dot(misfit, preconditioned);
-    const double beta = previous > 0 ? weight / previous : 0;
-    previous = weight;
-    for (std::size_t i = 0; i < unknowns; ++i)
-      direction[i] = preconditioned[i] + beta * direction[i];
-    response_.apply(points, direction.data(), points, response.data());
-    const double curvature = dot(direction, response);
-    if (!(curvature > 0)) break;  // round-off has used up the system's accuracy
-    const double step = weight / curvature;
-    for (std::size_t i = 0; i < unknowns; ++i) {
-      tractions[i] += step * direction[i];
-      misfit[i] -= step * response[i];
-    }
-    ++report.iterations;
-  }
+    if (report.converged || iterations == max_iterations) return true;
+    report.interrupted =
+        progress && !progress({"stick", iterations / static_cast<double>(max_iterations),
+                               iterations, report.residual});
+    return report.interrupted;
+  };
+  report.iterations =
+      conjugate_gradients(
+          [&](const std::vector<double>& in, std::vector<double>& out) {
+            response_.apply(points, in.data(), points, out.data());
+          },
+          [&](const std::vector<double>& in, std::vector<double>& out) {
+            for (int c = 0; c < response_.components(); ++c) {
+              const std::size_t offset = size_of(c * points.size());
+              preconditioner_.apply(points, in.data() + offset, out.data() + offset);
+            }
+          },
+          stop, tractions, misfit)
+          .iterations;
   report.fft_count = response_.fft_count() - first_fft;
   return report;
 }

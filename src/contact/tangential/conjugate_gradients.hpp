@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "surface_response.hpp"
+
+namespace salebra::detail {
+
+struct CgOutcome {
+  int iterations = 0;  // steps taken
+  // A direction without curvature: round-off has used up the system's accuracy.
+  bool exhausted = false;
+};
+
+// Preconditioned conjugate gradients on A x = b for vectors of points, A symmetric and positive.
+//   apply(x, Ax), precondition(misfit, z)
+//   stop(|misfit|², iterations)  before each step; true ends it
+//   x, misfit                    the guess and b − Ax on entry; both are up to date on return
+// ActiveSetCg, gradient_projection and InteractingSummits have separate loops; each says why.
+template <class Apply, class Precondition, class Stop>
+CgOutcome conjugate_gradients(const Apply& apply, const Precondition& precondition,
+                              const Stop& stop, std::vector<double>& x,
+                              std::vector<double>& misfit) {
+  const std::size_t unknowns = misfit.size();
+  std::vector<double> preconditioned(unknowns), direction(unknowns, 0.0), image(unknowns);
+  CgOutcome outcome;
+  double previous = 0;
+  while (!stop(dot(misfit, misfit), outcome.iterations)) {
+    precondition(misfit, preconditioned);
+    const double weight = dot(misfit, preconditioned);
+    const double beta = previous > 0 ? weight / previous : 0;
+    previous = weight;
+    for (std::size_t i = 0; i < unknowns; ++i)
+      direction[i] = preconditioned[i] + beta * direction[i];
+    apply(direction, image);
+    const double curvature = dot(direction, image);
+    if (!(curvature > 0)) {
+      outcome.exhausted = true;
+      break;
+    }
+    const double step = weight / curvature;
+    for (std::size_t i = 0; i < unknowns; ++i) {
+      x[i] += step * direction[i];
+      misfit[i] -= step * image[i];
+    }
+    ++outcome.iterations;
+  }
+  return outcome;
+}
+
+}  // namespace salebra::detail
