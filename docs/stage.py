@@ -91,8 +91,8 @@ def help_of(program, *command):
 def command_reference(program):
     """docs/cli.md: --help of the program and of each command that it lists."""
     overview = help_of(program)
-    # Commands stand under the headings of their kinds, options begin with a dash, and first steps come last.
-    listed = overview.split("First steps:", 1)[0].splitlines()
+    # Commands stand under the headings of their kinds, options begin with a dash, and the chart of commands comes after them.
+    listed = overview.split("Which command?", 1)[0].splitlines()
     names = [line.split()[0] for line in listed if line.startswith("  ") and line[2].islower()]
     if len(names) < 10:
         sys.exit(f"stage.py: the help of {program} lists {len(names)} commands; has its form changed?")
