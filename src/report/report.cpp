@@ -76,7 +76,7 @@ void require_report(const std::filesystem::path& html, const WriteOptions& optio
   if (!can_report())
     throw IoError(
         "report: this build of salebra carries no plotly.js; run scripts/report-assets (it needs "
-        "npm and a network) and build again");
+        "pip and a network) and build again");
   require_output(html, options);
 }
 
