@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -316,19 +317,19 @@ std::string law_verdict(const StudyResult& result) {
 
 std::string ensemble_remarks(const StudyResult& result) {
   std::string text;
-  const std::vector<EnsembleMean> means = result.convergence();
-  if (means.size() >= 3) {
+  const std::vector<std::size_t> counts = result.convergence_counts();
+  if (counts.size() >= 3) {
+    const std::vector<EnsembleMean> means = result.convergence();
     text += "l/h_rms of boundary elements over the first surfaces\n";
     std::vector<std::vector<std::string>> rows{{"surfaces", "mean", "95 % interval"}};
-    const auto add_row = [&](std::size_t count) {
-      const EnsembleMean& estimate = means[count - 2];
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      const std::size_t count = counts[i];
+      if (!std::has_single_bit(count) && count != counts.back()) continue;
+      const EnsembleMean& estimate = means[i];
       rows.push_back({fmt::format("{}", count),
                       std::isnan(estimate.mean) ? "n/a" : fmt::format("{:.4f}", estimate.mean),
                       interval(estimate, Dimension::dimensionless)});
-    };
-    const std::size_t all = means.size() + 1;
-    for (std::size_t count = 2; count < all; count *= 2) add_row(count);
-    add_row(all);
+    }
     text += to_table(rows) + "\n";
   }
   if (result.precision_reached)

@@ -254,8 +254,10 @@ void bind_result(nb::module_& m) {
           },
           nb::arg("model") = "bem",
           "How far Eq. (16) is off the theorem on the curve, at each pressure.")
+      .def("convergence_counts", &StudyResult::convergence_counts,
+           "Numbers of surfaces of convergence(): all up to 128, then 32 in each doubling.")
       .def("convergence", &StudyResult::convergence,
-           "Mean l/h_rms over the first 2, 3, … surfaces.")
+           "Mean l/h_rms over the first convergence_counts() surfaces.")
       .def("interval_method", &StudyResult::interval_method,
            "How the intervals came about: one line.")
       .def(

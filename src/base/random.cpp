@@ -101,6 +101,16 @@ void fill_phase_numbers(std::uint64_t seed, std::int32_t i, std::int32_t j, std:
   }
 }
 
+SALEBRA_VECTOR_WIDTHS
+void fill_indices(std::uint64_t seed, std::int32_t i, std::int32_t j, std::uint32_t stream,
+                  double count, std::int32_t* indices, std::int32_t length) {
+#pragma omp simd
+  for (std::int32_t k = 0; k < length; ++k) {
+    const Words bits = philox(seed, i, j + k, stream);
+    indices[k] = static_cast<std::int32_t>(open_unit_interval(bits.w0, bits.w1) * count);
+  }
+}
+
 }  // namespace
 
 std::array<std::uint32_t, 4> random_bits(std::uint64_t seed, std::int32_t i, std::int32_t j,
@@ -128,6 +138,12 @@ void fill_phase_factors(std::uint64_t seed, std::int32_t i, std::int32_t j,
                         std::span<std::complex<double>> factors, std::uint32_t stream) {
   fill_phase_numbers(seed, i, j, stream, reinterpret_cast<double*>(factors.data()),
                      static_cast<std::int32_t>(factors.size()));
+}
+
+void fill_draws(std::uint64_t seed, std::int32_t i, std::int32_t j, std::int32_t count,
+                std::span<std::int32_t> indices, std::uint32_t stream) {
+  fill_indices(seed, i, j, stream, count, indices.data(),
+               static_cast<std::int32_t>(indices.size()));
 }
 
 }  // namespace salebra

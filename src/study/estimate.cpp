@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
 #include <salebra/base/random.hpp>
 #include <salebra/study/estimate.hpp>
 
@@ -71,21 +72,6 @@ Bootstrap::Bootstrap(int resamples, std::uint64_t seed) : resamples_(resamples),
           "is too few for a quantile of 2.5 %; use at least 200");
 }
 
-const Bootstrap::Draws& Bootstrap::draws(std::size_t count) const {
-  const auto found = std::ranges::find(cache_, count, &Draws::count);
-  if (found != cache_.end()) return *found;
-  Draws fresh;
-  fresh.count = count;
-  fresh.places.reserve(std::size_t(resamples_) * count);
-  for (int resample = 0; resample < resamples_; ++resample) {
-    for (std::size_t k = 0; k < count; ++k) {
-      const double uniform = uniform_pair(seed_, resample, std::int32_t(k), bootstrap_stream).first;
-      fresh.places.push_back(std::uint32_t(uniform * double(count)));
-    }
-  }
-  return cache_.emplace_back(std::move(fresh));
-}
-
 EnsembleMean Bootstrap::mean(const std::vector<double>& values) const {
   const std::vector<double> kept = known(values);
   if (kept.size() < std::size_t(least_bootstrap_count)) return student_mean(kept);
@@ -93,18 +79,25 @@ EnsembleMean Bootstrap::mean(const std::vector<double>& values) const {
   EnsembleMean estimate{sample.mean, sample.mean, sample.mean};
   // Equal up to round-off: there is no scatter to resample.
   if (sample.deviation <= 1e-14 * std::abs(sample.mean)) return estimate;
-  const std::vector<std::uint32_t>& places = draws(kept.size()).places;
   std::vector<double> statistics(static_cast<std::size_t>(resamples_));
-  std::vector<double> resample(kept.size());
-  auto place = places.begin();
-  for (double& statistic : statistics) {
-    for (double& value : resample) value = kept[*place++];
-    const Moments drawn = moments_of(resample);
-    const double shift = drawn.mean - sample.mean;
-    // A resample of one value over and over knows no scatter; it belongs to the tail on its side.
-    // √n stands on both sides and is left out.
-    statistic = shift / std::max(drawn.deviation, 1e-12 * sample.deviation);
-  }
+  const auto count = std::int32_t(kept.size());
+  // Draws are computed where they are needed: a table of them would take 8 kB for each value.
+  const auto resample_slab = [&](Index begin, Index end) {
+    std::vector<std::int32_t> places(kept.size());
+    std::vector<double> resample(kept.size());
+    for (Index number = begin; number < end; ++number) {
+      fill_draws(seed_, std::int32_t(number), 0, count, places, bootstrap_stream);
+      std::ranges::transform(places, resample.begin(),
+                             [&](std::int32_t place) { return kept[std::size_t(place)]; });
+      const Moments drawn = moments_of(resample);
+      const double shift = drawn.mean - sample.mean;
+      // A resample of one value over and over knows no scatter; it belongs to the tail on its side.
+      // √n stands on both sides and is left out.
+      statistics[std::size_t(number)] =
+          shift / std::max(drawn.deviation, 1e-12 * sample.deviation);
+    }
+  };
+  parallel::for_slabs(resamples_, resample_slab, Index(resamples_) * count);
   const double half = student_mean(kept).high - sample.mean;
   const auto arm = [&](double statistic) {
     return std::clamp(statistic * sample.deviation, half / 2, 2 * half);

@@ -27,7 +27,8 @@ std::size_t enough(const StudyResult& result,
                    const std::vector<std::optional<Realisation>>& realisations,
                    std::size_t finished) {
   const StudyConfiguration& configuration = result.configuration;
-  if (configuration.precision <= 0 || finished < std::size_t(configuration.least_realisations))
+  if (configuration.precision <= 0 || finished < std::size_t(configuration.least_realisations) ||
+      !is_milestone(finished))
     return 0;
   std::vector<double> lengths, slopes;
   for (std::size_t i = 0; i < finished; ++i) {

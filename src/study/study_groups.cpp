@@ -328,11 +328,10 @@ void write_comparison(ResultGroup group, const StudyResult& result) {
 }
 
 void write_convergence(ResultGroup group, const StudyResult& result) {
-  const std::vector<EnsembleMean> means = result.convergence();
   std::vector<double> counts;
-  for (std::size_t i = 0; i < means.size(); ++i) counts.push_back(double(i + 2));
+  for (const std::size_t count : result.convergence_counts()) counts.push_back(double(count));
   group.coordinate("surfaces", counts, "1", "number of surfaces in the mean");
-  put(group, "decay_length_over_rms_height", means, {"surfaces"});
+  put(group, "decay_length_over_rms_height", result.convergence(), {"surfaces"});
 }
 
 void write_picture(ResultGroup group, const SurfacePicture& picture) {

@@ -2,6 +2,7 @@
 // Ensemble means of a study: decay length, area slope, curves, damping, ratios to BEM.
 #include <fmt/format.h>
 
+#include <bit>
 #include <functional>
 #include <salebra/study/study.hpp>
 
@@ -99,13 +100,27 @@ std::vector<EnsembleMean> StudyResult::damping_over_bem(ModelResult Realisation:
   return estimates;
 }
 
+bool is_milestone(std::size_t surfaces) {
+  constexpr std::size_t first_octave = 128, per_octave = 32;
+  if (surfaces <= first_octave) return surfaces >= 2;
+  return surfaces % (std::bit_floor(surfaces) / per_octave) == 0;
+}
+
+std::vector<std::size_t> StudyResult::convergence_counts() const {
+  std::vector<std::size_t> counts;
+  for (std::size_t count = 2; count <= realisations.size(); ++count)
+    if (is_milestone(count) || count == realisations.size()) counts.push_back(count);
+  return counts;
+}
+
 std::vector<EnsembleMean> StudyResult::convergence() const {
   std::vector<double> ratios;
-  std::vector<EnsembleMean> estimates;
-  for (const Realisation& realisation : realisations) {
+  for (const Realisation& realisation : realisations)
     ratios.push_back(realisation.bem.fit.decay_length / realisation.heights.rms_height);
-    if (ratios.size() >= 2) estimates.push_back(bootstrap.mean(ratios));
-  }
+  std::vector<EnsembleMean> estimates;
+  for (const std::size_t count : convergence_counts())
+    estimates.push_back(
+        bootstrap.mean({ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(count)}));
   return estimates;
 }
 

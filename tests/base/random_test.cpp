@@ -60,6 +60,17 @@ TEST_CASE("Numbers filled in a row are the single ones, bit for bit", "[random]"
   }
 }
 
+TEST_CASE("Draws with replacement are the uniform numbers of their places", "[random]") {
+  for (const std::int32_t count : {1, 6, 12345, std::numeric_limits<std::int32_t>::max()}) {
+    std::vector<std::int32_t> draws(101);
+    fill_draws(5, 7, 3, count, draws, 9);
+    for (std::int32_t k = 0; k < 101; ++k) {
+      const double uniform = uniform_pair(5, 7, 3 + k, 9).first;
+      CHECK(draws[std::size_t(k)] == std::int32_t(std::floor(uniform * double(count))));
+    }
+  }
+}
+
 TEST_CASE("Gaussian numbers have the moments of a standard normal distribution", "[random]") {
   const int rows = 400, columns = 500;
   const double n = 2.0 * rows * columns;

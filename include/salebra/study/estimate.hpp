@@ -38,19 +38,12 @@ class Bootstrap {
   /// resamples: at least 200, or InvalidInput.
   explicit Bootstrap(int resamples = 2000, std::uint64_t seed = 1);
 
-  /// Over the values that are not NaN. Cost: resamples × values.
+  /// Over the values that are not NaN. Cost: resamples × values in time, 12 bytes per value and thread.
   EnsembleMean mean(const std::vector<double>& values) const;
 
  private:
-  struct Draws {  ///< of one number of values: the chosen places, resample by resample
-    std::size_t count = 0;
-    std::vector<std::uint32_t> places;
-  };
-  const Draws& draws(std::size_t count) const;
-
   int resamples_;
   std::uint64_t seed_;
-  mutable std::vector<Draws> cache_;
 };
 
 }  // namespace salebra

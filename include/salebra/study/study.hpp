@@ -18,6 +18,11 @@ struct StudyFlag {
   std::string text;  ///< a sentence for the user
 };
 
+/// Whether the mean over the first `surfaces` of an ensemble is looked at on its own, for a convergence curve and for the precision:
+/// every number from 2 to 128, beyond that 32 numbers in each doubling. Intervals for every number would take a time that grows
+/// with the square of the surfaces.
+bool is_milestone(std::size_t surfaces);
+
 /// The ensemble at one point of the parameter grid.
 struct StudyResult {
   StudyConfiguration configuration;  ///< of this point: its ensemble lists are empty
@@ -54,7 +59,9 @@ struct StudyResult {
   /// A route to the damping of a model over the theorem on the boundary-element curve of the same surface, at each pressure.
   std::vector<EnsembleMean> damping_over_bem(ModelResult Realisation::*model,
                                              double DampingPoint::*quantity) const;
-  /// The mean of l/h_rms of the boundary elements over the first 2, 3, … realisations: how the mean converges.
+  /// The numbers of surfaces of convergence(): the milestones, and all.
+  std::vector<std::size_t> convergence_counts() const;
+  /// The mean of l/h_rms of the boundary elements over the first convergence_counts() realisations: how the mean converges.
   std::vector<EnsembleMean> convergence() const;
   /// How the intervals came about: one line.
   std::string interval_method() const;
@@ -78,7 +85,7 @@ struct StudyRun {
 
 /// The ensembles of every point of the configuration's parameter grid, in the order of grid_points(): every surface through
 /// analyse_realisation(), in parallel over surfaces. With a precision, a point ends at the first M >= least_realisations surfaces (in
-/// the order of the seeds) for which the 95 % intervals of l/h_rms and of κ of the boundary elements are narrower than ±precision of
+/// the order of the seeds, M a milestone) for which the 95 % intervals of l/h_rms and of κ of the boundary elements are narrower than ±precision of
 /// their means. The result has the same bits for every thread count. A point that was not begun when the run was stopped is left out.
 /// A measured surface is treated as periodic after its plane is removed; the result carries a warning with
 /// the size of the step that this makes at the seam.
