@@ -105,8 +105,12 @@ CLI::App& Program::add_command(const std::string& name, const std::string& what,
       ->group(group)
       ->check(CLI::IsMember({"auto", "always", "never"}));
   command->callback([common, action = std::move(action), line = command_line_, check] {
-    parallel::set_threads(common->threads);
     Session session(*common, line, check);
+    const int threads = std::min(common->threads, parallel::most_threads());
+    if (threads < common->threads)
+      session.warn(fmt::format("--threads {}: too many for this machine; {} are used",
+                               common->threads, threads));
+    parallel::set_threads(threads);
     action(session);
   });
   return *command;

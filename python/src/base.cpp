@@ -66,7 +66,7 @@ void bind_base(nb::module_& m) {
         "depend on.");
   m.def("set_threads", &parallel::set_threads, nb::arg("threads"),
         "Threads that loops and transforms use from now on; 0 means all that the process may run "
-        "on.\n\n"
+        "on, at most 64 or four for each processor.\n\n"
         "Results have the same bits for every number of threads.");
   m.def("threads", &parallel::threads, "Threads that loops and transforms use.");
 

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
+#include <string>
 #include <vector>
 
 namespace salebra::parallel {
@@ -27,8 +28,11 @@ int chosen_threads = 0;
 
 }  // namespace
 
+int most_threads() { return std::max(64, 4 * omp_get_num_procs()); }
+
 void set_threads(int count) {
-  require(count >= 0, "threads", count, "must be >= 0 (0: all)");
+  require(count >= 0 && count <= most_threads(), "threads", count,
+          "must be from 0 (all) to " + std::to_string(most_threads()));
   chosen_threads = count;
 }
 

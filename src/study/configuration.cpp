@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/study/configuration.hpp>
 #include <sstream>
+#include <unordered_set>
 
 #include "toml_reader.hpp"
 
@@ -61,9 +63,10 @@ std::vector<std::uint64_t> read_seeds(TomlTable& table) {
   table.check(given.empty() || (count.empty() && first.empty()), "seeds",
               "cannot be combined with first_seed and seed_count; give one of the two");
   std::vector<std::uint64_t> seeds;
+  std::unordered_set<std::uint64_t> known;
   for (const auto seed : given) {
     table.check(seed >= 0, "seeds", fmt::format("{} must be >= 0", seed));
-    table.check(std::ranges::find(seeds, std::uint64_t(seed)) == seeds.end(), "seeds",
+    table.check(known.insert(std::uint64_t(seed)).second, "seeds",
                 fmt::format("{} occurs twice; equal surfaces are no ensemble", seed));
     seeds.push_back(std::uint64_t(seed));
   }
@@ -71,7 +74,10 @@ std::vector<std::uint64_t> read_seeds(TomlTable& table) {
     table.check(count.size() == 1 && count[0] >= 1 && count[0] <= 100000, "seed_count",
                 "must be one whole number from 1 to 100000");
     const auto start = first.empty() ? 1 : first[0];
-    table.check(start >= 0, "first_seed", fmt::format("{} must be >= 0", start));
+    constexpr auto largest = std::numeric_limits<std::int64_t>::max();
+    table.check(start >= 0 && start <= largest - (count[0] - 1), "first_seed",
+                fmt::format("{} must be from 0 to {}, so that all {} seeds are below 2^63", start,
+                            largest - (count[0] - 1), count[0]));
     for (std::int64_t i = 0; i < count[0]; ++i) seeds.push_back(std::uint64_t(start + i));
   }
   if (seeds.empty()) table.fail("seeds", "is missing; add seeds = [1, 2, 3] or seed_count = 3");

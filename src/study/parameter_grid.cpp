@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
@@ -25,6 +26,27 @@ void vary(std::vector<StudyConfiguration>& configurations, const std::vector<Val
   configurations = std::move(varied);
 }
 
+constexpr double most_points = 1e4, most_bytes = 256e6;
+
+/// Before any combination is made: three lists of 2000 values are 8e9 combinations.
+void require_countable(const StudyConfiguration& configuration) {
+  const ParameterLists& lists = configuration.ensemble;
+  double points = 1;
+  for (const std::size_t values : {lists.hurst.size(), lists.rolloff.size(),
+                                   lists.short_cutoff.size(), lists.size_x.size(),
+                                   lists.points.size()})
+    points *= double(std::max<std::size_t>(values, 1));
+  const auto& surfaces = std::get<GeneratedSurfaces>(configuration.surfaces);
+  const double each = double(sizeof configuration + configuration.text.size() +
+                             8 * (surfaces.seeds.size() + configuration.pressures.size()));
+  if (points > 1 && (points > most_points || points * each > most_bytes))
+    throw InvalidInput(
+        fmt::format("the lists of [ensemble] make {:.0f} combinations, whose settings would take "
+                    "{:.3g} MB; at most {:.0f} combinations and {:.0f} MB are allowed, split the "
+                    "study",
+                    points, points * each / 1e6, most_points, most_bytes / 1e6));
+}
+
 Index scaled(Index count, double factor, double size) {
   const double wanted = double(count) * factor;
   const auto whole = Index(std::llround(wanted));
@@ -44,6 +66,7 @@ std::vector<StudyConfiguration> grid_points(const StudyConfiguration& configurat
   if (lists.empty()) return points;
   require(std::holds_alternative<GeneratedSurfaces>(configuration.surfaces), "ensemble",
           "parameters", "belong to generated surfaces; a measured one is what it is");
+  require_countable(configuration);
   vary(points, lists.hurst, [](GeneratedSurfaces& s, double value) { s.spectrum.hurst = value; });
   vary(points, lists.rolloff,
        [](GeneratedSurfaces& s, double value) { s.spectrum.rolloff = value; });

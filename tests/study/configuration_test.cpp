@@ -74,6 +74,22 @@ TEST_CASE("What the library itself refuses is told with file, line and key", "[c
   CHECK_THROWS_AS(parse("surface = 3\n"), InvalidInput);
 }
 
+TEST_CASE("Seeds end below 2^63, and none occurs twice", "[configuration]") {
+  const auto with = [](const std::string& seeds) {
+    return parse(
+        "[surface]\npoints = 32\nsize_x = \"4um\"\nhurst = 0.5\nrolloff = \"2um\"\n"
+        "short_cutoff = \"1um\"\nrms_height = 1e-8\n" +
+        seeds + material + contact + damping);
+  };
+  const auto configuration = with("first_seed = 9223372036854775806\nseed_count = 2\n");
+  CHECK(std::get<GeneratedSurfaces>(configuration.surfaces).seeds.back() == (1ull << 63) - 1);
+  CHECK_THROWS_WITH(with("first_seed = 9223372036854775807\nseed_count = 2\n"),
+                    Catch::Contains("surface.first_seed: 9223372036854775807 must be from 0 to "
+                             "9223372036854775806"));
+  CHECK_THROWS_WITH(with("first_seed = -1\nseed_count = 2\n"), Catch::Contains("first_seed: -1 must be"));
+  CHECK_THROWS_WITH(with("seeds = [3, 1, 3]\n"), Catch::Contains("seeds: 3 occurs twice"));
+}
+
 TEST_CASE("The configurations that come with the program are valid", "[configuration]") {
   for (const std::string name : {"quickstart.toml", "paper.toml", "measured.toml"}) {
     INFO(name);

@@ -119,6 +119,85 @@ TEST_CASE("No mean lies at the edge of its interval, however few or alike the va
   }
 }
 
+TEST_CASE("A bootstrap interval has the bits of its definition, on any threads", "[ensemble]") {
+  // Resample r draws place k by the first uniform number of (seed 1, r, k); t* = (mean* − mean)/s*; quantiles between order statistics.
+  constexpr std::size_t n = 37, resamples = 400;
+  std::vector<double> values, statistics;
+  for (int i = 0; i < int(n); ++i) values.push_back(2 + gaussian_pair(8, i, 0).first);
+  const auto moments = [](const std::vector<double>& of) {
+    double mean = 0, squares = 0;
+    for (const double value : of) mean += value;
+    mean /= double(n);
+    for (const double value : of) squares += (value - mean) * (value - mean);
+    return std::pair{mean, std::sqrt(squares / (double(n) - 1))};
+  };
+  const auto [mean, deviation] = moments(values);
+  for (int r = 0; r < int(resamples); ++r) {
+    std::vector<double> drawn;
+    for (int k = 0; k < int(n); ++k)
+      drawn.push_back(values[std::size_t(uniform_pair(1, r, k, 0xb0075).first * double(n))]);
+    const auto [drawn_mean, drawn_deviation] = moments(drawn);
+    statistics.push_back((drawn_mean - mean) / drawn_deviation);
+  }
+  std::ranges::sort(statistics);
+  const auto quantile = [&](double probability) {
+    const double place = probability * (double(resamples) - 1);
+    const auto below = std::size_t(place);
+    return statistics[below] +
+           (place - double(below)) * (statistics[below + 1] - statistics[below]);
+  };
+  for (const int threads : {1, 3}) {
+    parallel::set_threads(threads);
+    const EnsembleMean estimate = Bootstrap(int(resamples)).mean(values);
+    CHECK(estimate.mean == mean);
+    CHECK(estimate.low == mean - quantile(0.975) * deviation);
+    CHECK(estimate.high == mean - quantile(0.025) * deviation);
+  }
+  parallel::set_threads(0);
+}
+
+TEST_CASE("A convergence curve looks at few numbers of many surfaces", "[ensemble]") {
+  StudyResult result;
+  for (std::size_t i = 0; i < 3000; ++i) {
+    Realisation realisation;
+    realisation.heights.rms_height = 1;
+    realisation.bem.fit.decay_length = 1 + 0.1 * gaussian_pair(4, int(i), 0).first;
+    result.realisations.push_back(realisation);
+  }
+  const std::vector<std::size_t> counts = result.convergence_counts();
+  for (std::size_t count = 2; count <= 128; ++count) CHECK(counts[count - 2] == count);
+  CHECK(counts[127] == 132);
+  CHECK(counts.back() == 3000);
+  // 32 in each of the four doublings from 128 to 2048, 14 in steps of 64 from there on, and 3000.
+  CHECK(counts.size() == 127 + 4 * 32 + 14 + 1);
+  for (std::size_t i = 127; i + 1 < counts.size(); ++i)
+    CHECK(double(counts[i + 1]) <= 1.04 * double(counts[i]));
+  const std::vector<EnsembleMean> curve = result.convergence();
+  REQUIRE(curve.size() == counts.size());
+  std::vector<double> first;
+  for (std::size_t i = 0; i < counts[200]; ++i)
+    first.push_back(result.realisations[i].bem.fit.decay_length);
+  CHECK(curve[200].low == result.bootstrap.mean(first).low);
+  CHECK(curve.back().high == result.decay_length(&Realisation::bem).high);
+}
+
+TEST_CASE("Too many combinations of an ensemble are counted before one is made", "[ensemble]") {
+  // The text of a study of 85 kB: 8e9 combinations would take the memory of the machine.
+  StudyConfiguration configuration = quick_study(2);
+  configuration.ensemble.hurst.assign(2000, 0.8);
+  configuration.ensemble.rolloff.assign(2000, 1e-6);
+  configuration.ensemble.short_cutoff.assign(2000, 0.5e-6);
+  CHECK_THROWS_WITH(grid_points(configuration),
+                    Catch::StartsWith("the lists of [ensemble] make 8000000000 combinations"));
+  // Few combinations of many seeds take as much.
+  configuration.ensemble = {.hurst = std::vector(1000, 0.8)};
+  auto& seeds = std::get<GeneratedSurfaces>(configuration.surfaces).seeds;
+  seeds.resize(100000);
+  CHECK_THROWS_WITH(grid_points(configuration), Catch::Contains("split the study"));
+  seeds.resize(1);
+  CHECK(grid_points(configuration).size() == 1000);
+}
+
 TEST_CASE("The lists of an ensemble make every combination, cells or size held", "[ensemble]") {
   StudyConfiguration configuration = quick_study(1);
   configuration.ensemble.hurst = {0.3, 0.8};

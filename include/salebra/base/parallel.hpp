@@ -10,7 +10,12 @@
 /// result has the same bits for every thread count; a distributed build gives each rank whole chunks.
 namespace salebra::parallel {
 
+/// The largest number that set_threads() takes: four for each processor that the process may run on, and 64 on small machines. More
+/// threads only wait for each other, and many thousands end the process, since the system refuses to create them.
+int most_threads();
+
 /// Threads that parallel loops and transforms use from now on; 0 means all that the process may run on.
+/// Throws InvalidInput below 0 and above most_threads().
 void set_threads(int threads);
 int threads();
 

@@ -108,7 +108,8 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
                                              const std::filesystem::path& folder = ".");
 
 /// The configurations of all combinations of the ensemble's lists, the last parameter (points) changing fastest, their own lists
-/// empty; the configuration itself where it has none. Throws InvalidInput for a combination that no grid can carry.
+/// empty; the configuration itself where it has none. Throws InvalidInput for a combination that no grid can carry, and before it
+/// makes any for more than 10 000 combinations or 256 MB of settings.
 std::vector<StudyConfiguration> grid_points(const StudyConfiguration& configuration);
 
 /// "H = 0.5, roll-off 1.25 µm, …": the parameters that the ensemble's lists vary, as this point has them; empty without lists.
