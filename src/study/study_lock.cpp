@@ -42,15 +42,22 @@ std::string process_space() {
                      space.string());
 }
 
-/// In ticks since boot, which tells a process from a later one of the same number; "" where it is not known.
-std::string start_time(pid_t process) {
+struct ProcessStatus {
+  char state = 0;       ///< one letter of proc_pid_stat(5); 0 where it is not known
+  std::string started;  ///< ticks since boot, which tells a process from a later one of the same number
+};
+
+ProcessStatus status_of(pid_t process) {
+  ProcessStatus status;
   const std::string text = first_line(fmt::format("/proc/{}/stat", process));
   const auto name_end = text.rfind(')');
-  if (name_end == std::string::npos) return "";
+  if (name_end == std::string::npos) return status;
   std::istringstream words(text.substr(name_end + 1));
   std::string word;
-  for (int field = 3; field <= 22; ++field) words >> word;
-  return word;
+  words >> status.state;
+  for (int field = 4; field <= 22; ++field) words >> word;
+  status.started = word;
+  return status;
 }
 
 struct Owner {
@@ -70,11 +77,14 @@ Owner parse(const std::string& identity) {
   return owner;
 }
 
-bool is_gone(const Owner& owner) {
-  if (owner.process <= 0 || owner.space != process_space()) return false;
-  if (kill(owner.process, 0) != 0 && errno == ESRCH) return true;
-  const std::string started = start_time(owner.process);
-  return !started.empty() && !owner.started.empty() && started != owner.started;
+/// Whether the owner's process is there, running or stopped; empty where that cannot be known from here.
+std::optional<bool> lives(const Owner& owner) {
+  if (owner.process <= 0 || owner.space != process_space()) return {};
+  if (kill(owner.process, 0) != 0 && errno == ESRCH) return false;
+  const ProcessStatus now = status_of(owner.process);
+  if (now.started.empty() || owner.started.empty()) return {};
+  const bool dead = now.state == 'Z' || now.state == 'X';  // killed, but its parent has not noticed
+  return !dead && now.started == owner.started;
 }
 
 double modified(const struct stat& status) {
@@ -92,7 +102,7 @@ StudyLock::StudyLock(std::filesystem::path file, std::chrono::milliseconds stale
     : file_(std::move(file)), stale_after_(stale_after) {
   const auto moment = std::chrono::steady_clock::now().time_since_epoch().count();
   identity_ = fmt::format("{}\n{}\n{}\n{:x}-{:x}\n", process_space(), getpid(),
-                          start_time(getpid()), moment, reinterpret_cast<std::uintptr_t>(this));
+                          status_of(getpid()).started, moment, reinterpret_cast<std::uintptr_t>(this));
   // Each failed attempt saw a lock vanish or be taken over: not many in a row.
   for (int attempt = 0; attempt < 20 && !held_; ++attempt) held_ = try_link();
   if (!held_)
@@ -128,10 +138,13 @@ bool StudyLock::try_link() {
   if (!found || stat(file_.c_str(), &present) != 0) return false;  // it has just gone
   const Owner owner = parse(*found);
   const double age = modified(fresh) - modified(present);
-  const bool stale = is_gone(owner) || age > double(stale_after_.count()) / 1000;
+  // A process that was stopped touches nothing, and goes on later: where it can be looked at, the clock has no say.
+  const std::optional<bool> alive = lives(owner);
+  const bool stale = alive ? !*alive : age > double(stale_after_.count()) / 1000;
   if (!stale)
     throw InvalidInput(fmt::format(
-        "{}: in use by process {} on {}, alive {:.0f} s ago; wait for it to end, or end it",
+        "{}: in use by process {} on {}, which last touched it {:.0f} s ago; wait for it to end, or "
+        "end it",
         file_.parent_path().string(), owner.process, owner.space.substr(0, owner.space.find(' ')),
         std::max(age, 0.0)));
   // If several processes decide this, only the one that renames the file it read proceeds; the others restore it.
