@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The widest vector instruction set of this processor.
+// The vector instruction set that passes use: the widest of this processor, or a narrower one that the environment names.
 #include "vector_width.hpp"
 
-namespace salebra::detail {
+#include <cstdlib>
+#include <salebra/base/error.hpp>
+#include <string>
 
-VectorWidth vector_width() {
+namespace salebra::detail {
+namespace {
+
+VectorWidth widest() {
 #ifdef SALEBRA_X86_KERNELS
   // What the passes are compiled for, by the names that every compiler knows.
   const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
@@ -16,6 +21,31 @@ VectorWidth vector_width() {
   if (has_avx2) return VectorWidth::avx2;
 #endif
   return VectorWidth::baseline;
+}
+
+}  // namespace
+
+VectorWidth vector_width() {
+  const char* wanted = std::getenv("SALEBRA_VECTOR_WIDTH");
+  const VectorWidth most = widest();
+  if (!wanted || !*wanted) return most;
+  for (const VectorWidth width : {VectorWidth::baseline, VectorWidth::avx2, VectorWidth::avx512})
+    if (width <= most && std::string(wanted) == name_of(width)) return width;
+  throw InvalidInput(std::string("SALEBRA_VECTOR_WIDTH: ") + wanted +
+                     " must be baseline, avx2 or avx512, and of this processor, which has " +
+                     name_of(most));
+}
+
+const char* name_of(VectorWidth width) {
+  switch (width) {
+    case VectorWidth::avx512:
+      return "avx512";
+    case VectorWidth::avx2:
+      return "avx2";
+    case VectorWidth::baseline:
+      break;
+  }
+  return "baseline";
 }
 
 }  // namespace salebra::detail

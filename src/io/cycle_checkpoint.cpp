@@ -142,7 +142,7 @@ ContactSet set_of(const Field& field) { return field > 0.5; }
 template <class Options>
 CycleSettings settings_of(const Grid2D& grid, const Material& material, const Oscillation& motion,
                           double mean_indentation, const Options& options) {
-  CycleSettings settings{{"version", std::string(version())}};
+  CycleSettings settings{{"version", std::string(version())}, {"arithmetic", arithmetic()}};
   const auto add = [&](const char* name, double value) {
     settings.emplace_back(name, fmt::format("{}", value));
   };

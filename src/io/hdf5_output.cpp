@@ -61,6 +61,7 @@ Output::Output(const std::filesystem::path& file, const Provenance& provenance,
   attribute(root_, "program", std::string_view("salebra"));
   attribute(root_, "version", version());
   attribute(root_, "libraries", library_versions());
+  attribute(root_, "arithmetic", arithmetic());
   attribute(root_, "created", provenance.created.empty() ? utc_now() : provenance.created);
   attribute(root_, "command_line", provenance.command_line);
   attribute(root_, "configuration", provenance.configuration);

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <fstream>
 #include <salebra/base/error.hpp>
+#include <salebra/base/version.hpp>
 #include <salebra/study/parts.hpp>
 #include <sstream>
 #include <string>
@@ -103,6 +104,11 @@ std::optional<Realisation> StudyParts::read(std::uint64_t key) {
   bytes << stream.rdbuf();
   try {
     return detail::decode(bytes.str(), key);
+  } catch (const detail::OtherArithmetic& other) {
+    throw InvalidInput(fmt::format(
+        "{}: its surfaces were computed by {}, and this program computes by {}: their last digits "
+        "differ; resume where the study was begun, or remove the folder to begin anew",
+        state_->folder.string(), other.what(), arithmetic()));
   } catch (const InvalidInput&) {
     ++state_->damaged;
     std::filesystem::remove(file);

@@ -16,7 +16,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view magic = "salebra realisation 3\n";
+constexpr std::string_view magic = "salebra realisation 4\n";
 
 /// Appends the bytes of numbers, and of lists and texts after their lengths.
 class Writer {
@@ -263,7 +263,7 @@ std::uint64_t study_key(const std::vector<StudyConfiguration>& points) {
 
 std::string encode(const Realisation& realisation, std::uint64_t key) {
   Writer writer;
-  writer(realisation);
+  writer(arithmetic(), realisation);
   return header(key, writer.bytes.size(), checksum(writer.bytes)) + writer.bytes;
 }
 
@@ -274,6 +274,9 @@ Realisation decode(std::string_view bytes, std::uint64_t key) {
     throw InvalidInput("realisation: its checksum is wrong");
   Realisation realisation;
   Reader reader(payload);
+  std::string computed_by;
+  reader(computed_by);
+  if (computed_by != arithmetic()) throw OtherArithmetic(computed_by);
   reader(realisation);
   if (!reader.at_end()) throw InvalidInput("realisation: is longer than it should be");
   return realisation;

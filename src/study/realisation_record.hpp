@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <salebra/base/error.hpp>
 #include <salebra/study/realisation.hpp>
 #include <string>
 #include <string_view>
@@ -18,9 +19,15 @@ std::uint64_t study_key(const std::vector<StudyConfiguration>& points);
 
 std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t seed);
 
-/// Every bit of a realisation with its key and a checksum; for this machine's byte order.
+/// A whole realisation, but with other last digits than this program would have computed: what() is the arithmetic() of its own.
+class OtherArithmetic : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Every bit of a realisation with its key, the arithmetic() that it comes from and a checksum; for this machine's byte order.
 std::string encode(const Realisation& realisation, std::uint64_t key);
-/// Throws InvalidInput for anything but what encode() made with this key.
+/// Throws InvalidInput for anything but what encode() made with this key, and OtherArithmetic.
 Realisation decode(std::string_view bytes, std::uint64_t key);
 
 }  // namespace salebra::detail

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <fstream>
 #include <regex>
 #include <salebra/base/error.hpp>
+#include <salebra/base/version.hpp>
 #include <salebra/io/cycle_checkpoint.hpp>
 #include <salebra/io/cycle_fields.hpp>
 #include <salebra/io/result_file.hpp>
@@ -138,6 +140,12 @@ TEST_CASE("A cycle with friction has checkpoints of its own, of its own settings
   differs(cycle_settings(grid, material, drag, 2e-6, options), "steps");
   options = {.friction = 0.3, .steps = 10, .max_periods = 7};
   differs(cycle_settings(grid, material, drag, 2e-6, options), "max_periods");
+  options = {.friction = 0.3, .steps = 10};
+  const std::string here = arithmetic();
+  setenv("SALEBRA_VECTOR_WIDTH", "baseline", 1);  // as another processor would go on
+  if (arithmetic() != here)
+    differs(cycle_settings(grid, material, drag, 2e-6, options), "arithmetic");
+  unsetenv("SALEBRA_VECTOR_WIDTH");
   write_cycle_checkpoint(scratch / "stuck.h5", states_of_a_cycle()[2], {}, {});
   CHECK_THROWS_WITH(read_friction_checkpoint(scratch / "stuck.h5", {}),
                     Contains("no checkpoint of a cycle with friction"));

@@ -4,9 +4,11 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <salebra/base/error.hpp>
+#include <salebra/base/version.hpp>
 #include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
 #include <sstream>
@@ -17,6 +19,7 @@
 
 using namespace salebra;
 using Catch::Contains;
+using Catch::StartsWith;
 namespace fs = std::filesystem;
 
 namespace {
@@ -207,6 +210,36 @@ TEST_CASE("The key of a measured surface changes with all that is read of it", "
   CHECK(key_of(plain) != with_sidecar);
 }
 
+TEST_CASE("Surfaces that another kind of processor computed are refused, and kept", "[parts]") {
+  const Scratch scratch;
+  StudyConfiguration study = small_study();
+  study.stick = false;
+  std::get<GeneratedSurfaces>(study.surfaces).seeds = {1, 2};
+  StudyParts parts(scratch.folder, false);
+  const std::vector<double> pressures = study_pressures(study);
+  const std::string here = arithmetic();
+  // As the oldest processor computes; the baseline of other architectures is all that there is.
+  setenv("SALEBRA_VECTOR_WIDTH", "baseline", 1);
+  const std::string baseline = arithmetic();
+  parts.write(StudyParts::key(study, 2), analyse_realisation(study, 2, pressures));
+  unsetenv("SALEBRA_VECTOR_WIDTH");
+  const auto resume = [&] {
+    return run_ensembles(study, {.on_progress = {}, .on_realisation = {}, .parts = &parts});
+  };
+  if (here == baseline) return;
+  CHECK_THROWS_WITH(resume(), StartsWith(scratch.folder.string() + ": its surfaces were computed by ") &&
+                                  Contains("vectors baseline") && Contains(here));
+  CHECK(parts.count() == 1);
+  CHECK(parts.damaged() == 0);
+  // Where they were begun they go on.
+  setenv("SALEBRA_VECTOR_WIDTH", "baseline", 1);
+  CHECK(resume().front().realisations.size() == 2);
+  CHECK(parts.count() == 2);
+  setenv("SALEBRA_VECTOR_WIDTH", "widest", 1);
+  CHECK_THROWS_WITH(arithmetic(), StartsWith("SALEBRA_VECTOR_WIDTH: widest must be baseline"));
+  unsetenv("SALEBRA_VECTOR_WIDTH");
+}
+
 TEST_CASE("Parts of a study are not begun anew by accident, nor shared by two", "[parts]") {
   const Scratch scratch;
   {
@@ -251,6 +284,30 @@ TEST_CASE("The lock of a dead process is taken over though another has got its n
   std::getline(lines, number);
   std::ofstream(file) << space << '\n' << number << "\n1\nword\n";
   CHECK_NOTHROW(detail::StudyLock(file));
+}
+
+TEST_CASE("A stopped process keeps its lock for as long as it lives", "[parts]") {
+  const Scratch scratch;
+  fs::create_directory(scratch.folder);
+  const fs::path file = scratch.folder / "lock";
+  constexpr auto stale_after = std::chrono::milliseconds(60);
+  const pid_t child = fork();
+  if (child == 0) {
+    new detail::StudyLock(file, stale_after);
+    for (;;) pause();
+  }
+  while (!fs::exists(file)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(child, SIGSTOP);
+  waitpid(child, nullptr, WUNTRACED);
+  // Untouched for several times the time after which a lock of another host is taken for abandoned.
+  std::this_thread::sleep_for(5 * stale_after);
+  CHECK_THROWS_WITH(detail::StudyLock(file, stale_after), Contains("in use by process"));
+  // Killed, it is gone at once, though it stays in the table of processes until its parent looks.
+  kill(child, SIGKILL);
+  siginfo_t dead = {};
+  waitid(P_PID, id_t(child), &dead, WEXITED | WNOWAIT);
+  CHECK_NOTHROW(detail::StudyLock(file, stale_after));
+  waitpid(child, nullptr, 0);
 }
 
 TEST_CASE("The lock of another host holds as long as it is touched", "[parts]") {
