@@ -103,13 +103,11 @@ std::optional<HeightDistribution> distribution_of(const GenerateArguments& argum
   return sampled_heights(BearingCurve(detrended(measured, customary_detrend(measured))).heights());
 }
 
-void report_memory(std::size_t bytes, const std::string& points, Session& session) {
-  const double needed = 1e-9 * static_cast<double>(bytes);
-  const double available = 1e-9 * static_cast<double>(available_memory());
-  require(available == 0 || needed <= available, "--points", points,
-          fmt::format("needs {:.3g} GB of memory and {:.3g} GB are available; use fewer points",
-                      needed, available));
-  session.note(fmt::format("memory: {:.3g} GB needed, {:.3g} GB available", needed, available));
+void report_memory(const Grid2D& grid, std::size_t bytes, Session& session) {
+  const double needed = static_cast<double>(bytes);
+  require_memory(grid, needed, "a surface");
+  session.note(fmt::format("memory: {:.3g} GB needed, {:.3g} GB available", 1e-9 * needed,
+                           1e-9 * static_cast<double>(available_memory())));
 }
 
 /// A random surface, with what is to be said of it added to the answer.
@@ -120,8 +118,9 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
   const std::optional<HeightDistribution> distribution = distribution_of(arguments);
   // Before the sums over all modes, which take long on a grid that does not fit.
   spectrum->require_carried_by(grid);
-  report_memory(arguments.non_gaussian() ? non_gaussian_memory(grid) : generation_memory(grid),
-                arguments.points, session);
+  report_memory(grid,
+                arguments.non_gaussian() ? non_gaussian_memory(grid) : generation_memory(grid),
+                session);
   const Forecast expected = forecast(grid, *spectrum, session.progress());
   for (const std::string& warning : expected.warnings) session.warn(warning);
   const std::string method = !arguments.method.empty()  ? arguments.method

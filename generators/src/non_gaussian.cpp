@@ -7,6 +7,7 @@
 #include <numeric>
 #include <salebra/base/error.hpp>
 #include <salebra/base/fft.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/generators/non_gaussian.hpp>
 #include <salebra/generators/random_phase.hpp>
@@ -143,7 +144,7 @@ NonGaussianSurface non_gaussian(const Grid2D& grid, const Spectrum& spectrum,
   require(options.tolerance >= 0 && options.tolerance < 1, "tolerance", options.tolerance,
           "must lie in 0 <= tolerance < 1");
   spectrum.require_carried_by(grid);
-  detail::require_memory(grid, non_gaussian_memory(grid));
+  require_memory(grid, double(non_gaussian_memory(grid)), "a non-Gaussian surface");
   NonGaussianSurface result;
   const std::function<bool()> keep_going = [&] {
     return !options.on_progress ||

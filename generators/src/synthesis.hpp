@@ -13,7 +13,4 @@ namespace salebra::detail {
 Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Chance chance,
                  const Progress& progress);
 
-/// Throws InvalidInput where the system says that less than so many bytes are available.
-void require_memory(const Grid2D& grid, std::size_t bytes);
-
 }  // namespace salebra::detail

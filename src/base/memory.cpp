@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Large-page allocation, uninitialised fields, and the memory that the machine has available.
+#include <fmt/format.h>
+
 #include <cstdint>
-#include <fstream>
-#include <limits>
 #include <new>
+#include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
-#include <string>
+
+#include "memory_limits.hpp"
 #if defined(__linux__)
 #include <sys/mman.h>
 #include <sys/sysinfo.h>
@@ -58,13 +60,7 @@ void touch_pages(Field& field) {
 }
 
 std::size_t available_memory() {
-  std::ifstream meminfo("/proc/meminfo");
-  std::string name;
-  std::size_t kibibytes = 0;
-  while (meminfo >> name >> kibibytes) {
-    if (name == "MemAvailable:") return kibibytes * 1024;
-    meminfo.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
-  }
+  if (const auto left = detail::memory_left("/")) return static_cast<std::size_t>(*left);
 #if defined(__linux__)
   // Without /proc, as in a bare chroot, the memory that the machine has in all is still a limit.
   struct sysinfo machine {};
@@ -72,6 +68,17 @@ std::size_t available_memory() {
     return static_cast<std::size_t>(machine.totalram) * static_cast<std::size_t>(machine.mem_unit);
 #endif
   return 0;
+}
+
+void require_memory(const Grid2D& grid, double bytes, std::string_view work) {
+  constexpr double not_asked_for = 64e6;
+  if (bytes < not_asked_for) return;
+  const double available = static_cast<double>(available_memory());
+  if (available == 0 || bytes <= available) return;
+  throw InvalidInput(
+      fmt::format("points: {} x {} need {:.3g} GB of memory for {} and {:.3g} GB are available; "
+                  "use fewer points",
+                  grid.nx, grid.ny, 1e-9 * bytes, work, 1e-9 * available));
 }
 
 }  // namespace salebra

@@ -8,9 +8,12 @@
 #include <exception>
 #include <optional>
 #include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 #include <salebra/contact/sweep.hpp>
+
+#include "normal/contact_memory.hpp"
 
 namespace salebra {
 namespace {
@@ -71,6 +74,12 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
   const int loads = static_cast<int>(pressures.size());
   const int wanted = options.concurrent_loads > 0 ? options.concurrent_loads : parallel::threads();
   const int concurrent = std::min({wanted, loads, parallel::threads()});
+  // A stick solve follows a contact whose fields are still there.
+  const double each = detail::contact_memory(surface.grid, options.contact) +
+                      (options.stiffness && options.stick ? detail::stick_memory(surface.grid) : 0);
+  require_memory(surface.grid, concurrent * each,
+                 concurrent > 1 ? "contacts on all threads (fewer --threads need less)"
+                                : "a contact");
   std::vector<std::optional<ForceSample>> samples(pressures.size());
   std::atomic<bool> stop = false;
   std::atomic<int> finished = 0;

@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <utility>
 
@@ -253,6 +254,9 @@ CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
   grid.validate();
   validate(options, trajectory);
   const int steps = options.steps;
+  // A contact set, of a byte a cell, for every second step, since the way down meets those of the way up.
+  require_memory(grid, 0.5 * steps * static_cast<double>(grid.points()),
+                 "the contact sets of its steps (fewer --steps need less)");
   const auto time = [&](double step) { return step / steps; };
 
   double least = std::numeric_limits<double>::infinity(), greatest = -least;

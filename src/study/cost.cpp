@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Estimated time, memory and disk space of a study before it runs.
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <complex>
@@ -67,7 +68,27 @@ PointCost cost_of(const StudyConfiguration& point, double speed) {
   return cost;
 }
 
+/// What is kept of a surface until the result is written: its samples, and the spots of each load by size.
+double kept_bytes(const StudyConfiguration& point, const Grid2D& grid) {
+  const auto loads = static_cast<double>(point.pressures.size());
+  const auto models = static_cast<double>(point.models.size());
+  const int sizes = std::bit_width(static_cast<std::uint64_t>(grid.points()));
+  return sizeof(Realisation) +
+         loads * (models * (sizeof(ForceSample) + sizeof(DampingPoint) + 2 * sizeof(double)) +
+                  sizeof(SpotStatistics) + sizes * sizeof(double));
+}
+
 }  // namespace
+
+double study_memory(const StudyConfiguration& point, const Grid2D& grid, int threads) {
+  const auto* generated = std::get_if<GeneratedSurfaces>(&point.surfaces);
+  const auto surfaces = static_cast<double>(generated ? generated->seeds.size() : 1);
+  // As run_ensembles() does: one surface on each thread where there are enough, else all threads on each.
+  const double side_by_side = surfaces >= threads ? threads : 1;
+  const double per_cell = stick_solves(point) ? memory_per_cell_stick : memory_per_cell;
+  return memory_of_program + side_by_side * per_cell * static_cast<double>(grid.points()) +
+         surfaces * kept_bytes(point, grid);
+}
 
 std::size_t StudyCost::surfaces() const {
   std::size_t count = 0;
@@ -90,13 +111,10 @@ StudyCost estimate_cost(const StudyConfiguration& configuration) {
   const auto threads = static_cast<std::size_t>(cost.threads);
   for (StudyConfiguration point : grid_points(configuration)) {
     PointCost own = cost_of(point, speed);
-    // As run_ensembles() does: one surface on each thread where there are enough, else all threads on each.
     const bool side_by_side = own.surfaces >= threads;
     const double gain = side_by_side ? cost.threads : 1 + gain_of_a_thread * (cost.threads - 1);
     cost.seconds += own.seconds / gain;
-    cost.memory =
-        std::max(cost.memory,
-                 memory_of_program + own.memory * static_cast<double>(side_by_side ? threads : 1));
+    cost.memory = std::max(cost.memory, study_memory(point, own.grid, cost.threads));
     cost.points.push_back(std::move(own));
   }
   return cost;

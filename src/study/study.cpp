@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/study/cost.hpp>
 #include <salebra/study/study.hpp>
 
 #include "point_run.hpp"
@@ -97,11 +100,15 @@ void flag(StudyResult& result) {
              fewest)});
 }
 
-/// Parts of other settings would be passed over in silence, and days of work with them.
-void require_some_of(const StudyParts& parts, const std::vector<StudyConfiguration>& points) {
+/// Parts of other settings would be passed over in silence, and days of work with them. Of one arithmetic are all or none: reading
+/// one refuses them before any work.
+void require_some_of(StudyParts& parts, const std::vector<StudyConfiguration>& points) {
   for (const StudyConfiguration& point : points)
     for (const std::uint64_t seed : detail::seeds_of(point))
-      if (parts.holds(StudyParts::key(point, seed))) return;
+      if (const std::uint64_t key = StudyParts::key(point, seed); parts.holds(key)) {
+        parts.read(key);
+        return;
+      }
   throw InvalidInput(fmt::format(
       "{}: none of its {} surfaces belongs to this study; the settings or the program have changed "
       "since, restore them or remove the folder",
@@ -127,6 +134,9 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
     result.configuration = point;
     if (const auto* recipe = std::get_if<GeneratedSurfaces>(&point.surfaces))
       result.grid = recipe->grid;
+    if (result.grid.nx > 0)
+      require_memory(result.grid, study_memory(point, result.grid, parallel::threads()),
+                     "the surfaces of all threads (fewer --threads need less)");
     result.contact_scale = contact_scale(point);
     result.pressures = study_pressures(point);
     report.point = results.size();

@@ -102,7 +102,8 @@ StudyLock::StudyLock(std::filesystem::path file, std::chrono::milliseconds stale
     : file_(std::move(file)), stale_after_(stale_after) {
   const auto moment = std::chrono::steady_clock::now().time_since_epoch().count();
   identity_ = fmt::format("{}\n{}\n{}\n{:x}-{:x}\n", process_space(), getpid(),
-                          status_of(getpid()).started, moment, reinterpret_cast<std::uintptr_t>(this));
+                          status_of(getpid()).started, moment,
+                          reinterpret_cast<std::uintptr_t>(this));
   // Each failed attempt saw a lock vanish or be taken over: not many in a row.
   for (int attempt = 0; attempt < 20 && !held_; ++attempt) held_ = try_link();
   if (!held_)
@@ -143,8 +144,8 @@ bool StudyLock::try_link() {
   const bool stale = alive ? !*alive : age > double(stale_after_.count()) / 1000;
   if (!stale)
     throw InvalidInput(fmt::format(
-        "{}: in use by process {} on {}, which last touched it {:.0f} s ago; wait for it to end, or "
-        "end it",
+        "{}: in use by process {} on {}, which last touched it {:.0f} s ago; wait for it to end, "
+        "or end it",
         file_.parent_path().string(), owner.process, owner.space.substr(0, owner.space.find(' ')),
         std::max(age, 0.0)));
   // If several processes decide this, only the one that renames the file it read proceeds; the others restore it.

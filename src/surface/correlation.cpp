@@ -6,6 +6,7 @@
 #include <limits>
 #include <salebra/base/convolution.hpp>
 #include <salebra/base/fft.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/moments.hpp>
 
@@ -60,6 +61,9 @@ Index padded(Index n, bool periodic) { return periodic ? n : fast_transform_size
 CorrelationMap correlation_map(const Surface& surface) {
   const double mean = height_statistics(surface).mean;
   const Grid2D& grid = surface.grid;
+  // Two fields of the grid, and two sets of complex modes of its pairs, which are four times as many where it is not periodic.
+  require_memory(grid, (surface.periodic ? 32 : 80) * static_cast<double>(grid.points()),
+                 "a correlation map");
   PairSums sums(padded(grid.nx, surface.periodic), padded(grid.ny, surface.periodic));
   const Field defined =
       surface.heights.unaryExpr([](double height) { return std::isnan(height) ? 0.0 : 1.0; });

@@ -5,6 +5,7 @@
 #include <complex>
 #include <numbers>
 #include <salebra/base/fft.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/spectrum.hpp>
 
@@ -66,6 +67,8 @@ double ProfilePsd::step() const { return 2 * pi / length; }
 PowerSpectrum power_spectrum(const Surface& surface, Window window) {
   surface.require_complete("a power spectrum");
   const Grid2D& grid = surface.grid;
+  // The heights less their mean, half as many complex modes, and the density of half of them again.
+  require_memory(grid, 20 * static_cast<double>(grid.points()), "a power spectrum");
   window = chosen(window, surface);
   PowerSpectrum spectrum{grid, {}, window != Window::none};
   Field heights = surface.heights - height_statistics(surface).mean;

@@ -227,8 +227,9 @@ TEST_CASE("Surfaces that another kind of processor computed are refused, and kep
     return run_ensembles(study, {.on_progress = {}, .on_realisation = {}, .parts = &parts});
   };
   if (here == baseline) return;
-  CHECK_THROWS_WITH(resume(), StartsWith(scratch.folder.string() + ": its surfaces were computed by ") &&
-                                  Contains("vectors baseline") && Contains(here));
+  CHECK_THROWS_WITH(resume(),
+                    StartsWith(scratch.folder.string() + ": its surfaces were computed by ") &&
+                        Contains("vectors baseline") && Contains(here));
   CHECK(parts.count() == 1);
   CHECK(parts.damaged() == 0);
   // Where they were begun they go on.

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <memory>
 #include <salebra/base/grid.hpp>
+#include <string_view>
 #include <type_traits>
 
 namespace salebra {
@@ -34,8 +35,15 @@ LargeArray<Element> large_array(std::size_t size) {
   return LargeArray<Element>(static_cast<Element*>(allocate_large(size * sizeof(Element))));
 }
 
-/// Bytes that new data can take without swapping, as the system estimates it; all that the machine has where /proc is not
-/// mounted, and 0 where the system does not say.
+/// Bytes that new data can take: without swapping, as the system estimates it, within the limits of every memory cgroup above this
+/// process (version 1 or 2, as containers and batch systems set them) and within RLIMIT_AS and RLIMIT_DATA. All that the machine has
+/// where /proc is not mounted, and 0 where the system does not say. Cost: some ten small files, 0.1 ms.
 std::size_t available_memory();
+
+/// Throws InvalidInput "points: 4096 x 4096 need 0.72 GB of memory for WORK and 0.45 GB are available; use fewer points" where bytes
+/// exceed available_memory(): asked before the work, since the system kills a process that uses memory beyond a limit instead of
+/// refusing it. What takes less than 64 MB is not asked for. bytes: the minimum that the work takes in addition to what the process
+/// has.
+void require_memory(const Grid2D& grid, double bytes, std::string_view work);
 
 }  // namespace salebra

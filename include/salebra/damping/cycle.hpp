@@ -116,7 +116,8 @@ struct CycleResult {
 /// same contact sets (no further solve): with Δ the change of this W to every second set, and σ its standard deviation if each cell
 /// entered at any time of its step, it is max(|Δ|, |Δ|/3 + 2σ), and how far this W is from the simulated one. It is the error against
 /// infinitely many steps on the same cells; cells that are too large for the contact change both alike.
-/// cost  per step a stick solve, and another where cells leave
+/// cost    per step a stick solve, and another where cells leave
+/// memory  that of the stick solves, and half a byte a cell for each step
 CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
                            const Material& material, const Trajectory& trajectory,
                            const CycleOptions& options = {});

@@ -32,6 +32,10 @@ struct StudyCost {
   std::size_t contacts() const;
 };
 
+/// Peak memory of run_ensembles() at one point of the parameter grid, bytes: the program, the surfaces that are side by side on this
+/// many threads, and what is kept of all of them. grid: of one surface.
+double study_memory(const StudyConfiguration& point, const Grid2D& grid, int threads);
+
 /// Counts what run_ensembles() would do, and multiplies it with what a contact costs for each cell: measured once on a server, for
 /// surfaces of 256² to 1024² points and loads up to 0.2 E*h', and scaled by how long one Fourier transform takes here. Good to a factor of
 /// two for studies, of three with interacting summits.

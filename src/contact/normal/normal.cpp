@@ -7,10 +7,12 @@
 #include <cmath>
 #include <limits>
 #include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <vector>
 
+#include "contact_memory.hpp"
 #include "nested_contact.hpp"
 
 namespace salebra {
@@ -107,6 +109,7 @@ void check(const Surface& surface, double contact_modulus, const NormalContactOp
                 start->isFinite().all() && start->minCoeff() >= 0,
             "initial_pressure", start->size(),
             "cells must fill the grid with finite pressures >= 0");
+  require_memory(surface.grid, detail::contact_memory(surface.grid, options), "a contact");
 }
 
 // Heights stay in metres; pressures are counted in E*/(cell size), which makes Gp a number of order p whatever the units.

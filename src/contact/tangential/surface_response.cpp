@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 
 #include "conjugate_gradients.hpp"
+#include "contact/normal/contact_memory.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -16,6 +18,13 @@ std::size_t size_of(Index count) { return static_cast<std::size_t>(count); }
 Grid2D grid_of(const CellWindow& window, const Grid2D& grid) {
   return {window.nx, window.ny, static_cast<double>(window.nx) * grid.dx(),
           static_cast<double>(window.ny) * grid.dy()};
+}
+
+/// The window, once its memory is known to be there.
+CellWindow affordable(const CellWindow& window, const Grid2D& grid) {
+  const Grid2D part = grid_of(window, grid);
+  require_memory(part, stick_memory(part), "a stick solve");
+  return window;
 }
 
 // Below this many points a team of threads costs more than it saves.
@@ -43,7 +52,7 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 
 SurfaceResponse::SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,
                                  Traction traction, const CellWindow& window)
-    : window_(window),
+    : window_(affordable(window, grid)),
       traction_(traction),
       compliance_(tangential_compliance<double>(grid_of(window, grid), material, boundary)) {
   for (std::size_t c = 0; c < 2; ++c) {

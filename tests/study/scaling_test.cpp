@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tests of how peak memory grows with the number of surfaces, loads, steps and points.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <numbers>
+#include <salebra/base/parallel.hpp>
+#include <salebra/contact/sweep.hpp>
+#include <salebra/damping/cycle.hpp>
+#include <salebra/generators/filtered_noise.hpp>
+#include <salebra/study/study_file.hpp>
+#include <string>
+
+#include "io/scratch.hpp"
+#include "small_study.hpp"
+
+using namespace salebra;
+
+namespace {
+
+double status_bytes(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(name)) return 1024 * std::stod(line.substr(name.size()));
+  return std::nan("");
+}
+
+/// How far the resident memory of a process of its own rises above its start, bytes. One thread: what threads share does not depend on
+/// chance, and a forked process has none of its parent's.
+double peak_growth(const std::function<void()>& work) {
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    parallel::set_threads(1);
+    // 5: the peak of getrusage(2) and VmHWM begins anew, proc_pid_clear_refs(5).
+    std::ofstream("/proc/self/clear_refs") << 5 << std::flush;
+    const double before = status_bytes("VmRSS:");
+    work();
+    const double growth = status_bytes("VmHWM:") - before;
+    _exit(write(ends[1], &growth, sizeof growth) == sizeof growth ? 0 : 1);
+  }
+  close(ends[1]);
+  double growth = std::nan("");
+  const bool told = read(ends[0], &growth, sizeof growth) == sizeof growth;
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  REQUIRE(told);
+  REQUIRE(status == 0);
+  return growth;
+}
+
+Surface rough(Index points) {
+  parallel::set_threads(1);  // a team of threads would not be there after fork()
+  return filtered_noise(
+      {points, points, 4e-6, 4e-6},
+      SelfAffineSpectrum(
+          {.hurst = 0.8, .rolloff = 1e-6, .short_cutoff = 0.5e-6, .rms_height = 1e-8}),
+      1);
+}
+
+const Material material = Material::of_contact_modulus(1e10, 0.3);
+
+}  // namespace
+
+TEST_CASE("The memory of a study grows with its surfaces as their samples do", "[scaling]") {
+  // Surfaces as a study has them, of four loads and three models, without the contacts that would take the time.
+  StudyConfiguration study = parse_study_configuration(study_text("seeds = [1]", 4), "four.toml");
+  study.stick = false;
+  const auto written = [&](std::size_t surfaces) {
+    return peak_growth([&, surfaces] {
+      const Scratch scratch;
+      std::vector<StudyResult> results{run_study(study)};
+      StudyResult& result = results.front();
+      Realisation other = result.realisations.front();
+      other.picture = {};
+      for (std::size_t i = 1; i < surfaces; ++i) {
+        other.seed = i + 1;
+        other.bem.fit.decay_length = (1 + 1e-3 * std::sin(double(i))) * 3e-9;
+        result.realisations.push_back(other);
+      }
+      write_ensembles(scratch / "study.h5", results);
+    });
+  };
+  const double few = written(400), many = written(800), more = written(1200);
+  INFO(few << ' ' << many << ' ' << more);
+  // Per surface: the Realisation itself, 3 kB; for each of four loads 3 × 152 bytes of samples and 160 of spots, 2.5 kB; lists of several
+  // kinds, a kilobyte; a vector that doubles while it grows, three times the first; columns of the result, 1 kB. The bootstrap's table took
+  // 4000 bytes for each surface and each smaller number of them, 3.2 MB for each of the last 400.
+  CHECK((more - few) / 800 < 20e3);
+  // Linear: the second 400 take what the first took, but for the step at which the vector doubles, 1200 times 3 kB.
+  CHECK(more - many < many - few + 4e6);
+}
+
+TEST_CASE("The memory of a sweep does not grow with its loads", "[scaling]") {
+  const Surface surface = rough(256);
+  const auto swept = [&](int loads) {
+    return peak_growth([&, loads] {
+      std::vector<double> pressures;
+      for (int k = 0; k < loads; ++k) pressures.push_back(1e6 * std::pow(1.02, k));
+      sweep_pressures(surface, material, pressures);
+    });
+  };
+  // Of 65536 cells one field alone would be 0.5 MB a load: what grows are samples of 72 bytes.
+  CHECK(swept(64) - swept(16) < 48 * 10e3);
+}
+
+TEST_CASE("The memory of a simulated cycle grows by half a byte a cell and step", "[scaling]") {
+  constexpr Index n = 256;
+  const Grid2D grid{n, n, 1e-6, 1e-6};
+  const ContactLevels levels = [&](double indentation) {
+    ContactLevel level{ContactSet(n, n), indentation, true};
+    for (Index ix = 0; ix < n; ++ix)
+      for (Index iy = 0; iy < n; ++iy)
+        level.contact(ix, iy) = std::hypot(double(ix) - n / 2., double(iy) - n / 2.) <
+                                n / 4. * indentation / 1e-8;
+    return level;
+  };
+  const auto simulated = [&](int steps) {
+    return peak_growth([&, steps] {
+      const EqualFrequency motion{.normal_amplitude = 5e-9,
+                                  .tangential_amplitude = 1e-9,
+                                  .phase = std::numbers::pi / 2,
+                                  .angular_frequency = 1};
+      simulate_cycle(levels, grid, material, trajectory_of(motion, 1e-8),
+                     {.steps = steps, .max_periods = 1, .stick = {.tolerance = 1e-2}});
+    });
+  };
+  const double each = (simulated(96) - simulated(32)) / 64;
+  // Sets of the way down are those of the way up: half a set of a byte a cell. A field of doubles would be 8 bytes.
+  CHECK(each < 0.5 * n * n * 1.25);
+}
+
+TEST_CASE("The memory of a contact is 43 bytes a cell and its result's", "[scaling]") {
+  const auto pressed = [&](Index points) {
+    const Surface surface = rough(points);
+    return peak_growth([&] { press_to_pressure(surface, 1e10, 2e7); });
+  };
+  const double each = (pressed(1024) - pressed(512)) / (1024. * 1024 - 512. * 512);
+  // docs/performance.md, "Memory": 43 with contact on a tenth of the cells, of which tiles are half; large pages add up to 2 MB for each of
+  // some ten arrays, 25 bytes a cell here.
+  CHECK(each < 70);
+  CHECK(each > 20);  // or nothing was measured
+}
