@@ -258,6 +258,7 @@ void run(const CompareArguments& arguments, Session& session) {
   answer["files"] = files.json();
   if (const std::string where = files.text(); !where.empty()) text += "\n" + where;
   session.answer(answer, text);
+  report.require_written();
   if (std::ranges::any_of(results, &StudyResult::interrupted))
     throw Interrupted("compare: interrupted; the surfaces that were finished are in the answer");
 }

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/io/output.hpp>
+#include <salebra/io/text_file.hpp>
 #include <salebra/surface/moments.hpp>
 
 #include "options.hpp"
@@ -169,11 +168,10 @@ void run(Arguments arguments, Session& session) {
   std::string amplitude = toml_string("1nm");
   const std::string surface =
       arguments.surface.given() ? measured(arguments, amplitude) : std::string(generated_surface);
-  std::ofstream stream(arguments.file, std::ios::binary);
-  stream << heading(fs::path(arguments.file).filename().string()) << surface
-         << fmt::format(fmt::runtime(rest), fmt::arg("amplitude", amplitude));
-  stream.close();
-  if (!stream) throw IoError(arguments.file + ": cannot be written; check the folder and the disk");
+  write_text_file(arguments.file,
+                  heading(fs::path(arguments.file).filename().string()) + surface +
+                      fmt::format(fmt::runtime(rest), fmt::arg("amplitude", amplitude)),
+                  session.write_options());
   session.answer({{"file", arguments.file}},
                  fmt::format("{0} is written, each key with a remark. Next:\n"
                              "  salebra study {0} --dry-run\n  salebra study {0} -o {1}.h5\n",

@@ -149,6 +149,7 @@ void run(const StudyArguments& arguments, Session& session) {
     }
     session.answer({{"points", points}, {"files", files.json()}}, text + files.text());
   }
+  report.require_written();
   if (std::ranges::any_of(results, &StudyResult::interrupted))
     throw Interrupted("study: interrupted; the surfaces that were finished are in the answer");
 }

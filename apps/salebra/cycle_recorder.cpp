@@ -61,7 +61,12 @@ void RecordOptions::check(const Session& session) const {
           "without --checkpoint; name the checkpoint");
   require(!checkpoint_every || *checkpoint_every >= 0, "--checkpoint-every",
           checkpoint_every.value_or(0), "must be >= 0");
+  if (!fields.empty()) {
+    const WriteOptions writing = resume ? WriteOptions{.overwrite = true} : session.write_options();
+    require_output(fields + ".xdmf", writing);
+  }
   if (checkpoint.empty()) return;
+  require_output(checkpoint, {.overwrite = true});
   const bool there = std::filesystem::exists(checkpoint);
   require(there || !resume, "--resume", checkpoint,
           "is not there; leave out --resume to begin the cycle");

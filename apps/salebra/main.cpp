@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Entry point of the program; sets the wait policy of OpenMP's threads before they start.
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -19,9 +20,18 @@ void wait_without_spinning(char** argv) {
   execv("/proc/self/exe", argv);
 }
 
+// The first file that is opened takes the number of a standard stream that is closed, and what is printed would go there. Opened the
+// wrong way round, so that reading and printing fail as on the closed descriptor.
+void open_standard_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) < 0)
+      open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_streams();
   wait_without_spinning(argv);
   return salebra::cli::run_program(argc, argv);
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <exception>
 #include <memory>
 #include <new>
 #include <salebra/base/error.hpp>
@@ -14,6 +15,7 @@
 #include <salebra/base/suggestion.hpp>
 #include <salebra/base/undefined_points.hpp>
 #include <salebra/base/version.hpp>
+#include <sstream>
 
 #include "help_text.hpp"
 #include "terminal.hpp"
@@ -24,8 +26,8 @@ namespace {
 int fail(int status, std::string_view message) {
   std::string line(message);
   std::ranges::replace(line, '\n', ' ');
-  fmt::print(stderr, "salebra: {} {}\n", emphasised("error:", Emphasis::error, STDERR_FILENO),
-             line);
+  print_remark(
+      fmt::format("salebra: {} {}\n", emphasised("error:", Emphasis::error, STDERR_FILENO), line));
   return status;
 }
 
@@ -116,11 +118,10 @@ CLI::App& Program::add_command(const std::string& name, const std::string& what,
   return *command;
 }
 
-int run_program(int argc, char** argv) {
-  // Past a file-size limit a write must fail like on a full disk, not kill the process beside a half-written file.
-  std::signal(SIGXFSZ, SIG_IGN);
-  catch_interrupts();
+namespace {
 
+/// Parses and runs. Throws InvalidInput for a command line that is not understood.
+void run(int argc, char** argv) {
   CLI::App app("Statistics of rough-surface contact and its relaxation damping.", "salebra");
   app.set_version_flag("--version", "salebra " + std::string(version()));
   app.require_subcommand(1);
@@ -146,17 +147,48 @@ int run_program(int argc, char** argv) {
       std::ranges::find(commands, word, &CLI::App::get_name) == commands.end()) {
     std::vector<std::string> names;
     for (const CLI::App* command : commands) names.push_back(command->get_name());
-    return fail(2, fmt::format("{}: is not a command{}; see salebra --help", word,
-                               did_you_mean(word, names)));
+    throw InvalidInput(
+        fmt::format("{}: is not a command{}; see salebra --help", word, did_you_mean(word, names)));
   }
   try {
     std::ranges::reverse(words);  // as CLI11 takes them
     app.parse(words);
-    return 0;
   } catch (const CLI::Success& request) {
-    return app.exit(request);
+    std::ostringstream text;
+    app.exit(request, text, text);
+    print_answer(text.str());
   } catch (const CLI::ParseError& error) {
-    return fail(2, fmt::format("{}; {}", describe(app, error), help_hint(app)));
+    throw InvalidInput(fmt::format("{}; {}", describe(app, error), help_hint(app)));
+  }
+}
+
+constexpr std::string_view no_memory =
+    "salebra: error: memory: not enough for this grid; use fewer points\n";
+
+/// An allocation may fail where no exception can leave: in a thread of OpenMP, in a destructor, while another is thrown.
+[[noreturn]] void end_without_unwinding() {
+  try {
+    if (std::current_exception()) throw;
+  } catch (const std::bad_alloc&) {
+    print_remark(no_memory);
+    _exit(1);
+  } catch (...) {
+  }
+  std::abort();
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  std::set_terminate(end_without_unwinding);
+  // Past a file-size limit a write must fail like on a full disk, and so must printing to a pipe that nobody reads: neither may kill
+  // the process beside a half-written file.
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+  catch_interrupts();
+  try {
+    run(argc, argv);
+    return 0;
   } catch (const UndefinedPoints& error) {
     return fail(2, std::string(error.what()) + " (salebra convert --fill)");
   } catch (const InvalidInput& error) {
@@ -164,7 +196,8 @@ int run_program(int argc, char** argv) {
   } catch (const Interrupted& error) {
     return fail(130, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(1, "memory: not enough for this grid; use fewer points");
+    print_remark(no_memory);
+    return 1;
   } catch (const std::exception& error) {
     return fail(interrupted() ? 130 : 1, error.what());
   }

@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
+
+#include "terminal.hpp"
 
 namespace salebra::cli {
 
@@ -19,15 +20,14 @@ void ProgressBar::draw(const ProgressReport& report) {
   constexpr int width = 30;
   const double fraction = std::clamp(report.fraction, 0.0, 1.0);
   const auto filled = static_cast<std::size_t>(fraction * width);
-  fmt::print(stderr, "\r\033[K{:<14} [{}{}] {:3.0f} %", report.stage, std::string(filled, '#'),
-             std::string(width - filled, '.'), 100 * fraction);
-  std::fflush(stderr);
+  print_remark(fmt::format("\r\033[K{:<14} [{}{}] {:3.0f} %", report.stage,
+                           std::string(filled, '#'), std::string(width - filled, '.'),
+                           100 * fraction));
 }
 
 void ProgressBar::clear() {
   if (!drawn_) return;
-  fmt::print(stderr, "\r\033[K");
-  std::fflush(stderr);
+  print_remark("\r\033[K");
   drawn_ = false;
 }
 

@@ -7,8 +7,6 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <cstdio>
-#include <salebra/base/error.hpp>
 
 #include "terminal.hpp"
 #include "text.hpp"
@@ -19,12 +17,6 @@ namespace {
 volatile std::sig_atomic_t interrupt_seen = 0;
 extern "C" void note_interrupt(int) { interrupt_seen = 1; }
 
-void write_stdout(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-    throw IoError("standard output: cannot be written; check the disk or the reader of the pipe");
-  }
-}
-
 }  // namespace
 
 bool interrupted() { return interrupt_seen != 0; }
@@ -32,8 +24,13 @@ bool interrupted() { return interrupt_seen != 0; }
 void catch_interrupts() {
   struct sigaction action = {};
   action.sa_handler = note_interrupt;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  // nohup has it ignored.
+  struct sigaction hangup = {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
 }
 
 Session::Session(CommonOptions options, std::string command_line, OutputCheck check)
@@ -69,23 +66,23 @@ Progress Session::progress() {
 void Session::note(std::string_view text) {
   if (options_.quiet) return;
   bar_.clear();
-  fmt::print(stderr, "{}\n", text);
+  print_remark(fmt::format("{}\n", text));
 }
 
 void Session::warn(std::string_view text) {
   if (options_.quiet) return;
   bar_.clear();
-  fmt::print(stderr, "salebra: {} {}\n", emphasised("warning:", Emphasis::warning, STDERR_FILENO),
-             text);
+  print_remark(fmt::format("salebra: {} {}\n",
+                           emphasised("warning:", Emphasis::warning, STDERR_FILENO), text));
 }
 
 void Session::answer(const Json& object, const std::string& text) {
   bar_.clear();
   if (options_.json) {
     // File names need not be valid UTF-8, JSON must be.
-    write_stdout(object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    print_answer(object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   } else {
-    write_stdout(text);
+    print_answer(text);
   }
 }
 

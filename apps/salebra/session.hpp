@@ -67,9 +67,9 @@ class Session {
   ProgressBar bar_;
 };
 
-/// True once SIGINT has come.
+/// True once SIGINT, SIGTERM or SIGHUP has come.
 bool interrupted();
-/// From now on the first SIGINT only sets interrupted(); a second one ends the process.
+/// From now on the first of these only sets interrupted(), a second one ends the process. SIGHUP stays ignored where nohup has it so.
 void catch_interrupts();
 
 }  // namespace salebra::cli

@@ -87,12 +87,24 @@ std::string StudyReport::write() {
         "it)");
   if (page_.empty()) return "";
   try {
+    try {
+      require_report(page_, session_.write_options());
+    } catch (const InvalidInput& error) {
+      session_.warn(fmt::format("no report was written: {}", error.what()));
+      return "";
+    }
     write_report(session_.output(), page_, {.write = session_.write_options()});
     return page_.string();
   } catch (const Error& error) {
-    session_.warn(fmt::format("no report was written: {}", error.what()));
+    failure_ = error.what();
     return "";
   }
+}
+
+void StudyReport::require_written() const {
+  if (!failure_.empty())
+    throw IoError(
+        fmt::format("{}; the results are complete in {}", failure_, session_.output().string()));
 }
 
 std::string StudyReport::complete() {
@@ -160,6 +172,7 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, b
     session.answer({{"files", files.json()}},
                    fmt::format("results: {}, complete already\n", files.results) +
                        StudyFiles{"", files.report}.text());
+    page.require_written();
     return {};
   }
   session.require_free_output();

@@ -39,8 +39,11 @@ class StudyReport {
   /// Throws where the page cannot be put in its place, before any work. Nothing is planned where there is no output, where the
   /// user wants no page, or where this build cannot make one, which write() then says.
   StudyReport(const StudyArguments& arguments, Session& session);
-  /// Writes what was planned, from the results file; its path, or empty. The results are safe by now: a failure is only a warning.
+  /// Writes what was planned, from the results file; its path, or empty. The results are safe by now, and their answer comes first:
+  /// a page that is in the way is a warning, and one that could not be written is thrown by require_written().
   std::string write();
+  /// Throws IoError where the system refused the page.
+  void require_written() const;
   /// The same where no page was made of these results yet, as of a study that was killed before it; otherwise the path alone.
   std::string complete();
 
@@ -48,6 +51,7 @@ class StudyReport {
   Session& session_;
   bool lacks_assets_ = false;
   std::filesystem::path page_;
+  std::string failure_;
 };
 
 /// Where a run left its results and their page; empty: nowhere.

@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
+#include <salebra/base/error.hpp>
 
 namespace salebra::cli {
 
@@ -22,6 +24,15 @@ std::string emphasised(std::string_view text, Emphasis emphasis, int descriptor)
                      : emphasis == Emphasis::warning ? "1;35"
                                                      : "1";
   return fmt::format("\033[{}m{}\033[0m", code, text);
+}
+
+void print_answer(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw IoError("standard output: cannot be written; check the disk or the reader of the pipe");
+}
+
+void print_remark(std::string_view text) noexcept {
+  std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
 }  // namespace salebra::cli

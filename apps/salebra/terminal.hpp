@@ -16,4 +16,10 @@ bool in_colour(int descriptor);
 /// The text in the colour of its kind where the descriptor may have colours; elsewhere as it is.
 std::string emphasised(std::string_view text, Emphasis emphasis, int descriptor);
 
+/// Prints an answer on standard output. Throws IoError where it does not arrive there.
+void print_answer(std::string_view text);
+
+/// Prints a remark on standard error. Where that fails there is nowhere to say so, and the work goes on.
+void print_remark(std::string_view text) noexcept;
+
 }  // namespace salebra::cli

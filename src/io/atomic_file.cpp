@@ -3,77 +3,128 @@
 #include "atomic_file.hpp"
 
 #include <fcntl.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <salebra/base/error.hpp>
 #include <salebra/io/text_file.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace salebra {
+namespace {
 
-void require_output(const std::filesystem::path& file, const WriteOptions& options) {
-  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+/// More than any result without fields takes.
+constexpr std::uint64_t least_room = 1 << 20;
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
+/// What a writer may meet under the name itself.
+void require_free_name(const std::filesystem::path& file, const WriteOptions& options) {
+  const auto folder = folder_of(file);
   require(!file.filename().empty(), "output", "'" + file.string() + "'", "names no file");
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored))
     throw InvalidInput(file.string() + ": the folder " + folder.string() +
                        " does not exist; create it first");
   const auto status = std::filesystem::status(file, ignored);
-  if (!std::filesystem::exists(status)) return;
+  if (!std::filesystem::exists(status)) {
+    if (!options.overwrite && std::filesystem::is_symlink(file, ignored))
+      throw InvalidInput(file.string() +
+                         ": exists as a symbolic link to nothing; remove it, or overwrite it "
+                         "(--force)");
+    return;
+  }
   if (!std::filesystem::is_regular_file(status))
     throw InvalidInput(file.string() + ": exists and is not a regular file; name another one");
   if (!options.overwrite)
     throw InvalidInput(file.string() + ": exists; name another file or overwrite it (--force)");
 }
 
+/// As the call would be repeated by hand where a signal came in between.
+template <class Call>
+auto without_interruption(const Call& call) {
+  auto result = call();
+  while (result < 0 && errno == EINTR) result = call();
+  return result;
+}
+
+}  // namespace
+
+void require_output(const std::filesystem::path& file, const WriteOptions& options) {
+  // Whether a file of that name can be made in that folder, only making it tells.
+  detail::AtomicFile(file, options);
+  struct statvfs room = {};
+  if (statvfs(folder_of(file).c_str(), &room) != 0 || room.f_blocks == 0) return;
+  if (std::uint64_t{room.f_bavail} * room.f_frsize < least_room)
+    throw IoError(file.string() +
+                  ": less than 1 MB is free on its disk; make room or name a file on another disk");
+}
+
 namespace detail {
 
 AtomicFile::AtomicFile(const std::filesystem::path& target, const WriteOptions& options)
     : target_(target), overwrite_(options.overwrite) {
-  require_output(target, options);
+  require_free_name(target, options);
   for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
     temporary_ =
         target.parent_path() / ("." + target.filename().string() + "." + std::to_string(getpid()) +
                                 "-" + std::to_string(attempt) + ".part");
-    descriptor_ = open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    descriptor_ = without_interruption(
+        [&] { return open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
+    if (descriptor_ < 0 && errno == ENAMETOOLONG)
+      throw InvalidInput(target.string() +
+                         ": the name is too long for this file system; shorten it to 225 bytes");
     if (descriptor_ < 0 && errno != EEXIST) fail("be created", errno);
   }
   if (descriptor_ < 0) fail("be created", EEXIST);
 }
 
 AtomicFile::~AtomicFile() {
-  if (descriptor_ < 0) return;
-  close(descriptor_);
-  unlink(temporary_.c_str());
+  if (descriptor_ >= 0) close(descriptor_);
+  if (!placed_) unlink(temporary_.c_str());
 }
 
 void AtomicFile::write(std::string_view bytes) {
+  written_.add(bytes);
   while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
+    const ssize_t written =
+        without_interruption([&] { return ::write(descriptor_, bytes.data(), bytes.size()); });
     if (written < 0) fail("be written", errno);
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 
-void AtomicFile::reserve(std::uint64_t bytes) {
-  int error;
-  do {
-    error = posix_fallocate(descriptor_, 0, static_cast<off_t>(bytes));
-  } while (error == EINTR);
-  if (error != 0) fail("be written", error);
+void AtomicFile::finish() {
+  if (without_interruption([&] { return fsync(descriptor_); }) != 0) fail("be written", errno);
+  read_back();
+  // After EINTR the descriptor is closed all the same, and what it wrote is on the disk.
+  if (close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) fail("be closed", errno);
 }
 
-void AtomicFile::resize(std::uint64_t bytes) {
-  if (ftruncate(descriptor_, static_cast<off_t>(bytes)) != 0) fail("be written", errno);
+void AtomicFile::read_back() const {
+  Checksum found;
+  std::vector<char> bytes(1 << 20);
+  for (ssize_t count = 1; count > 0;) {
+    count = without_interruption([&] {
+      return pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(found.size()));
+    });
+    if (count < 0) fail("be read back", errno);
+    found.add({bytes.data(), static_cast<std::size_t>(count)});
+  }
+  if (found != written_)
+    throw IoError(target_.string() +
+                  ": the disk returns other bytes than were written; check the disk; nothing was "
+                  "written");
 }
 
-void AtomicFile::commit() {
-  if (fsync(descriptor_) != 0) fail("be written", errno);
+void AtomicFile::place() {
   if (overwrite_) {
     if (rename(temporary_.c_str(), target_.c_str()) != 0) fail("be put in its place", errno);
   } else if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) !=
@@ -83,13 +134,17 @@ void AtomicFile::commit() {
     if (link(temporary_.c_str(), target_.c_str()) != 0) fail("be put in its place", errno);
     unlink(temporary_.c_str());
   }
-  close(descriptor_);
-  descriptor_ = -1;
-  const auto folder = target_.has_parent_path() ? target_.parent_path() : ".";
-  if (const int parent = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); parent >= 0) {
-    fsync(parent);
-    close(parent);
-  }
+  placed_ = true;
+  // A folder that may be written but not read cannot be opened for this, and not every file system knows it.
+  const int folder = without_interruption(
+      [&] { return open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
+  if (folder < 0) return;
+  const bool flushed = without_interruption([&] { return fsync(folder); }) == 0;
+  const int error = errno;
+  close(folder);
+  if (!flushed && error != EINVAL && error != ENOTSUP && error != EBADF && error != EROFS)
+    throw IoError(target_.string() + ": is written, but its folder could not be flushed to the " +
+                  "disk (" + std::strerror(error) + "); check the disk");
 }
 
 void AtomicFile::fail(const char* doing, int error) const {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <salebra/io/output.hpp>
 #include <string_view>
+
+#include "checksum.hpp"
 
 namespace salebra::detail {
 
@@ -15,7 +16,7 @@ class AtomicFile {
   AtomicFile(const std::filesystem::path& target, const WriteOptions& options);
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
-  /// Removes the temporary file unless it was committed.
+  /// Removes the temporary file unless it was put in its place.
   ~AtomicFile();
 
   const std::filesystem::path& target() const { return target_; }
@@ -23,18 +24,24 @@ class AtomicFile {
 
   /// Appends.
   void write(std::string_view bytes);
-  /// Makes sure that the file can grow to that many bytes, and makes it so long.
-  void reserve(std::uint64_t bytes);
-  void resize(std::uint64_t bytes);
-  /// Flushes to the disk and renames.
-  void commit();
+  /// Flushes to the disk, reads the bytes back and closes: what can fail for want of space or by a fault of the disk.
+  void finish();
+  /// Renames the finished file.
+  void place();
+  bool placed() const { return placed_; }
+  void commit() {
+    finish();
+    place();
+  }
 
  private:
+  void read_back() const;
   [[noreturn]] void fail(const char* doing, int error) const;
 
   std::filesystem::path target_, temporary_;
-  bool overwrite_;
+  bool overwrite_, placed_ = false;
   int descriptor_ = -1;
+  Checksum written_;
 };
 
 }  // namespace salebra::detail

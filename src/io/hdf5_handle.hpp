@@ -13,6 +13,13 @@ namespace salebra::detail::hdf5 {
 /// HDF5 must not print: its errors are thrown. To be called by everything that enters the library.
 inline void be_silent() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
+/// Handles of this thread that a destructor could not close. Closing writes what HDF5 holds back: a writer compares this number
+/// before and after.
+inline int& failed_closes() {
+  thread_local int count = 0;
+  return count;
+}
+
 template <herr_t (*close)(hid_t)>
 class Handle {
  public:
@@ -27,7 +34,7 @@ class Handle {
     return *this;
   }
   ~Handle() {
-    if (id_ >= 0) close(id_);
+    if (id_ >= 0 && close(id_) < 0) ++failed_closes();
   }
   operator hid_t() const { return id_; }
   /// Closes now and says whether that worked; the destructor cannot.

@@ -4,6 +4,8 @@
 
 #include <hdf5_hl.h>
 
+#include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <salebra/base/version.hpp>
 
@@ -12,8 +14,8 @@
 namespace salebra::detail::hdf5 {
 namespace {
 
-/// More than the metadata that one call and the closing of the file can add.
-constexpr std::uint64_t metadata_room = 1 << 20;
+/// By which the file in memory grows.
+constexpr std::size_t increment = 1 << 16;
 
 /// Types in the file are little-endian whatever the machine, so that a file is the same everywhere.
 struct Types {
@@ -26,6 +28,9 @@ Types types_of(const std::int64_t*) { return {H5T_STD_I64LE, H5T_NATIVE_INT64}; 
 Types types_of(const std::uint64_t*) { return {H5T_STD_U64LE, H5T_NATIVE_UINT64}; }
 Types types_of(const std::int8_t*) { return {H5T_STD_I8LE, H5T_NATIVE_INT8}; }
 
+/// In place of a type of numbers.
+constexpr hid_t type_of_texts = -1;
+
 Type text_type(std::size_t size) {
   Type type(H5Tcopy(H5T_C_S1), "make a text type");
   check(H5Tset_size(type, size), "make a text type");
@@ -37,6 +42,72 @@ std::string joined(const std::vector<hsize_t>& shape) {
   std::string text;
   for (const hsize_t extent : shape) text += (text.empty() ? "" : " x ") + std::to_string(extent);
   return text.empty() ? "a scalar" : text;
+}
+
+/// A file in memory under a name that no other has: nothing can lie below a file.
+File file_in_memory(const std::filesystem::path& temporary) {
+  const Properties access(H5Pcreate(H5P_FILE_ACCESS), "prepare a file");
+  check(H5Pset_fapl_core(access, increment, false), "prepare a file");
+  return {H5Fcreate((temporary / "image").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access),
+          "create an HDF5 file in memory"};
+}
+
+/// The bytes of a flushed file in memory, valid while it is open.
+std::string_view image_of(hid_t file) {
+  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+  void** bytes = nullptr;
+  check(size > 0 ? H5Fget_vfd_handle(file, H5P_DEFAULT, reinterpret_cast<void**>(&bytes)) : -1,
+        "read an HDF5 file in memory");
+  return {static_cast<const char*>(*bytes), static_cast<std::size_t>(size)};
+}
+
+Checksum checksum_of_numbers(hid_t dataset, hid_t type) {
+  Checksum sum;
+  std::vector<hsize_t> shape = shape_of(dataset);
+  if (shape.empty()) shape = {1};
+  const std::size_t row = H5Tget_size(type) * std::accumulate(shape.begin() + 1, shape.end(),
+                                                              hsize_t{1}, std::multiplies<>());
+  if (row == 0) return sum;
+  const std::string what = "read a dataset back";
+  const Space space(H5Dget_space(dataset), what);
+  const bool scalar = H5Sget_simple_extent_ndims(space) == 0;
+  constexpr std::size_t piece = 1 << 20;
+  std::vector<char> bytes;
+  std::vector<hsize_t> first(shape.size(), 0), part = shape;
+  for (; first[0] < shape[0]; first[0] += part[0]) {
+    part[0] = std::min<hsize_t>(std::max<std::size_t>(piece / row, 1), shape[0] - first[0]);
+    bytes.resize(row * part[0]);
+    const Space memory(H5Screate_simple(static_cast<int>(part.size()), part.data(), nullptr), what);
+    if (!scalar)
+      check(H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, part.data(), nullptr),
+            what);
+    check(H5Dread(dataset, type, memory, space, H5P_DEFAULT, bytes.data()), what);
+    sum.add({bytes.data(), bytes.size()});
+  }
+  return sum;
+}
+
+Checksum checksum_of(const std::vector<const char*>& texts) {
+  Checksum sum;
+  for (const char* text : texts) sum.add({text ? text : "", text ? std::strlen(text) + 1 : 1});
+  return sum;
+}
+
+Checksum checksum_of_texts(hid_t dataset, hid_t type) {
+  const Space space(H5Dget_space(dataset), "read labels back");
+  std::vector<const char*> texts(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  if (texts.empty()) return {};
+  check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()), "read labels back");
+  const Checksum sum = checksum_of(texts);
+  check(H5Dvlen_reclaim(type, space, H5P_DEFAULT, texts.data()), "read labels back");
+  return sum;
+}
+
+std::string path_of(hid_t dataset) {
+  const ssize_t length = H5Iget_name(dataset, nullptr, 0);
+  std::string path(static_cast<std::size_t>(std::max<ssize_t>(length, 0)), '\0');
+  check(static_cast<herr_t>(H5Iget_name(dataset, path.data(), path.size() + 1)), "name a dataset");
+  return path;
 }
 
 void require_free(hid_t group, const std::string& name) {
@@ -52,11 +123,8 @@ Output::Output(const std::filesystem::path& file, const Provenance& provenance,
                const WriteOptions& options)
     : atomic_(file, options) {
   be_silent();
-  atomic_.reserve(
-      metadata_room);  // a disk that is full already must show before HDF5 has a file open
-  file_ = File(H5Fcreate(atomic_.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
-               "create " + file.string());
-  make_room(provenance.command_line.size() + provenance.configuration.size());
+  closed_before_ = failed_closes();
+  file_ = file_in_memory(atomic_.temporary());
   root_ = Group(H5Gopen2(file_, "/", H5P_DEFAULT), "open the root of " + file.string());
   attribute(root_, "program", std::string_view("salebra"));
   attribute(root_, "version", version());
@@ -68,14 +136,7 @@ Output::Output(const std::filesystem::path& file, const Provenance& provenance,
   if (provenance.seed) attribute(root_, "seed", *provenance.seed);
 }
 
-void Output::make_room(std::uint64_t bytes) {
-  hsize_t size = 0;
-  check(H5Fget_filesize(file_, &size), "read the size of " + atomic_.target().string());
-  atomic_.reserve(size + bytes + metadata_room);
-}
-
 Group Output::group(const std::string& path) {
-  make_room(0);
   const Properties links(H5Pcreate(H5P_LINK_CREATE), "prepare a group");
   check(H5Pset_create_intermediate_group(links, 1), "prepare a group");
   bool exists = true;
@@ -90,7 +151,6 @@ Group Output::group(const std::string& path) {
 
 template <class T>
 void Output::number(hid_t object, const std::string& name, const T& value) {
-  make_room(0);
   const Types types = types_of(&value);
   const Space space(H5Screate(H5S_SCALAR), "write " + name);
   const Attribute attribute(
@@ -112,7 +172,6 @@ void Output::attribute(hid_t object, const std::string& name, std::uint64_t valu
 }
 
 void Output::attribute(hid_t object, const std::string& name, std::string_view value) {
-  make_room(value.size());
   // Variable length: h5py and xarray read it as str, fixed length as bytes; and it may exceed the 64 KiB of an object header.
   const Type type = text_type(H5T_VARIABLE);
   const Space space(H5Screate(H5S_SCALAR), "write " + name);
@@ -130,7 +189,6 @@ Dataset Output::create(hid_t group, const std::string& name, const T* values,
   require(!label.units.empty() && !label.long_name.empty(), "dataset", name,
           "has no units or long_name; give both");
   const auto count = std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
-  make_room(count * sizeof(T));
   const Space space(shape.empty()
                         ? H5Screate(H5S_SCALAR)
                         : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
@@ -143,6 +201,8 @@ Dataset Output::create(hid_t group, const std::string& name, const T* values,
   if (count > 0)
     check(H5Dwrite(dataset, types_of(values).memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values),
           "write " + name);
+  given_.push_back({path_of(dataset), types_of(values).memory, {}});
+  given_.back().values.add({reinterpret_cast<const char*>(values), count * sizeof(T)});
   attribute(dataset, "units", label.units);
   attribute(dataset, "long_name", label.long_name);
   return dataset;
@@ -180,12 +240,7 @@ void Output::text_scale(hid_t group, const std::string& name,
                         const std::vector<std::string>& values, const std::string& long_name) {
   require_free(group, name);
   std::vector<const char*> pointers;
-  std::size_t bytes = 0;
-  for (const std::string& value : values) {
-    pointers.push_back(value.c_str());
-    bytes += value.size() + 64;
-  }
-  make_room(bytes);
+  for (const std::string& value : values) pointers.push_back(value.c_str());
   const Type type = text_type(H5T_VARIABLE);
   const hsize_t count = values.size();
   const Space space(H5Screate_simple(1, &count, nullptr), "write " + name);
@@ -194,18 +249,37 @@ void Output::text_scale(hid_t group, const std::string& name,
       "write " + name);
   if (count > 0)
     check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "write " + name);
+  given_.push_back({path_of(dataset), type_of_texts, checksum_of(pointers)});
   attribute(dataset, "long_name", long_name);
   check(H5DSset_scale(dataset, name.c_str()), "write " + name);
 }
 
 void Output::commit() {
-  check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write " + atomic_.target().string());
-  hsize_t size = 0;
-  check(H5Fget_filesize(file_, &size), "read the size of " + atomic_.target().string());
-  if (!root_.closed() || !file_.closed())
-    throw IoError("cannot close " + atomic_.target().string());
-  atomic_.resize(size);
+  const std::string name = atomic_.target().string();
+  if (!root_.closed()) throw IoError("cannot close the root of " + name);
+  check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write " + name);
+  const std::string_view image = image_of(file_);
+  require_given(image);
+  atomic_.write(image);
+  if (!file_.closed() || failed_closes() != closed_before_) throw IoError("cannot close " + name);
   atomic_.commit();
+}
+
+void Output::require_given(std::string_view image) const {
+  const std::string name = atomic_.target().string();
+  const File copy(H5LTopen_file_image(const_cast<char*>(image.data()), image.size(),
+                                      H5LT_FILE_IMAGE_DONT_COPY | H5LT_FILE_IMAGE_DONT_RELEASE),
+                  "read back " + name);
+  for (const Given& given : given_) {
+    const Dataset dataset(H5Dopen2(copy, given.dataset.c_str(), H5P_DEFAULT),
+                          "read back " + given.dataset + " of " + name);
+    const Checksum found = given.type == type_of_texts
+                               ? checksum_of_texts(dataset, text_type(H5T_VARIABLE))
+                               : checksum_of_numbers(dataset, given.type);
+    if (found != given.values)
+      throw IoError(name + ": its dataset " + given.dataset +
+                    " holds other values than it was given; nothing was written");
+  }
 }
 
 template Dataset Output::dataset(hid_t, const std::string&, const double*, std::size_t,

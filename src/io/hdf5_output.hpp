@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "atomic_file.hpp"
+#include "checksum.hpp"
 #include "hdf5_handle.hpp"
 
 namespace salebra::detail::hdf5 {
@@ -20,8 +21,8 @@ struct Label {
 };
 
 /// An HDF5 file in the making, whose datasets have units, names and dimension scales.
-/// HDF5 1.10 leaves handles behind that crash the process at its end when a file cannot be closed for want of space. Hence room
-/// for data and metadata is reserved on the disk before anything is handed to HDF5, and a full disk shows there.
+/// It is made in memory and written as bytes at the end: HDF5 does not report every failed write (small datasets are flushed by the
+/// closing of a handle) and crashes at the end of a process where a file could not be closed. Memory: the size of the file.
 class Output {
  public:
   Output(const std::filesystem::path& file, const Provenance& provenance,
@@ -48,7 +49,8 @@ class Output {
   void text_scale(hid_t group, const std::string& name, const std::vector<std::string>& values,
                   const std::string& long_name);
 
-  /// Closes the file and puts it in its place; nothing can be written afterwards.
+  /// Compares each dataset of the finished file with the values it was given, writes the file and puts it in its place; nothing can
+  /// be written afterwards.
   void commit();
 
  private:
@@ -57,9 +59,17 @@ class Output {
   template <class T>
   Dataset create(hid_t group, const std::string& name, const T* values,
                  const std::vector<hsize_t>& shape, const Label& label);
-  void make_room(std::uint64_t bytes);
+  /// What a dataset was given.
+  struct Given {
+    std::string dataset;  ///< path from the root
+    hid_t type;           ///< of the values in memory
+    Checksum values;
+  };
+  void require_given(std::string_view image) const;
 
   AtomicFile atomic_;
+  std::vector<Given> given_;
+  int closed_before_ = 0;  ///< failed_closes() at the start
   File file_;
   Group root_;
 };

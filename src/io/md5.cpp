@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -83,15 +84,27 @@ class State {
 
 }  // namespace
 
-std::string md5(std::string_view bytes) {
+std::string md5(std::string_view bytes) { return md5({bytes, {}}); }
+
+std::string md5(const std::array<std::string_view, 2>& parts) {
   State state;
-  const std::size_t whole = bytes.size() - bytes.size() % block_size;
-  for (std::size_t at = 0; at < whole; at += block_size) state.add(bytes.data() + at);
-  // The rest, a one bit, zeros, and the length in bits as the last eight bytes of a block.
-  std::string end(bytes.substr(whole));
+  std::string end;  // what fills no block
+  std::uint64_t bits = 0;
+  for (std::string_view part : parts) {
+    bits += 8 * static_cast<std::uint64_t>(part.size());
+    const std::size_t missing = (block_size - end.size()) % block_size;
+    end += part.substr(0, missing);
+    part.remove_prefix(std::min(missing, part.size()));
+    if (end.size() == block_size) {
+      state.add(end.data());
+      end.clear();
+    }
+    for (; part.size() >= block_size; part.remove_prefix(block_size)) state.add(part.data());
+    end += part;
+  }
+  // A one bit, zeros, and the length in bits as the last eight bytes of a block.
   end += '\x80';
   end.append((2 * block_size - 8 - end.size()) % block_size, '\0');
-  const std::uint64_t bits = 8 * static_cast<std::uint64_t>(bytes.size());
   for (int shift = 0; shift < 64; shift += 8) end += static_cast<char>(bits >> shift & 255);
   for (std::size_t at = 0; at < end.size(); at += block_size) state.add(end.data() + at);
   return state.digits();

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "loaded_surface.hpp"
+#include "md5.hpp"
 #include "sidecar.hpp"
 
 namespace salebra::detail {
@@ -133,11 +134,17 @@ ElementReader reader_of(std::string_view type) {
   return nullptr;
 }
 
-void read_sidecar(const std::filesystem::path& file, LoadedSurface& surface) {
+void read_sidecar(const std::filesystem::path& file, std::string_view content,
+                  LoadedSurface& surface) {
   const std::filesystem::path sidecar = sidecar_of(file);
   if (!std::filesystem::exists(sidecar)) return;
   const auto json = nlohmann::json::parse(file_content(sidecar), nullptr, false);
   try {
+    // Half of a pair that a fault or a crash left, or an array that was saved anew.
+    if (json.contains("md5") && json.at("md5").get<std::string>() != md5(content))
+      refuse(sidecar, "describes another array than that of " + file.filename().string() +
+                          ": its md5 differs; write both again, or remove the entry md5 if the "
+                          "size is right");
     if (json.contains("size_x")) surface.size_x = json.at("size_x").get<double>();
     if (json.contains("size_y")) surface.size_y = json.at("size_y").get<double>();
     if (json.contains("periodic")) surface.periodic = json.at("periodic").get<bool>();
@@ -197,7 +204,7 @@ LoadedSurface read_npy(const std::filesystem::path& file, std::string_view conte
       surface.heights(ix, iy) = read(data.data() + place * static_cast<Index>(item), swapped);
     }
   }
-  read_sidecar(file, surface);
+  read_sidecar(file, content, surface);
   return surface;
 }
 

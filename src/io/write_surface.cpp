@@ -15,6 +15,7 @@
 
 #include "atomic_file.hpp"
 #include "hdf5_output.hpp"
+#include "md5.hpp"
 #include "sidecar.hpp"
 #include "surface_writers.hpp"
 
@@ -50,18 +51,30 @@ void write_npy(const std::filesystem::path& file, const Surface& surface,
   constexpr std::size_t before = 10;
   header.append(63 - (before + header.size()) % 64, ' ');
   header += '\n';
-  const char length[] = {static_cast<char>(header.size() % 256),
-                         static_cast<char>(header.size() / 256)};
+  std::string start("\x93NUMPY\x01\x00", 8);
+  start += {static_cast<char>(header.size() % 256), static_cast<char>(header.size() / 256)};
+  start += header;
+  const std::string_view heights(reinterpret_cast<const char*>(surface.heights.data()),
+                                 static_cast<std::size_t>(surface.grid.points()) * sizeof(double));
 
   detail::AtomicFile array(file, options), sidecar(detail::sidecar_of(file), options);
-  array.write(std::string_view("\x93NUMPY\x01\x00", 8));
-  array.write(std::string_view(length, sizeof length));
-  array.write(header);
-  array.write({reinterpret_cast<const char*>(surface.heights.data()),
-               static_cast<std::size_t>(surface.grid.points()) * sizeof(double)});
-  sidecar.write(detail::description_of(surface, provenance, 2) + "\n");
-  sidecar.commit();
-  array.commit();
+  array.write(start);
+  array.write(heights);
+  auto description = detail::description_of(surface, provenance);
+  description["md5"] = detail::md5({start, heights});
+  sidecar.write(detail::text_of(description, 2) + "\n");
+  array.finish();
+  sidecar.finish();
+  // The new sidecar refuses the old array by its checksum; an old one may have none, and would accept the new array.
+  std::error_code ignored;
+  const bool alone = !std::filesystem::exists(sidecar.target(), ignored);
+  sidecar.place();
+  try {
+    array.place();
+  } catch (const IoError&) {
+    if (alone && !array.placed()) std::filesystem::remove(sidecar.target(), ignored);
+    throw;
+  }
 }
 
 void write_text(const std::filesystem::path& file, const Surface& surface,
@@ -93,8 +106,8 @@ void detail::append_number(std::string& text, double value) {
   text.append(digits.data(), end);
 }
 
-std::string detail::description_of(const Surface& surface, const Provenance& provenance,
-                                   int indent) {
+nlohmann::ordered_json detail::description_of(const Surface& surface,
+                                              const Provenance& provenance) {
   nlohmann::ordered_json description{
       {"size_x", surface.grid.lx},
       {"size_y", surface.grid.ly},
@@ -108,6 +121,10 @@ std::string detail::description_of(const Surface& surface, const Provenance& pro
       {"command_line", provenance.command_line},
       {"configuration", provenance.configuration}};
   if (provenance.seed) description["seed"] = *provenance.seed;
+  return description;
+}
+
+std::string detail::text_of(const nlohmann::ordered_json& description, int indent) {
   // Names of files need not be UTF-8.
   return description.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
 }

@@ -117,9 +117,16 @@ StudyLock::StudyLock(std::filesystem::path file, std::chrono::milliseconds stale
 bool StudyLock::try_link() {
   const std::string word = fmt::format("{}-{:x}", getpid(), reinterpret_cast<std::uintptr_t>(this));
   const std::filesystem::path own = file_.string() + "." + word;
-  const int descriptor = open(own.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  int descriptor;
+  do {
+    descriptor = open(own.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  } while (descriptor < 0 && errno == EINTR);
   if (descriptor < 0) fail(own, errno);
-  const ssize_t written = write(descriptor, identity_.data(), identity_.size());
+  ssize_t written = 0, part = 0;
+  do {
+    part = write(descriptor, identity_.data() + written, identity_.size() - std::size_t(written));
+    if (part > 0) written += part;
+  } while (part > 0 ? std::size_t(written) < identity_.size() : part < 0 && errno == EINTR);
   const int write_error = errno;
   close(descriptor);
   if (written != ssize_t(identity_.size())) {

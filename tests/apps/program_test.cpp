@@ -76,3 +76,35 @@ TEST_CASE("This installation agrees with the analytic solutions", "[program][ver
     CHECK(check["passed"] == true);
   }
 }
+
+TEST_CASE("Remarks that cannot be printed stop no work, and an answer that cannot is an error",
+          "[program]") {
+  const ProgramTest test;
+  const std::string surface =
+      "generate --points 16 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 250nm "
+      "--rms-height 10nm --progress always ";
+  const auto status = [&](const std::string& arguments) { return test.run(arguments).status; };
+  CHECK(status(surface + "2>/dev/full") == 0);
+  CHECK(status(surface + "2>&-") == 0);
+  CHECK(status("generate --points x 2>/dev/full") == 2);
+  CHECK(status("generate --points x 2>&-") == 2);
+  for (const char* command : {"--help", "--version", "generate --help", "manual study"})
+    for (const char* nowhere : {" >/dev/full", " >&-"}) {
+      const auto result = test.run(command + std::string(nowhere));
+      INFO(command << nowhere);
+      CHECK(result.status == 1);
+      CHECK(
+          result.err ==
+          "salebra: error: standard output: cannot be written; check the disk or the reader of the "
+          "pipe\n");
+    }
+}
+
+TEST_CASE("What is printed never goes into an output file", "[program]") {
+  const ProgramTest test;
+  const auto result = test.run(
+      "generate --points 16 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 250nm "
+      "--rms-height 10nm --progress always -o surface.npy 0<&- 1>&- 2>&-");
+  CHECK(result.status == 1);  // the answer was not printed
+  CHECK(test.run("info surface.npy").status == 0);
+}

@@ -89,12 +89,14 @@ TEST_CASE("An interrupted study keeps the surfaces that it has finished and says
   std::string many = study;
   many.replace(many.find("seeds = [1, 2, 3]"), 17, "seed_count = 100000");
   test.write("study.toml", many);
+  const std::string signal = GENERATE("INT", "TERM", "HUP");
   // The signal goes to the program itself, once something is finished and the first second is over: the remaining time is
   // told from then on.
   const auto result = test.run("study study.toml -o result.h5 --json",
                                "(while ! ls result.h5.parts/*.realisation >/dev/null 2>&1; do "
-                               "sleep 0.1; done; sleep 2; kill -INT $$) &");
-  INFO(result.err);
+                               "sleep 0.1; done; sleep 2; kill -" +
+                                   signal + " $$) &");
+  INFO(signal << ": " << result.err);
   CHECK(result.status == 130);
   CHECK(result.out.empty());
   CHECK_THAT(result.err, Contains("study: surface 1 of 100000 (seed ") && Contains("left") &&

@@ -10,6 +10,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/io/force_curve_file.hpp>
 #include <salebra/io/output.hpp>
+#include <salebra/io/read_surface.hpp>
 #include <salebra/io/write_surface.hpp>
 
 #include "scratch.hpp"
@@ -71,6 +72,36 @@ TEST_CASE("A folder or a device is never replaced by a file", "[output]") {
   CHECK_THROWS_AS(require_output("/dev/null", {.overwrite = true}), InvalidInput);
   CHECK_NOTHROW(require_output(scratch / "new.h5"));
   CHECK_NOTHROW(require_output("new-in-this-folder.h5"));
+}
+
+TEST_CASE("An output that cannot be written is refused before any work", "[output]") {
+  const Scratch scratch;
+  CHECK_THROWS_WITH(require_output(scratch / (std::string(252, 'x') + ".h5")),
+                    Contains("name is too long") && Contains("shorten"));
+  std::filesystem::create_symlink(scratch / "nothing", scratch / "link.h5");
+  CHECK_THROWS_WITH(require_output(scratch / "link.h5"), Contains("symbolic link"));
+  CHECK_NOTHROW(require_output(scratch / "link.h5", {.overwrite = true}));
+  // Nobody, not even root, makes files there.
+  CHECK_THROWS_AS(require_output("/proc/results.h5"), IoError);
+  CHECK(files_in(scratch.folder()) == 1);
+}
+
+TEST_CASE("An array and a sidecar that are not of one pair are refused", "[output]") {
+  const Scratch scratch;
+  const auto array = scratch / "a.npy", sidecar = scratch / "a.npy.json";
+  write_surface(array, flat(4));
+  std::filesystem::rename(array, scratch / "old.npy");
+  std::filesystem::rename(sidecar, scratch / "old.json");
+  Surface other = flat(4);
+  other.heights(1, 1) = 2;
+  write_surface(array, other);
+  CHECK_NOTHROW(read_surface(array));
+  const auto options = std::filesystem::copy_options::overwrite_existing;
+  std::filesystem::copy_file(scratch / "old.json", sidecar, options);
+  CHECK_THROWS_WITH(read_surface(array), Contains("a.npy.json") && Contains("md5"));
+  write_surface(array, other, {}, {.overwrite = true});
+  std::filesystem::copy_file(scratch / "old.npy", array, options);
+  CHECK_THROWS_WITH(read_surface(array), Contains("a.npy.json") && Contains("md5"));
 }
 
 TEST_CASE("A result file that is not committed leaves nothing", "[output]") {

@@ -11,8 +11,8 @@ struct WriteOptions {
   bool overwrite = false;  ///< replace an existing file
 };
 
-/// Throws what a writer would throw at its start, for callers that compute for long before they write:
-/// InvalidInput if the folder does not exist, the file exists (unless overwrite) or is not a regular file.
+/// For callers that compute for long before they write. InvalidInput if the folder does not exist, the name is too long or a link to
+/// nothing, the file exists (unless overwrite) or is not a regular file; IoError if the folder is not writable or has no room.
 void require_output(const std::filesystem::path& file, const WriteOptions& options = {});
 
 }  // namespace salebra

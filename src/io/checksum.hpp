@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+namespace salebra::detail {
+
+/// Checksum of a stream of bytes, however it is cut into pieces. Each step is a bijection of the state for a given word and of the
+/// word for a given state: streams of one length that differ within a single aligned word of eight bytes never agree. It tells
+/// damage, not intent. Cost: one pass, several GB/s.
+class Checksum {
+ public:
+  void add(std::string_view bytes) {
+    size_ += bytes.size();
+    while (!bytes.empty()) {
+      if (filled_ == 0 && bytes.size() >= sizeof word_) {
+        std::memcpy(&word_, bytes.data(), sizeof word_);
+        bytes.remove_prefix(sizeof word_);
+        take_word();
+      } else {
+        word_ |= std::uint64_t{static_cast<unsigned char>(bytes.front())} << 8 * filled_;
+        bytes.remove_prefix(1);
+        if (++filled_ == sizeof word_) take_word();
+      }
+    }
+  }
+
+  std::uint64_t size() const { return size_; }
+  bool operator==(const Checksum&) const = default;
+
+ private:
+  void take_word() {
+    state_ = (state_ ^ word_) * 0x9e3779b97f4a7c15;
+    state_ ^= state_ >> 32;
+    word_ = 0;
+    filled_ = 0;
+  }
+
+  std::uint64_t state_ = 0, size_ = 0, word_ = 0;
+  unsigned filled_ = 0;
+};
+
+}  // namespace salebra::detail
