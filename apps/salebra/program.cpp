@@ -17,6 +17,7 @@
 #include <salebra/base/version.hpp>
 #include <sstream>
 
+#include "confinement/confinement.hpp"
 #include "help_text.hpp"
 #include "terminal.hpp"
 
@@ -24,8 +25,8 @@ namespace salebra::cli {
 namespace {
 
 int fail(int status, std::string_view message) {
-  std::string line(message);
-  std::ranges::replace(line, '\n', ' ');
+  std::string line = printable(message);
+  std::ranges::replace_if(line, [](char symbol) { return symbol == '\n' || symbol == '\t'; }, ' ');
   print_remark(
       fmt::format("salebra: {} {}\n", emphasised("error:", Emphasis::error, STDERR_FILENO), line));
   return status;
@@ -186,6 +187,7 @@ int run_program(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   catch_interrupts();
+  confinement::install();
   try {
     run(argc, argv);
     return 0;

@@ -66,14 +66,15 @@ Progress Session::progress() {
 void Session::note(std::string_view text) {
   if (options_.quiet) return;
   bar_.clear();
-  print_remark(fmt::format("{}\n", text));
+  print_remark(fmt::format("{}\n", printable(text)));
 }
 
 void Session::warn(std::string_view text) {
   if (options_.quiet) return;
   bar_.clear();
   print_remark(fmt::format("salebra: {} {}\n",
-                           emphasised("warning:", Emphasis::warning, STDERR_FILENO), text));
+                           emphasised("warning:", Emphasis::warning, STDERR_FILENO),
+                           printable(text)));
 }
 
 void Session::answer(const Json& object, const std::string& text) {
@@ -82,7 +83,7 @@ void Session::answer(const Json& object, const std::string& text) {
     // File names need not be valid UTF-8, JSON must be.
     print_answer(object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   } else {
-    print_answer(text);
+    print_answer(printable(text));
   }
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Module salebra._core: calls the bindings of each module in turn.
 #include "bindings.hpp"
+#include "confinement/confinement.hpp"
 
 NB_MODULE(_core, m) {
   m.doc() = "The C++ library salebra. Import `salebra`, which has everything that is here.";
   using namespace salebra::python;
+  salebra::confinement::install();
   nanobind::module_::import_("numpy");  // once, here, rather than inside the first call
   bind_base(m);
   bind_surface(m);

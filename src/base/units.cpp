@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <optional>
 #include <salebra/base/error.hpp>
@@ -241,7 +242,9 @@ std::string format_quantity(double value, Dimension dimension, int digits) {
       Prefix{"f", -15}, Prefix{"p", -12}, Prefix{"n", -9}, Prefix{"\u00b5", -6}, Prefix{"m", -3},
       Prefix{"", 0},    Prefix{"k", 3},   Prefix{"M", 6},  Prefix{"G", 9},       Prefix{"T", 12}};
   // Rounding to the digits shown comes first, so that 999.96 nm reads 1 µm.
-  const double rounded = std::stod(fmt::format("{:.{}e}", std::abs(value), digits - 1));
+  // std::stod would refuse numbers below the smallest normal one.
+  const double rounded =
+      std::strtod(fmt::format("{:.{}e}", std::abs(value), digits - 1).c_str(), nullptr);
   const int exponent = static_cast<int>(std::floor(std::log10(rounded) + 1e-12));
   const Prefix* best = &engineering.front();
   for (const Prefix& prefix : engineering) {

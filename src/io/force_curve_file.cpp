@@ -9,7 +9,6 @@
 #include "atomic_file.hpp"
 #include "curve_quantities.hpp"
 #include "loaded_surface.hpp"
-#include "rehearsal.hpp"
 
 namespace salebra {
 namespace {
@@ -119,10 +118,7 @@ void write_force_curve(const std::filesystem::path& file, const ForceCurve& curv
 }
 
 ForceCurve read_force_curve(const std::filesystem::path& file) {
-  if (detail::is_hdf5(file)) {
-    detail::rehearse(file, [&] { read_force_curve(ResultReader(file)); });
-    return read_force_curve(ResultReader(file));
-  }
+  if (detail::is_hdf5(file)) return read_force_curve(ResultReader(file));
   return detail::read_text_curve(file, detail::file_content(file));
 }
 

@@ -1,17 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Members, shapes and attributes of HDF5 objects, read with checks.
+// The only calls of HDF5 on files that are read: their outline, and the numbers of one dataset.
 #include "hdf5_read.hpp"
 
-#include <algorithm>
+#include <hdf5_hl.h>
 
-#include "hdf5_handle.hpp"
+#include <algorithm>
+#include <set>
+
+#include "hdf5_descriptor.hpp"
+#include "hdf5_document.hpp"
 #include "loaded_surface.hpp"
 
 namespace salebra::detail::hdf5 {
 namespace {
 
-herr_t collect(hid_t, const char* name, const H5L_info_t* info, void* names) {
-  if (info->type == H5L_TYPE_HARD) static_cast<std::vector<std::string>*>(names)->push_back(name);
+/// Datasets of at most so many values come along with the outline.
+constexpr std::uint64_t small_dataset = 8192;
+constexpr std::size_t deepest = 32, longest_path = 4096, longest_fixed_text = 1 << 20;
+/// Bytes of doubles that are handed over at a time, where chunks are not larger.
+constexpr std::uint64_t block_bytes = 1 << 20;
+
+struct Link {
+  std::string name;
+  H5L_type_t type;
+};
+
+herr_t collect_link(hid_t, const char* name, const H5L_info_t* info, void* links) {
+  static_cast<std::vector<Link>*>(links)->push_back({name, info->type});
   return 0;
 }
 
@@ -20,43 +35,299 @@ herr_t collect_attribute(hid_t, const char* name, const H5A_info_t*, void* names
   return 0;
 }
 
-struct OpenAttribute {
-  Attribute attribute;
-  Type type;
+std::string text_of(hid_t attribute, hid_t type, const std::string& what) {
+  if (H5Tis_variable_str(type) > 0) {
+    char* stored = nullptr;
+    const Type memory(H5Tcopy(type), what);
+    check(H5Aread(attribute, memory, &stored), what);
+    std::string text = stored ? stored : "";
+    H5free_memory(stored);
+    return text;
+  }
+  std::string text(std::min(H5Tget_size(type), longest_fixed_text), '\0');
+  if (text.size() == longest_fixed_text) return {};
+  check(H5Aread(attribute, type, text.data()), what);
+  text.resize(std::min(text.find('\0'), text.size()));
+  while (text.ends_with(' ')) text.pop_back();
+  return text;
+}
+
+/// The value of a scalar attribute that is a number, h5py's boolean or a text; nothing for others.
+AttributeValue value_of(hid_t object, const std::string& name) {
+  const std::string what = "read the attribute " + name;
+  const Attribute attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), what);
+  const Space space(H5Aget_space(attribute), what);
+  const Type type(H5Aget_type(attribute), what);
+  if (H5Sget_simple_extent_npoints(space) != 1) return {};
+  const H5T_class_t kind = H5Tget_class(type);
+  if (kind == H5T_STRING) return text_of(attribute, type, what);
+  if (kind == H5T_ENUM) {
+    signed char flag = 0;
+    const Type native(H5Tget_native_type(type, H5T_DIR_ASCEND), what);
+    if (H5Tget_size(native) != sizeof flag) return {};
+    check(H5Aread(attribute, native, &flag), what);
+    return static_cast<double>(flag);
+  }
+  if (kind != H5T_FLOAT && kind != H5T_INTEGER) return {};
+  double value = 0;
+  check(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), what);
+  return value;
+}
+
+std::vector<std::string> coordinates_of(hid_t dataset, std::size_t rank) {
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, unsigned, hid_t scale, void* list) -> herr_t {
+    std::string path(
+        static_cast<std::size_t>(std::max<ssize_t>(H5Iget_name(scale, nullptr, 0), 0)), '\0');
+    H5Iget_name(scale, path.data(), path.size() + 1);
+    static_cast<std::vector<std::string>*>(list)->push_back(path.substr(path.rfind('/') + 1));
+    return 1;
+  };
+  for (unsigned i = 0; i < rank; ++i)
+    check(H5DSiterate_scales(dataset, i, nullptr, collect, &names), "read its axes");
+  return names;
+}
+
+/// Why a dataset would be read from elsewhere, or through what nobody has checked; empty if it is not. To be called before its
+/// shape is requested: HDF5 opens the sources of a virtual dataset for that.
+std::string strange_storage(hid_t properties) {
+  if (H5Pget_layout(properties) == H5D_VIRTUAL)
+    return "is a virtual dataset, whose values lie in other files; store the values themselves";
+  if (H5Pget_external_count(properties) != 0)
+    return "lies in external files; store its values in the file itself";
+  std::vector<H5Z_filter_t> known{H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE, H5Z_FILTER_FLETCHER32};
+  const int filters = H5Pget_nfilters(properties);
+  for (int i = 0; i < filters; ++i) {
+    unsigned flags = 0;
+    std::size_t values = 0;
+    const H5Z_filter_t filter = H5Pget_filter2(properties, static_cast<unsigned>(i), &flags,
+                                               &values, nullptr, 0, nullptr, nullptr);
+    if (std::erase(known, filter) == 0)
+      return "passes through filter " + std::to_string(filter) +
+             " or through one filter twice; use at most one each of shuffle, deflate and "
+             "fletcher32";
+  }
+  return {};
+}
+
+std::vector<hsize_t> chunk_of(hid_t properties, std::size_t rank) {
+  std::vector<hsize_t> chunk(rank);
+  if (rank == 0 || H5Pget_layout(properties) != H5D_CHUNKED) return {};
+  check(H5Pget_chunk(properties, static_cast<int>(rank), chunk.data()), "read its chunks");
+  return chunk;
+}
+
+/// Why the numbers of a dataset are more than the file can hold, or take more memory than they may; empty if they do not.
+/// A damaged or hostile header must not decide how much memory is allocated.
+std::string excess(const InputFile& file, hid_t dataset, hid_t properties,
+                   const std::vector<hsize_t>& shape) {
+  const Type type(H5Dget_type(dataset), "read its type");
+  const H5T_class_t kind = H5Tget_class(type);
+  constexpr std::size_t largest_number = 16;
+  const std::size_t size = H5Tget_size(type);
+  if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || size == 0 || size > largest_number)
+    return "is not of real numbers; store float64";
+  hsize_t bytes = size, doubles = sizeof(double);
+  for (const hsize_t extent : shape)
+    if (__builtin_mul_overflow(bytes, extent, &bytes) ||
+        __builtin_mul_overflow(doubles, extent, &doubles))
+      return "is larger than any memory; the file is damaged";
+  // No deflate stream is shorter than 1/1032 of its content.
+  constexpr hsize_t best_compression = 1032;
+  const bool packed = H5Pget_nfilters(properties) > 0;
+  if (bytes / (packed ? best_compression : 1) >
+      std::min<hsize_t>(H5Dget_storage_size(dataset), file.size()))
+    return "is larger than what the file holds of it; the file is truncated or damaged";
+  if (doubles > most_bytes(file.size()))
+    return "takes " + std::to_string(doubles) + " bytes unpacked, too many for a file of " +
+           std::to_string(file.size()) + "; store it without deflate";
+  // A chunk is unpacked whole, however little of it the dataset needs.
+  constexpr hsize_t any_chunk = 16 << 20;
+  hsize_t chunk_bytes = size;
+  for (const hsize_t extent : chunk_of(properties, shape.size()))
+    if (__builtin_mul_overflow(chunk_bytes, extent, &chunk_bytes)) chunk_bytes = HSIZE_UNDEF;
+  if (chunk_bytes > std::max(any_chunk, bytes))
+    return "has chunks larger than itself; store it without chunks";
+  return {};
+}
+
+class Outline {
+ public:
+  explicit Outline(const InputFile& file)
+      : file_(file),
+        room_(std::uint64_t{32 << 20} + 8 * file.size()),
+        room_for_numbers_(room_ / 4),
+        handle_(open_descriptor(file.descriptor())) {}
+
+  Objects read() {
+    visit("", H5Oopen(handle_, "/", H5P_DEFAULT), 0);
+    return std::move(objects_);
+  }
+
+ private:
+  using Any = Handle<H5Oclose>;
+
+  /// What the outline takes of memory is counted: many links to one object would otherwise multiply it.
+  void take(std::uint64_t bytes) {
+    if (bytes > room_)
+      refuse(file_.path(),
+             "has more groups, links and attributes than a file of its size should; it is damaged");
+    room_ -= bytes;
+  }
+
+  Object::Kind keep(const std::string& path, Object object) {
+    const Object::Kind kind = object.kind;
+    objects_.insert_or_assign(path.empty() ? "/" : path, std::move(object));
+    return kind;
+  }
+
+  Object::Kind refuse_object(const std::string& path, std::string why) {
+    take(512 + 2 * path.size());
+    Object object;
+    object.refusal = std::move(why);
+    return keep(path, std::move(object));
+  }
+
+  Object::Kind visit(const std::string& path, hid_t id, std::size_t depth) {
+    try {
+      const Any opened(id, "open " + (path.empty() ? "the root" : path));
+      H5O_info_t info;
+      check(H5Oget_info2(opened, &info, H5O_INFO_BASIC), "read " + path);
+      if (info.type == H5O_TYPE_DATASET) return visit_dataset(path, opened);
+      if (info.type != H5O_TYPE_GROUP) return refuse_object(path, "is neither group nor dataset");
+      // A group within itself, or reached by many ways, would be listed without end.
+      if (!groups_.insert(info.addr).second)
+        return refuse_object(path, "is a group that has another name too; give it one");
+      if (depth > deepest) return refuse_object(path, "lies too deep in groups; the file is damaged");
+      return visit_group(path, opened, depth);
+    } catch (const IoError& error) {
+      return refuse_object(path, std::string(error.what()) + "; the file is truncated or damaged");
+    }
+  }
+
+  void read_attributes(hid_t id, Object& object) {
+    std::vector<std::string> names;
+    check(H5Aiterate2(id, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_attribute, &names),
+          "list attributes");
+    for (const std::string& name : names) {
+      AttributeValue value = value_of(id, name);
+      const auto* text = std::get_if<std::string>(&value);
+      take(128 + name.size() + (text ? text->size() : 0));
+      object.attributes.emplace_back(name, std::move(value));
+    }
+  }
+
+  Object::Kind visit_group(const std::string& path, hid_t id, std::size_t depth) {
+    take(512 + 2 * path.size());
+    Object object;
+    object.kind = Object::Kind::group;
+    read_attributes(id, object);
+    std::vector<Link> links;
+    check(H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_link, &links),
+          "list a group");
+    for (const auto& [name, type] : links) {
+      const std::string inner = path + "/" + name;
+      object.members.emplace_back(name, visit_link(inner, id, name, type, depth));
+    }
+    return keep(path, std::move(object));
+  }
+
+  Object::Kind visit_link(const std::string& path, hid_t group, const std::string& name,
+                          H5L_type_t type, std::size_t depth) {
+    if (path.size() > longest_path)
+      refuse(file_.path(), "has names of more than " + std::to_string(longest_path) +
+                               " bytes; it is damaged");
+    if (type == H5L_TYPE_HARD)
+      return visit(path, H5Oopen(group, name.c_str(), H5P_DEFAULT), depth + 1);
+    return refuse_object(path, type == H5L_TYPE_SOFT
+                                   ? "is a symbolic link; store the object itself"
+                               : type == H5L_TYPE_EXTERNAL
+                                   ? "is an external link, to another file; store the object itself"
+                                   : "is a link of an unknown kind; store the object itself");
+  }
+
+  Object::Kind visit_dataset(const std::string& path, hid_t id) {
+    const Properties properties(H5Dget_create_plist(id), "read the layout of " + path);
+    if (std::string why = strange_storage(properties); !why.empty())
+      return refuse_object(path, std::move(why));
+    take(512 + 2 * path.size());
+    Object object;
+    object.kind = Object::Kind::numbers;
+    const std::vector<hsize_t> shape = shape_of(id);
+    object.shape.assign(shape.begin(), shape.end());
+    const Type type(H5Dget_type(id), "read the type of " + path);
+    read_attributes(id, object);
+    object.coordinates = coordinates_of(id, shape.size());
+    for (const std::string& name : object.coordinates) take(64 + name.size());
+    if (H5Tget_class(type) == H5T_STRING) {
+      object.kind = Object::Kind::labels;
+      read_labels(id, type, object);
+    } else {
+      object.refusal = excess(file_, id, properties, shape);
+      read_small(id, object);
+    }
+    return keep(path, std::move(object));
+  }
+
+  void read_labels(hid_t id, hid_t type, Object& object) {
+    if (H5Tis_variable_str(type) <= 0 || object.shape.size() != 1 ||
+        H5Dget_storage_size(id) < object.shape[0]) {
+      object.refusal = "is no list of names";
+      return;
+    }
+    take(8 * object.shape[0]);
+    std::vector<char*> pointers(object.shape[0]);
+    if (pointers.empty()) return;
+    check(H5Dread(id, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "read its names");
+    for (const char* text : pointers) {
+      object.labels.emplace_back(text ? text : "");
+      take(64 + object.labels.back().size());
+    }
+    const Space space(H5Dget_space(id), "read its names");
+    H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
+  }
+
+  void read_small(hid_t id, Object& object) {
+    if (!object.refusal.empty() || object.count() > small_dataset ||
+        object.count() * sizeof(double) > room_for_numbers_)
+      return;
+    room_for_numbers_ -= object.count() * sizeof(double);
+    std::vector<double> values(object.count());
+    if (!values.empty())
+      check(H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+            "read its values");
+    object.numbers = std::move(values);
+  }
+
+  const InputFile& file_;
+  std::uint64_t room_, room_for_numbers_;
+  File handle_;
+  Objects objects_;
+  std::set<haddr_t> groups_;
 };
 
-std::optional<OpenAttribute> open_scalar(hid_t object, const char* name, H5T_class_t kind) {
-  if (H5Aexists(object, name) <= 0) return {};
-  OpenAttribute result;
-  result.attribute = Attribute(H5Aopen(object, name, H5P_DEFAULT), std::string("open ") + name);
-  const Space space(H5Aget_space(result.attribute), std::string("read ") + name);
-  result.type = Type(H5Aget_type(result.attribute), std::string("read ") + name);
-  const H5T_class_t found = H5Tget_class(result.type);
-  const bool fits = found == kind || (kind == H5T_FLOAT && found == H5T_INTEGER) ||
-                    (kind == H5T_FLOAT && found == H5T_ENUM);
-  if (!fits || H5Sget_simple_extent_npoints(space) != 1) return {};
-  return result;
+/// Rows of the first dimension that are read at a time: whole chunks, so that none is unpacked twice.
+hsize_t rows_at_once(hid_t properties, const std::vector<hsize_t>& shape) {
+  hsize_t row = sizeof(double);
+  for (std::size_t i = 1; i < shape.size(); ++i) row *= shape[i];
+  const std::vector<hsize_t> chunk = chunk_of(properties, shape.size());
+  const hsize_t step = chunk.empty() ? 1 : std::max<hsize_t>(chunk[0], 1);
+  return std::max<hsize_t>(block_bytes / std::max<hsize_t>(row, 1) / step, 1) * step;
+}
+
+/// Calls HDF5, and says of the file what HDF5 refuses.
+template <class Work>
+void about(const InputFile& file, const Work& work) {
+  be_silent();
+  H5PLset_loading_state(0);  // filters from elsewhere
+  try {
+    work();
+  } catch (const IoError& error) {
+    refuse(file.path(), std::string(error.what()) + "; it is truncated or damaged");
+  }
 }
 
 }  // namespace
-
-std::vector<std::string> members(hid_t group, H5O_type_t kind) {
-  std::vector<std::string> names;
-  check(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), "list a group");
-  std::erase_if(names, [&](const std::string& name) {
-    H5O_info_t info;
-    return H5Oget_info_by_name2(group, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0 ||
-           info.type != kind;
-  });
-  return names;
-}
-
-std::vector<std::string> attributes_of(hid_t object) {
-  std::vector<std::string> names;
-  check(H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_attribute, &names),
-        "list attributes");
-  return names;
-}
 
 std::vector<hsize_t> shape_of(hid_t dataset) {
   const Space space(H5Dget_space(dataset), "read the shape of a dataset");
@@ -67,60 +338,59 @@ std::vector<hsize_t> shape_of(hid_t dataset) {
   return shape;
 }
 
-void require_stored(const std::filesystem::path& file, hid_t dataset, const std::string& name) {
-  const Type type(H5Dget_type(dataset), "read the type of " + name);
-  if (const H5T_class_t kind = H5Tget_class(type); kind != H5T_FLOAT && kind != H5T_INTEGER)
-    refuse(file, "has a dataset " + name + " that is not of real numbers; store float64");
-  hsize_t bytes = H5Tget_size(type);
-  for (const hsize_t extent : shape_of(dataset))
-    if (__builtin_mul_overflow(bytes, extent, &bytes))
-      refuse(file, "declares a dataset " + name + " larger than any memory; it is damaged");
-  const Properties layout(H5Dget_create_plist(dataset), "read the layout of " + name);
-  // No deflate stream is shorter than 1/1032 of its content.
-  constexpr hsize_t best_compression = 1032;
-  const bool packed = H5Pget_nfilters(layout) > 0;
-  std::error_code error;
-  const hsize_t stored =
-      std::min<hsize_t>(H5Dget_storage_size(dataset), std::filesystem::file_size(file, error));
-  if (error || bytes / (packed ? best_compression : 1) > stored)
-    refuse(file, "declares a dataset " + name +
-                     " larger than what it holds; it is truncated or "
-                     "damaged");
+void read_outline(const InputFile& file, const HandOver& hand_over) {
+  about(file, [&] {
+    const std::string bytes = encode(Outline(file).read());
+    hand_over(std::as_bytes(std::span(bytes)));
+  });
 }
 
-std::optional<double> number_attribute(hid_t object, const char* name) {
-  const auto open = open_scalar(object, name, H5T_FLOAT);
-  if (!open) return {};
-  if (H5Tget_class(open->type) == H5T_ENUM) {  // h5py's booleans
-    signed char flag = 0;
-    const Type native(H5Tget_native_type(open->type, H5T_DIR_ASCEND), "read an attribute");
-    if (H5Tget_size(native) != sizeof flag) return {};
-    check(H5Aread(open->attribute, native, &flag), std::string("read ") + name);
-    return flag;
-  }
-  double value = 0;
-  check(H5Aread(open->attribute, H5T_NATIVE_DOUBLE, &value), std::string("read ") + name);
-  return value;
+void read_numbers(const InputFile& file, const std::string& path,
+                  const std::vector<std::uint64_t>& shape, const HandOver& hand_over) {
+  about(file, [&] {
+    const File handle = open_descriptor(file.descriptor());
+    const Dataset dataset(H5Dopen2(handle, path.c_str(), H5P_DEFAULT), "open " + path);
+    const Properties properties(H5Dget_create_plist(dataset), "read the layout of " + path);
+    std::string why = strange_storage(properties);
+    const std::vector<hsize_t> now = why.empty() ? shape_of(dataset) : std::vector<hsize_t>{};
+    if (why.empty()) why = excess(file, dataset, properties, now);
+    if (!std::ranges::equal(now, shape)) why = "changed while it was read";
+    if (!why.empty()) refuse(file.path(), path + " " + why);
+    if (now.empty()) {
+      double value = 0;
+      check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value),
+            "read " + path);
+      return hand_over(std::as_bytes(std::span(&value, 1)));
+    }
+    hsize_t row = 1;
+    for (std::size_t i = 1; i < now.size(); ++i) row *= now[i];
+    const hsize_t rows = std::min(now[0], rows_at_once(properties, now));
+    std::vector<double> values(rows * row);
+    const Space in_file(H5Dget_space(dataset), "read " + path);
+    std::vector<hsize_t> start(now.size()), count = now;
+    for (hsize_t first = 0; first < now[0] && row > 0; first += rows) {
+      start[0] = first;
+      count[0] = std::min(rows, now[0] - first);
+      check(H5Sselect_hyperslab(in_file, H5S_SELECT_SET, start.data(), nullptr, count.data(),
+                                nullptr),
+            "read " + path);
+      const Space in_memory(
+          H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), "read " + path);
+      check(H5Dread(dataset, H5T_NATIVE_DOUBLE, in_memory, in_file, H5P_DEFAULT, values.data()),
+            "read " + path);
+      hand_over(std::as_bytes(std::span(values.data(), count[0] * row)));
+    }
+  });
 }
 
-std::optional<std::string> text_attribute(hid_t object, const char* name) {
-  const auto open = open_scalar(object, name, H5T_STRING);
-  if (!open) return {};
-  const std::string what = std::string("read ") + name;
-  if (H5Tis_variable_str(open->type) > 0) {
-    char* stored = nullptr;
-    const Type memory(H5Tcopy(open->type), what);
-    check(H5Aread(open->attribute, memory, &stored), what);
-    std::string text = stored ? stored : "";
-    H5free_memory(stored);
-    return text;
-  }
-  // An attribute lies in the object's header, where HDF5 itself has bounded its length.
-  std::string text(H5Tget_size(open->type), '\0');
-  check(H5Aread(open->attribute, open->type, text.data()), what);
-  text.resize(std::min(text.find('\0'), text.size()));
-  while (text.ends_with(' ')) text.pop_back();
-  return text;
+void alone(const std::function<void()>& work) {
+  be_silent();
+  // HDF5 holds its own lock while it calls back, hence no other thread is between two states of it.
+  const auto call = [](hid_t, const char*, void* argument) -> herr_t {
+    (*static_cast<const std::function<void()>*>(argument))();
+    return 1;
+  };
+  H5Piterate(H5P_FILE_ACCESS_DEFAULT, nullptr, call, const_cast<std::function<void()>*>(&work));
 }
 
 }  // namespace salebra::detail::hdf5

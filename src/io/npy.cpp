@@ -8,6 +8,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "input_file.hpp"
 #include "loaded_surface.hpp"
 #include "md5.hpp"
 #include "sidecar.hpp"
@@ -138,7 +139,8 @@ void read_sidecar(const std::filesystem::path& file, std::string_view content,
                   LoadedSurface& surface) {
   const std::filesystem::path sidecar = sidecar_of(file);
   if (!std::filesystem::exists(sidecar)) return;
-  const auto json = nlohmann::json::parse(file_content(sidecar), nullptr, false);
+  constexpr std::uint64_t most = 1 << 20;
+  const auto json = nlohmann::json::parse(InputFile(sidecar).content(most), nullptr, false);
   try {
     // Half of a pair that a fault or a crash left, or an array that was saved anew.
     if (json.contains("md5") && json.at("md5").get<std::string>() != md5(content))

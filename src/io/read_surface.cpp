@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reading of a surface: format by content, then size, unit and period from options or file.
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/io/read_surface.hpp>
 
+#include "input_file.hpp"
 #include "loaded_surface.hpp"
 
 namespace salebra {
@@ -25,8 +22,11 @@ detail::LoadedSurface load(const std::filesystem::path& file) {
 
 double size_along(const std::filesystem::path& file, const char* field,
                   const std::optional<double>& given, const std::optional<double>& stated) {
+  // Spectra divide by products of four steps, which must neither vanish nor overflow.
+  const auto usable = [](double size) { return size >= 1e-60 && size <= 1e60; };
   if (given) {
     require_positive(*given, field);
+    require(usable(*given), field, *given, "must be from 1e-60 to 1e60, m");
     return *given;
   }
   if (!stated)
@@ -35,6 +35,10 @@ double size_along(const std::filesystem::path& file, const char* field,
   if (!std::isfinite(*stated) || *stated <= 0)
     detail::refuse(file, "states a " + std::string(field) + " of " + std::to_string(*stated) +
                              " m, which is not > 0; give size_x and size_y (--size-x, --size-y)");
+  if (!usable(*stated))
+    detail::refuse(file, "states a " + std::string(field) +
+                             " that is not from 1e-60 to 1e60 m; give size_x and size_y (--size-x, "
+                             "--size-y)");
   return *stated;
 }
 
@@ -50,31 +54,9 @@ void refuse(const std::filesystem::path& file, const std::string& what) {
   throw InvalidInput(file.string() + ": " + line);
 }
 
-bool is_hdf5(const std::filesystem::path& file) {
-  std::array<char, 8> head{};
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(head.data(), head.size());
-  return std::string_view(head.data(), head.size()) == "\x89HDF\r\n\x1a\n";
-}
+bool is_hdf5(const std::filesystem::path& file) { return InputFile(file).is_hdf5(); }
 
-std::string file_content(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) refuse(file, "does not exist; check the path");
-  if (!std::filesystem::is_regular_file(status))
-    refuse(file, "is not a regular file; name a surface file");
-  std::ifstream stream(file, std::ios::binary);
-  const auto size = std::filesystem::file_size(file, error);
-  if (!stream || error)
-    refuse(file,
-           std::string("cannot be read (") + std::strerror(errno) + "); check its permissions");
-  if (size == 0) refuse(file, "is empty; name a surface file");
-  std::string content(size, '\0');
-  stream.read(content.data(), static_cast<std::streamsize>(size));
-  if (stream.gcount() != static_cast<std::streamsize>(size))
-    refuse(file, "ended while it was read; is another program writing it?");
-  return content;
-}
+std::string file_content(const std::filesystem::path& file) { return InputFile(file).content(); }
 
 LoadedSurface read_content(const std::filesystem::path& file, std::string_view content) {
   if (content.starts_with(npy_magic)) return read_npy(file, content);

@@ -9,8 +9,11 @@
 namespace salebra::detail {
 namespace {
 
-/// No deflate stream is shorter than 1/1032 of its content.
-constexpr std::uint64_t best_compression = 1032;
+/// Bytes of a member that an archive of so many may hold. Deflate packs zeros a thousand times, heights of a measurement hardly
+/// four times; integers of two bytes become doubles.
+std::uint64_t most_bytes(std::uint64_t archive_size) {
+  return (std::uint64_t{32} << 20) + 8 * archive_size;
+}
 
 struct CloseArchive {
   void operator()(zip_t* archive) const { zip_discard(archive); }
@@ -37,12 +40,13 @@ Archive opened(const std::filesystem::path& file, std::string_view content) {
 }
 
 std::optional<std::string> extracted(const std::filesystem::path& file, zip_t* archive,
-                                     const std::string& name, std::optional<std::uint64_t> bytes) {
+                                     const std::string& name, std::optional<std::uint64_t> bytes,
+                                     std::uint64_t archive_size) {
   const auto index = zip_name_locate(archive, name.c_str(), 0);
   if (index < 0) return {};
   const auto number = static_cast<std::uint64_t>(index);
   zip_stat_t about;
-  constexpr std::uint64_t needed = ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE;
+  constexpr std::uint64_t needed = ZIP_STAT_SIZE;
   if (zip_stat_index(archive, number, 0, &about) != 0 || (about.valid & needed) != needed)
     refuse(file, "does not state the size of its member " + name + "; it is damaged");
   if (bytes && about.size != *bytes)
@@ -50,7 +54,7 @@ std::optional<std::string> extracted(const std::filesystem::path& file, zip_t* a
                      " where its main.xml asks for " + std::to_string(*bytes) +
                      "; it is truncated or damaged");
   if (about.size > (bytes ? *bytes : max_xml_size) ||
-      about.size / best_compression > about.comp_size)
+      about.size > most_bytes(archive_size))
     refuse(file, "declares " + std::to_string(about.size) + " bytes for its member " + name +
                      ", more than it can hold; it is damaged or made to fill the memory");
   const std::unique_ptr<zip_file_t, CloseMember> stream(zip_fopen_index(archive, number, 0));
@@ -78,7 +82,7 @@ bool is_zip(std::string_view content) { return content.starts_with("PK\x03\x04")
 LoadedSurface read_x3p(const std::filesystem::path& file, std::string_view content) {
   const Archive archive = opened(file, content);
   return x3p_surface(file, [&](const std::string& name, std::optional<std::uint64_t> bytes) {
-    return extracted(file, archive.get(), name, bytes);
+    return extracted(file, archive.get(), name, bytes, content.size());
   });
 }
 

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "assets.hpp"
-#include "io/rehearsal.hpp"
 #include "payload.hpp"
 
 namespace salebra {
@@ -83,16 +82,9 @@ void require_report(const std::filesystem::path& html, const WriteOptions& optio
 void write_report(const std::filesystem::path& results, const std::filesystem::path& html,
                   const ReportOptions& options) {
   require_report(html, options.write);
-  // HDF5 1.10 may crash on a damaged file.
-  detail::rehearse(results, [&] { detail::report_payload(ResultReader(results)); });
   nlohmann::ordered_json payload = detail::report_payload(ResultReader(results));
-  for (const std::filesystem::path& file : options.direct) {
-    detail::rehearse(file, [&] {
-      nlohmann::ordered_json copy = payload;
-      detail::add_direct(copy, ResultReader(file));
-    });
+  for (const std::filesystem::path& file : options.direct)
     detail::add_direct(payload, ResultReader(file));
-  }
   const std::string name = results.filename().string();
   payload["results"] = name;
   payload["title"] = options.title;

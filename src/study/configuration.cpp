@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/study/configuration.hpp>
-#include <sstream>
 #include <unordered_set>
 
+#include "io/input_file.hpp"
 #include "toml_reader.hpp"
 
 namespace salebra {
@@ -295,6 +295,37 @@ const char* name_of(ContactModel model) {
   return std::ranges::find(model_names, model, [](const auto& item) { return item.first; })->second;
 }
 
+namespace {
+
+/// Each part of a dotted key is a table within a table to toml++, which takes them apart by recursion: a key of 60,000 parts would
+/// exhaust the stack. It limits the nesting of values itself. Strings are not told from keys here, decimal points are.
+void require_shallow_keys(std::string_view text, const std::string& name) {
+  constexpr int most = 32;
+  const auto is_word = [](char symbol) {
+    return std::isalnum(static_cast<unsigned char>(symbol)) || symbol == '_' || symbol == '-' ||
+           symbol == '+' || symbol == '.';
+  };
+  int parts = 0, line = 1;
+  for (std::size_t i = 0; i < text.size();) {
+    if (text[i] == '\n') {
+      ++line;
+      parts = 0;
+    }
+    const auto begin = text.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto end = std::find_if_not(begin, text.end(), is_word);
+    int dots = 0;  // runs of them
+    for (auto at = begin; at != end; ++at) dots += *at == '.' && (at == begin || at[-1] != '.');
+    const bool number = dots == 1 && std::isdigit(static_cast<unsigned char>(*begin));
+    if (!number) parts += std::min(dots, most + 1);
+    if (parts > most)
+      throw InvalidInput(fmt::format("{}:{}: has a key of more than {} parts; correct it", name,
+                                     line, most));
+    i = std::max(i + 1, static_cast<std::size_t>(end - text.begin()));
+  }
+}
+
+}  // namespace
+
 std::vector<ContactModel> contact_models(const std::vector<std::string>& names) {
   std::vector<ContactModel> models{ContactModel::bem};
   for (const std::string& name : names) {
@@ -311,6 +342,7 @@ bool StudyConfiguration::has(ContactModel model) const {
 
 StudyConfiguration parse_study_configuration(const std::string& text, const std::string& name,
                                              const std::filesystem::path& folder) {
+  require_shallow_keys(text, name);
   toml::table document;
   try {
     document = toml::parse(text, name);
@@ -347,12 +379,9 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
 }
 
 StudyConfiguration read_study_configuration(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  require(stream.good() && std::filesystem::is_regular_file(file), file.string(), "",
-          "cannot be read; check its name");
-  return parse_study_configuration(text.str(), file.string(), file.parent_path());
+  constexpr std::uint64_t most = 4 << 20;
+  return parse_study_configuration(detail::InputFile(file).content(most), file.string(),
+                                   file.parent_path());
 }
 
 StudyConfiguration with_surface(StudyConfiguration configuration, MeasuredSurface surface) {

@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <fstream>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/study/parts.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "io/atomic_file.hpp"
+#include "io/input_file.hpp"
 #include "realisation_record.hpp"
 #include "study_lock.hpp"
 
@@ -98,12 +97,9 @@ bool StudyParts::holds(std::uint64_t key) const {
 
 std::optional<Realisation> StudyParts::read(std::uint64_t key) {
   const std::filesystem::path file = state_->file(key);
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return {};
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
+  if (!std::filesystem::exists(file)) return {};
   try {
-    return detail::decode(bytes.str(), key);
+    return detail::decode(detail::InputFile(file).content(), key);
   } catch (const detail::OtherArithmetic& other) {
     throw InvalidInput(fmt::format(
         "{}: its surfaces were computed by {}, and this program computes by {}: their last digits "

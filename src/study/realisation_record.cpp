@@ -4,12 +4,12 @@
 
 #include <array>
 #include <cstring>
-#include <fstream>
+#include <filesystem>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
-#include <sstream>
 #include <type_traits>
 
+#include "io/input_file.hpp"
 #include "io/sidecar.hpp"
 #include "point_run.hpp"
 
@@ -202,11 +202,9 @@ void fields(A& archive, S& s) {
   archive(s.normal_amplitude, s.drag_velocity, s.angular_frequency);
 }
 
+/// Empty where there is no such file.
 std::string contents(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
+  return std::filesystem::exists(file) ? InputFile(file).content() : std::string();
 }
 
 std::string header(std::uint64_t key, std::uint64_t length, std::uint64_t sum) {

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "hdf5_handle.hpp"
+
+namespace salebra::detail::hdf5 {
+
+/// The HDF5 file behind an open descriptor, which stays the caller's. Nothing is opened by name, locked or written.
+File open_descriptor(int descriptor);
+
+}  // namespace salebra::detail::hdf5

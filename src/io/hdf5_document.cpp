@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Plain values of an HDF5 file, and their way through the runner that reads it.
+#include "hdf5_document.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <salebra/io/hdf5_runner.hpp>
+
+#include "loaded_surface.hpp"
+
+namespace salebra {
+namespace {
+
+std::atomic<Hdf5Runner> runner = nullptr;
+
+void run(const Hdf5Reading& reading) {
+  if (const Hdf5Runner installed = runner) return installed(reading);
+  reading.read([&](std::span<const std::byte> bytes) {
+    if (!bytes.empty())
+      std::memcpy(reading.place(bytes.size()).data(), bytes.data(), bytes.size());
+  });
+}
+
+}  // namespace
+
+void set_hdf5_runner(Hdf5Runner installed) { runner = installed; }
+
+namespace detail::hdf5 {
+namespace {
+
+/// "/", or every name of the path after a slash.
+std::string normal(std::string_view path) {
+  std::string result;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('/', begin), path.size());
+    if (end > begin) result += "/" + std::string(path.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return result.empty() ? "/" : result;
+}
+
+const AttributeValue* attribute_of(const Object& object, std::string_view name) {
+  for (const auto& [known, value] : object.attributes)
+    if (known == name) return &value;
+  return nullptr;
+}
+
+Hdf5Reading reading_of(const InputFile& file, std::uint64_t bytes) {
+  // Unpacking and conversion take 40 MB/s on the slowest machine that is to be expected; a file that takes more keeps HDF5 in circles.
+  constexpr std::uint64_t slowest = 40'000'000, least = 5;
+  Hdf5Reading reading;
+  reading.file = file.path();
+  reading.descriptor = file.descriptor();
+  reading.memory = (std::uint64_t{192} << 20) + 48 * file.size();
+  reading.seconds = least + (file.size() + bytes) / slowest;
+  reading.alone = alone;
+  return reading;
+}
+
+struct Writer {
+  std::string bytes;
+
+  void number(std::uint64_t value) { bytes.append(reinterpret_cast<char*>(&value), sizeof value); }
+  void numbers(const std::vector<double>& values) {
+    number(values.size());
+    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
+  }
+  void text(std::string_view value) {
+    number(value.size());
+    bytes += value;
+  }
+};
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& file, std::string_view bytes) : file_(file), rest_(bytes) {}
+
+  std::uint64_t number() {
+    std::uint64_t value;
+    std::memcpy(&value, take(sizeof value).data(), sizeof value);
+    return value;
+  }
+  /// How many entries of at least so many bytes follow.
+  std::size_t count(std::size_t least_bytes) {
+    const std::uint64_t value = number();
+    if (value > rest_.size() / least_bytes) wrong();
+    return value;
+  }
+  std::vector<double> numbers() {
+    std::vector<double> values(count(sizeof(double)));
+    const std::string_view bytes = take(values.size() * sizeof(double));
+    if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+  }
+  std::string text() { return std::string(take(count(1))); }
+  Object::Kind kind() {
+    const std::uint64_t value = number();
+    if (value > static_cast<std::uint64_t>(Object::Kind::refused)) wrong();
+    return static_cast<Object::Kind>(value);
+  }
+  bool at_end() const { return rest_.empty(); }
+  [[noreturn]] void wrong() const {
+    refuse(file_, "makes the HDF5 library give a wrong answer; it is damaged");
+  }
+
+ private:
+  std::string_view take(std::size_t bytes) {
+    if (bytes > rest_.size()) wrong();
+    const std::string_view taken = rest_.substr(0, bytes);
+    rest_.remove_prefix(bytes);
+    return taken;
+  }
+
+  const std::filesystem::path& file_;
+  std::string_view rest_;
+};
+
+AttributeValue decoded_attribute(Reader& reader) {
+  switch (reader.number()) {
+    case 0:
+      return {};
+    case 1: {
+      const std::vector<double> value = reader.numbers();
+      if (value.size() != 1) reader.wrong();
+      return value.front();
+    }
+    case 2:
+      return reader.text();
+    default:
+      reader.wrong();
+  }
+}
+
+Object decoded_object(Reader& reader) {
+  constexpr std::size_t entry = sizeof(std::uint64_t);
+  Object object;
+  object.kind = reader.kind();
+  object.refusal = reader.text();
+  object.attributes.resize(reader.count(2 * entry));
+  for (auto& [name, value] : object.attributes) {
+    name = reader.text();
+    value = decoded_attribute(reader);
+  }
+  object.members.resize(reader.count(2 * entry));
+  for (auto& [name, kind] : object.members) {
+    name = reader.text();
+    kind = reader.kind();
+  }
+  object.shape.resize(reader.count(entry));
+  std::uint64_t doubles = sizeof(double);
+  for (std::uint64_t& extent : object.shape) {
+    extent = reader.number();
+    if (object.refusal.empty() && __builtin_mul_overflow(doubles, extent, &doubles)) reader.wrong();
+  }
+  for (auto* names : {&object.coordinates, &object.labels}) {
+    names->resize(reader.count(entry));
+    for (std::string& name : *names) name = reader.text();
+  }
+  if (reader.number() != 0) {
+    object.numbers = reader.numbers();
+    if (!object.refusal.empty() || object.numbers->size() != object.count()) reader.wrong();
+  }
+  return object;
+}
+
+}  // namespace
+
+std::uint64_t Object::count() const {
+  std::uint64_t product = 1;
+  for (const std::uint64_t extent : shape) product *= extent;
+  return product;
+}
+
+std::optional<double> Object::number(std::string_view attribute) const {
+  const AttributeValue* value = attribute_of(*this, attribute);
+  const auto* number = value ? std::get_if<double>(value) : nullptr;
+  return number ? std::optional(*number) : std::nullopt;
+}
+
+std::optional<std::string> Object::text(std::string_view attribute) const {
+  const AttributeValue* value = attribute_of(*this, attribute);
+  const auto* text = value ? std::get_if<std::string>(value) : nullptr;
+  return text ? std::optional(*text) : std::nullopt;
+}
+
+std::uint64_t most_bytes(std::uint64_t file_size) {
+  return (std::uint64_t{128} << 20) + 32 * file_size;
+}
+
+std::string encode(const Objects& objects) {
+  Writer writer;
+  for (const auto& [path, object] : objects) {
+    writer.text(path);
+    writer.number(static_cast<std::uint64_t>(object.kind));
+    writer.text(object.refusal);
+    writer.number(object.attributes.size());
+    for (const auto& [name, value] : object.attributes) {
+      writer.text(name);
+      writer.number(value.index());
+      if (const auto* number = std::get_if<double>(&value)) writer.numbers({*number});
+      if (const auto* text = std::get_if<std::string>(&value)) writer.text(*text);
+    }
+    writer.number(object.members.size());
+    for (const auto& [name, kind] : object.members) {
+      writer.text(name);
+      writer.number(static_cast<std::uint64_t>(kind));
+    }
+    writer.number(object.shape.size());
+    for (const std::uint64_t extent : object.shape) writer.number(extent);
+    for (const auto* names : {&object.coordinates, &object.labels}) {
+      writer.number(names->size());
+      for (const std::string& name : *names) writer.text(name);
+    }
+    writer.number(object.numbers ? 1 : 0);
+    if (object.numbers) writer.numbers(*object.numbers);
+  }
+  return std::move(writer.bytes);
+}
+
+Objects decode(const std::filesystem::path& file, std::string_view bytes) {
+  Objects objects;
+  Reader reader(file, bytes);
+  while (!reader.at_end()) {
+    std::string path = reader.text();
+    objects.insert_or_assign(std::move(path), decoded_object(reader));
+  }
+  if (!objects.contains("/")) reader.wrong();
+  return objects;
+}
+
+Document::Document(InputFile file) : file_(std::move(file)) {
+  if (!file_.is_hdf5()) refuse(path(), "is no HDF5 file; name one");
+  std::string bytes;
+  Hdf5Reading reading = reading_of(file_, 0);
+  reading.read = [&](const HandOver& hand_over) { read_outline(file_, hand_over); };
+  reading.place = [&](std::size_t count) {
+    if (count > most_bytes(file_.size()) - bytes.size())
+      refuse(path(), "has an outline larger than its content; it is damaged");
+    bytes.resize(bytes.size() + count);
+    return std::as_writable_bytes(std::span(bytes)).last(count);
+  };
+  run(reading);
+  objects_ = decode(path(), bytes);
+  for (const auto& [name, object] : objects_)
+    if (object.refusal.empty() && object.count() > most_bytes(file_.size()) / sizeof(double))
+      refuse(path(), "makes the HDF5 library give a wrong answer; it is damaged");
+}
+
+const Object* Document::find(std::string_view path) const {
+  const auto found = objects_.find(normal(path));
+  return found == objects_.end() ? nullptr : &found->second;
+}
+
+const Object& Document::group(const std::string& path) const {
+  const Object* object = find(path);
+  if (!object) refuse(file_.path(), "has no group " + path + "; was it written by salebra?");
+  if (!object->refusal.empty()) refuse(file_.path(), "has a " + path + " that " + object->refusal);
+  if (object->kind != Object::Kind::group) refuse(file_.path(), "has no group in " + path);
+  return *object;
+}
+
+const Object& Document::dataset(const std::string& path) const {
+  const Object* object = find(path);
+  if (!object) refuse(file_.path(), "has no dataset " + path + "; was it written by salebra?");
+  if (object->kind == Object::Kind::refused)
+    refuse(file_.path(), "has a " + path + " that " + object->refusal);
+  if (object->kind == Object::Kind::group)
+    refuse(file_.path(), "has a group and no dataset in " + path);
+  return *object;
+}
+
+const Object& Document::numeric(const std::string& path) const {
+  const Object& object = dataset(path);
+  if (object.kind != Object::Kind::numbers)
+    refuse(file_.path(), "has a dataset " + path + " that is not of real numbers; store float64");
+  if (!object.refusal.empty())
+    refuse(file_.path(), "has a dataset " + path + " that " + object.refusal);
+  return object;
+}
+
+void Document::numbers(const std::string& path, std::span<double> values) const {
+  const Object& object = numeric(path);
+  if (values.size() != object.count())
+    refuse(file_.path(), "has " + std::to_string(object.count()) + " values in " + path);
+  if (object.numbers) {
+    std::ranges::copy(*object.numbers, values.begin());
+    return;
+  }
+  Hdf5Reading reading = reading_of(file_, values.size_bytes());
+  reading.read = [&](const HandOver& hand_over) {
+    read_numbers(file_, normal(path), object.shape, hand_over);
+  };
+  std::size_t filled = 0;
+  reading.place = [&](std::size_t count) {
+    if (count > values.size_bytes() - filled)
+      refuse(file_.path(), "makes the HDF5 library give a wrong answer; it is damaged");
+    filled += count;
+    return std::as_writable_bytes(values).subspan(filled - count, count);
+  };
+  run(reading);
+  if (filled != values.size_bytes())
+    refuse(file_.path(), "makes the HDF5 library give a wrong answer; it is damaged");
+}
+
+}  // namespace detail::hdf5
+}  // namespace salebra

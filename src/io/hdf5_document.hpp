@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "input_file.hpp"
+
+/// What an HDF5 file says, as plain values: the one interface between HDF5 and everything that reads.
+namespace salebra::detail::hdf5 {
+
+/// A number of any type, a text, or something else.
+using AttributeValue = std::variant<std::monostate, double, std::string>;
+
+/// A group, a dataset, or what is refused under its name.
+struct Object {
+  enum class Kind : std::uint8_t { group, numbers, labels, refused };
+  Kind kind = Kind::refused;
+  std::string refusal;  ///< why it is not read, as in "is an external link; …"
+  std::vector<std::pair<std::string, AttributeValue>> attributes;  ///< in the order of their names
+  std::vector<std::pair<std::string, Kind>> members;  ///< of a group, in the order of their names
+  std::vector<std::uint64_t> shape;                   ///< of a dataset; empty for a scalar
+  std::vector<std::string> coordinates;               ///< names of a dataset's dimension scales
+  std::vector<std::string> labels;                    ///< of a list of names
+  std::optional<std::vector<double>> numbers;         ///< of a small dataset
+
+  /// Product of the extents.
+  std::uint64_t count() const;
+  std::optional<double> number(std::string_view attribute) const;
+  std::optional<std::string> text(std::string_view attribute) const;
+};
+
+/// The outline of a file with all attributes and small datasets; large datasets are read when they are requested.
+/// Links and references to other files, symbolic links, external storage, virtual datasets, and filters other than one shuffle, one
+/// deflate and one fletcher32 are refused where they are requested; nothing beside the file is ever read.
+/// cost     memory: at most 64 times the file and 256 MB, in the process that reads
+class Document {
+ public:
+  /// Throws InvalidInput naming the file for what is not HDF5, or damaged.
+  explicit Document(InputFile file);
+
+  const std::filesystem::path& path() const { return file_.path(); }
+  /// The object at "curve/pressure"; "/" is the root. nullptr: there is none.
+  const Object* find(std::string_view path) const;
+  /// The same, of that kind. Throws InvalidInput where there is none, and where it is refused.
+  const Object& group(const std::string& path) const;
+  const Object& dataset(const std::string& path) const;
+  /// A dataset whose numbers can be read: count() of them fit in memory. Throws InvalidInput for any other.
+  const Object& numeric(const std::string& path) const;
+  /// Copies the values of a dataset of numbers, count() of them, the last dimension contiguous.
+  /// Throws InvalidInput as numeric() does, and where they turn out to be damaged.
+  void numbers(const std::string& path, std::span<double> values) const;
+
+ private:
+  InputFile file_;
+  std::map<std::string, Object, std::less<>> objects_;  ///< by normal path: "/", "/curve/pressure"
+};
+
+/// What Document may take of a file: bytes of one dataset as doubles.
+std::uint64_t most_bytes(std::uint64_t file_size);
+
+/// The two sides of the runner. The reading side is the only one that calls HDF5 on a file.
+using HandOver = std::function<void(std::span<const std::byte>)>;
+void read_outline(const InputFile& file, const HandOver& hand_over);
+/// shape   as the outline said; a file that changed since is refused
+void read_numbers(const InputFile& file, const std::string& path,
+                  const std::vector<std::uint64_t>& shape, const HandOver& hand_over);
+/// Calls work while no other thread is inside HDF5.
+void alone(const std::function<void()>& work);
+
+/// Objects by path as bytes, and back. Decoding takes nothing for granted; what is not what encode() writes throws InvalidInput.
+using Objects = std::map<std::string, Object, std::less<>>;
+std::string encode(const Objects& objects);
+Objects decode(const std::filesystem::path& file, std::string_view bytes);
+
+}  // namespace salebra::detail::hdf5

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files from outside: regular ones only, opened once.
+#include "input_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <salebra/base/memory.hpp>
+#include <utility>
+
+#include "loaded_surface.hpp"
+
+namespace salebra::detail {
+namespace {
+
+[[noreturn]] void refuse_unreadable(const std::filesystem::path& path, int error) {
+  refuse(path, std::string("cannot be read (") + std::strerror(error) +
+                   "); check its permissions and the disk");
+}
+
+}  // namespace
+
+InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
+  // O_NONBLOCK: a named pipe is opened without waiting for its other end, and then refused.
+  do {
+    descriptor_ = open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  } while (descriptor_ < 0 && errno == EINTR);
+  const int error = errno;
+  if (descriptor_ < 0 && (error == ENOENT || error == ENOTDIR || error == ELOOP))
+    refuse(path_, "does not exist; check the path");
+  if (descriptor_ < 0 && error == ENXIO) refuse(path_, "is not a regular file; name another file");
+  if (descriptor_ < 0) refuse_unreadable(path_, error);
+  struct stat status {};
+  const bool known = fstat(descriptor_, &status) == 0;
+  if (!known || !S_ISREG(status.st_mode)) {
+    close(std::exchange(descriptor_, -1));
+    refuse(path_, "is not a regular file; name another file");
+  }
+  size_ = static_cast<std::uint64_t>(status.st_size);
+}
+
+InputFile::InputFile(InputFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      size_(other.size_) {}
+
+InputFile& InputFile::operator=(InputFile&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(descriptor_, other.descriptor_);
+  std::swap(size_, other.size_);
+  return *this;
+}
+
+InputFile::~InputFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+std::string InputFile::head(std::uint64_t bytes) const {
+  std::string content(std::min(bytes, size_), '\0');
+  for (std::size_t filled = 0; filled < content.size();) {
+    const ssize_t got = pread(descriptor_, content.data() + filled, content.size() - filled,
+                              static_cast<off_t>(filled));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) refuse_unreadable(path_, errno);
+    if (got == 0) refuse(path_, "ended while it was read; is another program writing it?");
+    filled += static_cast<std::size_t>(got);
+  }
+  return content;
+}
+
+std::string InputFile::content(std::uint64_t limit) const {
+  if (size_ == 0) refuse(path_, "is empty; name another file");
+  // A file with holes takes no room on the disk, whatever its size.
+  constexpr std::uint64_t any_memory = 64 << 20;
+  if (size_ > any_memory) limit = std::min<std::uint64_t>(limit, available_memory());
+  if (size_ > limit)
+    refuse(path_, "has " + std::to_string(size_) + " bytes, and at most " + std::to_string(limit) +
+                      " can be read here; name another file");
+  return head(size_);
+}
+
+bool InputFile::is_hdf5() const {
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  return head(signature.size()) == signature;
+}
+
+}  // namespace salebra::detail

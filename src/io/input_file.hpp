@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+namespace salebra::detail {
+
+/// A file from outside, opened once: what is read later is what was judged, whatever happens to its name.
+/// Only a regular file is opened. A pipe or a device would let a reader wait for ever or read without end.
+class InputFile {
+ public:
+  /// Throws InvalidInput naming the file if there is no such regular file, or the system does not let it be read.
+  explicit InputFile(std::filesystem::path path);
+  InputFile(InputFile&& other) noexcept;
+  InputFile& operator=(InputFile&& other) noexcept;
+  ~InputFile();
+
+  const std::filesystem::path& path() const { return path_; }
+  int descriptor() const { return descriptor_; }
+  std::uint64_t size() const { return size_; }
+
+  /// Bytes from the start: all, or fewer where the file ends before. Throws InvalidInput where they cannot be read.
+  std::string head(std::uint64_t bytes) const;
+  /// The whole file. Throws InvalidInput for an empty file, for one of more than `limit` bytes, and for one that does not fit
+  /// in the memory that is free.
+  std::string content(std::uint64_t limit = std::numeric_limits<std::uint64_t>::max()) const;
+  /// Whether the file begins as HDF5 does.
+  bool is_hdf5() const;
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace salebra::detail

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files of strangers, read by the program: each is read or refused in one line, within bounds, and nothing beside it is read.
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "hostile_files.hpp"
+#include "run_program.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A run of the program, and what it may cost: 64 times the file and 256 MB, and 10 s of a processor. Limits, not expectations:
+/// nearly all take a hundredth.
+ProgramTest::Result run_bounded(const ProgramTest& test, const std::string& command,
+                                std::uint64_t file_bytes) {
+  const auto used = [] {
+    rusage all{};
+    getrusage(RUSAGE_CHILDREN, &all);
+    return all;
+  };
+  const auto seconds = [](const rusage& all) {
+    return static_cast<double>(all.ru_utime.tv_sec + all.ru_stime.tv_sec) +
+           1e-6 * static_cast<double>(all.ru_utime.tv_usec + all.ru_stime.tv_usec);
+  };
+  const rusage before = used();
+  const auto result = test.run(command);
+  const rusage after = used();
+  CHECK(seconds(after) - seconds(before) <= 10);
+  // The system keeps the largest of all children: where it has not grown, this one took no more.
+  if (after.ru_maxrss > before.ru_maxrss)
+    CHECK(static_cast<std::uint64_t>(after.ru_maxrss) * 1024 <=
+          64 * file_bytes + (std::uint64_t{256} << 20));
+  return result;
+}
+
+/// Status 2, one line, and no byte in it that a terminal obeys.
+void check_harmless(const ProgramTest::Result& result, const std::string& part) {
+  check_refused(result, part);
+  CHECK(std::ranges::none_of(result.err.substr(0, result.err.size() - 1), [](char symbol) {
+    return (symbol >= 0 && symbol < ' ') || symbol == '\x7f';
+  }));
+}
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A folder in which secret.txt and a pipe without a writer lie.
+void lay_baits(const ProgramTest& test) {
+  test.write("secret.txt", hostile::secret);
+  REQUIRE(mkfifo((test.folder() / "pipe").c_str(), 0600) == 0);
+}
+
+const std::string motion =
+    " --contact-modulus 10GPa --poisson 0.3 --normal-amplitude 0.1nm --drag-velocity 1mm/s "
+    "--frequency 20kHz ";
+
+}  // namespace
+
+TEST_CASE("Hostile HDF5 files are read right or refused in one line, at a bounded cost",
+          "[hostile]") {
+  const ProgramTest test;
+  lay_baits(test);
+  for (const hostile::File& file : hostile::write_hdf5_files(test.folder())) {
+    INFO(file.name);
+    const std::uint64_t bytes = fs::file_size(test.folder() / file.name);
+    for (const std::string& command :
+         {"info " + file.name, "convert " + file.name + " " + file.name + ".npy"}) {
+      INFO(command);
+      const auto result = run_bounded(test, command, bytes);
+      INFO(result.err);
+      if (file.readable)
+        CHECK(result.status == 0);
+      else
+        check_harmless(result, file.expected);
+      CHECK_FALSE(holds(result.out + result.err, "s3cret"));
+    }
+    if (file.readable)
+      CHECK_FALSE(holds(test.read(file.name + ".npy"), "s3cret"));
+    else
+      CHECK_FALSE(fs::exists(test.folder() / (file.name + ".npy")));
+  }
+}
+
+TEST_CASE("Every command that reads HDF5 refuses storage outside the file", "[hostile]") {
+  const ProgramTest test;
+  lay_baits(test);
+  hostile::write_hdf5_files(test.folder());
+  REQUIRE(test.run("generate --points 16 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um --rms-height 1nm -o s.h5")
+              .status == 0);
+  // Each command meets its dataset where it looks for it; what it says of the rest of the file is its own matter.
+  const std::string press = "contact s.h5 --pressure 1MPa --contact-modulus 10GPa ";
+  for (const std::string& command :
+       {std::string("fit elsewhere.h5"), press + "--initial elsewhere.h5",
+        "damping --curve elsewhere.h5 --pressure 1MPa" + motion,
+        "oscillate s.h5 --pressure 1MPa --checkpoint elsewhere.h5 --resume" + motion}) {
+    INFO(command);
+    for (const char* file : {"external-storage.h5", "external-link.h5", "virtual.h5", "pipe",
+                             "/dev/zero", "/dev/full", "."}) {
+      INFO(file);
+      std::string actual = command;
+      actual.replace(actual.find("elsewhere.h5"), 12, file);
+      const auto result = run_bounded(test, actual, 0);
+      INFO(result.err);
+      check_harmless(result, "");
+      CHECK_FALSE(holds(result.err, "s3cret"));
+    }
+  }
+}
+
+TEST_CASE("Pipes, devices and folders are refused by every reader at once", "[hostile]") {
+  const ProgramTest test;
+  lay_baits(test);
+  REQUIRE(mkfifo((test.folder() / "a.npy.json").c_str(), 0600) == 0);
+  REQUIRE(test.run("generate --points 16 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um --rms-height 1nm -o s.npy")
+              .status == 0);
+  fs::copy_file(test.folder() / "s.npy", test.folder() / "a.npy");
+  check_harmless(test.run("info a.npy"), "a.npy.json: is not a regular file");
+  for (const std::string file : {"pipe", "/dev/zero", "/dev/tty", "."}) {
+    for (const std::string& command :
+         {"info " + file, "convert " + file + " b.npy", "statistics " + file, "fit " + file,
+          "study " + file + " -o r.h5", "study --surface " + file + " -o r.h5",
+          "damping --curve " + file + " --pressure 1MPa" + motion,
+          "mdr --shape table --table " + file + " --indentation 1nm --contact-modulus 1GPa"}) {
+      INFO(command);
+      const auto result = run_bounded(test, command, 0);
+      INFO(result.err);
+      check_harmless(result, "");
+    }
+  }
+  CHECK(test.files() == std::set<std::string>{"a.npy", "a.npy.json", "pipe", "s.npy",
+                                              "s.npy.json", "secret.txt"});
+}
+
+TEST_CASE("Headers that promise more than their file, deep nesting and tiny numbers end in an answer",
+          "[hostile]") {
+  const ProgramTest test;
+  const auto tried = [&](const std::string& name, const std::string& content,
+                         const std::string& command) {
+    INFO(name);
+    test.write(name, content);
+    const auto result = run_bounded(test, command, content.size());
+    INFO(result.err);
+    if (result.status != 0) check_harmless(result, "");
+    CHECK(result.status >= 0);
+  };
+  const auto surface = [&](const std::string& name, const std::string& content) {
+    tried(name, content, "info " + name);
+    tried(name, content, "convert " + name + " x.npy --force");
+    tried(name, content, "info --size-x 1um --size-y 1um " + name);
+  };
+  const auto npy = [](const std::string& description) {
+    std::string header = description + std::string(118 - description.size() - 1, ' ') + "\n";
+    return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + header + std::string(64, '\0');
+  };
+  surface("huge.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (4000000000, 4000000000), }"));
+  surface("long.npy", std::string("\x93NUMPY\x02\x00\xff\xff\xff\xff", 12));
+  surface("huge.gsf", "Gwyddion Simple Field 1.0\nXRes = 2000000000\nYRes = 2000000000\n");
+  surface("huge.gxyzf",
+          "Gwyddion XYZ Field 1.0\nNChannels = 1\nNPoints = 4000000000000000000\n\n" + std::string(32, '\0'));
+  surface("huge.sur", "DIGITAL SURF" + std::string(500, '\xff'));
+  surface("huge.nc", std::string("CDF\x02\x00\x00\x00\x00\x00\x00\x00\x0a\x7f\xff\xff\xff", 16) +
+                         std::string(64, '\xff'));
+  surface("zip.x3p", "PK\x03\x04" + std::string(64, '\xff'));
+  surface("tiny.txt", "# Width: 1e-320 m\n# Height: 1e-320 m\n1 2 3 1\n2 3 4 5\n1 2 1 2\n4 1 2 2\n");
+  surface("row.txt", std::string(1 << 20, ' ') + "1\n2\n");
+  surface("points.xyz", "0 0 1e308\n1e-320 0 1\n0 1e308 1\n1e-320 1e308 5e-324\n");
+  surface("escape.txt", "# Width: 1 \x1b[2J\n1 2 \x1b[31m\n");
+
+  const std::string deep = "{\"size_x\":" + std::string(500000, '[');
+  test.write("deep.npy.json", deep);
+  tried("deep.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 4), }"), "info deep.npy");
+  test.write("tiny.npy.json", R"({"size_x": 1e-320, "size_y": 1e-320, "units": "m"})");
+  tried("tiny.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 4), }"), "info tiny.npy");
+
+  std::string key = "a";
+  for (int i = 0; i < 60000; ++i) key += ".a";
+  std::string nested;
+  for (int i = 0; i < 200; ++i) {
+    nested += "x = [{" + key.substr(0, 61) + " = [\n";
+    nested += "{";
+  }
+  tried("deep.toml", key + " = 1\n", "study deep.toml --dry-run");
+  tried("table.toml", "[" + key + "]\nx = 1\n", "study table.toml --dry-run");
+  tried("spaced.toml", "[\"=\" . " + key + "]\nx = 1\n", "study spaced.toml --dry-run");
+  tried("arrays.toml", "x = " + std::string(200000, '[') + "\n", "study arrays.toml --dry-run");
+  tried("nested.toml", nested, "study nested.toml --dry-run");
+  tried("escape.toml", "[surface]\n\"\\u001b[2J\" = 1\n", "study escape.toml --dry-run");
+  tried("curve.csv", "pressure [\x1b[2JPa], mean_gap [nm]\n1, 2\n", "fit curve.csv");
+  tried("cut.csv", "pressure [MPa], mean_gap [nm]\n1e-320, 5e-324\n1e308, 1e308\n", "fit cut.csv");
+}
+
+TEST_CASE("Names of files neither break the line nor command the terminal", "[hostile]") {
+  const ProgramTest test;
+  for (const std::string name : {"a\nb", "|touch pwned;", "a\"b'c", "-dash", "\x1b]0;title\x07", "\x9b" "2J", "a\tb"}) {
+    INFO(name);
+    test.write(name, "neither text nor numbers");
+    std::string quoted = "'";
+    for (const char symbol : name) quoted += symbol == '\'' ? std::string("'\\''") : std::string(1, symbol);
+    quoted += "'";
+    for (const std::string& command :
+         {"info ./" + quoted, "fit ./" + quoted,
+          "study ./" + quoted + " --dry-run", "info " + quoted}) {
+      INFO(command);
+      const auto result = test.run(command);
+      INFO(result.err);
+      check_harmless(result, "");
+      CHECK_FALSE(holds(result.err, "\x9b"));
+    }
+  }
+  CHECK_FALSE(fs::exists(test.folder() / "pwned"));
+}
+
+TEST_CASE("Names inside a file are printed with their control characters escaped", "[hostile]") {
+  const ProgramTest test;
+  test.write("points.txt", "1 2\n3 4\n");
+  const auto converted = test.run(
+      "convert points.txt s.h5 --size-x 1um --size-y 1um");
+  REQUIRE(converted.status == 0);
+  fs::rename(test.folder() / "s.h5", test.folder() / "\x1b[2J.h5");
+  const auto result = test.run("convert ./'\x1b[2J.h5' ./'\x1b[1A.npy'");
+  CHECK(result.status == 0);
+  CHECK_FALSE(holds(result.out + result.err, "\x1b"));
+}
