@@ -244,8 +244,10 @@ void Output::text_scale(hid_t group, const std::string& name,
   const Type type = text_type(H5T_VARIABLE);
   const hsize_t count = values.size();
   const Space space(H5Screate_simple(1, &count, nullptr), "write " + name);
+  const Properties creation(H5Pcreate(H5P_DATASET_CREATE), "write " + name);
+  check(H5Pset_obj_track_times(creation, false), "write " + name);
   const Dataset dataset(
-      H5Dcreate2(group, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Dcreate2(group, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
       "write " + name);
   if (count > 0)
     check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "write " + name);
