@@ -34,7 +34,8 @@ salebra::CycleSettings settings_in(const std::filesystem::path& checkpoint) {
                            "boundary",
                            "lateral",
                            "friction",
-                           "max_periods"})
+                           "max_periods",
+                           "arithmetic"})
     if (const auto value = reader.text_attribute("settings", name))
       settings.emplace_back(name, *value);
   return settings;
