@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/base/quantity.hpp>
+#include <salebra/results/quantity.hpp>
 #include <salebra/io/result_file.hpp>
 #include <string>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `salebra compare`: contact models side by side on the same surfaces.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,75 +39,55 @@ std::string with_error(const EnsembleMean& estimate, double scale = 1) {
                      scale * (estimate.high - estimate.low) / 2);
 }
 
-EnsembleMean over_rms_height(const StudyResult& result, double Realisation::*length) {
-  return result.mean([&](const Realisation& r) { return r.*length / r.heights.rms_height; });
-}
-
-std::vector<EnsembleMean> spots(const StudyResult& result, double SpotStatistics::*quantity) {
-  std::vector<EnsembleMean> estimates;
-  for (std::size_t k = 0; k < result.pressures.size(); ++k)
-    estimates.push_back(result.mean([&](const Realisation& r) { return r.spots[k].*quantity; }));
-  return estimates;
-}
-
 std::vector<EnsembleMean> bearing_area(const StudyResult& result) {
-  return at_pressures(result, [](const Realisation& r, std::size_t k) {
-    return bearing_area_fraction(r.bem.curve.samples[k].mean_gap, r.heights.rms_height);
+  return result.at_pressures([](const Realisation& r, std::size_t k) {
+    return bearing_area_fraction(r.of(ContactModel::bem).curve.samples[k].mean_gap,
+                                 r.heights.rms_height);
   });
 }
 
-/// K of Campañá, Persson and Müser, pA0/u0.
-std::vector<EnsembleMean> simple_stiffness(const StudyResult& result) {
-  return at_pressures(result, [&](const Realisation& r, std::size_t k) {
-    return result.pressures[k] * result.grid.area() / r.persson_decay_length;
-  });
+/// K of Campañá, Persson and Müser, pA0/u0, where Persson's theory was asked for.
+Json simple_stiffness(const StudyResult& result) {
+  if (!result.configuration.has(ContactModel::persson)) return nullptr;
+  return to_json(result.at_pressures([&](const Realisation& r, std::size_t k) {
+    return result.pressures[k] * result.grid.area() /
+           r.of(ContactModel::persson).asymptotic_decay_length;
+  }));
+}
+
+/// u0/h_rms of the same; unknown without the theory.
+EnsembleMean simple_decay_length(const StudyResult& result) {
+  if (!result.configuration.has(ContactModel::persson)) return {};
+  return result.fitted("asymptotic_decay_length_over_rms_height", ContactModel::persson);
 }
 
 Json model_json(const StudyResult& result, const StudyModel& model) {
   Json answer{{"title", model.title}};
-  Json& curve = answer["curve"];
-  curve["pressure"] = result.pressures;
-  for (const auto& [name, quantity] :
-       {std::pair{"mean_gap", &ForceSample::mean_gap},
-        {"separation", &ForceSample::separation},
-        {"force", &ForceSample::force},
-        {"contact_area_fraction", &ForceSample::contact_area_fraction},
-        {"normal_stiffness", &ForceSample::normal_stiffness},
-        {"tangential_stiffness", &ForceSample::tangential_stiffness}})
-    curve[name] = to_json(result.curve(model.result, quantity));
-  answer["decay_length"] = to_json(result.decay_length(model.result));
-  answer["decay_length_over_rms_height"] =
-      to_json(result.decay_length_over_rms_height(model.result));
-  answer["law_bend"] = to_json(result.law_bend(model.result));
-  answer["area_slope"] = to_json(result.area_slope(model.result));
-  const auto damping = [&](double DampingPoint::*quantity) {
-    return to_json(result.damping(quantity, model.result));
-  };
-  answer["damping_constant"] = {{"law", damping(&DampingPoint::law_damping_constant)},
-                                {"small_amplitude", damping(&DampingPoint::small_damping_constant)},
-                                {"curve", damping(&DampingPoint::curve_damping_constant)}};
-  const auto ratio = [&](double DampingPoint::*quantity) {
-    return to_json(result.damping_over_bem(model.result, quantity));
-  };
-  answer["over_bem"] = {
-      {"mean_gap", to_json(result.over_bem(model.result, &ForceSample::mean_gap))},
-      {"contact_area_fraction",
-       to_json(result.over_bem(model.result, &ForceSample::contact_area_fraction))},
-      {"normal_stiffness", to_json(result.over_bem(model.result, &ForceSample::normal_stiffness))},
-      {"damping_constant",
-       {{"law", ratio(&DampingPoint::law_work)},
-        {"small_amplitude", ratio(&DampingPoint::small_work)},
-        {"curve", ratio(&DampingPoint::curve_work)}}}};
+  answer["curve"] = columns_json<ForceSample>([&](const auto& number) {
+    return result.curve(number, model.id);
+  });
+  answer["curve"]["pressure"] = result.pressures;
+  for_each_number<ModelResult>([&](const auto&, const Quantity& quantity) {
+    answer[std::string(quantity.name)] = to_json(result.fitted(quantity.name, model.id));
+  });
+  answer["damping"] = columns_json<DampingPoint>([&](const auto& number) {
+    return result.damping(number, model.id);
+  });
+  for (const auto& [name, ratios] : result.comparison(model.id))
+    answer["over_bem"][name] = to_json(ratios);
   return answer;
 }
 
 Json comparison_json(const StudyResult& result) {
   Json models = Json::object();
-  for (const StudyModel& model : result.models())
-    models[name_of(model.model)] = model_json(result, model);
+  for (const StudyModel& model : result.models()) models[model.name] = model_json(result, model);
   std::vector<double> relative;
   for (const double pressure : result.pressures)
     relative.push_back(pressure / result.contact_scale);
+  Json spots = columns_json<SpotStatistics>([&](const auto& number) {
+    return result.spots(number);
+  });
+  spots["corrected_area_slope"] = to_json(result.mean(&Realisation::corrected_area_slope));
   return {{"realisations", result.realisations.size()},
           {"pressure", result.pressures},
           {"relative_pressure", relative},
@@ -116,24 +97,16 @@ Json comparison_json(const StudyResult& result) {
             {"persson_area_slope", persson_slope},
             {"bearing_area_fraction", to_json(bearing_area(result))},
             {"campana_persson_muser",
-             {{"decay_length_over_rms_height",
-               to_json(over_rms_height(result, &Realisation::persson_decay_length))},
-              {"normal_stiffness", to_json(simple_stiffness(result))}}}}},
-          {"spots",
-           {{"count", to_json(spots(result, &SpotStatistics::count))},
-            {"largest_area", to_json(spots(result, &SpotStatistics::largest_area))},
-            {"mean_area", to_json(spots(result, &SpotStatistics::mean_area))},
-            {"corrected_area_fraction",
-             to_json(spots(result, &SpotStatistics::corrected_area_fraction))},
-            {"corrected_area_slope",
-             to_json(result.mean([](const Realisation& r) { return r.corrected_area_slope; }))}}},
+             {{"decay_length_over_rms_height", to_json(simple_decay_length(result))},
+              {"normal_stiffness", simple_stiffness(result)}}}}},
+          {"spots", spots},
           {"flags", flags_json(result)},
           {"interval_method", result.interval_method()}};
 }
 
 /// At most `count` of the pressures, evenly spread, and only those for which the boundary elements have a damping.
 std::vector<std::size_t> shown_pressures(const StudyResult& result, std::size_t count) {
-  const auto damping = result.damping(&DampingPoint::curve_work);
+  const auto damping = result.damping(&DampingPoint::curve_work_per_cycle);
   std::vector<std::size_t> known, shown;
   for (std::size_t k = 0; k < damping.size(); ++k)
     if (!std::isnan(damping[k].mean)) known.push_back(k);
@@ -147,16 +120,15 @@ std::string slopes_table(const StudyResult& result) {
   std::vector<std::vector<std::string>> rows{
       {"model", "l/h_rms", "95 % interval", "bend of l", "area slope", "95 % interval"}};
   for (const StudyModel& model : result.models()) {
-    const EnsembleMean ratio = result.decay_length_over_rms_height(model.result);
-    const EnsembleMean slope = result.area_slope(model.result);
-    const double bend = result.law_bend(model.result).mean;
+    const EnsembleMean ratio = result.decay_length_over_rms_height(model.id);
+    const EnsembleMean slope = result.fitted("area_slope", model.id);
+    const double bend = result.fitted("law_bend", model.id).mean;
     rows.push_back({model.title, number(ratio.mean), limits(ratio),
                     std::isnan(bend) ? "n/a" : fmt::format("{:+.0f} %", 100 * bend),
                     number(slope.mean), limits(slope)});
   }
-  const EnsembleMean corrected =
-      result.mean([](const Realisation& r) { return r.corrected_area_slope; });
-  const EnsembleMean simple = over_rms_height(result, &Realisation::persson_decay_length);
+  const EnsembleMean corrected = result.mean(&Realisation::corrected_area_slope);
+  const EnsembleMean simple = simple_decay_length(result);
   rows.push_back({"boundary elements, area less its edge", "", "", "", number(corrected.mean),
                   limits(corrected)});
   rows.push_back({"Bush, Gibson, Thomas (p -> 0)", "", "", "", number(bgt_slope, 4), ""});
@@ -171,21 +143,22 @@ std::string loads_table(const StudyResult& result) {
   std::vector<std::vector<std::string>> rows{{"p/(E* h')", "gap/h_rms", "A/A0 %", "less edge",
                                               "Persson", "bearing", "K h_rms/F", "spots",
                                               "largest/all"}};
-  const auto area = result.curve(&Realisation::bem, &ForceSample::contact_area_fraction);
-  const auto corrected = spots(result, &SpotStatistics::corrected_area_fraction);
-  const auto persson = result.curve(&Realisation::persson, &ForceSample::contact_area_fraction);
+  const auto area = result.curve(&ForceSample::contact_area_fraction);
+  const auto corrected = result.spots(&SpotStatistics::corrected_area_fraction);
+  const bool by_persson = result.configuration.has(ContactModel::persson);
+  const auto persson =
+      by_persson ? result.curve(&ForceSample::contact_area_fraction, ContactModel::persson)
+                 : std::vector<EnsembleMean>(result.pressures.size());
   const auto bearing = bearing_area(result);
-  const auto count = spots(result, &SpotStatistics::count);
-  const auto gap = at_pressures(result, [](const Realisation& r, std::size_t k) {
-    return r.bem.curve.samples[k].mean_gap / r.heights.rms_height;
+  const auto count = result.spots(&SpotStatistics::spot_count);
+  const auto gap = result.at_pressures([](const Realisation& r, std::size_t k) {
+    return r.of(ContactModel::bem).curve.samples[k].mean_gap / r.heights.rms_height;
   });
-  const auto stiffness = at_pressures(result, [](const Realisation& r, std::size_t k) {
-    const ForceSample& sample = r.bem.curve.samples[k];
+  const auto stiffness = result.at_pressures([](const Realisation& r, std::size_t k) {
+    const ForceSample& sample = r.of(ContactModel::bem).curve.samples[k];
     return sample.normal_stiffness * r.heights.rms_height / sample.force;
   });
-  const auto largest = at_pressures(result, [](const Realisation& r, std::size_t k) {
-    return r.spots[k].largest_area / (r.spots[k].count * r.spots[k].mean_area);
-  });
+  const auto largest = result.spots(&SpotStatistics::largest_spot_share);
   for (const std::size_t k : shown_pressures(result, 8)) {
     rows.push_back({number(result.pressures[k] / result.contact_scale, 2), with_error(gap[k]),
                     with_error(area[k], 100), number(100 * corrected[k].mean),
@@ -204,13 +177,13 @@ std::string damping_table(const StudyResult& result) {
   for (const std::size_t k : shown)
     rows.front().push_back(number(result.pressures[k] / result.contact_scale, 2));
   const std::pair<const char*, double DampingPoint::*> routes[] = {
-      {drag ? "Eq. (16)" : "Eq. (12), l", &DampingPoint::law_work},
-      {drag ? "Eq. (15)" : "Eq. (12)", &DampingPoint::small_work},
-      {"theorem", &DampingPoint::curve_work}};
+      {drag ? "Eq. (16)" : "Eq. (12), l", &DampingPoint::law_work_per_cycle},
+      {drag ? "Eq. (15)" : "Eq. (12)", &DampingPoint::small_work_per_cycle},
+      {"theorem", &DampingPoint::curve_work_per_cycle}};
   for (const StudyModel& model : result.models()) {
     std::string title = model.title;
     for (const auto& [route, quantity] : routes) {
-      const auto ratio = result.damping_over_bem(model.result, quantity);
+      const auto ratio = result.damping_over_bem(quantity, model.id);
       std::vector<std::string> row{std::exchange(title, ""), route};
       for (const std::size_t k : shown) row.push_back(with_error(ratio[k]));
       rows.push_back(std::move(row));
@@ -265,6 +238,18 @@ void run(const CompareArguments& arguments, Session& session) {
 
 }  // namespace
 
+namespace {
+
+/// "gw_moments, gw_deterministic, … and persson".
+std::string other_models() {
+  std::vector<std::string_view> names;
+  for (const StudyModel& model : contact_models().subspan(1)) names.emplace_back(model.name);
+  return fmt::format("{}", fmt::join(names.begin(), names.end() - 1, ", ")) + " and " +
+         std::string(names.back());
+}
+
+}  // namespace
+
 void add_compare_command(Program& program) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App& command = program.add_command(
@@ -276,8 +261,8 @@ void add_compare_command(Program& program) {
   arguments->study.add_to(command);
   command
       .add_option("--models", arguments->models,
-                  "those to compare with the boundary elements, of gw_moments, gw_deterministic, "
-                  "gw_monte_carlo, gw_interacting and persson; default: all")
+                  "those to compare with the boundary elements, of " + other_models() +
+                      "; default: all")
       ->delimiter(',')
       ->type_name("NAME,...");
 }

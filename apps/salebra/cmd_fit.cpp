@@ -8,7 +8,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/contact/law/fit.hpp>
-#include <salebra/io/force_curve_file.hpp>
+#include <salebra/results/force_curve_file.hpp>
 
 #include "answer_file.hpp"
 #include "law_words.hpp"

@@ -5,7 +5,7 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
-#include <salebra/io/force_curve_file.hpp>
+#include <salebra/results/force_curve_file.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/summits.hpp>
 
@@ -94,7 +94,7 @@ void run(const GwArguments& arguments, Session& session) {
                                : curve_at_pressures(*described.model, arguments.pressures);
   if (session.has_output())
     write_force_curve(session.output(), curve, session.provenance(), session.write_options());
-  session.answer({{"parameters", described.parameters}, {"curve", cli::to_json(curve, true)}});
+  session.answer({{"parameters", described.parameters}, {"curve", cli::to_json(curve)}});
 }
 
 }  // namespace

@@ -20,25 +20,20 @@ namespace {
 Json study_json(const StudyResult& result, const StudyFiles& files) {
   Json comparison;
   for (const StudyModel& model : result.models()) {
-    comparison[name_of(model.model)] = {
-        {"decay_length", to_json(result.decay_length(model.result))},
-        {"decay_length_over_rms_height",
-         to_json(result.decay_length_over_rms_height(model.result))}};
+    comparison[model.name] = {{"decay_length", to_json(result.decay_length(model.id))},
+                              {"decay_length_over_rms_height",
+                               to_json(result.decay_length_over_rms_height(model.id))}};
   }
-  comparison["law_deviation_percent"] = to_json(result.damping_deviation(), 100);
+  Json damping = columns_json<DampingPoint>([&](const auto& number) {
+    return result.damping(number);
+  });
   std::vector<double> forces;
   for (const double pressure : result.pressures) forces.push_back(pressure * result.grid.area());
-  return {{"decay_length", to_json(result.decay_length(&Realisation::bem))},
-          {"decay_length_over_rms_height",
-           to_json(result.decay_length_over_rms_height(&Realisation::bem))},
-          {"damping",
-           {{"pressure", result.pressures},
-            {"force", forces},
-            {"law_work_per_cycle", to_json(result.damping(&DampingPoint::law_work))},
-            {"curve_work_per_cycle", to_json(result.damping(&DampingPoint::curve_work))},
-            {"law_damping_constant", to_json(result.damping(&DampingPoint::law_damping_constant))},
-            {"curve_damping_constant",
-             to_json(result.damping(&DampingPoint::curve_damping_constant))}}},
+  damping["pressure"] = result.pressures;
+  damping["force"] = forces;
+  return {{"decay_length", to_json(result.decay_length())},
+          {"decay_length_over_rms_height", to_json(result.decay_length_over_rms_height())},
+          {"damping", damping},
           {"comparison", comparison},
           {"realisations", result.realisations.size()},
           {"flags", flags_json(result)},
@@ -46,14 +41,9 @@ Json study_json(const StudyResult& result, const StudyFiles& files) {
 }
 
 /// What the difference between the law and the curve amounts to, in one sentence.
-std::string verdict(const std::vector<EnsembleMean>& deviation, const std::string& law) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const EnsembleMean& estimate : deviation) {
-    if (std::isnan(estimate.mean)) continue;
-    low = std::min(low, estimate.mean);
-    high = std::max(high, estimate.mean);
-  }
-  if (!(low <= high))
+std::string verdict(const StudyResult& result, const std::string& law) {
+  const auto [low, high] = result.deviation_range();
+  if (std::isnan(low))
     return law + " could not be compared with the curve: the oscillation leaves it at every force.";
   return fmt::format(
       "{} with the fitted decay length is between {:+.0f} % and {:+.0f} % off the damping of the "
@@ -63,16 +53,15 @@ std::string verdict(const std::vector<EnsembleMean>& deviation, const std::strin
 
 /// What one surface has in place of an interval: how l varies along its curve, and with the part of the window that is fitted.
 std::vector<std::string> one_surface_row(const std::string& title, const std::string& length,
-                                         const std::string& relative, const Realisation& surface,
-                                         ModelResult Realisation::*model) {
-  const ModelResult& result = surface.*model;
-  const auto range = [&](double from, double to) {
-    const double h = surface.heights.rms_height;
-    return from > 0 && to > 0 ? fmt::format("{:.3f} … {:.3f}", from / h, to / h) : "n/a";
+                                         const std::string& relative, const ModelResult& model) {
+  const auto range = [](double from, double to) {
+    return from > 0 && to > 0 ? fmt::format("{:.3f} … {:.3f}", from, to) : "n/a";
   };
   return {title, length, relative,
-          range(result.test.decay_length_closest, result.test.decay_length_farthest),
-          range(result.sensitivity.decay_length_min, result.sensitivity.decay_length_max)};
+          range(model.decay_length_closest_over_rms_height(),
+                model.decay_length_farthest_over_rms_height()),
+          range(model.decay_length_min_over_rms_height(),
+                model.decay_length_max_over_rms_height())};
 }
 
 std::string study_text(const StudyResult& result, const StudyFiles& files) {
@@ -84,8 +73,8 @@ std::string study_text(const StudyResult& result, const StudyFiles& files) {
              : std::vector<std::string>{"model", "l", "l/h_rms", "closest … farthest",
                                         "parts of the window"}};
   for (const StudyModel& model : result.models()) {
-    const EnsembleMean length = result.decay_length(model.result);
-    const EnsembleMean ratio = result.decay_length_over_rms_height(model.result);
+    const EnsembleMean length = result.decay_length(model.id);
+    const EnsembleMean ratio = result.decay_length_over_rms_height(model.id);
     const std::string l = format_quantity(length.mean, Dimension::length);
     const std::string relative = std::isnan(ratio.mean) ? "n/a" : fmt::format("{:.3f}", ratio.mean);
     if (sample)
@@ -93,7 +82,7 @@ std::string study_text(const StudyResult& result, const StudyFiles& files) {
                       interval(ratio, Dimension::dimensionless)});
     else
       rows.push_back(
-          one_surface_row(model.title, l, relative, result.realisations.front(), model.result));
+          one_surface_row(model.title, l, relative, result.realisations.front().of(model.id)));
   }
   text += to_table(rows, 2, true) +
           (sample ? "  (" + result.interval_method() + ")\n"
@@ -109,7 +98,7 @@ std::string study_text(const StudyResult& result, const StudyFiles& files) {
   rows[0].push_back(law + " is off by");
   const auto by_law = result.damping(&DampingPoint::law_damping_constant);
   const auto by_curve = result.damping(&DampingPoint::curve_damping_constant);
-  const auto deviation = result.damping_deviation();
+  const auto deviation = result.damping(&DampingPoint::deviation);
   for (std::size_t i = 0; i < result.pressures.size(); ++i) {
     rows.push_back({format_quantity(result.pressures[i], Dimension::pressure),
                     format_quantity(result.pressures[i] * result.grid.area(), Dimension::force),
@@ -119,7 +108,7 @@ std::string study_text(const StudyResult& result, const StudyFiles& files) {
     rows.back().push_back(
         std::isnan(deviation[i].mean) ? "n/a" : fmt::format("{:+.1f} %", 100 * deviation[i].mean));
   }
-  text += to_table(rows) + "\n" + verdict(deviation, law) + "\n";
+  text += to_table(rows) + "\n" + verdict(result, law) + "\n";
   if (const std::string remarks = ensemble_remarks(result); !remarks.empty())
     text += "\n" + remarks;
   if (const std::string where = files.text(); !where.empty()) text += "\n" + where;

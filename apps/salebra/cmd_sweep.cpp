@@ -6,7 +6,7 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/sweep.hpp>
-#include <salebra/io/force_curve_file.hpp>
+#include <salebra/results/force_curve_file.hpp>
 
 #include "curve_json.hpp"
 #include "options.hpp"

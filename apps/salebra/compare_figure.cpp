@@ -44,8 +44,8 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
   damping.legend = PlotLegend::top_left;
   for (const StudyModel& model : result.models()) {
     const auto scaled = [&](auto value) {
-      return at_pressures(result, [&](const Realisation& r, std::size_t k) {
-        const auto& samples = (r.*model.result).curve.samples;
+      return result.at_pressures([&](const Realisation& r, std::size_t k) {
+        const auto& samples = r.of(model.id).curve.samples;
         return k < samples.size() && samples[k].converged ? double(value(r, samples[k]))
                                                           : ForceSample::unknown;
       });
@@ -54,7 +54,7 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
     const auto add = [&](PlotPanel& panel, const std::vector<double>& x,
                          const std::vector<EnsembleMean>& y) {
       panel.curves.push_back(band("", x, y));
-      panel.curves.back().color = int(model.model);
+      panel.curves.back().color = int(model.id);
     };
     add(gaps, loads, scaled([](const Realisation& r, const ForceSample& sample) {
           return sample.mean_gap / r.heights.rms_height;
@@ -67,7 +67,7 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
     add(stiffness, loads, scaled([](const Realisation& r, const ForceSample& sample) {
           return sample.normal_stiffness * r.heights.rms_height / sample.force;
         }));
-    add(damping, forces, result.damping(&DampingPoint::curve_damping_constant, model.result));
+    add(damping, forces, result.damping(&DampingPoint::curve_damping_constant, model.id));
   }
   // The window of the fit, and what the theories of vanishing load say.
   if (!result.configuration.window) gaps.lines = {{.at = 1}, {.at = 2.5}};
@@ -75,7 +75,7 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
   if (!result.configuration.has(ContactModel::persson))
     areas.lines.push_back({.at = persson_slope, .name = "Persson"});
   PlotCurve edge = band("boundary elements, less the edge", loads,
-                        at_pressures(result, [&](const Realisation& r, std::size_t k) {
+                        result.at_pressures([&](const Realisation& r, std::size_t k) {
                           return r.spots[k].corrected_area_fraction / result.pressures[k] *
                                  r.moments.rms_slope() *
                                  result.configuration.material.contact_modulus;
@@ -114,15 +114,6 @@ void share_limits(const std::vector<PlotPanel*>& panels) {
 }
 
 }  // namespace
-
-std::vector<EnsembleMean> at_pressures(
-    const StudyResult& result,
-    const std::function<double(const Realisation&, std::size_t)>& value) {
-  std::vector<EnsembleMean> estimates;
-  for (std::size_t k = 0; k < result.pressures.size(); ++k)
-    estimates.push_back(result.mean([&](const Realisation& r) { return value(r, k); }));
-  return estimates;
-}
 
 Figure compare_figure(const std::vector<StudyResult>& results, const ParameterLists& varied) {
   Figure figure;

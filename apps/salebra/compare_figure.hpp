@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <salebra/io/plot.hpp>
 #include <salebra/study/study.hpp>
@@ -13,10 +12,6 @@ namespace salebra::cli {
 // Slopes of A/A0 over p/(E*h') at small loads.
 inline const double bgt_slope = std::sqrt(2 * std::numbers::pi);
 inline const double persson_slope = std::sqrt(8 / std::numbers::pi);
-
-/// The mean over the realisations of a number that each has at each pressure.
-std::vector<EnsembleMean> at_pressures(
-    const StudyResult& result, const std::function<double(const Realisation&, std::size_t)>& value);
 
 /// Force–gap, area–load, stiffness–load and damping–force of all models, with bands of 95 %. One point: a square of four panels.
 /// Several: a column for each, whose panels share their axes along a row. varied: what tells the points apart.

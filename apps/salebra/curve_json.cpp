@@ -2,20 +2,20 @@
 // Force curve as JSON.
 #include "curve_json.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <salebra/results/contact.hpp>
+
 namespace salebra::cli {
 
-Json to_json(const ForceCurve& curve, bool with_separation) {
+Json to_json(const ForceCurve& curve) {
   Json object;
-  if (with_separation) object["separation"] = curve.column(&ForceSample::separation);
-  object["pressure"] = curve.column(&ForceSample::pressure);
-  object["mean_gap"] = curve.column(&ForceSample::mean_gap);
-  object["indentation"] = curve.column(&ForceSample::indentation);
-  object["contact_area_fraction"] = curve.column(&ForceSample::contact_area_fraction);
-  object["normal_stiffness"] = curve.column(&ForceSample::normal_stiffness);
-  object["tangential_stiffness"] = curve.column(&ForceSample::tangential_stiffness);
-  Json converged = Json::array();
-  for (const ForceSample& sample : curve.samples) converged.push_back(sample.converged);
-  object["converged"] = std::move(converged);
+  for_each_column<ForceSample>([&](const auto& access, const Quantity& quantity) {
+    Json& values = object[std::string(quantity.name)] = Json::array();
+    for (const ForceSample& sample : curve.samples) values.push_back(access(sample));
+  });
+  const auto nowhere = [](const ForceSample& sample) { return std::isnan(sample.separation); };
+  if (std::ranges::all_of(curve.samples, nowhere)) object.erase("separation");
   return object;
 }
 

@@ -7,8 +7,7 @@
 
 namespace salebra::cli {
 
-/// {pressure[], mean_gap[], indentation[], contact_area_fraction[], normal_stiffness[], tangential_stiffness[], converged[]},
-/// led by separation[] where the model has one.
-Json to_json(const ForceCurve& curve, bool with_separation = false);
+/// A list for each column of ForceSample, without the separation where no sample has one.
+Json to_json(const ForceCurve& curve);
 
 }  // namespace salebra::cli

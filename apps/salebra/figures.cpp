@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <salebra/base/quantity.hpp>
+#include <salebra/results/quantity.hpp>
 #include <salebra/base/units.hpp>
 
 namespace salebra::cli {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
-#include <salebra/io/force_curve_file.hpp>
+#include <salebra/results/force_curve_file.hpp>
 #include <utility>
 
 namespace salebra::cli {

@@ -215,7 +215,7 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, b
     finished += result.realisations.size();
     for (const std::string& warning : result.warnings) session.warn(warning);
   }
-  const bool interrupted = results.size() < grid_points(configuration).size() ||
+  const bool interrupted = results.size() < parameter_combinations(configuration).size() ||
                            std::ranges::any_of(results, &StudyResult::interrupted);
   if (interrupted && parts && parts->count() > 0) {
     throw Interrupted(fmt::format(
@@ -237,12 +237,12 @@ Json to_json(const EnsembleMean& estimate) {
   return {{"mean", estimate.mean}, {"low", estimate.low}, {"high", estimate.high}};
 }
 
-Json to_json(const std::vector<EnsembleMean>& estimates, double scale) {
+Json to_json(const std::vector<EnsembleMean>& estimates) {
   Json mean = Json::array(), low = Json::array(), high = Json::array();
   for (const EnsembleMean& estimate : estimates) {
-    mean.push_back(scale * estimate.mean);
-    low.push_back(scale * estimate.low);
-    high.push_back(scale * estimate.high);
+    mean.push_back(estimate.mean);
+    low.push_back(estimate.low);
+    high.push_back(estimate.high);
   }
   return {{"mean", mean}, {"low", low}, {"high", high}};
 }
@@ -290,15 +290,14 @@ std::string heading(const StudyResult& result) {
 }
 
 std::string law_verdict(const StudyResult& result) {
-  const auto mean = [&](double ExponentialTest::*length) {
-    return result.mean(
-        [&](const Realisation& r) { return r.bem.test.*length / r.heights.rms_height; });
+  const auto over_rms_height = [&](const char* length) {
+    return result.fitted(std::string(length) + "_over_rms_height").mean;
   };
-  const double l = result.decay_length_over_rms_height(&Realisation::bem).mean,
-               closest = mean(&ExponentialTest::decay_length_closest).mean,
-               farthest = mean(&ExponentialTest::decay_length_farthest).mean;
+  const double l = over_rms_height("decay_length"),
+               closest = over_rms_height("decay_length_closest"),
+               farthest = over_rms_height("decay_length_farthest");
   if (!(closest > 0)) return "";
-  const EnsembleMean bend = result.law_bend(&Realisation::bem);
+  const EnsembleMean bend = result.fitted("law_bend");
   const bool sample = !std::isnan(bend.low);
   std::string text = fmt::format(
       "  Over the fitted window the local l of boundary elements runs from {:.2f} h_rms (closest) "
@@ -306,26 +305,12 @@ std::string law_verdict(const StudyResult& result) {
       closest, farthest, 100 * bend.mean,
       sample ? fmt::format(" ({:+.0f} to {:+.0f} % at 95 %)", 100 * bend.low, 100 * bend.high) : "",
       in_words(describe_law(l, closest, farthest), sample ? "these surfaces" : "this surface"));
-  const auto range = [&](double WindowSensitivity::*limit) {
-    return result
-        .mean([&](const Realisation& r) { return r.bem.sensitivity.*limit / r.heights.rms_height; })
-        .mean;
-  };
-  const double equal =
-      result
-          .mean([&](const Realisation& r) {
-            if (std::isnan(r.bem.fit.decay_length)) return r.bem.fit.decay_length;
-            return fit_exponential(r.bem.curve, result.configuration.window, FitWeights::equal)
-                       .decay_length /
-                   r.heights.rms_height;
-          })
-          .mean;
   return text +
          fmt::format(
              "  Fits to parts of the window give l from {:.2f} to {:.2f} h_rms; one with all loads "
              "weighted alike, not by the gap that each stands for, {:.2f} h_rms.\n",
-             range(&WindowSensitivity::decay_length_min),
-             range(&WindowSensitivity::decay_length_max), equal);
+             over_rms_height("decay_length_min"), over_rms_height("decay_length_max"),
+             over_rms_height("decay_length_equal_weights"));
 }
 
 std::string ensemble_remarks(const StudyResult& result) {

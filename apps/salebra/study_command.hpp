@@ -72,7 +72,16 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, b
 
 Json to_json(const EnsembleMean& estimate);
 /// Arrays mean, low and high.
-Json to_json(const std::vector<EnsembleMean>& estimates, double scale = 1);
+Json to_json(const std::vector<EnsembleMean>& estimates);
+/// An object with to_json(means(number)) for every number that the description of T names.
+template <Described T, class MeansOf>
+Json columns_json(const MeansOf& means) {
+  Json object = Json::object();
+  for_each_number<T>([&](const NumberOf<T>& number, const Quantity& quantity) {
+    object[std::string(quantity.name)] = to_json(means(number));
+  });
+  return object;
+}
 /// "low … high"; empty where there is no interval.
 std::string interval(const EnsembleMean& estimate, Dimension dimension, int digits = 4);
 std::string describe_motion(const Oscillation& motion);

@@ -199,18 +199,14 @@ def _(result: _core.StudyResult) -> xarray.Dataset:
     columns: dict[str, tuple[tuple[str, ...], Any]] = {}
     meanings: dict[str, tuple[str, str]] = {}
 
-    def add(name: str, quantity: str, of: Callable[[str], list[_core.EnsembleMean]]) -> None:
-        units, long_name = _core.quantity(quantity)
-        means = [of(model) for model in result.models]
-        for part in ("mean", "low", "high"):
-            columns[f"{name}_{part}"] = ("model", "pressure"), [[getattr(mean, part) for mean in row] for row in means]
-            meanings[f"{name}_{part}"] = units, f"{long_name}, {part}"
-
-    for quantity in ("mean_gap", "contact_area_fraction", "normal_stiffness", "tangential_stiffness"):
-        add(quantity, quantity, lambda model, quantity=quantity: result.curve(quantity, model))  # type: ignore[misc]
-    for route in ("law", "small", "curve"):
-        name = f"{route}_damping_constant"
-        add(name, "damping_constant", lambda model, name=name: result.damping(name, model))  # type: ignore[misc]
+    for described, of in ((_core._curve_columns(), result.curve), (_core._damping_columns(), result.damping)):
+        for name, units, long_name in described:
+            if name == "pressure":
+                continue
+            means = [of(name, model) for model in result.models]
+            for part in ("mean", "low", "high"):
+                columns[f"{name}_{part}"] = ("model", "pressure"), [[getattr(mean, part) for mean in row] for row in means]
+                meanings[f"{name}_{part}"] = units, f"{long_name}, {part}"
     meanings["model"] = "1", "contact model"
     return _dataset(columns, {"model": result.models, "pressure": result.pressures}, {}, meanings)
 

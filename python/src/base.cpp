@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/quantity.hpp>
+#include <salebra/results/quantity.hpp>
 #include <salebra/base/spectral_moments.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/base/version.hpp>

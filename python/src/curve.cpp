@@ -10,10 +10,12 @@
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/sweep.hpp>
+#include <salebra/results/contact.hpp>
 
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -80,22 +82,12 @@ model : str
       nb::arg("contact_area_fraction") = nb::none(), nb::arg("normal_stiffness") = nb::none(),
       nb::arg("tangential_stiffness") = nb::none(), nb::arg("rms_height") = ForceSample::unknown,
       nb::arg("model") = "measured");
-  column_property(curve, "indentation", &ForceCurve::samples, &ForceSample::indentation,
-                  "δ, m; larger is closer.");
-  column_property(curve, "mean_gap", &ForceCurve::samples, &ForceSample::mean_gap,
-                  "ū, m; dū = −dδ.");
-  column_property(curve, "separation", &ForceCurve::samples, &ForceSample::separation,
-                  "s, m: smooth plane to mean plane of the summits (Greenwood–Williamson).");
-  column_property(curve, "force", &ForceCurve::samples, &ForceSample::force, "F, N.");
-  column_property(curve, "pressure", &ForceCurve::samples, &ForceSample::pressure, "p = F/A0, Pa.");
-  column_property(curve, "contact_area_fraction", &ForceCurve::samples,
-                  &ForceSample::contact_area_fraction, "A/A0.");
-  column_property(curve, "normal_stiffness", &ForceCurve::samples, &ForceSample::normal_stiffness,
-                  "K = dF/dδ, N/m.");
-  column_property(curve, "tangential_stiffness", &ForceCurve::samples,
-                  &ForceSample::tangential_stiffness, "K_t = dF_x/dx in full stick, N/m.");
-  column_property(curve, "converged", &ForceCurve::samples, &ForceSample::converged,
-                  "Of each sample.");
+  describe(
+      [&](auto member, const Quantity& quantity) {
+        column_property(curve, std::string(quantity.name).c_str(), &ForceCurve::samples, member,
+                        described_text(quantity).c_str());
+      },
+      std::type_identity<ForceSample>{});
   curve.def_ro("model", &ForceCurve::model, "\"bem\", \"greenwood-williamson\", …")
       .def_ro("nominal_area", &ForceCurve::nominal_area, "A0, m².")
       .def_ro("rms_height", &ForceCurve::rms_height, "h_rms of the surface, m.")
@@ -166,21 +158,11 @@ std::optional<PressureWindow> window_of(const std::optional<std::pair<double, do
 }
 
 void bind_fit(nb::module_& m) {
-  nb::class_<PressureWindow>(m, "PressureWindow", "Samples that a fit rests on.")
-      .def_ro("pressure_min", &PressureWindow::pressure_min, "Pa")
-      .def_ro("pressure_max", &PressureWindow::pressure_max, "Pa")
-      .def_ro("points", &PressureWindow::points);
-  nb::class_<ExponentialFit>(
+  described_class<PressureWindow>(m, "PressureWindow", "Samples that a fit rests on.");
+  described_class<ExponentialFit>(
       m, "ExponentialFit",
       "p = reference_pressure·exp(−ū/decay_length). The 95 % limits are those of a curve "
       "with independent noise; the residuals of a computed curve are misfit.")
-      .def_ro("decay_length", &ExponentialFit::decay_length, "l, m.")
-      .def_ro("decay_length_low", &ExponentialFit::decay_length_low, "Lower 95 % limit, m.")
-      .def_ro("decay_length_high", &ExponentialFit::decay_length_high, "Upper 95 % limit, m.")
-      .def_ro("reference_pressure", &ExponentialFit::reference_pressure, "p at ū = 0, Pa.")
-      .def_ro("r_squared", &ExponentialFit::r_squared)
-      .def_ro("window", &ExponentialFit::window)
-      .def_ro("decay_length_over_rms_height", &ExponentialFit::decay_length_over_rms_height)
       .def("__repr__", [](const ExponentialFit& fit) {
         return describe("ExponentialFit", {{"decay_length", fit.decay_length},
                                            {"reference_pressure", fit.reference_pressure}});
@@ -216,24 +198,15 @@ Notes
 The interval holds for independent errors of ln p. With a computed curve it measures the misfit of the law instead, and
 :func:`test_exponential` tells whether that is systematic.
 )");
-  nb::class_<ExponentialTest>(
+  described_class<ExponentialTest>(
       m, "ExponentialTest",
       "Whether ln p bends: ln p = a + b ū + c ū², and Student's t-test of c = 0.")
-      .def_ro("quadratic", &ExponentialTest::quadratic, "c, 1/m²; > 0 where l grows with ū.")
-      .def_ro("standard_error", &ExponentialTest::standard_error, "Of c, 1/m².")
-      .def_ro("significance", &ExponentialTest::significance,
-              "Probability of so large a c, of either sign, if the law held.")
-      .def_ro("decay_length_closest", &ExponentialTest::decay_length_closest,
-              "At the least ū of the window, m.")
-      .def_ro("decay_length_farthest", &ExponentialTest::decay_length_farthest,
-              "At the largest, m.")
-      .def_ro("window", &ExponentialTest::window)
       .def("refuted", &ExponentialTest::refuted, nb::arg("level") = 0.05,
            "The law is refuted at this level.")
       .def("__repr__", [](const ExponentialTest& test) {
         return describe("ExponentialTest", {{"significance", test.significance},
-                                            {"decay_length_min", test.decay_length_closest},
-                                            {"decay_length_max", test.decay_length_farthest}});
+                                            {"decay_length_closest", test.decay_length_closest},
+                                            {"decay_length_farthest", test.decay_length_farthest}});
       });
   m.def(
       "test_exponential",
@@ -244,10 +217,8 @@ The interval holds for independent errors of ln p. With a computed curve it meas
       nb::arg("curve"), nb::arg("window") = nb::none(), nb::arg("weights") = "spacing",
       "Tests the exponential law over the window and with the weights of :func:`fit_exponential`; "
       "four points at least.");
-  nb::class_<WindowSensitivity>(m, "WindowSensitivity", "How much a fit owes to its window.")
-      .def_ro("decay_length_min", &WindowSensitivity::decay_length_min, "m")
-      .def_ro("decay_length_max", &WindowSensitivity::decay_length_max, "m")
-      .def_ro("windows", &WindowSensitivity::windows, "How many runs of samples were fitted.");
+  described_class<WindowSensitivity>(m, "WindowSensitivity",
+                                     "How much a fit owes to its window.");
   m.def(
       "window_sensitivity",
       [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window,
@@ -257,10 +228,8 @@ The interval holds for independent errors of ln p. With a computed curve it meas
       nb::arg("curve"), nb::arg("window") = nb::none(), nb::arg("weights") = "spacing",
       "The least and largest decay length over every run of samples that holds at least half of "
       "the window, with the weights of :func:`fit_exponential`.");
-  nb::class_<LocalDecayLength> local(m, "LocalDecayLength",
-                                     "l(ū) = −dū/d ln p between consecutive samples.");
-  view_property(local, "mean_gap", &LocalDecayLength::mean_gap, "m");
-  view_property(local, "decay_length", &LocalDecayLength::decay_length, "m");
+  auto local = described_class<LocalDecayLength>(
+      m, "LocalDecayLength", "l(ū) = −dū/d ln p between consecutive samples.");
   result_methods(local, true);
   m.def("local_decay_length", &local_decay_length, nb::arg("curve"),
         "l(ū) at the midpoints between consecutive samples.");

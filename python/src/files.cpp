@@ -4,7 +4,7 @@
 #include <nanobind/stl/string.h>
 
 #include <filesystem>
-#include <salebra/io/force_curve_file.hpp>
+#include <salebra/results/force_curve_file.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/io/write_surface.hpp>
 

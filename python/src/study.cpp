@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bindings of study configurations, runs and results.
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -16,47 +17,13 @@
 
 #include "bindings.hpp"
 #include "interop/citations.hpp"
+#include "interop/described.hpp"
 #include "interop/path.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
 namespace salebra::python {
 namespace {
-
-ModelResult Realisation::*model_of(const std::string& name) {
-  std::string known;
-  for (const StudyModel& model : study_models) {
-    if (name_of(model.model) == name) return model.result;
-    known += (known.empty() ? "" : ", ") + std::string(name_of(model.model));
-  }
-  throw InvalidInput("model: '" + name + "' is none of " + known + "; choose one of them");
-}
-
-double ForceSample::*sample_quantity(const std::string& name) {
-  if (name == "indentation") return &ForceSample::indentation;
-  if (name == "mean_gap") return &ForceSample::mean_gap;
-  if (name == "force") return &ForceSample::force;
-  if (name == "contact_area_fraction") return &ForceSample::contact_area_fraction;
-  if (name == "normal_stiffness") return &ForceSample::normal_stiffness;
-  if (name == "tangential_stiffness") return &ForceSample::tangential_stiffness;
-  throw InvalidInput(
-      "quantity: '" + name +
-      "' is none of indentation, mean_gap, force, contact_area_fraction, normal_stiffness, "
-      "tangential_stiffness; choose one of them");
-}
-
-double DampingPoint::*damping_quantity(const std::string& name) {
-  if (name == "law_work") return &DampingPoint::law_work;
-  if (name == "law_damping_constant") return &DampingPoint::law_damping_constant;
-  if (name == "small_work") return &DampingPoint::small_work;
-  if (name == "small_damping_constant") return &DampingPoint::small_damping_constant;
-  if (name == "curve_work") return &DampingPoint::curve_work;
-  if (name == "curve_damping_constant") return &DampingPoint::curve_damping_constant;
-  throw InvalidInput(
-      "quantity: '" + name +
-      "' is none of law_work, law_damping_constant, small_work, small_damping_constant, "
-      "curve_work, curve_damping_constant; choose one of them");
-}
 
 std::vector<std::string> names_of(const std::vector<ContactModel>& models) {
   std::vector<std::string> names;
@@ -97,10 +64,7 @@ void bind_configuration(nb::module_& m) {
 Parameters
 ----------
 models : list of str
-    "bem" (boundary elements, which the others are measured by and which is run in any case), "gw_moments" (Greenwood–Williamson,
-    summits from spectral moments), "gw_deterministic" (the surface's own summits), "gw_monte_carlo" (summits drawn at random),
-    "gw_interacting" (own summits, each pressed down by the others), "persson". `compared_models` is the list of the program's
-    command `compare`.
+    Of :func:`contact_models`. "bem" (boundary elements), which the others are measured by, is run in any case.
 
 Raises
 ------
@@ -117,6 +81,15 @@ InvalidInput
           nb::arg("file"), nb::kw_only(), nb::arg("size_x") = nb::none(),
           nb::arg("size_y") = nb::none(), nb::arg("height_unit") = "",
           "`file` in place of the surfaces of the configuration, which keeps everything else.");
+  m.def(
+      "contact_models",
+      [] {
+        nb::dict titles;
+        for (const StudyModel& model : contact_models()) titles[model.name] = model.title;
+        return titles;
+      },
+      nb::sig("def contact_models() -> dict[str, str]"),
+      "Names of the contact models that a study may run, with their titles.");
   m.def("read_study_configuration", &read_study_configuration, nb::arg("file"),
         "Reads a TOML file of a study; data/README.md explains each key. Raises InvalidInput "
         "\"FILE:LINE: table.key: …\".");
@@ -132,49 +105,41 @@ InvalidInput
 }
 
 void bind_realisation(nb::module_& m) {
-  nb::class_<DampingPoint>(m, "DampingPoint",
-                           "Damping at one pressure of a curve, by three routes.")
-      .def_ro("pressure", &DampingPoint::pressure, "Pa")
-      .def_ro("force", &DampingPoint::force, "N")
-      .def_ro("law_work", &DampingPoint::law_work, "Eq. (16), or (12) with F'' = F/l², J.")
-      .def_ro("law_damping_constant", &DampingPoint::law_damping_constant, "N s/m")
-      .def_ro("small_work", &DampingPoint::small_work,
-              "Eq. (15) or (12) with the F'' of the curve, J.")
-      .def_ro("small_damping_constant", &DampingPoint::small_damping_constant, "N s/m")
-      .def_ro("curve_work", &DampingPoint::curve_work,
-              "The theorem on the curve at the amplitude given, J; NaN where the motion leaves it.")
-      .def_ro("curve_damping_constant", &DampingPoint::curve_damping_constant, "N s/m")
-      .def_prop_ro("deviation", &DampingPoint::deviation, "law_work/curve_work − 1.");
-  nb::class_<ModelResult> model(m, "ModelResult", "What one contact model says about one surface.");
-  model.def_ro("curve", &ModelResult::curve)
-      .def_ro("fit", &ModelResult::fit)
-      .def_ro("test", &ModelResult::test)
-      .def_ro("sensitivity", &ModelResult::sensitivity)
-      .def_ro("local", &ModelResult::local)
-      .def_ro("area_slope", &ModelResult::area_slope, "κ of A/A0 = κ p/(E*h').")
-      .def_ro("damping", &ModelResult::damping, "For each sample of the curve.");
-  nb::class_<Realisation>(m, "Realisation", "Everything computed for one surface.")
-      .def_ro("seed", &Realisation::seed, "0 for a measured surface.")
-      .def_ro("grid", &Realisation::grid)
-      .def_ro("periodic", &Realisation::periodic)
-      .def_ro("heights", &Realisation::heights)
-      .def_ro("moments", &Realisation::moments)
-      .def_ro("summits", &Realisation::summits)
-      .def_ro("ensemble", &Realisation::ensemble)
+  described_class<DampingPoint>(m, "DampingPoint",
+                                "Damping at one pressure of a curve, by three routes.");
+  described_class<SpotStatistics>(
+      m, "SpotStatistics", "Contact spots of the boundary elements at one pressure.");
+  described_class<SurfacePicture>(m, "SurfacePicture",
+                                  "Heights, first contacts, spectrum and distribution of a surface.");
+  described_class<ModelResult>(m, "ModelResult", "What one contact model says about one surface.");
+  nb::class_<Realisation> realisation =
+      described_class<Realisation>(m, "Realisation", "Everything computed for one surface.");
+  realisation
       .def(
           "model",
-          [](const Realisation& self, const std::string& name) { return self.*model_of(name); },
-          nb::arg("name"),
-          "\"bem\", \"gw_moments\", \"gw_deterministic\", and with all models \"gw_monte_carlo\", "
-          "\"gw_interacting\", \"persson\".")
-      .def_ro("bem", &Realisation::bem, "Boundary elements.")
-      .def_ro("gw_moments", &Realisation::gw_moments,
-              "Greenwood–Williamson, summits from spectral moments.")
-      .def_ro("gw_deterministic", &Realisation::gw_deterministic,
-              "Greenwood–Williamson, the surface's own summits.");
+          [](const Realisation& self, const std::string& name) {
+            return self.of(contact_model(name));
+          },
+          nb::arg("name"), "What a model says, by its name; one of those that were asked for.")
+      .def_prop_ro(
+          "bem", [](const Realisation& self) { return self.of(ContactModel::bem); },
+          "Boundary elements, which the other models are measured by.");
+}
+
+template <Described T>
+nb::list columns_of() {
+  nb::list columns;
+  salebra::for_each_number<T>([&](const auto&, const Quantity& quantity) {
+    columns.append(nb::make_tuple(std::string(quantity.name),
+                                  std::string(si_unit(quantity.dimension)),
+                                  std::string(quantity.long_name)));
+  });
+  return columns;
 }
 
 void bind_result(nb::module_& m) {
+  m.def("_curve_columns", &columns_of<ForceSample>);
+  m.def("_damping_columns", &columns_of<DampingPoint>);
   nb::class_<EnsembleMean>(m, "EnsembleMean",
                            "A mean with its 95 % interval; NaN limits where there is none.")
       .def_ro("mean", &EnsembleMean::mean)
@@ -203,57 +168,51 @@ void bind_result(nb::module_& m) {
           "models",
           [](const StudyResult& self) {
             std::vector<std::string> names;
-            for (const StudyModel& model : self.models()) names.emplace_back(name_of(model.model));
+            for (const StudyModel& model : self.models()) names.emplace_back(model.name);
             return names;
           },
           "Names of the models that were asked for.")
       .def(
+          "fitted",
+          [](const StudyResult& self, const std::string& quantity, const std::string& model) {
+            return self.fitted(quantity, contact_model(model));
+          },
+          nb::arg("quantity"), nb::arg("model") = "bem",
+          "Mean over the surfaces of a number of :class:`ModelResult`, such as \"area_slope\" or "
+          "\"law_bend\"; one surface has no interval.")
+      .def(
           "decay_length",
           [](const StudyResult& self, const std::string& model) {
-            return self.decay_length(model_of(model));
+            return self.decay_length(contact_model(model));
           },
           nb::arg("model") = "bem", "l, m, with its interval.")
       .def(
           "decay_length_over_rms_height",
           [](const StudyResult& self, const std::string& model) {
-            return self.decay_length_over_rms_height(model_of(model));
+            return self.decay_length_over_rms_height(contact_model(model));
           },
           nb::arg("model") = "bem")
       .def(
-          "area_slope",
-          [](const StudyResult& self, const std::string& model) {
-            return self.area_slope(model_of(model));
-          },
-          nb::arg("model") = "bem", "κ of A/A0 = κ p/(E*h').")
-      .def(
-          "law_bend",
-          [](const StudyResult& self, const std::string& model) {
-            return self.law_bend(model_of(model));
-          },
-          nb::arg("model") = "bem",
-          "l at the far end of the window over l at its close end, less 1: an interval without 0 "
-          "refutes the law.")
-      .def(
           "curve",
           [](const StudyResult& self, const std::string& quantity, const std::string& model) {
-            return self.curve(model_of(model), sample_quantity(quantity));
+            return self.curve(number_of<ForceSample>(quantity, "quantity"), contact_model(model));
           },
-          nb::arg("quantity"), nb::arg("model") = "bem", "Mean of a quantity at each pressure.")
+          nb::arg("quantity"), nb::arg("model") = "bem",
+          "Mean at each pressure of a quantity of the curve, such as \"mean_gap\".")
       .def(
           "damping",
           [](const StudyResult& self, const std::string& quantity, const std::string& model) {
-            return self.damping(damping_quantity(quantity), model_of(model));
+            return self.damping(number_of<DampingPoint>(quantity, "quantity"), contact_model(model));
           },
           nb::arg("quantity") = "curve_damping_constant", nb::arg("model") = "bem",
-          "Mean at each pressure of law_damping_constant (Eq. (16)), small_damping_constant or "
-          "curve_damping_constant, or of law_work, small_work or curve_work.")
+          "Mean at each pressure of a quantity of :class:`DampingPoint`, such as law_damping_constant (Eq. (16)) or deviation.")
       .def(
-          "damping_deviation",
+          "deviation_range",
           [](const StudyResult& self, const std::string& model) {
-            return self.damping_deviation(model_of(model));
+            return self.deviation_range(contact_model(model));
           },
           nb::arg("model") = "bem",
-          "How far Eq. (16) is off the theorem on the curve, at each pressure.")
+          "Least and greatest mean deviation of Eq. (16) from the theorem on the curve.")
       .def("convergence_counts", &StudyResult::convergence_counts,
            "Numbers of surfaces of convergence(): all up to 128, then 32 in each doubling.")
       .def("convergence", &StudyResult::convergence,

@@ -27,18 +27,16 @@ function representative(point, f) {
 }
 
 /** Whether F ∝ exp(−ū/l) holds, in a sentence. */
-function lawVerdict(point, f) {
-  const fit = point.fit?.bem;
-  if (!fit?.decay_length_closest) return null;
-  const closest = mean(fit.decay_length_closest) / f.rms, farthest = mean(fit.decay_length_farthest) / f.rms;
+function lawVerdict(point) {
+  const fit = point.fit?.models?.bem, bend = fit?.law_bend;
+  const closest = fit?.decay_length_closest_over_rms_height?.mean, farthest = fit?.decay_length_farthest_over_rms_height?.mean;
   if (!(closest > 0)) return null;
-  const many = fit.decay_length.length > 1, bend = point.fit.bend;
   // F/l² has to be within a factor of two of F″ at both ends, as law_words.cpp has it.
-  const off = (local) => (mean(local) / mean(fit.decay_length)) ** 2 - 1;
-  const offs = [off(fit.decay_length_closest), farthest > 0 ? off(fit.decay_length_farthest) : Infinity];
+  const off = (local) => (local / fit.decay_length_over_rms_height.mean) ** 2 - 1;
+  const offs = [off(closest), farthest > 0 ? off(farthest) : Infinity];
   const poor = offs.some((d) => !(d > -0.5 && d < 1));
   const run = `Across its window the local ‹l› runs from ${number(closest, 2)} to ${number(farthest, 2)} ‹h›_{rms}`;
-  const size = bend ? `, a change of ${percent(bend.mean)}` + (many && known(bend.low) ? ` (95 %: ${percent(bend.low)} … ${percent(bend.high)})` : "") : "";
+  const size = bend ? `, a change of ${percent(bend.mean)}` + (known(bend.low) ? ` (95 %: ${percent(bend.low)} … ${percent(bend.high)})` : "") : "";
   const ends = `‹F›/‹l›² is off ‹F›″ by ${percent(offs[0])} (closest) and ${percent(offs[1])} (farthest) at the ends of the window.`;
   return {poor, text: `${run}${size}. ${ends}` + (poor ? " Do not use Eq. (16) here; use the computed curve." : "")};
 }
@@ -62,7 +60,7 @@ function conclusion(main, point) {
       body.append(finding("Damping constant", quantity(shown.mean[i], "N s/m", 3), [limits ? `95 %: ${limits}` : "", `at ‹F› = ${quantity(damping.force[i], "N", 3)}, ‹p› = ${quantity(point.pressure[i], "Pa", 3)}`],
         known(curve?.mean[i]) && known(law?.mean[i]) ? `${lawName} gives ${quantity(law.mean[i], "N s/m", 3)}, ${percent(law.mean[i] / curve.mean[i] - 1)}` : ""));
     }
-    const verdict = lawVerdict(point, f);
+    const verdict = lawVerdict(point);
     if (verdict) element.append(h("p", {class: "verdict"}, h("strong", {}, verdict.poor ? "The law is a poor description. " : "The law is a fair description. "), rich(verdict.text)));
     if (damping) element.append(h("p", {class: "verdict"}, h("strong", {}, "Motion. "), describeMotion(damping)[0].toUpperCase() + describeMotion(damping).slice(1) + "."));
     element.append(h("p", {class: "verdict"}, h("strong", {}, "Intervals. "), `${point.fit?.interval_method ?? "95 %"}.`));
@@ -77,10 +75,10 @@ function warningsOf(point) {
   const capital = (text) => text[0].toUpperCase() + text.slice(1) + (text.endsWith(".") ? "" : ".");
   const flags = lines(point.surface?.flags).map((line) => capital(line.replace(/^[a-z_]+: /, "")));
   const warnings = [...lines(point.surface?.warnings).map(capital), ...flags];
-  const deviation = (point.damping?.deviation?.deviation?.bem?.mean ?? []).filter(known);
+  const least = point.damping?.deviation_min, greatest = point.damping?.deviation_max;
   const law = isDrag(point) ? "Eq. (16)" : "Eq. (12)";
-  if (deviation.some((d) => Math.abs(d) > 0.1))
-    warnings.push(`${law} with the fitted decay length is between ${percent(Math.min(...deviation))} and ${percent(Math.max(...deviation))} off the damping of the computed curve.`);
+  if (Math.max(Math.abs(least), Math.abs(greatest)) > 0.1)
+    warnings.push(`${law} with the fitted decay length is between ${percent(least)} and ${percent(greatest)} off the damping of the computed curve.`);
   return warnings;
 }
 

@@ -9,7 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/base/quantity.hpp>
+#include <salebra/results/quantity.hpp>
 #include <salebra/study/estimate.hpp>
 #include <salebra/study/realisation.hpp>
 #include <span>
@@ -108,9 +108,8 @@ class Point {
   }
 
   static std::string title(const std::string& model) {
-    const auto known = std::ranges::find_if(
-        study_models, [&](const StudyModel& item) { return name_of(item.model) == model; });
-    return known == study_models.end() ? model : known->title;
+    const auto known = std::ranges::find(contact_models(), model, &StudyModel::name);
+    return known == contact_models().end() ? model : known->title;
   }
 
   bool has(const std::string& name) const { return file_.has(where_ + name); }
@@ -252,21 +251,13 @@ class Point {
     if (!has("fit/decay_length") || bem() == models_.size()) return json;
     json["interval_method"] = file_.text_attribute(where_ + "fit", "interval_method").value_or("");
     for (std::size_t m = 0; m < models_.size(); ++m)
-      for (const char* name : {"decay_length", "decay_length_over_rms_height", "area_slope"})
+      for (const char* name :
+           {"decay_length", "decay_length_over_rms_height", "area_slope", "law_bend",
+            "decay_length_closest_over_rms_height", "decay_length_farthest_over_rms_height"})
         if (has(std::string("fit/ensemble_") + name + "_mean"))
           json["models"][models_[m]][name] = single(std::string("fit/ensemble_") + name, m);
-    for (const char* name : {"decay_length", "reference_pressure", "r_squared", "pressure_min",
-                             "pressure_max", "significance", "decay_length_min", "decay_length_max",
-                             "decay_length_closest", "decay_length_farthest"})
+    for (const char* name : {"decay_length", "reference_pressure", "pressure_min", "pressure_max"})
       if (has(std::string("fit/") + name)) json["bem"][name] = list(bem_column(name));
-    if (!has("fit/decay_length_closest")) return json;
-    // As StudyResult::law_bend.
-    std::vector<double> bends = bem_column("decay_length_farthest");
-    const std::vector<double> closest = bem_column("decay_length_closest");
-    for (std::size_t r = 0; r < bends.size(); ++r) bends[r] = bends[r] / closest[r] - 1;
-    const EnsembleMean bend = bootstrap_.mean(bends);
-    json["bend"] = {
-        {"mean", number(bend.mean)}, {"low", number(bend.low)}, {"high", number(bend.high)}};
     return json;
   }
 
@@ -289,11 +280,18 @@ class Point {
     if (!has("damping/force")) return json;
     json["force"] = list(part("damping/force", 0, pressures_.size()));
     for (const char* route : {"law", "small", "curve"}) {
-      add(json, route,
-          by_model(std::string("damping/") + route + "_ensemble_",
-                   {"work_per_cycle", "damping_constant"}));
+      Json found;
+      for (const char* name : {"work_per_cycle", "damping_constant"}) {
+        const std::string column = std::string(route) + "_" + name;
+        if (Json means = by_model("damping/ensemble_", {column}); !means.is_null())
+          found[name] = std::move(means[column]);
+      }
+      add(json, route, std::move(found));
     }
     add(json, "deviation", by_model("damping/ensemble_", {"deviation"}));
+    for (const char* name : {"deviation_min", "deviation_max"})
+      if (has(std::string("damping/") + name) && bem() < models_.size())
+        json[name] = number(part(std::string("damping/") + name, bem(), 1)[0]);
     for (const char* name : {"mode", "hold", "tangential_stiffness", "interval_method"})
       if (const auto text = file_.text_attribute(where_ + "damping", name)) json[name] = *text;
     for (const char* name : {"normal_amplitude", "angular_frequency", "drag_velocity",

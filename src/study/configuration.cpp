@@ -20,13 +20,6 @@ namespace {
 
 using detail::TomlTable;
 
-constexpr std::array model_names{std::pair{ContactModel::bem, "bem"},
-                                 std::pair{ContactModel::gw_moments, "gw_moments"},
-                                 std::pair{ContactModel::gw_deterministic, "gw_deterministic"},
-                                 std::pair{ContactModel::gw_monte_carlo, "gw_monte_carlo"},
-                                 std::pair{ContactModel::gw_interacting, "gw_interacting"},
-                                 std::pair{ContactModel::persson, "persson"}};
-
 void check_positive(const TomlTable& table, std::string_view key, double value) {
   table.check(value > 0, key, fmt::format("{} must be > 0", value));
 }
@@ -279,24 +272,6 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
   table.require_no_other_keys();
 }
 
-}  // namespace
-
-ContactModel contact_model(std::string_view name) {
-  std::vector<std::string> known;
-  for (const auto& [model, own] : model_names) {
-    if (name == own) return model;
-    known.emplace_back(own);
-  }
-  throw InvalidInput(
-      fmt::format("models: '{}' is not known; known are {}", name, fmt::join(known, ", ")));
-}
-
-const char* name_of(ContactModel model) {
-  return std::ranges::find(model_names, model, [](const auto& item) { return item.first; })->second;
-}
-
-namespace {
-
 /// Each part of a dotted key is a table within a table to toml++, which takes them apart by recursion: a key of 60,000 parts would
 /// exhaust the stack. It limits the nesting of values itself. Strings are not told from keys here, decimal points are.
 void require_shallow_keys(std::string_view text, const std::string& name) {
@@ -325,16 +300,6 @@ void require_shallow_keys(std::string_view text, const std::string& name) {
 }
 
 }  // namespace
-
-std::vector<ContactModel> contact_models(const std::vector<std::string>& names) {
-  std::vector<ContactModel> models{ContactModel::bem};
-  for (const std::string& name : names) {
-    const ContactModel model = contact_model(name);
-    if (std::ranges::find(models, model) == models.end()) models.push_back(model);
-  }
-  std::ranges::sort(models);
-  return models;
-}
 
 bool StudyConfiguration::has(ContactModel model) const {
   return std::ranges::find(models, model) != models.end();
@@ -369,7 +334,7 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
     }
     surface->require_no_other_keys();
   }
-  if (ensemble) ensemble->located([&] { grid_points(configuration); });
+  if (ensemble) ensemble->located([&] { parameter_combinations(configuration); });
   configuration.material = read_material(root.required_table("material"));
   read_contact(root.required_table("contact"), configuration);
   if (auto fit = root.table("fit")) read_fit(*fit, configuration);

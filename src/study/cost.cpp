@@ -18,9 +18,7 @@ namespace salebra {
 namespace {
 
 // Measured on one thread of a server with AVX-512, 24 loads from 5e-4 to 0.2 E*h', surfaces of 256², 512² and 1024² points.
-constexpr double contact_per_cell = 0.218e-6;      // s, with its normal stiffness
 constexpr double stick_per_cell = 0.15e-6;         // s
-constexpr double interacting_per_cell = 0.155e-6;  // s
 constexpr double growth = 0.15;                    // iterations grow with this power of the cells
 constexpr double memory_per_cell = 80;             // bytes
 constexpr double memory_per_cell_stick = 155;      // bytes
@@ -60,8 +58,8 @@ PointCost cost_of(const StudyConfiguration& point, double speed) {
   cost.pressures = study_pressures(point);
   const bool stick = stick_solves(point);
   const auto cells = static_cast<double>(cost.grid.points());
-  const double per_cell = contact_per_cell + (stick ? stick_per_cell : 0) +
-                          (point.has(ContactModel::gw_interacting) ? interacting_per_cell : 0);
+  double per_cell = stick ? stick_per_cell : 0;
+  for (const StudyModel& model : models_of(point)) per_cell += model.seconds_per_cell;
   cost.seconds = static_cast<double>(cost.surfaces * cost.pressures.size()) * per_cell * cells *
                  std::pow(cells / (512.0 * 512.0), growth) / speed;
   cost.memory = cells * (stick ? memory_per_cell_stick : memory_per_cell);
@@ -109,7 +107,7 @@ StudyCost estimate_cost(const StudyConfiguration& configuration) {
   cost.memory = memory_of_program;
   const double speed = reference_transform / transform_seconds();
   const auto threads = static_cast<std::size_t>(cost.threads);
-  for (StudyConfiguration point : grid_points(configuration)) {
+  for (StudyConfiguration point : parameter_combinations(configuration)) {
     PointCost own = cost_of(point, speed);
     const bool side_by_side = own.surfaces >= threads;
     const double gain = side_by_side ? cost.threads : 1 + gain_of_a_thread * (cost.threads - 1);

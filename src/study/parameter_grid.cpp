@@ -59,7 +59,7 @@ Index scaled(Index count, double factor, double size) {
 
 }  // namespace
 
-std::vector<StudyConfiguration> grid_points(const StudyConfiguration& configuration) {
+std::vector<StudyConfiguration> parameter_combinations(const StudyConfiguration& configuration) {
   const ParameterLists lists = configuration.ensemble;
   std::vector<StudyConfiguration> points{configuration};
   points.front().ensemble = {};

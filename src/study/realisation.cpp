@@ -3,23 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <mutex>
 #include <optional>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/asperity/asperity_sampling.hpp>
-#include <salebra/contact/normal/contact_spots.hpp>
-#include <salebra/contact/asperity/interacting_summits.hpp>
 #include <salebra/contact/law/law.hpp>
-#include <salebra/contact/sweep.hpp>
-#include <salebra/contact/theories.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/study/realisation.hpp>
-#include <salebra/surface/spectrum.hpp>
+#include <utility>
+
+#include "contact_models.hpp"
 
 namespace salebra {
 namespace {
@@ -92,19 +87,19 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
     const AtForce position{sample.force};
     if (fitted_law) {
       const auto by_law = relaxation_damping(*fitted_law, position, configuration.motion, small);
-      point.law_work = by_law.work_per_cycle;
+      point.law_work_per_cycle = by_law.work_per_cycle;
       point.law_damping_constant = by_law.damping_constant;
     }
     if (curve_law) {
       try {
         const auto by_curvature =
             relaxation_damping(*curve_law, position, configuration.motion, small);
-        point.small_work = by_curvature.work_per_cycle;
+        point.small_work_per_cycle = by_curvature.work_per_cycle;
         point.small_damping_constant = by_curvature.damping_constant;
         const auto by_curve =
             relaxation_damping(*curve_law, position, configuration.motion, configuration.damping);
         if (by_curve.converged) {
-          point.curve_work = by_curve.work_per_cycle;
+          point.curve_work_per_cycle = by_curve.work_per_cycle;
           point.curve_damping_constant = by_curve.damping_constant;
         }
       } catch (const InvalidInput&) {
@@ -116,10 +111,18 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
   return points;
 }
 
+void require_converged(const ForceCurve& curve, const StudyConfiguration& configuration) {
+  const auto converged = std::ranges::count_if(curve.samples, &ForceSample::converged);
+  if (converged < 4)
+    throw NotConverged(
+        fmt::format("contact: only {} of {} pressures converged to {}; allow a larger tolerance",
+                    converged, curve.samples.size(), configuration.tolerance));
+}
+
 /// What can be said of a model's curve. One that has too few samples in the window has no decay length, and no loss by Eq. (16).
-ModelResult analysed(ForceCurve curve, const StudyConfiguration& configuration, double scale) {
+void analyse(ModelResult& result, const StudyConfiguration& configuration, double scale) {
   constexpr double unknown = ForceSample::unknown;
-  ModelResult result;
+  const ForceCurve& curve = result.curve;
   const PressureWindow nowhere{unknown, unknown, 0};
   result.fit = {unknown, unknown, unknown, unknown, unknown, nowhere, unknown};
   result.test = {unknown, unknown, unknown, unknown, unknown, nowhere};
@@ -128,6 +131,8 @@ ModelResult analysed(ForceCurve curve, const StudyConfiguration& configuration, 
     result.fit = fit_exponential(curve, configuration.window);
     if (result.fit.window.points >= 4) result.test = test_exponential(curve, configuration.window);
     result.sensitivity = window_sensitivity(curve, configuration.window);
+    result.decay_length_equal_weights =
+        fit_exponential(curve, configuration.window, FitWeights::equal).decay_length;
   } catch (const InvalidInput&) {
   }
   try {
@@ -136,67 +141,7 @@ ModelResult analysed(ForceCurve curve, const StudyConfiguration& configuration, 
   }
   result.area_slope = area_slope(curve.column(&ForceSample::pressure),
                                  curve.column(&ForceSample::contact_area_fraction), scale);
-  result.curve = std::move(curve);
   result.damping = damping_curve(result, configuration);
-  return result;
-}
-
-/// The modes that the surface has, ring by ring.
-std::vector<RoughnessShell> shells_of(const Surface& surface) {
-  const PowerSpectrum spectrum = power_spectrum(surface);
-  const RadialSpectrum rings = radial_spectrum(spectrum, 16);
-  std::vector<RoughnessShell> shells;
-  for (std::size_t i = 0; i < rings.wavenumber.size(); ++i) {
-    const double power = double(rings.modes[i]) * rings.density[i] * spectrum.cell();
-    if (power > 0) shells.push_back({rings.wavenumber[i], power});
-  }
-  return shells;
-}
-
-SpotStatistics spot_statistics(const ContactSpots& contact, const Grid2D& grid) {
-  SpotStatistics statistics;
-  statistics.count = double(contact.spots.size());
-  statistics.corrected_area_fraction = contact.corrected_area_fraction;
-  statistics.largest_area = contact.spots.empty() ? 0 : contact.spots.front().area;
-  statistics.mean_area = contact.spots.empty() ? 0
-                                               : contact.contact_area_fraction * grid.area() /
-                                                     double(contact.spots.size());
-  statistics.sizes.assign(std::size_t(std::bit_width(std::uint64_t(grid.points()))), 0.0);
-  for (const ContactSpot& spot : contact.spots) {
-    const auto cells = std::uint64_t(std::llround(spot.area / grid.cell_area()));
-    statistics.sizes[std::size_t(std::bit_width(cells) - 1)] += 1;
-  }
-  return statistics;
-}
-
-/// Those of Monte Carlo, interacting summits and Persson's theory that were asked for.
-void add_other_models(Realisation& realisation, const Surface& surface, const SummitList& summits,
-                      const StudyConfiguration& configuration, double scale,
-                      const std::vector<double>& pressures, const Progress& progress) {
-  const Material& material = configuration.material;
-  const double area = surface.grid.area(), rms_height = realisation.heights.rms_height;
-  if (configuration.has(ContactModel::gw_monte_carlo)) {
-    const SummitEnsemble& ensemble = realisation.ensemble;
-    const int count = std::max(1, int(std::lround(ensemble.density * area)));
-    const DeterministicSummits drawn(
-        draw_summits(ensemble, count, std::sqrt(area), realisation.seed), material, area,
-        -ensemble.mean_height, rms_height);
-    realisation.gw_monte_carlo =
-        analysed(curve_at_pressures(drawn, pressures), configuration, scale);
-  }
-  if (configuration.has(ContactModel::persson)) {
-    const PerssonTheory theory(shells_of(surface), material.contact_modulus);
-    ForceCurve persson = persson_curve(theory, material, area, pressures);
-    persson.rms_height = rms_height;
-    realisation.persson = analysed(persson, configuration, scale);
-    realisation.persson_decay_length = theory.asymptote().decay_length;
-  }
-  if (configuration.has(ContactModel::gw_interacting)) {
-    const InteractingSummits interacting(summits.summits, material, surface.grid,
-                                         realisation.heights.mean, rms_height);
-    realisation.gw_interacting =
-        analysed(curve_at_pressures(interacting, pressures, progress), configuration, scale);
-  }
 }
 
 }  // namespace
@@ -207,9 +152,26 @@ bool stick_solves(const StudyConfiguration& configuration) {
 
 std::vector<StudyModel> models_of(const StudyConfiguration& configuration) {
   std::vector<StudyModel> chosen;
-  for (const StudyModel& model : study_models)
-    if (configuration.has(model.model)) chosen.push_back(model);
+  for (const StudyModel& model : contact_models())
+    if (configuration.has(model.id)) chosen.push_back(model);
   return chosen;
+}
+
+double ModelResult::law_bend() const {
+  return test.window.points >= 4 ? test.decay_length_farthest / test.decay_length_closest - 1
+                                 : ForceSample::unknown;
+}
+
+const ModelResult& Realisation::of(ContactModel model) const {
+  const auto found = std::ranges::find(models, model, &ModelResult::model);
+  if (found == models.end())
+    throw InvalidInput(fmt::format("model: '{}' was not computed; ask for it in the configuration",
+                                   name_of(model)));
+  return *found;
+}
+
+ModelResult& Realisation::of(ContactModel model) {
+  return const_cast<ModelResult&>(std::as_const(*this).of(model));
 }
 
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
@@ -259,57 +221,32 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
   realisation.moments = surface_moments(surface);
   const SummitList summits = find_summits(surface);
   realisation.summits = summit_statistics(summits);
-  const Material& material = configuration.material;
   const SpectralMoments& moments = realisation.moments;
-  const double scale = material.contact_modulus * moments.rms_slope();
-
+  const double scale = configuration.material.contact_modulus * moments.rms_slope();
   realisation.ensemble = summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
   realisation.ensemble.rms_height = realisation.heights.rms_height;
-  const StatisticalSummits statistical(realisation.ensemble, material, surface.grid.area());
-  realisation.gw_moments =
-      analysed(curve_at_pressures(statistical, pressures), configuration, scale);
-  const DeterministicSummits deterministic(summits.summits, material, summits.searched_area,
-                                           realisation.heights.mean,
-                                           realisation.heights.rms_height);
-  realisation.gw_deterministic =
-      analysed(curve_at_pressures(deterministic, pressures), configuration, scale);
+  if (wants_picture(configuration, seed)) realisation.picture = picture_of(surface, configuration);
 
+  const std::vector<StudyModel> models = models_of(configuration);
+  double cost = 0, spent = 0;
+  for (const StudyModel& model : models) cost += model.seconds_per_cell;
   bool stopped = false;
-  // The share of the interacting summits in the time.
-  const double others = configuration.has(ContactModel::gw_interacting) ? 0.4 : 0.0;
-  const auto part = [&](double begin, double share) -> Progress {
-    return [&, begin, share](const ProgressReport& report) {
-      stopped = stopped || (progress && !progress({.stage = "realisation",
-                                                   .fraction = begin + share * report.fraction}));
+  for (const StudyModel& model : models) {
+    const Progress part = [&, share = model.seconds_per_cell](const ProgressReport& report) {
+      stopped = stopped ||
+                (progress && !progress({.stage = "realisation",
+                                        .fraction = (spent + share * report.fraction) / cost}));
       return !stopped;
     };
-  };
-  add_other_models(realisation, surface, summits, configuration, scale, pressures, part(0, others));
-  if (stopped) throw Interrupted("study: interrupted");
-
-  if (wants_picture(configuration, seed)) realisation.picture = picture_of(surface, configuration);
-  std::mutex picture_guard;
-  SweepOptions sweep;
-  sweep.contact.tolerance = configuration.tolerance;
-  sweep.contact.on_progress = part(others, 1 - others);
-  sweep.stick = stick_solves(configuration);
-  realisation.spots.resize(pressures.size());
-  sweep.on_state = [&](std::size_t k, const NormalContactState& state) {
-    realisation.spots[k] =
-        spot_statistics(contact_spots(state.pressure, surface.grid), surface.grid);
-    if (realisation.picture.empty()) return;
-    const std::scoped_lock lock(picture_guard);
-    realisation.picture.add_contact(std::int16_t(k), state);
-  };
-  ForceCurve curve = sweep_pressures(surface, material, pressures, sweep);
-  if (stopped) throw Interrupted("study: interrupted");
-  const auto converged = std::ranges::count_if(curve.samples, &ForceSample::converged);
-  if (converged < 4) {
-    throw NotConverged(
-        fmt::format("contact: only {} of {} pressures converged to {}; allow a larger tolerance",
-                    converged, pressures.size(), configuration.tolerance));
+    detail::ModelWork work{configuration, surface, summits, pressures, realisation, part};
+    ModelResult result = model.press(work);
+    if (stopped) throw Interrupted("study: interrupted");
+    result.model = model.id;
+    if (model.id == ContactModel::bem) require_converged(result.curve, configuration);
+    analyse(result, configuration, scale);
+    realisation.models.push_back(std::move(result));
+    spent += model.seconds_per_cell;
   }
-  realisation.bem = analysed(std::move(curve), configuration, scale);
   std::vector<double> corrected;
   for (const SpotStatistics& spots : realisation.spots)
     corrected.push_back(spots.corrected_area_fraction);

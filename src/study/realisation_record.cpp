@@ -7,11 +7,13 @@
 #include <filesystem>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
+#include <salebra/results/damping.hpp>
+#include <salebra/results/spectrum.hpp>
 #include <type_traits>
 
+#include "case_run.hpp"
 #include "io/input_file.hpp"
 #include "io/sidecar.hpp"
-#include "point_run.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -47,9 +49,10 @@ class Writer {
     put(item.has_value());
     if (item) put(*item);
   }
-  template <class Struct>
-  requires std::is_class_v<Struct>
-  void put(const Struct& value) { fields(*this, value); }
+  template <Described Struct>
+  void put(const Struct& value) {
+    for_each_member<Struct>([&](auto member) { put(value.*member); });
+  }
 };
 
 /// The inverse of Writer.
@@ -86,121 +89,26 @@ class Reader {
     items.resize(size);
     for (Item& item : items) get(item);
   }
-  template <class Struct>
-  requires std::is_class_v<Struct>
-  void get(Struct& value) { fields(*this, value); }
+  template <Described Struct>
+  void get(Struct& value) {
+    for_each_member<Struct>([&](auto member) { get(value.*member); });
+  }
 
   std::string_view bytes_;
 };
 
-/// fields(archive, struct): its members, in the order of their declaration. S is the struct or its const form.
-template <class S, class T>
-concept Of = std::is_same_v<std::remove_const_t<S>, T>;
-
-// Extend these when a struct grows; the static_assert is a reminder.
-static_assert(sizeof(ForceSample) == 9 * 8 && sizeof(DampingPoint) == 8 * 8 &&
-              sizeof(ExponentialFit) == 9 * 8 && sizeof(ExponentialTest) == 8 * 8 &&
-              sizeof(HeightStatistics) == 7 * 8 && sizeof(SpectralMoments) == 5 * 8 &&
-              sizeof(SummitStatistics) == 4 * 8);
-
-template <class A, Of<Grid2D> S>
-void fields(A& archive, S& s) {
-  archive(s.nx, s.ny, s.lx, s.ly);
-}
-template <class A, Of<HeightStatistics> S>
-void fields(A& archive, S& s) {
-  archive(s.defined_points, s.minimum, s.maximum, s.mean, s.rms_height, s.skewness, s.kurtosis);
-}
-template <class A, Of<SpectralMoments> S>
-void fields(A& archive, S& s) {
-  archive(s.moment0, s.moment2_x, s.moment2_y, s.moment4_x, s.moment4_y);
-}
-template <class A, Of<SummitStatistics> S>
-void fields(A& archive, S& s) {
-  archive(s.density, s.mean_height, s.rms_height, s.mean_radius);
-}
-template <class A, Of<HeightDensityPoint> S>
-void fields(A& archive, S& s) {
-  archive(s.height, s.density);
-}
-template <class A, Of<SummitEnsemble> S>
-void fields(A& archive, S& s) {
-  archive(s.density, s.radius, s.summit_rms, s.mean_height, s.distribution, s.rms_height, s.table);
-}
-template <class A, Of<ForceSample> S>
-void fields(A& archive, S& s) {
-  archive(s.indentation, s.mean_gap, s.separation, s.force, s.pressure, s.contact_area_fraction,
-          s.normal_stiffness, s.tangential_stiffness, s.converged);
-}
-template <class A, Of<ForceCurve> S>
-void fields(A& archive, S& s) {
-  archive(s.model, s.nominal_area, s.rms_height, s.samples);
-}
-template <class A, Of<PressureWindow> S>
-void fields(A& archive, S& s) {
-  archive(s.pressure_min, s.pressure_max, s.points);
-}
-template <class A, Of<ExponentialFit> S>
-void fields(A& archive, S& s) {
-  archive(s.decay_length, s.decay_length_low, s.decay_length_high, s.reference_pressure,
-          s.r_squared, s.window, s.decay_length_over_rms_height);
-}
-template <class A, Of<ExponentialTest> S>
-void fields(A& archive, S& s) {
-  archive(s.quadratic, s.standard_error, s.significance, s.decay_length_closest,
-          s.decay_length_farthest, s.window);
-}
-template <class A, Of<WindowSensitivity> S>
-void fields(A& archive, S& s) {
-  archive(s.decay_length_min, s.decay_length_max, s.windows);
-}
-template <class A, Of<LocalDecayLength> S>
-void fields(A& archive, S& s) {
-  archive(s.mean_gap, s.decay_length);
-}
-template <class A, Of<DampingPoint> S>
-void fields(A& archive, S& s) {
-  archive(s.pressure, s.force, s.law_work, s.law_damping_constant, s.small_work,
-          s.small_damping_constant, s.curve_work, s.curve_damping_constant);
-}
-template <class A, Of<ModelResult> S>
-void fields(A& archive, S& s) {
-  archive(s.curve, s.fit, s.test, s.sensitivity, s.local, s.area_slope, s.damping);
-}
-template <class A, Of<SpotStatistics> S>
-void fields(A& archive, S& s) {
-  archive(s.count, s.corrected_area_fraction, s.largest_area, s.mean_area, s.sizes);
-}
-template <class A, Of<SurfacePicture> S>
-void fields(A& archive, S& s) {
-  archive(s.origin, s.stride, s.nx, s.ny, s.step_x, s.step_y, s.heights, s.first_load, s.wavenumber,
-          s.density, s.law_density, s.law, s.hurst, s.hurst_low, s.hurst_high, s.height,
-          s.height_density);
-}
-template <class A, Of<Realisation> S>
-void fields(A& archive, S& s) {
-  archive(s.seed, s.grid, s.periodic, s.seam_step, s.heights, s.moments, s.summits, s.ensemble,
-          s.bem, s.gw_moments, s.gw_deterministic, s.gw_monte_carlo, s.gw_interacting, s.persson,
-          s.spots, s.corrected_area_slope, s.persson_decay_length, s.picture);
-}
-
-// What follows is only ever written, into keys.
-template <class A, Of<SelfAffineParameters> S>
-void fields(A& archive, S& s) {
-  archive(s.hurst, s.long_cutoff, s.rolloff, s.short_cutoff, s.rms_height, s.rms_slope);
-}
-template <class A, Of<Material> S>
-void fields(A& archive, S& s) {
-  archive(s.contact_modulus, s.tangential_modulus, s.cerruti_isotropic, s.cerruti_directed);
-}
-template <class A, Of<EqualFrequency> S>
-void fields(A& archive, S& s) {
-  archive(s.normal_amplitude, s.tangential_amplitude, s.phase, s.angular_frequency);
-}
-template <class A, Of<Drag> S>
-void fields(A& archive, S& s) {
-  archive(s.normal_amplitude, s.drag_velocity, s.angular_frequency);
-}
+// A member without a line in its description would be lost.
+static_assert(describes_all<Realisation>() && describes_all<Grid2D>() &&
+              describes_all<HeightStatistics>() && describes_all<SpectralMoments>() &&
+              describes_all<SummitStatistics>() && describes_all<SummitEnsemble>() &&
+              describes_all<HeightDensityPoint>() && describes_all<ModelResult>() &&
+              describes_all<ForceCurve>() && describes_all<ForceSample>() &&
+              describes_all<ExponentialFit>() && describes_all<ExponentialTest>() &&
+              describes_all<WindowSensitivity>() && describes_all<PressureWindow>() &&
+              describes_all<LocalDecayLength>() && describes_all<DampingPoint>() &&
+              describes_all<SpotStatistics>() && describes_all<SurfacePicture>() &&
+              describes_all<SelfAffineParameters>() && describes_all<Material>() &&
+              describes_all<EqualFrequency>() && describes_all<Drag>());
 
 /// Empty where there is no such file.
 std::string contents(const std::filesystem::path& file) {

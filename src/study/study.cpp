@@ -11,7 +11,7 @@
 #include <salebra/study/cost.hpp>
 #include <salebra/study/study.hpp>
 
-#include "point_run.hpp"
+#include "case_run.hpp"
 
 namespace salebra {
 namespace {
@@ -31,11 +31,11 @@ void warn(StudyResult& result) {
   }
   int lost = 0, unconverged = 0;
   for (const Realisation& realisation : result.realisations) {
-    lost += int(std::ranges::count_if(realisation.bem.damping, [](const DampingPoint& point) {
-      return std::isnan(point.curve_work);
+    lost += int(std::ranges::count_if(realisation.of(ContactModel::bem).damping, [](const DampingPoint& point) {
+      return std::isnan(point.curve_work_per_cycle);
     }));
     unconverged +=
-        int(std::ranges::count(realisation.bem.curve.samples, false, &ForceSample::converged));
+        int(std::ranges::count(realisation.of(ContactModel::bem).curve.samples, false, &ForceSample::converged));
   }
   if (unconverged > 0) {
     result.warnings.push_back(fmt::format("{} contacts did not converge to {} and were left out",
@@ -43,12 +43,12 @@ void warn(StudyResult& result) {
   }
   for (const StudyModel& model : result.models()) {
     const auto without = std::ranges::count_if(result.realisations, [&](const Realisation& r) {
-      return std::isnan((r.*model.result).fit.decay_length);
+      return std::isnan(r.of(model.id).fit.decay_length);
     });
     if (without > 0)
       result.warnings.push_back(fmt::format(
           "{}: no decay length on {} of {} surfaces, whose curves have fewer than 3 pressures {}",
-          name_of(model.model), without, result.realisations.size(),
+          model.name, without, result.realisations.size(),
           result.configuration.window ? "in the pressure_window; widen it"
                                       : "at mean gaps of 1 to 2.5 rms heights; compute more of "
                                         "them or give a pressure_window"));
@@ -88,9 +88,9 @@ void flag(StudyResult& result) {
   double fewest = std::numeric_limits<double>::infinity();
   for (const Realisation& realisation : result.realisations)
     for (std::size_t k = 0; k < realisation.spots.size(); ++k)
-      if (realisation.bem.fit.window.contains(result.pressures[k], PressureWindow::round_off) &&
-          !std::isnan(realisation.spots[k].count))
-        fewest = std::min(fewest, realisation.spots[k].count);
+      if (realisation.of(ContactModel::bem).fit.window.contains(result.pressures[k], PressureWindow::round_off) &&
+          !std::isnan(realisation.spots[k].spot_count))
+        fewest = std::min(fewest, realisation.spots[k].spot_count);
   if (fewest < least_spots)
     result.flags.push_back(
         {"few_spots",
@@ -120,7 +120,7 @@ void require_some_of(StudyParts& parts, const std::vector<StudyConfiguration>& p
 std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
                                        const StudyRun& run) {
   configuration.material.modulus_ratio();
-  const std::vector<StudyConfiguration> points = grid_points(configuration);
+  const std::vector<StudyConfiguration> points = parameter_combinations(configuration);
   RealisationReport report{.points = points.size()};
   for (const StudyConfiguration& point : points) {
     const std::size_t count = detail::seeds_of(point).size();
@@ -140,7 +140,7 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
     result.contact_scale = contact_scale(point);
     result.pressures = study_pressures(point);
     report.point = results.size();
-    detail::run_point(result, run, report);
+    detail::run_case(result, run, report);
     report.finished += detail::seeds_of(point).size();
     const bool interrupted = result.interrupted;
     if (!result.realisations.empty()) {
@@ -155,7 +155,7 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
 }
 
 StudyResult run_study(const StudyConfiguration& configuration, const Progress& progress) {
-  const auto points = grid_points(configuration).size();
+  const auto points = parameter_combinations(configuration).size();
   require(points == 1, "ensemble", points, "points; this takes one, run_ensembles all");
   std::vector<StudyResult> results = run_ensembles(configuration, {.on_progress = progress});
   if (!results.empty()) return std::move(results.front());

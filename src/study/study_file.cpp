@@ -22,7 +22,7 @@ bool is_result_of(const std::filesystem::path& file, const StudyConfiguration& s
   if (!std::filesystem::is_regular_file(file)) return false;
   try {
     const ResultReader reader(file);
-    const std::string key = key_text(grid_points(study));
+    const std::string key = key_text(parameter_combinations(study));
     for (const char* group : {"surface", "ensemble"})
       if (reader.has(group) && reader.text_attribute(group, "study") == key) return true;
   } catch (const InvalidInput&) {

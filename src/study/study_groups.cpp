@@ -1,254 +1,215 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// HDF5 groups of a study's result: surfaces, curves, fits, damping, spots, comparison, convergence.
+// The HDF5 groups of a study: a dataset for every column that the descriptions of its results name.
 #include "study_groups.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <salebra/base/quantity.hpp>
+#include <map>
+#include <salebra/results/damping.hpp>
+#include <salebra/results/spectrum.hpp>
+#include <set>
 
 namespace salebra::detail {
 namespace {
 
 using Names = std::vector<std::string>;
+using Means = std::vector<EnsembleMean>;
 
-/// Adds a dataset whose unit follows from its name.
-void put(ResultGroup& group, const std::string& name, const std::vector<double>& values,
-         const Names& coordinates, const std::string& prefix = "", const std::string& suffix = "") {
-  const Quantity quantity = find_quantity(name);
-  group.dataset(prefix + name + suffix, values, coordinates,
-                std::string(si_unit(quantity.dimension)),
-                std::string(quantity.long_name) + (suffix.empty() ? "" : ", " + suffix.substr(1)));
-}
+/// A group with its axes, and datasets of what was described.
+class Table {
+ public:
+  explicit Table(ResultGroup group) : group_(std::move(group)) {}
+  ResultGroup& group() { return group_; }
 
-void put(ResultGroup& group, const std::string& name, const std::vector<EnsembleMean>& estimates,
-         const Names& coordinates, const std::string& prefix = "") {
-  for (const auto& [suffix, member] : {std::pair{"_mean", &EnsembleMean::mean},
-                                       {"_low", &EnsembleMean::low},
-                                       {"_high", &EnsembleMean::high}}) {
-    std::vector<double> values;
-    for (const EnsembleMean& estimate : estimates) values.push_back(estimate.*member);
-    put(group, name, values, coordinates, prefix, suffix);
+  void models(const StudyResult& result) {
+    Names names;
+    for (const StudyModel& model : result.models()) names.emplace_back(model.name);
+    group_.labels("model", names, "contact model");
   }
-}
+  void realisations(const StudyResult& result) {
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < result.realisations.size(); ++i) numbers.push_back(double(i));
+    group_.coordinate("realisation", numbers, "1", "number of the surface");
+  }
+  void pressures(const StudyResult& result) {
+    group_.coordinate("pressure", result.pressures, "Pa", "nominal pressure");
+    taken_.insert("pressure");
+  }
 
-void put_realisations(ResultGroup& group, const StudyResult& result) {
-  std::vector<double> numbers;
-  for (std::size_t i = 0; i < result.realisations.size(); ++i) numbers.push_back(double(i));
-  group.coordinate("realisation", numbers, "1", "number of the surface");
-}
+  void put(const Quantity& quantity, const std::vector<double>& values, const Names& axes) {
+    const std::string name(quantity.name);
+    taken_.insert(name);
+    group_.dataset(name, values, axes, std::string(si_unit(quantity.dimension)),
+                   std::string(quantity.long_name));
+  }
 
-void put_pressures(ResultGroup& group, const StudyResult& result) {
-  group.coordinate("pressure", result.pressures, "Pa", "nominal pressure");
-}
+  /// name_mean, name_low and name_high.
+  void put(const std::string& name, const Quantity& quantity, const Means& means,
+           const Names& axes) {
+    for (const auto& [part, member] : {std::pair{"mean", &EnsembleMean::mean},
+                                       {"low", &EnsembleMean::low},
+                                       {"high", &EnsembleMean::high}}) {
+      std::vector<double> values;
+      std::ranges::transform(means, std::back_inserter(values), member);
+      group_.dataset(name + "_" + part, values, axes, std::string(si_unit(quantity.dimension)),
+                     std::string(quantity.long_name) + ", " + part);
+    }
+  }
 
-void put_models(ResultGroup& group, const StudyResult& result) {
-  Names names;
-  for (const StudyModel& model : result.models()) names.emplace_back(name_of(model.model));
-  group.labels("model", names, "contact model");
-}
-
-void write_surfaces(ResultGroup group, const StudyResult& result) {
-  put_realisations(group, result);
-  const auto column = [&](const std::string& name,
-                          const std::function<double(const Realisation&)>& value) {
-    std::vector<double> values;
-    std::ranges::transform(result.realisations, std::back_inserter(values), value);
-    put(group, name, values, {"realisation"});
-  };
-  std::vector<std::int64_t> seeds;
-  for (const Realisation& realisation : result.realisations)
-    seeds.push_back(std::int64_t(realisation.seed));
-  group.dataset("seed", seeds, {"realisation"}, "1",
-                "seed of the generator; 0 for a measured surface");
-  column("rms_height", [](const Realisation& r) { return r.heights.rms_height; });
-  column("skewness", [](const Realisation& r) { return r.heights.skewness; });
-  column("kurtosis", [](const Realisation& r) { return r.heights.kurtosis; });
-  column("rms_slope", [](const Realisation& r) { return r.moments.rms_slope(); });
-  column("moment0", [](const Realisation& r) { return r.moments.moment0; });
-  column("moment2", [](const Realisation& r) { return r.moments.moment2(); });
-  column("moment4", [](const Realisation& r) { return r.moments.moment4(); });
-  column("nayak", [](const Realisation& r) { return r.moments.nayak(); });
-  column("density", [](const Realisation& r) { return r.summits.density; });
-  column("mean_height", [](const Realisation& r) { return r.summits.mean_height; });
-  column("summit_rms", [](const Realisation& r) { return r.summits.rms_height; });
-  column("mean_radius", [](const Realisation& r) { return r.summits.mean_radius; });
-  group.attribute("nx", std::int64_t(result.grid.nx));
-  group.attribute("ny", std::int64_t(result.grid.ny));
-  group.attribute("size_x", result.grid.lx);
-  group.attribute("size_y", result.grid.ly);
-}
-
-void write_curves(ResultGroup group, const StudyResult& result) {
-  put_models(group, result);
-  put_realisations(group, result);
-  put_pressures(group, result);
-  const auto column = [&](const std::string& name, double ForceSample::*quantity) {
-    std::vector<double> values;
-    for (const StudyModel& model : result.models()) {
-      for (const Realisation& realisation : result.realisations) {
-        const auto& samples = (realisation.*model.result).curve.samples;
-        std::ranges::transform(samples, std::back_inserter(values), quantity);
+  /// Every column of the items that has no dataset yet.
+  template <class T>
+  void columns(const std::vector<const T*>& items, const Names& axes) {
+    columns(items, axes, [](const NumberOf<T>&, std::string_view) { return Means(); }, {});
+  }
+  /// The same, and ensemble_NAME for the numbers: means(number, name) along their axes.
+  template <class T, class MeansOf>
+  void columns(const std::vector<const T*>& items, const Names& axes, const MeansOf& means,
+               const Names& axes_of_means) {
+    for_each_column<T>([&](const auto& access, const Quantity& quantity) {
+      using Value = std::remove_cvref_t<std::invoke_result_t<decltype(access), const T&>>;
+      const std::string name(quantity.name), units(si_unit(quantity.dimension));
+      if (taken_.contains(name)) return;
+      if constexpr (std::is_same_v<Value, bool>) {
+        group_.flags(name, all_of<bool>(items, access), axes, std::string(quantity.long_name));
+      } else if constexpr (std::is_integral_v<Value>) {
+        group_.dataset(name, all_of<std::int64_t>(items, access), axes, units,
+                       std::string(quantity.long_name));
+      } else if constexpr (Number<Value>) {
+        const auto number = [&](const T& item) { return as_number(access(item)); };
+        put(quantity, all_of<double>(items, number), axes);
+        if (const Means found = means(number, quantity.name); !found.empty())
+          put("ensemble_" + name, quantity, found, axes_of_means);
       }
-    }
-    put(group, name, values, {"model", "realisation", "pressure"});
-    std::vector<EnsembleMean> means;
-    for (const StudyModel& model : result.models()) {
-      const auto row = result.curve(model.result, quantity);
-      means.insert(means.end(), row.begin(), row.end());
-    }
-    put(group, name, means, {"model", "pressure"}, "ensemble_");
-  };
-  column("mean_gap", &ForceSample::mean_gap);
-  column("indentation", &ForceSample::indentation);
-  column("separation", &ForceSample::separation);
-  column("force", &ForceSample::force);
-  column("contact_area_fraction", &ForceSample::contact_area_fraction);
-  column("normal_stiffness", &ForceSample::normal_stiffness);
-  column("tangential_stiffness", &ForceSample::tangential_stiffness);
-  std::vector<bool> converged;
-  for (const StudyModel& model : result.models()) {
-    for (const Realisation& realisation : result.realisations) {
-      for (const ForceSample& sample : (realisation.*model.result).curve.samples)
-        converged.push_back(sample.converged);
-    }
+    });
   }
-  group.flags("converged", converged, {"model", "realisation", "pressure"},
-              "whether the contact converged");
+
+  /// Every column of one item as an attribute of the group.
+  template <class T>
+  void attributes(const T& item) {
+    for_each_column<T>([&](const auto& access, const Quantity& quantity) {
+      using Value = std::remove_cvref_t<decltype(access(item))>;
+      using Stored = std::conditional_t<std::is_integral_v<Value>, std::int64_t, double>;
+      group_.attribute(std::string(quantity.name), static_cast<Stored>(access(item)));
+    });
+  }
+
+ private:
+  template <class Value, class T, class Access>
+  static std::vector<Value> all_of(const std::vector<const T*>& items, const Access& access) {
+    std::vector<Value> values;
+    for (const T* item : items) values.push_back(static_cast<Value>(access(*item)));
+    return values;
+  }
+
+  ResultGroup group_;
+  std::set<std::string> taken_;  ///< coordinates and datasets
+};
+
+/// The results of each model on each surface, model by model.
+std::vector<const ModelResult*> model_results(const StudyResult& result) {
+  std::vector<const ModelResult*> items;
+  for (const StudyModel& model : result.models())
+    for (const Realisation& realisation : result.realisations)
+      items.push_back(&realisation.of(model.id));
+  return items;
 }
 
-void write_local_decay_lengths(ResultGroup group, const StudyResult& result) {
-  put_models(group, result);
-  put_realisations(group, result);
+/// What means(model) returns, one or one for each pressure, model by model.
+template <class MeansOf>
+Means of_models(const StudyResult& result, const MeansOf& means) {
+  Means all;
+  for (const StudyModel& model : result.models()) {
+    const auto found = means(model.id);
+    if constexpr (std::is_same_v<decltype(found), const EnsembleMean>) all.push_back(found);
+    else all.insert(all.end(), found.begin(), found.end());
+  }
+  return all;
+}
+
+void write_surfaces(Table table, const StudyResult& result) {
+  table.realisations(result);
+  std::vector<const Realisation*> items;
+  for (const Realisation& realisation : result.realisations) items.push_back(&realisation);
+  table.columns(items, {"realisation"});
+  table.attributes(result.grid);
+  std::string warnings, flags;
+  for (const std::string& warning : result.warnings) warnings += warning + "\n";
+  for (const StudyFlag& found : result.flags) flags += found.name + ": " + found.text + "\n";
+  table.group().attribute("warnings", warnings);
+  table.group().attribute("flags", flags);
+}
+
+void write_curves(Table table, const StudyResult& result) {
+  table.models(result);
+  table.realisations(result);
+  table.pressures(result);
+  std::vector<const ForceSample*> items;
+  for (const ModelResult* model : model_results(result))
+    for (const ForceSample& sample : model->curve.samples) items.push_back(&sample);
+  table.columns(
+      items, {"model", "realisation", "pressure"},
+      [&](const NumberOf<ForceSample>& number, std::string_view) {
+        return of_models(result, [&](ContactModel model) { return result.curve(number, model); });
+      },
+      {"model", "pressure"});
+}
+
+void write_local_decay_lengths(Table table, const StudyResult& result) {
+  table.models(result);
+  table.realisations(result);
   // Samples that did not converge shorten a list; the rest of its row stays unknown.
   const std::size_t midpoints = result.pressures.size() - 1;
-  group.index("midpoint", midpoints, "between consecutive pressures");
-  const auto column = [&](const std::string& name,
-                          std::vector<double> LocalDecayLength::*quantity) {
+  table.group().index("midpoint", midpoints, "between consecutive pressures");
+  for_each_column<LocalDecayLength>([&](const auto& access, const Quantity& quantity) {
     std::vector<double> values;
-    for (const StudyModel& model : result.models()) {
-      for (const Realisation& realisation : result.realisations) {
-        std::vector<double> row = (realisation.*model.result).local.*quantity;
-        row.resize(midpoints, ForceSample::unknown);
-        values.insert(values.end(), row.begin(), row.end());
-      }
+    for (const ModelResult* model : model_results(result)) {
+      std::vector<double> row = access(model->local);
+      row.resize(midpoints, ForceSample::unknown);
+      values.insert(values.end(), row.begin(), row.end());
     }
-    put(group, name, values, {"model", "realisation", "midpoint"});
-  };
-  column("mean_gap", &LocalDecayLength::mean_gap);
-  column("decay_length", &LocalDecayLength::decay_length);
+    table.put(quantity, values, {"model", "realisation", "midpoint"});
+  });
 }
 
-void write_fits(ResultGroup group, const StudyResult& result) {
-  put_models(group, result);
-  put_realisations(group, result);
-  const auto column = [&](const std::string& name,
-                          const std::function<double(const ModelResult&)>& value) {
-    std::vector<double> values;
-    for (const StudyModel& model : result.models()) {
-      for (const Realisation& realisation : result.realisations)
-        values.push_back(value(realisation.*model.result));
-    }
-    put(group, name, values, {"model", "realisation"});
-  };
-  column("decay_length", [](const ModelResult& model) { return model.fit.decay_length; });
-  column("decay_length_low", [](const ModelResult& model) { return model.fit.decay_length_low; });
-  column("decay_length_high", [](const ModelResult& model) { return model.fit.decay_length_high; });
-  column("decay_length_over_rms_height",
-         [](const ModelResult& model) { return model.fit.decay_length_over_rms_height; });
-  column("reference_pressure",
-         [](const ModelResult& model) { return model.fit.reference_pressure; });
-  column("r_squared", [](const ModelResult& model) { return model.fit.r_squared; });
-  column("pressure_min", [](const ModelResult& model) { return model.fit.window.pressure_min; });
-  column("significance", [](const ModelResult& model) { return model.test.significance; });
-  column("decay_length_min",
-         [](const ModelResult& model) { return model.sensitivity.decay_length_min; });
-  column("decay_length_max",
-         [](const ModelResult& model) { return model.sensitivity.decay_length_max; });
-  column("pressure_max", [](const ModelResult& model) { return model.fit.window.pressure_max; });
-  const auto bend = [&](const std::string& suffix, double ExponentialTest::*quantity) {
-    std::vector<double> values;
-    for (const StudyModel& model : result.models()) {
-      for (const Realisation& realisation : result.realisations) {
-        values.push_back((realisation.*model.result).test.*quantity);
-      }
-    }
-    put(group, "decay_length", values, {"model", "realisation"}, "", suffix);
-  };
-  column("area_slope", [](const ModelResult& model) { return model.area_slope; });
-  bend("_closest", &ExponentialTest::decay_length_closest);
-  bend("_farthest", &ExponentialTest::decay_length_farthest);
-  std::vector<EnsembleMean> lengths, ratios;
-  for (const StudyModel& model : result.models()) {
-    lengths.push_back(result.decay_length(model.result));
-    ratios.push_back(result.decay_length_over_rms_height(model.result));
-  }
-  std::vector<EnsembleMean> slopes;
-  for (const StudyModel& model : result.models()) slopes.push_back(result.area_slope(model.result));
-  put(group, "area_slope", slopes, {"model"}, "ensemble_");
-  put(group, "decay_length", lengths, {"model"}, "ensemble_");
-  put(group, "decay_length_over_rms_height", ratios, {"model"}, "ensemble_");
-  group.attribute("interval_method", result.interval_method());
-}
-
-void write_motion(ResultGroup& group, const StudyResult& result) {
-  const auto attribute = [&](const std::string& name, double value) {
-    group.attribute(name, value);
-  };
-  std::visit(
-      [&](const auto& motion) {
-        attribute("normal_amplitude", motion.normal_amplitude);
-        attribute("angular_frequency", motion.angular_frequency);
-        if constexpr (std::is_same_v<std::decay_t<decltype(motion)>, Drag>) {
-          group.attribute("mode", "drag");
-          attribute("drag_velocity", motion.drag_velocity);
-        } else {
-          group.attribute("mode", "equal-frequency");
-          attribute("tangential_amplitude", motion.tangential_amplitude);
-          attribute("phase", motion.phase);
-        }
+void write_fits(Table table, const StudyResult& result) {
+  table.models(result);
+  table.realisations(result);
+  table.columns(
+      model_results(result), {"model", "realisation"},
+      [&](const NumberOf<ModelResult>&, std::string_view name) {
+        return of_models(result, [&](ContactModel model) { return result.fitted(name, model); });
       },
-      result.configuration.motion);
-  const bool by_force = result.configuration.damping.hold == Hold::force;
-  group.attribute("hold", by_force ? "force" : "indentation");
-  attribute("modulus_ratio", result.configuration.material.modulus_ratio());
-  attribute("contact_modulus", result.configuration.material.contact_modulus);
+      {"model"});
+  table.group().attribute("interval_method", result.interval_method());
 }
 
-void write_damping(ResultGroup group, const StudyResult& result) {
-  put_models(group, result);
-  put_realisations(group, result);
-  put_pressures(group, result);
+void write_damping(Table table, const StudyResult& result) {
+  table.models(result);
+  table.realisations(result);
+  table.pressures(result);
   std::vector<double> forces;
   for (const double pressure : result.pressures) forces.push_back(pressure * result.grid.area());
-  put(group, "force", forces, {"pressure"});
-  const auto column = [&](const std::string& prefix, const std::string& name,
-                          double DampingPoint::*quantity) {
-    std::vector<double> values;
-    std::vector<EnsembleMean> means;
-    for (const StudyModel& model : result.models()) {
-      for (const Realisation& realisation : result.realisations) {
-        const auto& points = (realisation.*model.result).damping;
-        std::ranges::transform(points, std::back_inserter(values), quantity);
-      }
-      const auto row = result.damping(quantity, model.result);
-      means.insert(means.end(), row.begin(), row.end());
-    }
-    put(group, name, values, {"model", "realisation", "pressure"}, prefix);
-    put(group, name, means, {"model", "pressure"}, prefix + "ensemble_");
-  };
-  column("law_", "work_per_cycle", &DampingPoint::law_work);
-  column("small_", "work_per_cycle", &DampingPoint::small_work);
-  column("curve_", "work_per_cycle", &DampingPoint::curve_work);
-  column("law_", "damping_constant", &DampingPoint::law_damping_constant);
-  column("small_", "damping_constant", &DampingPoint::small_damping_constant);
-  column("curve_", "damping_constant", &DampingPoint::curve_damping_constant);
-  std::vector<EnsembleMean> deviations;
+  table.put({"force", Dimension::force, "normal force"}, forces, {"pressure"});
+  std::vector<const DampingPoint*> items;
+  for (const ModelResult* model : model_results(result))
+    for (const DampingPoint& point : model->damping) items.push_back(&point);
+  table.columns(
+      items, {"model", "realisation", "pressure"},
+      [&](const NumberOf<DampingPoint>& number, std::string_view) {
+        return of_models(result, [&](ContactModel model) { return result.damping(number, model); });
+      },
+      {"model", "pressure"});
+  std::vector<double> low, high;
   for (const StudyModel& model : result.models()) {
-    const auto row = result.damping_deviation(model.result);
-    deviations.insert(deviations.end(), row.begin(), row.end());
+    const auto range = result.deviation_range(model.id);
+    low.push_back(range.first);
+    high.push_back(range.second);
   }
-  put(group, "deviation", deviations, {"model", "pressure"}, "ensemble_");
+  table.put({"deviation_min", Dimension::dimensionless, "minimum deviation over the pressures"},
+            low, {"model"});
+  table.put({"deviation_max", Dimension::dimensionless, "maximum deviation over the pressures"},
+            high, {"model"});
+  ResultGroup& group = table.group();
   group.attribute("interval_method", result.interval_method());
   group.attribute("law",
                   "Eq. (16) (drag) or Eq. (12) with F'' = F/l^2, l fitted to the model's curve");
@@ -257,81 +218,68 @@ void write_damping(ResultGroup group, const StudyResult& result) {
   group.attribute("tangential_stiffness", stick_solves(result.configuration)
                                               ? "boundary elements: stick solves on the contacts"
                                               : "(G*/E*)K");
-  write_motion(group, result);
+  const StudyConfiguration& configuration = result.configuration;
+  std::visit([&](const auto& motion) { table.attributes(motion); }, configuration.motion);
+  group.attribute("mode", std::holds_alternative<Drag>(configuration.motion) ? "drag"
+                                                                              : "equal-frequency");
+  group.attribute("hold", configuration.damping.hold == Hold::force ? "force" : "indentation");
+  group.attribute("modulus_ratio", configuration.material.modulus_ratio());
+  group.attribute("contact_modulus", configuration.material.contact_modulus);
 }
 
-void write_spots(ResultGroup group, const StudyResult& result) {
-  put_realisations(group, result);
-  put_pressures(group, result);
+void write_spots(Table table, const StudyResult& result) {
+  table.realisations(result);
+  table.pressures(result);
+  std::vector<const SpotStatistics*> items;
   std::size_t bins = 0;
   for (const Realisation& realisation : result.realisations)
-    for (const SpotStatistics& spots : realisation.spots) bins = std::max(bins, spots.sizes.size());
-  std::vector<double> least_cells, sizes;
-  for (std::size_t bin = 0; bin < bins; ++bin) least_cells.push_back(std::exp2(double(bin)));
-  group.coordinate("least_cells", least_cells, "1", "cells of the smallest spot that is counted");
-  const auto column = [&](const std::string& name, double SpotStatistics::*quantity) {
-    std::vector<double> values;
-    for (const Realisation& realisation : result.realisations)
-      std::ranges::transform(realisation.spots, std::back_inserter(values), quantity);
-    put(group, name, values, {"realisation", "pressure"});
-    std::vector<EnsembleMean> means;
-    for (std::size_t k = 0; k < result.pressures.size(); ++k)
-      means.push_back(result.mean([&](const Realisation& r) { return r.spots[k].*quantity; }));
-    put(group, name, means, {"pressure"}, "ensemble_");
-  };
-  column("spot_count", &SpotStatistics::count);
-  column("corrected_area_fraction", &SpotStatistics::corrected_area_fraction);
-  column("largest_spot_area", &SpotStatistics::largest_area);
-  column("mean_spot_area", &SpotStatistics::mean_area);
-  for (const Realisation& realisation : result.realisations)
     for (const SpotStatistics& spots : realisation.spots) {
-      std::vector<double> row = spots.sizes;
-      row.resize(bins, ForceSample::unknown);
-      sizes.insert(sizes.end(), row.begin(), row.end());
+      items.push_back(&spots);
+      bins = std::max(bins, spots.spots_by_size.size());
     }
-  put(group, "spots_by_size", sizes, {"realisation", "pressure", "least_cells"});
-  std::vector<double> slopes;
-  for (const Realisation& realisation : result.realisations)
-    slopes.push_back(realisation.corrected_area_slope);
-  put(group, "corrected_area_slope", slopes, {"realisation"});
+  table.columns(
+      items, {"realisation", "pressure"},
+      [&](const NumberOf<SpotStatistics>& number, std::string_view) {
+        return result.spots(number);
+      },
+      {"pressure"});
+  std::vector<double> cells;
+  for (std::size_t bin = 0; bin < bins; ++bin) cells.push_back(std::exp2(double(bin)));
+  table.group().coordinate("min_cells", cells, "1", "cells of the smallest spot that is counted");
+  for_each_column<SpotStatistics>([&](const auto& access, const Quantity& quantity) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(access(*items.front()))>,
+                                 std::vector<double>>) {
+      std::vector<double> values;
+      for (const SpotStatistics* spots : items) {
+        std::vector<double> row = access(*spots);
+        row.resize(bins, ForceSample::unknown);
+        values.insert(values.end(), row.begin(), row.end());
+      }
+      table.put(quantity, values, {"realisation", "pressure", "min_cells"});
+    }
+  });
 }
 
 /// Every model beside the boundary elements on the same surfaces.
-void write_comparison(ResultGroup group, const StudyResult& result) {
-  put_models(group, result);
-  put_pressures(group, result);
-  const auto ratio = [&](const std::string& name, const auto& estimate) {
-    std::vector<EnsembleMean> means;
-    for (const StudyModel& model : result.models()) {
-      const std::vector<EnsembleMean> row = estimate(model.result);
-      means.insert(means.end(), row.begin(), row.end());
-    }
-    for (const auto& [suffix, member] : {std::pair{"_mean", &EnsembleMean::mean},
-                                         {"_low", &EnsembleMean::low},
-                                         {"_high", &EnsembleMean::high}}) {
-      std::vector<double> values;
-      for (const EnsembleMean& mean : means) values.push_back(mean.*member);
-      group.dataset(name + suffix, values, {"model", "pressure"}, "1",
-                    name + " over that of boundary elements");
-    }
-  };
-  using Model = ModelResult Realisation::*;
-  for (const auto& [name, quantity] :
-       {std::pair{"mean_gap", &ForceSample::mean_gap},
-        {"contact_area_fraction", &ForceSample::contact_area_fraction},
-        {"normal_stiffness", &ForceSample::normal_stiffness}})
-    ratio(name, [&, of = quantity](Model model) { return result.over_bem(model, of); });
-  for (const auto& [name, quantity] : {std::pair{"law_work_per_cycle", &DampingPoint::law_work},
-                                       {"small_work_per_cycle", &DampingPoint::small_work},
-                                       {"curve_work_per_cycle", &DampingPoint::curve_work}})
-    ratio(name, [&, of = quantity](Model model) { return result.damping_over_bem(model, of); });
+void write_comparison(Table table, const StudyResult& result) {
+  table.models(result);
+  table.pressures(result);
+  std::map<std::string, Means> ratios;
+  for (const StudyModel& model : result.models())
+    for (auto& [name, means] : result.comparison(model.id))
+      ratios[name].insert(ratios[name].end(), means.begin(), means.end());
+  for (const auto& [name, means] : ratios) {
+    const std::string meaning = name + " over that of boundary elements";
+    table.put(name, {name, Dimension::dimensionless, meaning}, means, {"model", "pressure"});
+  }
 }
 
-void write_convergence(ResultGroup group, const StudyResult& result) {
+void write_convergence(Table table, const StudyResult& result) {
   std::vector<double> counts;
   for (const std::size_t count : result.convergence_counts()) counts.push_back(double(count));
-  group.coordinate("surfaces", counts, "1", "number of surfaces in the mean");
-  put(group, "decay_length_over_rms_height", result.convergence(), {"surfaces"});
+  table.group().coordinate("surfaces", counts, "1", "number of surfaces in the mean");
+  const Quantity ratio = quantity_of<ModelResult>("decay_length_over_rms_height");
+  table.put(std::string(ratio.name), ratio, result.convergence(), {"surfaces"});
 }
 
 void write_picture(ResultGroup group, const SurfacePicture& picture) {
@@ -359,50 +307,39 @@ void write_picture(ResultGroup group, const SurfacePicture& picture) {
 }  // namespace
 
 void write_study_groups(ResultFile& output, const std::string& where, const StudyResult& result) {
-  write_surfaces(output.group(where + "surface"), result);
-  write_curves(output.group(where + "curve"), result);
-  write_local_decay_lengths(output.group(where + "local"), result);
-  write_fits(output.group(where + "fit"), result);
-  write_damping(output.group(where + "damping"), result);
-  write_spots(output.group(where + "spots"), result);
-  write_comparison(output.group(where + "comparison"), result);
-  if (result.realisations.size() >= 2)
-    write_convergence(output.group(where + "convergence"), result);
+  const auto table = [&](const char* name) { return Table(output.group(where + name)); };
+  write_surfaces(table("surface"), result);
+  write_curves(table("curve"), result);
+  write_local_decay_lengths(table("local"), result);
+  write_fits(table("fit"), result);
+  write_damping(table("damping"), result);
+  write_spots(table("spots"), result);
+  write_comparison(table("comparison"), result);
+  if (result.realisations.size() >= 2) write_convergence(table("convergence"), result);
   const SurfacePicture& picture = result.realisations.front().picture;
   if (!picture.empty()) write_picture(output.group(where + "picture"), picture);
-  std::string warnings, flags;
-  for (const std::string& warning : result.warnings) warnings += warning + "\n";
-  for (const StudyFlag& found : result.flags) flags += found.name + ": " + found.text + "\n";
-  output.group(where + "surface").attribute("warnings", warnings);
-  output.group(where + "surface").attribute("flags", flags);
 }
 
 void write_study_overview(ResultGroup group, const std::vector<StudyResult>& results) {
+  Table table(group);
   group.index("point", results.size(), "point of the parameter grid, group points/N");
-  const auto column = [&](const std::string& name,
-                          const std::function<double(const StudyResult&)>& value) {
-    std::vector<double> values;
-    std::ranges::transform(results, std::back_inserter(values), value);
-    put(group, name, values, {"point"});
-  };
-  const auto parameters = [](const StudyResult& result) -> const SelfAffineParameters& {
-    return std::get<GeneratedSurfaces>(result.configuration.surfaces).spectrum;
-  };
-  column("hurst", [&](const StudyResult& r) { return parameters(r).hurst; });
-  column("rolloff", [&](const StudyResult& r) {
-    return parameters(r).rolloff.value_or(ForceSample::unknown);
-  });
-  column("short_cutoff", [&](const StudyResult& r) { return parameters(r).short_cutoff; });
-  column("size_x", [](const StudyResult& r) { return r.grid.lx; });
-  column("nx", [](const StudyResult& r) { return double(r.grid.nx); });
-  column("realisations", [](const StudyResult& r) { return double(r.realisations.size()); });
-  std::vector<EnsembleMean> ratios, slopes;
+  std::vector<const SelfAffineParameters*> spectra;
+  std::vector<const Grid2D*> grids;
+  std::vector<double> counts;
   for (const StudyResult& result : results) {
-    ratios.push_back(result.decay_length_over_rms_height(&Realisation::bem));
-    slopes.push_back(result.area_slope(&Realisation::bem));
+    spectra.push_back(&std::get<GeneratedSurfaces>(result.configuration.surfaces).spectrum);
+    grids.push_back(&result.grid);
+    counts.push_back(double(result.realisations.size()));
   }
-  put(group, "decay_length_over_rms_height", ratios, {"point"}, "ensemble_");
-  put(group, "area_slope", slopes, {"point"}, "ensemble_");
+  table.columns(spectra, {"point"});
+  table.columns(grids, {"point"});
+  table.put({"realisations", Dimension::dimensionless, "number of surfaces"}, counts, {"point"});
+  for (const char* name : {"decay_length_over_rms_height", "area_slope"}) {
+    Means means;
+    for (const StudyResult& result : results)
+      means.push_back(result.fitted(name, ContactModel::bem));
+    table.put(std::string("ensemble_") + name, quantity_of<ModelResult>(name), means, {"point"});
+  }
 }
 
 }  // namespace salebra::detail

@@ -3,101 +3,102 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <functional>
 #include <salebra/study/study.hpp>
 
 namespace salebra {
 
-EnsembleMean StudyResult::mean(const std::function<double(const Realisation&)>& value) const {
+EnsembleMean StudyResult::mean(const NumberOf<Realisation>& number) const {
   std::vector<double> values;
-  for (const Realisation& realisation : realisations) values.push_back(value(realisation));
+  for (const Realisation& realisation : realisations) values.push_back(number(realisation));
   return bootstrap.mean(values);
 }
 
-EnsembleMean StudyResult::decay_length(ModelResult Realisation::*model) const {
-  return mean([&](const Realisation& r) { return (r.*model).fit.decay_length; });
+EnsembleMean StudyResult::mean(const NumberOf<ModelResult>& number, ContactModel model) const {
+  return mean([&](const Realisation& r) { return number(r.of(model)); });
 }
 
-EnsembleMean StudyResult::decay_length_over_rms_height(ModelResult Realisation::*model) const {
-  return mean(
-      [&](const Realisation& r) { return (r.*model).fit.decay_length / r.heights.rms_height; });
+EnsembleMean StudyResult::decay_length(ContactModel model) const {
+  return mean([](const ModelResult& m) { return m.fit.decay_length; }, model);
 }
 
-EnsembleMean StudyResult::area_slope(ModelResult Realisation::*model) const {
-  return mean([&](const Realisation& r) { return (r.*model).area_slope; });
-}
-
-std::vector<EnsembleMean> StudyResult::curve(ModelResult Realisation::*model,
-                                             double ForceSample::*quantity) const {
-  std::vector<EnsembleMean> estimates;
-  for (std::size_t k = 0; k < pressures.size(); ++k) {
-    estimates.push_back(mean([&](const Realisation& r) {
-      const auto& samples = (r.*model).curve.samples;
-      return k < samples.size() && samples[k].converged ? samples[k].*quantity
-                                                        : ForceSample::unknown;
-    }));
-  }
-  return estimates;
-}
-
-namespace {
-
-template <class Value>
-std::vector<EnsembleMean> over_realisations(const StudyResult& result,
-                                            ModelResult Realisation::*model, Value value) {
-  std::vector<EnsembleMean> estimates;
-  for (std::size_t k = 0; k < result.pressures.size(); ++k) {
-    estimates.push_back(result.mean([&](const Realisation& r) {
-      const auto& points = (r.*model).damping;
-      return k < points.size() ? double(std::invoke(value, points[k])) : ForceSample::unknown;
-    }));
-  }
-  return estimates;
-}
-
-}  // namespace
-
-std::vector<EnsembleMean> StudyResult::damping(double DampingPoint::*quantity,
-                                               ModelResult Realisation::*model) const {
-  return over_realisations(*this, model, quantity);
-}
-
-std::vector<EnsembleMean> StudyResult::damping_deviation(ModelResult Realisation::*model) const {
-  return over_realisations(*this, model, &DampingPoint::deviation);
-}
-
-EnsembleMean StudyResult::law_bend(ModelResult Realisation::*model) const {
+EnsembleMean StudyResult::decay_length_over_rms_height(ContactModel model) const {
   return mean([&](const Realisation& r) {
-    const ExponentialTest& test = (r.*model).test;
-    return test.window.points >= 4 ? test.decay_length_farthest / test.decay_length_closest - 1
-                                   : ForceSample::unknown;
+    return r.of(model).fit.decay_length / r.heights.rms_height;
   });
 }
 
-std::vector<EnsembleMean> StudyResult::over_bem(ModelResult Realisation::*model,
-                                                double ForceSample::*quantity) const {
-  std::vector<EnsembleMean> estimates;
-  for (std::size_t k = 0; k < pressures.size(); ++k) {
-    estimates.push_back(mean([&](const Realisation& r) {
-      const auto &samples = (r.*model).curve.samples, &reference = r.bem.curve.samples;
-      const bool known = k < samples.size() && samples[k].converged && reference[k].converged;
-      return known ? samples[k].*quantity / (reference[k].*quantity) : ForceSample::unknown;
-    }));
-  }
-  return estimates;
+EnsembleMean StudyResult::fitted(std::string_view column, ContactModel model) const {
+  if (column == "decay_length_over_rms_height") return decay_length_over_rms_height(model);
+  return mean(number_of<ModelResult>(column, "column"), model);
 }
 
-std::vector<EnsembleMean> StudyResult::damping_over_bem(ModelResult Realisation::*model,
-                                                        double DampingPoint::*quantity) const {
-  std::vector<EnsembleMean> estimates;
-  for (std::size_t k = 0; k < pressures.size(); ++k) {
-    estimates.push_back(mean([&](const Realisation& r) {
-      const auto& points = (r.*model).damping;
-      return k < points.size() ? points[k].*quantity / r.bem.damping[k].curve_work
-                               : ForceSample::unknown;
-    }));
+std::vector<EnsembleMean> StudyResult::at_pressures(
+    const std::function<double(const Realisation&, std::size_t)>& number) const {
+  std::vector<EnsembleMean> means;
+  for (std::size_t k = 0; k < pressures.size(); ++k)
+    means.push_back(mean([&](const Realisation& r) { return number(r, k); }));
+  return means;
+}
+
+std::vector<EnsembleMean> StudyResult::curve(const NumberOf<ForceSample>& number,
+                                             ContactModel model) const {
+  return at_pressures([&](const Realisation& r, std::size_t k) {
+    const auto& samples = r.of(model).curve.samples;
+    return k < samples.size() && samples[k].converged ? number(samples[k]) : ForceSample::unknown;
+  });
+}
+
+std::vector<EnsembleMean> StudyResult::damping(const NumberOf<DampingPoint>& number,
+                                               ContactModel model) const {
+  return at_pressures([&](const Realisation& r, std::size_t k) {
+    const auto& points = r.of(model).damping;
+    return k < points.size() ? number(points[k]) : ForceSample::unknown;
+  });
+}
+
+std::vector<EnsembleMean> StudyResult::spots(const NumberOf<SpotStatistics>& number) const {
+  return at_pressures([&](const Realisation& r, std::size_t k) { return number(r.spots[k]); });
+}
+
+std::vector<EnsembleMean> StudyResult::over_bem(const NumberOf<ForceSample>& number,
+                                                ContactModel model) const {
+  return at_pressures([&](const Realisation& r, std::size_t k) {
+    const auto &samples = r.of(model).curve.samples,
+               &reference = r.of(ContactModel::bem).curve.samples;
+    const bool known = k < samples.size() && samples[k].converged && reference[k].converged;
+    return known ? number(samples[k]) / number(reference[k]) : ForceSample::unknown;
+  });
+}
+
+std::vector<EnsembleMean> StudyResult::damping_over_bem(const NumberOf<DampingPoint>& number,
+                                                        ContactModel model) const {
+  return at_pressures([&](const Realisation& r, std::size_t k) {
+    const auto& points = r.of(model).damping;
+    return k < points.size()
+               ? number(points[k]) / r.of(ContactModel::bem).damping[k].curve_work_per_cycle
+               : ForceSample::unknown;
+  });
+}
+
+std::vector<std::pair<std::string, std::vector<EnsembleMean>>> StudyResult::comparison(
+    ContactModel model) const {
+  std::vector<std::pair<std::string, std::vector<EnsembleMean>>> ratios;
+  for (const char* name : {"mean_gap", "contact_area_fraction", "normal_stiffness"})
+    ratios.emplace_back(name, over_bem(number_of<ForceSample>(name, "quantity"), model));
+  for (const char* name : {"law_work_per_cycle", "small_work_per_cycle", "curve_work_per_cycle"})
+    ratios.emplace_back(name, damping_over_bem(number_of<DampingPoint>(name, "quantity"), model));
+  return ratios;
+}
+
+std::pair<double, double> StudyResult::deviation_range(ContactModel model) const {
+  double low = ForceSample::unknown, high = ForceSample::unknown;
+  for (const EnsembleMean& deviation : damping(&DampingPoint::deviation, model)) {
+    low = std::fmin(low, deviation.mean);
+    high = std::fmax(high, deviation.mean);
   }
-  return estimates;
+  return {low, high};
 }
 
 bool is_milestone(std::size_t surfaces) {
@@ -116,7 +117,8 @@ std::vector<std::size_t> StudyResult::convergence_counts() const {
 std::vector<EnsembleMean> StudyResult::convergence() const {
   std::vector<double> ratios;
   for (const Realisation& realisation : realisations)
-    ratios.push_back(realisation.bem.fit.decay_length / realisation.heights.rms_height);
+    ratios.push_back(realisation.of(ContactModel::bem).fit.decay_length /
+                     realisation.heights.rms_height);
   std::vector<EnsembleMean> estimates;
   for (const std::size_t count : convergence_counts())
     estimates.push_back(

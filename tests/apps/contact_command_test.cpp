@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <salebra/contact/law/fit.hpp>
-#include <salebra/io/force_curve_file.hpp>
+#include <salebra/results/force_curve_file.hpp>
 #include <salebra/io/result_file.hpp>
 
 #include "run_program.hpp"

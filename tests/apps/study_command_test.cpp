@@ -34,7 +34,7 @@ TEST_CASE("A study answers with the agreed keys and one file", "[study]") {
   CHECK(answer["damping"]["pressure"].size() == 10);
   CHECK(answer["damping"]["curve_damping_constant"]["mean"].size() == 10);
   CHECK(keys(answer["comparison"]) ==
-        std::set<std::string>{"bem", "gw_moments", "gw_deterministic", "law_deviation_percent"});
+        std::set<std::string>{"bem", "gw_moments", "gw_deterministic"});
   CHECK(answer["files"]["results"] == "result.h5");
   std::set<std::string> files{"study.toml", "result.h5"};
   // A build without plotly.js writes no page.
@@ -161,7 +161,7 @@ TEST_CASE("A comparison has every model, its ratios and the theories", "[study]"
   CHECK(point["models"]["bem"]["area_slope"]["mean"] < 3);
   CHECK(point["spots"]["corrected_area_slope"]["mean"] <
         point["models"]["bem"]["area_slope"]["mean"]);
-  CHECK(point["models"]["gw_moments"]["over_bem"]["damping_constant"]["curve"]["mean"].size() ==
+  CHECK(point["models"]["gw_moments"]["over_bem"]["curve_work_per_cycle"]["mean"].size() ==
         10);
   const auto words = test.run("compare study.toml --no-stick --quiet");
   REQUIRE(words.status == 0);

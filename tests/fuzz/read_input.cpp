@@ -8,7 +8,7 @@
 #include <functional>
 #include <map>
 #include <salebra/base/error.hpp>
-#include <salebra/io/force_curve_file.hpp>
+#include <salebra/results/force_curve_file.hpp>
 #include <salebra/io/number_table.hpp>
 #include <stdexcept>
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/io/force_curve_file.hpp>
+#include <salebra/results/force_curve_file.hpp>
 
 #include "scratch.hpp"
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <iterator>
 #include <salebra/base/error.hpp>
-#include <salebra/io/force_curve_file.hpp>
+#include <salebra/results/force_curve_file.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/io/write_surface.hpp>

@@ -76,10 +76,11 @@ def test_models_are_chosen_as_by_compare(program: Callable[..., Any], tmp_path: 
     answer = program("compare", tmp_path / "study.toml", "--models", "gw_interacting,persson")["models"]
     assert set(answer) == set(result.models)
     for model in result.models:
-        ours = result.area_slope(model).mean
+        ours = result.fitted("area_slope", model).mean
         assert ours == pytest.approx(answer[model]["area_slope"]["mean"], rel=1e-12)
     assert len(result.realisations[0].model("gw_interacting").curve) == 10
-    assert len(result.realisations[0].model("gw_monte_carlo").curve) == 0
+    with pytest.raises(salebra.InvalidInput, match="model: 'gw_monte_carlo' was not computed"):
+        result.realisations[0].model("gw_monte_carlo")
 
 
 def test_a_file_of_results_gives_arrays_with_units_and_attributes(result: salebra.StudyResult, tmp_path: Path) -> None:

@@ -84,14 +84,14 @@ TEST_CASE("A report holds the numbers of its study and needs nothing else", "[re
   const Json& point = data["points"][0];
   REQUIRE(point["pressure"].size() == result.pressures.size());
   // The page has seven digits of each number.
-  const EnsembleMean length = result.decay_length(&Realisation::bem);
+  const EnsembleMean length = result.decay_length();
   const Json& shown = point["fit"]["models"]["bem"]["decay_length"];
   CHECK(shown["mean"].get<double>() == Approx(length.mean).epsilon(1e-6));
   CHECK(shown["low"].get<double>() == Approx(length.low).epsilon(1e-6));
   CHECK(shown["high"].get<double>() == Approx(length.high).epsilon(1e-6));
-  const EnsembleMean bend = result.law_bend(&Realisation::bem);
-  CHECK(point["fit"]["bend"]["mean"].get<double>() == Approx(bend.mean).epsilon(1e-6));
-  CHECK(point["fit"]["bend"]["low"].get<double>() == Approx(bend.low).epsilon(1e-6));
+  const EnsembleMean bend = result.fitted("law_bend");
+  CHECK(point["fit"]["models"]["bem"]["law_bend"]["mean"].get<double>() == Approx(bend.mean).epsilon(1e-6));
+  CHECK(point["fit"]["models"]["bem"]["law_bend"]["low"].get<double>() == Approx(bend.low).epsilon(1e-6));
   const auto curve = result.damping(&DampingPoint::curve_damping_constant);
   for (std::size_t k = 0; k < curve.size(); ++k) {
     const Json& value = point["damping"]["curve"]["damping_constant"]["bem"]["mean"][k];

@@ -161,7 +161,8 @@ TEST_CASE("A convergence curve looks at few numbers of many surfaces", "[ensembl
   for (std::size_t i = 0; i < 3000; ++i) {
     Realisation realisation;
     realisation.heights.rms_height = 1;
-    realisation.bem.fit.decay_length = 1 + 0.1 * gaussian_pair(4, int(i), 0).first;
+    realisation.models.resize(1);
+    realisation.models.front().fit.decay_length = 1 + 0.1 * gaussian_pair(4, int(i), 0).first;
     result.realisations.push_back(realisation);
   }
   const std::vector<std::size_t> counts = result.convergence_counts();
@@ -176,9 +177,9 @@ TEST_CASE("A convergence curve looks at few numbers of many surfaces", "[ensembl
   REQUIRE(curve.size() == counts.size());
   std::vector<double> first;
   for (std::size_t i = 0; i < counts[200]; ++i)
-    first.push_back(result.realisations[i].bem.fit.decay_length);
+    first.push_back(result.realisations[i].of(ContactModel::bem).fit.decay_length);
   CHECK(curve[200].low == result.bootstrap.mean(first).low);
-  CHECK(curve.back().high == result.decay_length(&Realisation::bem).high);
+  CHECK(curve.back().high == result.decay_length().high);
 }
 
 TEST_CASE("Too many combinations of an ensemble are counted before one is made", "[ensemble]") {
@@ -187,22 +188,22 @@ TEST_CASE("Too many combinations of an ensemble are counted before one is made",
   configuration.ensemble.hurst.assign(2000, 0.8);
   configuration.ensemble.rolloff.assign(2000, 1e-6);
   configuration.ensemble.short_cutoff.assign(2000, 0.5e-6);
-  CHECK_THROWS_WITH(grid_points(configuration),
+  CHECK_THROWS_WITH(parameter_combinations(configuration),
                     Catch::StartsWith("the lists of [ensemble] make 8000000000 combinations"));
   // Few combinations of many seeds take as much.
   configuration.ensemble = {.hurst = std::vector(1000, 0.8)};
   auto& seeds = std::get<GeneratedSurfaces>(configuration.surfaces).seeds;
   seeds.resize(100000);
-  CHECK_THROWS_WITH(grid_points(configuration), Catch::Contains("split the study"));
+  CHECK_THROWS_WITH(parameter_combinations(configuration), Catch::Contains("split the study"));
   seeds.resize(1);
-  CHECK(grid_points(configuration).size() == 1000);
+  CHECK(parameter_combinations(configuration).size() == 1000);
 }
 
 TEST_CASE("The lists of an ensemble make every combination, cells or size held", "[ensemble]") {
   StudyConfiguration configuration = quick_study(1);
   configuration.ensemble.hurst = {0.3, 0.8};
   configuration.ensemble.size_x = {4e-6, 8e-6};
-  const auto points = grid_points(configuration);
+  const auto points = parameter_combinations(configuration);
   REQUIRE(points.size() == 4);
   const auto& last = std::get<GeneratedSurfaces>(points[3].surfaces);
   CHECK(last.spectrum.hurst == 0.8);
@@ -211,12 +212,12 @@ TEST_CASE("The lists of an ensemble make every combination, cells or size held",
   CHECK(describe_point(configuration.ensemble, points[1]) ==
         "H = 0.3, size 8 µm, 128 x 128 points");
   configuration.ensemble = {.points = {64, 128}};
-  CHECK(std::get<GeneratedSurfaces>(grid_points(configuration)[1].surfaces).grid ==
+  CHECK(std::get<GeneratedSurfaces>(parameter_combinations(configuration)[1].surfaces).grid ==
         Grid2D{128, 128, 4e-6, 4e-6});
   configuration.ensemble = {.size_x = {4.01e-6}};
-  CHECK_THROWS_WITH(grid_points(configuration), Catch::Contains("whole numbers"));
+  CHECK_THROWS_WITH(parameter_combinations(configuration), Catch::Contains("whole numbers"));
   configuration.ensemble = {.short_cutoff = {0.01e-6}};
-  CHECK_THROWS_AS(grid_points(configuration), InvalidInput);
+  CHECK_THROWS_AS(parameter_combinations(configuration), InvalidInput);
   CHECK_THROWS_AS(run_study(quick_study(1, "[ensemble]\nrolloff = [\"1um\", \"2um\"]\n")),
                   InvalidInput);
 }
@@ -249,16 +250,16 @@ TEST_CASE("A study ends at the surface that makes its mean precise enough, on an
   REQUIRE(one.realisations.size() >= 3);
   REQUIRE(one.realisations.size() < 40);
   REQUIRE(three.realisations.size() == one.realisations.size());
-  const EnsembleMean mean = one.decay_length_over_rms_height(&Realisation::bem);
+  const EnsembleMean mean = one.decay_length_over_rms_height(ContactModel::bem);
   CHECK(mean.relative_precision() <= 0.2);
-  CHECK(three.decay_length(&Realisation::bem).low == one.decay_length(&Realisation::bem).low);
+  CHECK(three.decay_length(ContactModel::bem).low == one.decay_length(ContactModel::bem).low);
   CHECK(three.realisations.back().seed == one.realisations.back().seed);
   // One fewer would not have done, unless the least number decided.
   if (one.realisations.size() > 3) {
     const EnsembleMean before = one.convergence()[one.realisations.size() - 3];
     std::vector<double> slopes;
     for (std::size_t i = 0; i + 1 < one.realisations.size(); ++i)
-      slopes.push_back(one.realisations[i].bem.area_slope);
+      slopes.push_back(one.realisations[i].of(ContactModel::bem).area_slope);
     const double slope = Bootstrap().mean(slopes).relative_precision();
     CHECK((before.relative_precision() > 0.2 || slope > 0.2));
   }
@@ -276,8 +277,8 @@ TEST_CASE("A study goes on until its decay length and its area slope are both pr
   REQUIRE(all.realisations.size() == 12);
   std::vector<double> lengths, slopes, length_precision, slope_precision;
   for (const Realisation& r : all.realisations) {
-    lengths.push_back(r.bem.fit.decay_length / r.heights.rms_height);
-    slopes.push_back(r.bem.area_slope);
+    lengths.push_back(r.of(ContactModel::bem).fit.decay_length / r.heights.rms_height);
+    slopes.push_back(r.of(ContactModel::bem).area_slope);
     length_precision.push_back(all.bootstrap.mean(lengths).relative_precision());
     slope_precision.push_back(all.bootstrap.mean(slopes).relative_precision());
   }
@@ -301,18 +302,18 @@ TEST_CASE("A study goes on until its decay length and its area slope are both pr
 TEST_CASE("Contacts that did not converge take no part in means and ratios", "[ensemble]") {
   StudyResult result = run_study(quick_study(2));
   Realisation &first = result.realisations[0], &second = result.realisations[1];
-  first.gw_moments.curve.samples[3].converged = false;
-  first.bem.curve.samples[5].converged = false;
-  const auto gaps = result.curve(&Realisation::gw_moments, &ForceSample::mean_gap);
-  CHECK(gaps[3].mean == second.gw_moments.curve.samples[3].mean_gap);
+  first.of(ContactModel::gw_moments).curve.samples[3].converged = false;
+  first.of(ContactModel::bem).curve.samples[5].converged = false;
+  const auto gaps = result.curve(&ForceSample::mean_gap, ContactModel::gw_moments);
+  CHECK(gaps[3].mean == second.of(ContactModel::gw_moments).curve.samples[3].mean_gap);
   CHECK(std::isnan(gaps[3].low));
-  CHECK(gaps[4].mean == Approx((first.gw_moments.curve.samples[4].mean_gap +
-                                second.gw_moments.curve.samples[4].mean_gap) /
+  CHECK(gaps[4].mean == Approx((first.of(ContactModel::gw_moments).curve.samples[4].mean_gap +
+                                second.of(ContactModel::gw_moments).curve.samples[4].mean_gap) /
                                2));
-  const auto ratios = result.over_bem(&Realisation::gw_moments, &ForceSample::mean_gap);
+  const auto ratios = result.over_bem(&ForceSample::mean_gap, ContactModel::gw_moments);
   for (const std::size_t k : {3u, 5u})
     CHECK(ratios[k].mean ==
-          second.gw_moments.curve.samples[k].mean_gap / second.bem.curve.samples[k].mean_gap);
+          second.of(ContactModel::gw_moments).curve.samples[k].mean_gap / second.of(ContactModel::bem).curve.samples[k].mean_gap);
 }
 
 TEST_CASE("A study's contacts, fits and area slopes follow the settings", "[ensemble]") {
@@ -324,14 +325,14 @@ TEST_CASE("A study's contacts, fits and area slopes follow the settings", "[ense
   configuration.window = PressureWindow{tight.pressures[6], tight.pressures[10], 0};
   const StudyResult windowed = run_study(configuration);
   for (std::size_t k = 0; k < 12; ++k) {
-    const double gap = tight.realisations[0].bem.curve.samples[k].mean_gap,
-                 rough = loose.realisations[0].bem.curve.samples[k].mean_gap;
+    const double gap = tight.realisations[0].of(ContactModel::bem).curve.samples[k].mean_gap,
+                 rough = loose.realisations[0].of(ContactModel::bem).curve.samples[k].mean_gap;
     CHECK(rough != gap);
     // e_c is relative to the rms height; the gap follows with it.
     CHECK(rough == Approx(gap).margin(1e-2 * tight.realisations[0].heights.rms_height));
   }
   for (const StudyModel& model : windowed.models()) {
-    const ModelResult& found = windowed.realisations[0].*model.result;
+    const ModelResult& found = windowed.realisations[0].of(model.id);
     const ExponentialFit fit = fit_exponential(found.curve, configuration.window);
     CHECK(found.fit.window.points == 5);
     CHECK(found.fit.decay_length == fit.decay_length);
@@ -353,8 +354,8 @@ TEST_CASE("A study's contacts, fits and area slopes follow the settings", "[ense
     }
     return product / square;
   };
-  CHECK(r.bem.area_slope == Approx(slope([&](auto k) {
-                              return r.bem.curve.samples[k].contact_area_fraction;
+  CHECK(r.of(ContactModel::bem).area_slope == Approx(slope([&](auto k) {
+                              return r.of(ContactModel::bem).curve.samples[k].contact_area_fraction;
                             })).epsilon(1e-12));
   CHECK(r.corrected_area_slope ==
         Approx(slope([&](auto k) { return r.spots[k].corrected_area_fraction; })).epsilon(1e-12));
@@ -372,8 +373,8 @@ TEST_CASE("Each surface of a study has its own drawn summits", "[ensemble]") {
                                      configuration.material, area, -r.ensemble.mean_height,
                                      r.heights.rms_height);
     const ForceCurve expected = curve_at_pressures(drawn, result.pressures);
-    CHECK(r.gw_monte_carlo.curve.samples[4].mean_gap == expected.samples[4].mean_gap);
-    CHECK(r.gw_monte_carlo.curve.samples[4].contact_area_fraction ==
+    CHECK(r.of(ContactModel::gw_monte_carlo).curve.samples[4].mean_gap == expected.samples[4].mean_gap);
+    CHECK(r.of(ContactModel::gw_monte_carlo).curve.samples[4].contact_area_fraction ==
           expected.samples[4].contact_area_fraction);
   }
 }
@@ -399,7 +400,7 @@ TEST_CASE("A measured surface has the seam of its edges, and summits within them
   CHECK(r.seam_step == Approx(std::sqrt((along_x + along_y) / 2) / rms_height).epsilon(1e-9));
   // A point of the border has no eight neighbours: summits are sought, and counted, on 62 × 46 cells.
   const SummitList summits = find_summits(level);
-  CHECK(r.gw_deterministic.curve.nominal_area ==
+  CHECK(r.of(ContactModel::gw_deterministic).curve.nominal_area ==
         Approx(62 * 46 * part.grid.cell_area()).epsilon(1e-12));
   CHECK(r.summits.density ==
         Approx(double(summits.summits.size()) / summits.searched_area).epsilon(1e-12));
@@ -430,7 +431,7 @@ TEST_CASE("An ensemble says what is too small about it", "[ensemble]") {
   const double scale = contact_scale(configuration);
   configuration.window = PressureWindow{0.009 * scale, 0.05 * scale, 0};
   const StudyResult many = run_study(configuration);
-  const auto spots = [&](std::size_t k) { return many.realisations[0].spots[k].count; };
+  const auto spots = [&](std::size_t k) { return many.realisations[0].spots[k].spot_count; };
   INFO(spots(0) << ' ' << spots(4) << ' ' << spots(5) << ' ' << spots(6) << ' ' << spots(7) << ' '
                 << spots(8));
   REQUIRE(spots(0) < 50);
@@ -443,9 +444,9 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
   const StudyResult result = run_study(configuration);
   REQUIRE(result.models().size() == 6);
   for (const StudyModel& model : result.models()) {
-    INFO(name_of(model.model));
+    INFO(model.name);
     for (const Realisation& realisation : result.realisations) {
-      const ModelResult& found = realisation.*model.result;
+      const ModelResult& found = realisation.of(model.id);
       REQUIRE(found.curve.samples.size() == 12);
       REQUIRE(found.damping.size() == 12);
       // Whatever the model, l/h_rms of a Gaussian surface is a fraction of one.
@@ -455,28 +456,28 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
     }
   }
   // A model over itself is one.
-  const auto unity = result.over_bem(&Realisation::bem, &ForceSample::mean_gap);
+  const auto unity = result.over_bem(&ForceSample::mean_gap, ContactModel::bem);
   CHECK(unity[3].mean == 1);
-  CHECK(result.damping_over_bem(&Realisation::bem, &DampingPoint::curve_work)[5].mean == 1);
+  CHECK(result.damping_over_bem(&DampingPoint::curve_work_per_cycle, ContactModel::bem)[5].mean == 1);
   // And of another model the mean of what each surface says.
   double stiffness = 0, work = 0;
   for (const Realisation& r : result.realisations) {
     stiffness +=
-        r.persson.curve.samples[3].normal_stiffness / r.bem.curve.samples[3].normal_stiffness / 2;
-    work += r.gw_deterministic.damping[5].law_work / r.bem.damping[5].curve_work / 2;
+        r.of(ContactModel::persson).curve.samples[3].normal_stiffness / r.of(ContactModel::bem).curve.samples[3].normal_stiffness / 2;
+    work += r.of(ContactModel::gw_deterministic).damping[5].law_work_per_cycle / r.of(ContactModel::bem).damping[5].curve_work_per_cycle / 2;
   }
-  CHECK(result.over_bem(&Realisation::persson, &ForceSample::normal_stiffness)[3].mean ==
+  CHECK(result.over_bem(&ForceSample::normal_stiffness, ContactModel::persson)[3].mean ==
         Approx(stiffness).epsilon(1e-14));
-  CHECK(result.damping_over_bem(&Realisation::gw_deterministic, &DampingPoint::law_work)[5].mean ==
+  CHECK(result.damping_over_bem(&DampingPoint::law_work_per_cycle, ContactModel::gw_deterministic)[5].mean ==
         Approx(work).epsilon(1e-14));
   // Spots by size are all spots, and their area is the contact area.
   const Realisation& first = result.realisations.front();
   double spots = 0;
-  for (const double count : first.spots[6].sizes) spots += count;
-  CHECK(spots == first.spots[6].count);
-  CHECK(first.spots[6].mean_area * spots ==
-        Approx(first.bem.curve.samples[6].contact_area_fraction * 16e-12).epsilon(1e-12));
-  CHECK(first.spots[6].corrected_area_fraction < first.bem.curve.samples[6].contact_area_fraction);
+  for (const double count : first.spots[6].spots_by_size) spots += count;
+  CHECK(spots == first.spots[6].spot_count);
+  CHECK(first.spots[6].mean_spot_area * spots ==
+        Approx(first.of(ContactModel::bem).curve.samples[6].contact_area_fraction * 16e-12).epsilon(1e-12));
+  CHECK(first.spots[6].corrected_area_fraction < first.of(ContactModel::bem).curve.samples[6].contact_area_fraction);
   // The same contact once more: spots of n cells count where 2^k <= n < 2^(k+1), and the largest is the largest.
   const Surface surface = study_surface(result.configuration, first.seed);
   const NormalContactState state =
@@ -488,10 +489,10 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
         1;
     largest = std::max(largest, spot.area);
   }
-  CHECK(first.spots[6].sizes == sizes);
-  CHECK(first.spots[6].largest_area == Approx(largest).epsilon(1e-12));
+  CHECK(first.spots[6].spots_by_size == sizes);
+  CHECK(first.spots[6].largest_spot_area == Approx(largest).epsilon(1e-12));
   // Persson's theory has the slope of the surface's own modes; a ring's mean radius differs from its rms one by 2^(1/16) − 1 at most.
-  CHECK(first.persson.curve.samples[6].contact_area_fraction ==
+  CHECK(first.of(ContactModel::persson).curve.samples[6].contact_area_fraction ==
         Approx(persson_area_fraction(result.pressures[6], 1e10, first.moments.rms_slope()))
             .epsilon(0.02));
 }
@@ -505,9 +506,10 @@ TEST_CASE("A comparison computes the models it was asked for, and no others", "[
         std::vector{ContactModel::bem, ContactModel::gw_moments, ContactModel::persson});
   const StudyResult result = run_study(configuration);
   REQUIRE(result.models().size() == 3);
-  CHECK(result.realisations.front().gw_interacting.curve.samples.empty());
-  CHECK(result.realisations.front().gw_monte_carlo.curve.samples.empty());
-  CHECK(result.realisations.front().persson.curve.samples.size() == 12);
+  CHECK(result.realisations.front().models.size() == 3);
+  CHECK_THROWS_WITH(result.realisations.front().of(ContactModel::gw_interacting),
+                    Catch::Contains("'gw_interacting' was not computed"));
+  CHECK(result.realisations.front().of(ContactModel::persson).curve.samples.size() == 12);
   CHECK_THROWS_WITH(quick_study(1, "[compare]\nmodels = [\"gw\"]\n"),
                     Catch::Contains("compare.models: 'gw' is not known"));
   CHECK_THROWS_WITH(quick_study(1, "[compare]\nmodel = \"bem\"\n"), Catch::Contains("model"));

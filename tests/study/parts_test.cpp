@@ -36,11 +36,13 @@ Realisation some_realisation() {
   Realisation realisation;
   realisation.seed = 7;
   realisation.grid = {4, 6, 1, 1.5};
-  realisation.bem.curve.model = "bem";
-  realisation.bem.curve.samples = {{.force = 1. / 3, .converged = false}, {.mean_gap = -0.0}};
+  realisation.models.resize(2);
+  realisation.models[1].model = ContactModel::gw_moments;
+  realisation.models[0].curve.model = "bem";
+  realisation.models[0].curve.samples = {{.force = 1. / 3, .converged = false}, {.mean_gap = -0.0}};
   realisation.spots.resize(2);
-  realisation.spots[1].sizes = {1, 2, 3};
-  realisation.gw_moments.damping.push_back({.pressure = 5e-324});
+  realisation.spots[1].spots_by_size = {1, 2, 3};
+  realisation.models[1].damping.push_back({.pressure = 5e-324});
   realisation.picture.stride = 2;
   realisation.picture.heights = {1.5f, -0.0f};
   realisation.picture.first_load = {-1, 300};
@@ -70,14 +72,14 @@ TEST_CASE("A realisation comes back from the disk with every bit", "[parts]") {
   REQUIRE(found);
   CHECK(found->seed == 7);
   CHECK(found->grid == Grid2D{4, 6, 1, 1.5});
-  CHECK(found->bem.curve.model == "bem");
-  REQUIRE(found->bem.curve.samples.size() == 2);
-  CHECK(found->bem.curve.samples[0].force == 1. / 3);
-  CHECK_FALSE(found->bem.curve.samples[0].converged);
-  CHECK(std::signbit(found->bem.curve.samples[1].mean_gap));
-  CHECK(std::isnan(found->bem.curve.samples[1].force));
-  CHECK(found->spots[1].sizes == std::vector<double>{1, 2, 3});
-  CHECK(found->gw_moments.damping[0].pressure == 5e-324);
+  CHECK(found->of(ContactModel::bem).curve.model == "bem");
+  REQUIRE(found->of(ContactModel::bem).curve.samples.size() == 2);
+  CHECK(found->of(ContactModel::bem).curve.samples[0].force == 1. / 3);
+  CHECK_FALSE(found->of(ContactModel::bem).curve.samples[0].converged);
+  CHECK(std::signbit(found->of(ContactModel::bem).curve.samples[1].mean_gap));
+  CHECK(std::isnan(found->of(ContactModel::bem).curve.samples[1].force));
+  CHECK(found->spots[1].spots_by_size == std::vector<double>{1, 2, 3});
+  CHECK(found->of(ContactModel::gw_moments).damping[0].pressure == 5e-324);
   CHECK(found->picture.stride == 2);
   CHECK(found->picture.heights == std::vector<float>{1.5f, 0.0f});
   CHECK(found->picture.first_load == std::vector<std::int16_t>{-1, 300});
@@ -360,8 +362,8 @@ TEST_CASE("A study goes on with its parts and ends with the same bits", "[parts]
   CHECK(restored == before);
   REQUIRE(resumed.front().realisations.size() == 3);
   for (std::size_t i = 0; i < 3; ++i)
-    CHECK(resumed.front().realisations[i].bem.damping[5].curve_work ==
-          whole.realisations[i].bem.damping[5].curve_work);
+    CHECK(resumed.front().realisations[i].of(ContactModel::bem).damping[5].curve_work_per_cycle ==
+          whole.realisations[i].of(ContactModel::bem).damping[5].curve_work_per_cycle);
   // Other settings are other surfaces: nothing here is theirs.
   study.tolerance = 1e-9;
   CHECK_THROWS_WITH(

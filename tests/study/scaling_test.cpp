@@ -81,7 +81,7 @@ TEST_CASE("The memory of a study grows with its surfaces as their samples do", "
       other.picture = {};
       for (std::size_t i = 1; i < surfaces; ++i) {
         other.seed = i + 1;
-        other.bem.fit.decay_length = (1 + 1e-3 * std::sin(double(i))) * 3e-9;
+        other.of(ContactModel::bem).fit.decay_length = (1 + 1e-3 * std::sin(double(i))) * 3e-9;
         result.realisations.push_back(other);
       }
       write_ensembles(scratch / "study.h5", results);

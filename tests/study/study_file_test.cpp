@@ -22,7 +22,7 @@ StudyResult compared_study() {
   configuration.models = configuration.compared_models;
   std::get<GeneratedSurfaces>(configuration.surfaces).seeds = {4, 5};
   StudyResult result = run_study(configuration);
-  result.realisations[1].gw_moments.curve.samples[3].converged = false;
+  result.realisations[1].of(ContactModel::gw_moments).curve.samples[3].converged = false;
   return result;
 }
 
@@ -58,18 +58,18 @@ class FileCheck {
   void of_models(const std::string& name,
                  const std::function<double(const ModelResult&)>& value) const {
     std::vector<double> expected;
-    for (const StudyModel& model : study_models)
-      for (const Realisation& r : result_.realisations) expected.push_back(value(r.*model.result));
+    for (const StudyModel& model : contact_models())
+      for (const Realisation& r : result_.realisations) expected.push_back(value(r.of(model.id)));
     values(name, {"model", "realisation"}, expected);
   }
 
   using AtLoad = std::function<double(const ModelResult&, std::size_t)>;
   void of_loads(const std::string& name, const AtLoad& value) const {
     std::vector<double> expected;
-    for (const StudyModel& model : study_models)
+    for (const StudyModel& model : contact_models())
       for (const Realisation& r : result_.realisations)
         for (std::size_t k = 0; k < result_.pressures.size(); ++k)
-          expected.push_back(value(r.*model.result, k));
+          expected.push_back(value(r.of(model.id), k));
     values(name, {"model", "realisation", "pressure"}, expected);
   }
 
@@ -87,11 +87,11 @@ class FileCheck {
     values(name + "_high", axes, high);
   }
 
-  using OfModel = std::function<std::vector<EnsembleMean>(ModelResult Realisation::*)>;
+  using OfModel = std::function<std::vector<EnsembleMean>(ContactModel)>;
   void interval_of_loads(const std::string& name, const OfModel& estimate) const {
     std::vector<EnsembleMean> all;
-    for (const StudyModel& model : study_models)
-      for (const EnsembleMean& one : estimate(model.result)) all.push_back(one);
+    for (const StudyModel& model : contact_models())
+      for (const EnsembleMean& one : estimate(model.id)) all.push_back(one);
     interval(name, {"model", "pressure"}, all);
   }
 
@@ -139,7 +139,7 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
     file.of_loads(std::string("curve/") + name,
                   [=](const auto& model, std::size_t k) { return model.curve.samples[k].*of; });
     file.interval_of_loads(std::string("curve/ensemble_") + name,
-                           [&](auto model) { return result.curve(model, of); });
+                           [&](auto model) { return result.curve(of, model); });
   }
   file.of_loads("curve/converged", [](const auto& model, std::size_t k) {
     return double(model.curve.samples[k].converged);
@@ -165,19 +165,19 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
                  [](const auto& m) { return m.sensitivity.decay_length_max; });
   file.of_models("fit/area_slope", [](const auto& m) { return m.area_slope; });
   std::vector<EnsembleMean> lengths, ratios, slopes;
-  for (const StudyModel& model : study_models) {
-    lengths.push_back(result.decay_length(model.result));
-    ratios.push_back(result.decay_length_over_rms_height(model.result));
-    slopes.push_back(result.area_slope(model.result));
+  for (const StudyModel& model : contact_models()) {
+    lengths.push_back(result.decay_length(model.id));
+    ratios.push_back(result.decay_length_over_rms_height(model.id));
+    slopes.push_back(result.fitted("area_slope", model.id));
   }
   file.interval("fit/ensemble_decay_length", {"model"}, lengths);
   file.interval("fit/ensemble_decay_length_over_rms_height", {"model"}, ratios);
   file.interval("fit/ensemble_area_slope", {"model"}, slopes);
 
   std::vector<double> gaps, local_lengths;
-  for (const StudyModel& model : study_models)
+  for (const StudyModel& model : contact_models())
     for (const Realisation& r : result.realisations) {
-      LocalDecayLength local = (r.*model.result).local;
+      LocalDecayLength local = r.of(model.id).local;
       local.mean_gap.resize(11, ForceSample::unknown);
       local.decay_length.resize(11, ForceSample::unknown);
       gaps.insert(gaps.end(), local.mean_gap.begin(), local.mean_gap.end());
@@ -190,7 +190,7 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
   // Two surfaces make one mean, that of both.
   CHECK(reader.numbers("convergence/surfaces") == std::vector<double>{2});
   file.interval("convergence/decay_length_over_rms_height", {"surfaces"},
-                {result.decay_length_over_rms_height(&Realisation::bem)});
+                {result.decay_length_over_rms_height()});
 }
 
 TEST_CASE("A study's file holds the damping, the spots and the comparison that the study found",
@@ -202,23 +202,21 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
   const FileCheck file(reader, result);
 
   const std::pair<const char*, double DampingPoint::*> damping[] = {
-      {"law_%work_per_cycle", &DampingPoint::law_work},
-      {"small_%work_per_cycle", &DampingPoint::small_work},
-      {"curve_%work_per_cycle", &DampingPoint::curve_work},
-      {"law_%damping_constant", &DampingPoint::law_damping_constant},
-      {"small_%damping_constant", &DampingPoint::small_damping_constant},
-      {"curve_%damping_constant", &DampingPoint::curve_damping_constant}};
+      {"law_work_per_cycle", &DampingPoint::law_work_per_cycle},
+      {"small_work_per_cycle", &DampingPoint::small_work_per_cycle},
+      {"curve_work_per_cycle", &DampingPoint::curve_work_per_cycle},
+      {"law_damping_constant", &DampingPoint::law_damping_constant},
+      {"small_damping_constant", &DampingPoint::small_damping_constant},
+      {"curve_damping_constant", &DampingPoint::curve_damping_constant}};
   for (const auto& [name, quantity] : damping) {
     const auto of = quantity;
-    const std::string text = name;
-    const auto mark = text.find('%');
-    file.of_loads("damping/" + text.substr(0, mark) + text.substr(mark + 1),
+    file.of_loads(std::string("damping/") + name,
                   [=](const auto& model, std::size_t k) { return model.damping[k].*of; });
-    file.interval_of_loads("damping/" + text.substr(0, mark) + "ensemble_" + text.substr(mark + 1),
+    file.interval_of_loads(std::string("damping/ensemble_") + name,
                            [&](auto model) { return result.damping(of, model); });
   }
   file.interval_of_loads("damping/ensemble_deviation",
-                         [&](auto model) { return result.damping_deviation(model); });
+                         [&](auto model) { return result.damping(&DampingPoint::deviation, model); });
   std::vector<double> forces;
   for (const double pressure : result.pressures) forces.push_back(pressure * result.grid.area());
   file.values("damping/force", {"pressure"}, forces);
@@ -232,10 +230,10 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
   CHECK(*number("modulus_ratio") == Approx(1.4 / 1.7).epsilon(1e-14));
 
   const std::pair<const char*, double SpotStatistics::*> spots[] = {
-      {"spot_count", &SpotStatistics::count},
+      {"spot_count", &SpotStatistics::spot_count},
       {"corrected_area_fraction", &SpotStatistics::corrected_area_fraction},
-      {"largest_spot_area", &SpotStatistics::largest_area},
-      {"mean_spot_area", &SpotStatistics::mean_area}};
+      {"largest_spot_area", &SpotStatistics::largest_spot_area},
+      {"mean_spot_area", &SpotStatistics::mean_spot_area}};
   for (const auto& [name, quantity] : spots) {
     const auto of = quantity;
     std::vector<double> values;
@@ -250,12 +248,12 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
   std::vector<double> sizes;
   for (const Realisation& r : result.realisations)
     for (const SpotStatistics& load : r.spots)
-      sizes.insert(sizes.end(), load.sizes.begin(), load.sizes.end());
-  file.values("spots/spots_by_size", {"realisation", "pressure", "least_cells"}, sizes);
+      sizes.insert(sizes.end(), load.spots_by_size.begin(), load.spots_by_size.end());
+  file.values("spots/spots_by_size", {"realisation", "pressure", "min_cells"}, sizes);
   // 64² cells = 2^12: spots of 1, 2, 4 … 4096 cells at the least.
-  CHECK(reader.numbers("spots/least_cells").size() == 13);
-  CHECK(reader.numbers("spots/least_cells").back() == 4096);
-  file.of_surfaces("spots/corrected_area_slope",
+  CHECK(reader.numbers("spots/min_cells").size() == 13);
+  CHECK(reader.numbers("spots/min_cells").back() == 4096);
+  file.of_surfaces("surface/corrected_area_slope",
                    [](const auto& r) { return r.corrected_area_slope; });
 
   for (const auto& [name, quantity] :
@@ -263,12 +261,12 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
         {"contact_area_fraction", &ForceSample::contact_area_fraction},
         {"normal_stiffness", &ForceSample::normal_stiffness}})
     file.interval_of_loads(std::string("comparison/") + name,
-                           [&, of = quantity](auto model) { return result.over_bem(model, of); });
-  for (const auto& [name, quantity] : {std::pair{"law_work_per_cycle", &DampingPoint::law_work},
-                                       {"small_work_per_cycle", &DampingPoint::small_work},
-                                       {"curve_work_per_cycle", &DampingPoint::curve_work}})
+                           [&, of = quantity](auto model) { return result.over_bem(of, model); });
+  for (const auto& [name, quantity] : {std::pair{"law_work_per_cycle", &DampingPoint::law_work_per_cycle},
+                                       {"small_work_per_cycle", &DampingPoint::small_work_per_cycle},
+                                       {"curve_work_per_cycle", &DampingPoint::curve_work_per_cycle}})
     file.interval_of_loads(std::string("comparison/") + name, [&, of = quantity](auto model) {
-      return result.damping_over_bem(model, of);
+      return result.damping_over_bem(of, model);
     });
 }
 
@@ -297,8 +295,8 @@ TEST_CASE("The overview of a parameter grid holds each point's parameters and me
   const FileCheck file(reader, results[2]);
   std::vector<EnsembleMean> ratios, slopes;
   for (const StudyResult& result : results) {
-    ratios.push_back(result.decay_length_over_rms_height(&Realisation::bem));
-    slopes.push_back(result.area_slope(&Realisation::bem));
+    ratios.push_back(result.decay_length_over_rms_height());
+    slopes.push_back(result.fitted("area_slope"));
   }
   file.interval("ensemble/ensemble_decay_length_over_rms_height", {"point"}, ratios);
   file.interval("ensemble/ensemble_area_slope", {"point"}, slopes);

@@ -39,22 +39,22 @@ TEST_CASE(
   const auto& drag = std::get<Drag>(result.configuration.motion);
   const double ratio = result.configuration.material.modulus_ratio();
   for (const Realisation& realisation : result.realisations) {
-    REQUIRE(realisation.bem.damping.size() == 12);
-    const DampingPoint& point = realisation.bem.damping[5];
-    CHECK(point.law_work == Approx(closed_form::work_per_cycle_rough(
-                                       ratio, point.force, realisation.bem.fit.decay_length, drag))
+    REQUIRE(realisation.of(ContactModel::bem).damping.size() == 12);
+    const DampingPoint& point = realisation.of(ContactModel::bem).damping[5];
+    CHECK(point.law_work_per_cycle == Approx(closed_form::work_per_cycle_rough(
+                                       ratio, point.force, realisation.of(ContactModel::bem).fit.decay_length, drag))
                                 .epsilon(1e-12));
     // γ = P/v².
     CHECK(point.curve_damping_constant ==
-          Approx(point.curve_work * drag.angular_frequency / (2 * std::numbers::pi) /
+          Approx(point.curve_work_per_cycle * drag.angular_frequency / (2 * std::numbers::pi) /
                  (drag.drag_velocity * drag.drag_velocity))
               .epsilon(1e-12));
     CHECK(point.force == Approx(point.pressure * 16e-12).epsilon(1e-12));
     // l varies by tens of per cent along the curve; F'' with its square.
     CHECK(std::abs(point.deviation()) < 0.8);
   }
-  CHECK(result.realisations[0].bem.fit.decay_length != result.realisations[1].bem.fit.decay_length);
-  CHECK(result.decay_length(&Realisation::bem).low < result.decay_length(&Realisation::bem).high);
+  CHECK(result.realisations[0].of(ContactModel::bem).fit.decay_length != result.realisations[1].of(ContactModel::bem).fit.decay_length);
+  CHECK(result.decay_length(ContactModel::bem).low < result.decay_length(ContactModel::bem).high);
 }
 
 TEST_CASE("A study is the same in every bit for one and two threads and when run again",
@@ -66,10 +66,10 @@ TEST_CASE("A study is the same in every bit for one and two threads and when run
   parallel::set_threads(2);
   const StudyResult two = run_study(configuration);
   parallel::set_threads(0);
-  CHECK(one.realisations[0].bem.fit.decay_length == two.realisations[0].bem.fit.decay_length);
+  CHECK(one.realisations[0].of(ContactModel::bem).fit.decay_length == two.realisations[0].of(ContactModel::bem).fit.decay_length);
   for (std::size_t i = 0; i < one.pressures.size(); ++i) {
-    const double a = one.realisations[0].bem.damping[i].curve_work,
-                 b = two.realisations[0].bem.damping[i].curve_work;
+    const double a = one.realisations[0].of(ContactModel::bem).damping[i].curve_work_per_cycle,
+                 b = two.realisations[0].of(ContactModel::bem).damping[i].curve_work_per_cycle;
     CHECK((a == b || (std::isnan(a) && std::isnan(b))));
   }
 }
@@ -98,9 +98,9 @@ TEST_CASE("A study's file holds its curves and fits with units", "[study]") {
   CHECK(reader.shape("curve/mean_gap") == std::vector<Index>{3, 2, 12});
   CHECK(reader.text_attribute("curve/mean_gap", "units") == "m");
   CHECK(reader.numbers("curve/pressure") == result.pressures);
-  CHECK(reader.numbers("fit/decay_length")[1] == result.realisations[1].bem.fit.decay_length);
+  CHECK(reader.numbers("fit/decay_length")[1] == result.realisations[1].of(ContactModel::bem).fit.decay_length);
   CHECK(reader.numbers("damping/curve_work_per_cycle")[12 + 5] ==
-        result.realisations[1].bem.damping[5].curve_work);
+        result.realisations[1].of(ContactModel::bem).damping[5].curve_work_per_cycle);
   CHECK(reader.text_attribute("/", "configuration") == configuration.text);
   std::filesystem::remove(file);
 }
@@ -123,12 +123,12 @@ TEST_CASE("Curves without a decay length keep their damping, and the study says 
   const StudyResult result = run_study(parse_study_configuration(close_study_text(), "few.toml"));
   REQUIRE(result.realisations.size() == 2);
   for (const Realisation& realisation : result.realisations) {
-    CHECK(std::isnan(realisation.bem.fit.decay_length));
-    CHECK(std::isnan(realisation.bem.test.decay_length_closest));
-    CHECK(realisation.bem.damping.size() == 5);
-    for (const DampingPoint& point : realisation.bem.damping) CHECK(std::isnan(point.law_work));
-    CHECK(std::ranges::any_of(realisation.bem.damping,
-                              [](const DampingPoint& point) { return point.curve_work > 0; }));
+    CHECK(std::isnan(realisation.of(ContactModel::bem).fit.decay_length));
+    CHECK(std::isnan(realisation.of(ContactModel::bem).test.decay_length_closest));
+    CHECK(realisation.of(ContactModel::bem).damping.size() == 5);
+    for (const DampingPoint& point : realisation.of(ContactModel::bem).damping) CHECK(std::isnan(point.law_work_per_cycle));
+    CHECK(std::ranges::any_of(realisation.of(ContactModel::bem).damping,
+                              [](const DampingPoint& point) { return point.curve_work_per_cycle > 0; }));
   }
   CHECK(std::ranges::any_of(result.warnings, [](const std::string& warning) {
     return warning.starts_with("bem: no decay length on 2 of 2 surfaces");
@@ -146,8 +146,8 @@ TEST_CASE("Damping of a study rests on K_t of stick solves, which at nu = 0 is (
   const StudyResult proportional = run_study(configuration);
   double largest = 0;
   for (std::size_t i = 0; i < stick.pressures.size(); ++i) {
-    const double a = stick.realisations[0].bem.damping[i].curve_work,
-                 b = proportional.realisations[0].bem.damping[i].curve_work;
+    const double a = stick.realisations[0].of(ContactModel::bem).damping[i].curve_work_per_cycle,
+                 b = proportional.realisations[0].of(ContactModel::bem).damping[i].curve_work_per_cycle;
     REQUIRE(std::isnan(a) == std::isnan(b));
     if (!std::isnan(a)) largest = std::max(largest, std::abs(a / b - 1));
   }
@@ -166,6 +166,6 @@ TEST_CASE("Moduli that no elastic body has leave a study with (G*/E*)K, and it s
   const StudyResult result = run_study(configuration);
   REQUIRE(result.warnings.size() == 1);
   CHECK_THAT(result.warnings[0], Catch::Contains("no-stick"));
-  const ForceSample& sample = result.realisations[0].bem.curve.samples[5];
+  const ForceSample& sample = result.realisations[0].of(ContactModel::bem).curve.samples[5];
   CHECK(sample.tangential_stiffness == Approx(0.2 * sample.normal_stiffness));
 }

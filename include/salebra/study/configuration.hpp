@@ -10,6 +10,7 @@
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/generators/spectrum.hpp>
+#include <salebra/study/contact_models.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <string>
 #include <string_view>
@@ -17,22 +18,6 @@
 #include <vector>
 
 namespace salebra {
-
-/// The contact models of a study.
-enum class ContactModel {
-  bem,
-  gw_moments,
-  gw_deterministic,
-  gw_monte_carlo,
-  gw_interacting,
-  persson
-};
-
-/// By the name that files, JSON and study files have for it, that of the enumerator. Throws InvalidInput "models: …" for another.
-ContactModel contact_model(std::string_view name);
-const char* name_of(ContactModel model);
-/// The models of the names, each once, and the boundary elements, which the others are measured by.
-std::vector<ContactModel> contact_models(const std::vector<std::string>& names);
 
 enum class GenerationMethod { filtered_noise, random_phase };
 
@@ -85,12 +70,7 @@ struct StudyConfiguration {
   std::vector<ContactModel> models = {ContactModel::bem, ContactModel::gw_moments,
                                       ContactModel::gw_deterministic};
   /// What `salebra compare` takes in their place.
-  std::vector<ContactModel> compared_models = {ContactModel::bem,
-                                               ContactModel::gw_moments,
-                                               ContactModel::gw_deterministic,
-                                               ContactModel::gw_monte_carlo,
-                                               ContactModel::gw_interacting,
-                                               ContactModel::persson};
+  std::vector<ContactModel> compared_models = all_contact_models();
 
   bool has(ContactModel model) const;
   Oscillation motion;
@@ -110,7 +90,7 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
 /// The configurations of all combinations of the ensemble's lists, the last parameter (points) changing fastest, their own lists
 /// empty; the configuration itself where it has none. Throws InvalidInput for a combination that no grid can carry, and before it
 /// makes any for more than 10 000 combinations or 256 MB of settings.
-std::vector<StudyConfiguration> grid_points(const StudyConfiguration& configuration);
+std::vector<StudyConfiguration> parameter_combinations(const StudyConfiguration& configuration);
 
 /// "H = 0.5, roll-off 1.25 µm, …": the parameters that the ensemble's lists vary, as this point has them; empty without lists.
 std::string describe_point(const ParameterLists& varied, const StudyConfiguration& point);

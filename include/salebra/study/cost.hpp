@@ -39,7 +39,7 @@ double study_memory(const StudyConfiguration& point, const Grid2D& grid, int thr
 /// Counts what run_ensembles() would do, and multiplies it with what a contact costs for each cell: measured once on a server, for
 /// surfaces of 256² to 1024² points and loads up to 0.2 E*h', and scaled by how long one Fourier transform takes here. Good to a factor of
 /// two for studies, of three with interacting summits.
-/// throws  as grid_points(), and as readers do for a measured surface, which is read
+/// throws  as parameter_combinations(), and as readers do for a measured surface, which is read
 /// cost    some milliseconds, and the reading of a measured surface
 StudyCost estimate_cost(const StudyConfiguration& configuration);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
@@ -9,6 +8,8 @@
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/results/contact.hpp>
+#include <salebra/results/surface.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/study/surface_picture.hpp>
 #include <salebra/surface/moments.hpp>
@@ -23,40 +24,154 @@ struct DampingPoint {
   double pressure = 0;  ///< Pa
   double force = 0;     ///< F = pA0, N
   /// Eq. (16), or (12) with F'' = F/l², with the l fitted to the curve.
-  double law_work = ForceSample::unknown;              ///< J
+  double law_work_per_cycle = ForceSample::unknown;    ///< J
   double law_damping_constant = ForceSample::unknown;  ///< N s/m
   /// Eq. (15) or (12) with the F'' that the curve itself has there: small amplitudes, no law.
-  double small_work = ForceSample::unknown;              ///< J
+  double small_work_per_cycle = ForceSample::unknown;    ///< J
   double small_damping_constant = ForceSample::unknown;  ///< N s/m
   /// The theorem on the curve itself at the amplitude given; NaN where the motion leaves the curve.
-  double curve_work = ForceSample::unknown;              ///< J
+  double curve_work_per_cycle = ForceSample::unknown;    ///< J
   double curve_damping_constant = ForceSample::unknown;  ///< N s/m
 
-  double deviation() const { return law_work / curve_work - 1; }
+  double deviation() const { return law_work_per_cycle / curve_work_per_cycle - 1; }
 };
+
+template <class Visitor>
+constexpr void describe(Visitor&& visit, std::type_identity<DampingPoint>) {
+  using enum Dimension;
+  using S = DampingPoint;
+  visit(&S::pressure, Quantity{"pressure", Dimension::pressure, "nominal pressure"});
+  visit(&S::force, Quantity{"force", Dimension::force, "normal force"});
+  visit(&S::law_work_per_cycle,
+        Quantity{"law_work_per_cycle", energy,
+                 "energy dissipated in a cycle, Eq. (16) or (12) with the fitted law"});
+  visit(&S::law_damping_constant, Quantity{"law_damping_constant", damping,
+                                           "damping constant P/v^2, by the fitted law"});
+  visit(&S::small_work_per_cycle,
+        Quantity{"small_work_per_cycle", energy,
+                 "energy dissipated in a cycle, Eq. (15) or (12) with F'' of the curve"});
+  visit(&S::small_damping_constant, Quantity{"small_damping_constant", damping,
+                                             "damping constant P/v^2, by F'' of the curve"});
+  visit(&S::curve_work_per_cycle, Quantity{"curve_work_per_cycle", energy,
+                                           "energy dissipated in a cycle, theorem on the curve"});
+  visit(&S::curve_damping_constant,
+        Quantity{"curve_damping_constant", damping, "damping constant P/v^2, theorem on the curve"});
+  visit(&S::deviation, Quantity{"deviation", dimensionless,
+                                "damping by the fitted law over that of the curve, less 1"});
+}
 
 /// What one contact model says about one surface.
 struct ModelResult {
-  ForceCurve curve;  ///< empty where the model was not asked for
-  ExponentialFit
-      fit;  ///< unknown for fewer than three points in the window, as the law's damping is
+  ContactModel model = ContactModel::bem;
+  ForceCurve curve = {};
+  ExponentialFit fit =
+      {};  ///< unknown for fewer than three points in the window, as the law's damping is
   /// How far the law bends over the window of the fit; unknown for fewer than four points.
-  ExponentialTest test;
-  WindowSensitivity sensitivity;
-  LocalDecayLength local;
+  ExponentialTest test = {};
+  WindowSensitivity sensitivity = {};
+  LocalDecayLength local = {};
+  /// l of a fit in which all loads count alike, m; see FitWeights.
+  double decay_length_equal_weights = ForceSample::unknown;
   /// κ of A/A0 = κ p/(E*h'): least squares through the origin over loads of 0.002 to 0.05 E*h', h' that of the surface.
   double area_slope = ForceSample::unknown;
-  std::vector<DampingPoint> damping;  ///< for each sample of the curve
+  /// u0 of Persson's p ∝ exp(−ū/u0), which is also K = pA0/u0 of Campañá, Persson and Müser, m; of ContactModel::persson.
+  double asymptotic_decay_length = ForceSample::unknown;
+  std::vector<DampingPoint> damping = {};  ///< for each sample of the curve
+
+  /// How far F ∝ exp(−ū/l) is from holding over the window of the fit: l at its far end over l at its close end, less 1, by the
+  /// parabola of test_exponential(); unknown for fewer than four points.
+  double law_bend() const;
+  /// Lengths over h_rms.
+  double decay_length_closest_over_rms_height() const {
+    return test.decay_length_closest / curve.rms_height;
+  }
+  double decay_length_farthest_over_rms_height() const {
+    return test.decay_length_farthest / curve.rms_height;
+  }
+  double decay_length_min_over_rms_height() const {
+    return sensitivity.decay_length_min / curve.rms_height;
+  }
+  double decay_length_max_over_rms_height() const {
+    return sensitivity.decay_length_max / curve.rms_height;
+  }
+  double decay_length_equal_weights_over_rms_height() const {
+    return decay_length_equal_weights / curve.rms_height;
+  }
+  double asymptotic_decay_length_over_rms_height() const {
+    return asymptotic_decay_length / curve.rms_height;
+  }
 };
+
+template <class Visitor>
+constexpr void describe(Visitor&& visit, std::type_identity<ModelResult>) {
+  using enum Dimension;
+  using S = ModelResult;
+  visit(&S::model, Kept{"model", "contact model"});
+  visit(&S::curve, Kept{"curve", "force curve"});
+  visit(&S::fit, Part{"fit", "exponential law fitted to the curve"});
+  visit(&S::test, Part{"test", "whether the law bends"});
+  visit(&S::sensitivity, Part{"sensitivity", "how much the fit owes to its window"});
+  visit(&S::local, Kept{"local", "local decay length"});
+  visit(&S::decay_length_equal_weights,
+        Quantity{"decay_length_equal_weights", length, "decay length, all loads weighted alike"});
+  visit(&S::area_slope,
+        Quantity{"area_slope", dimensionless, "slope of A/A0 over p/(E* rms slope)"});
+  visit(&S::asymptotic_decay_length,
+        Quantity{"asymptotic_decay_length", length,
+                 "decay length of force with mean gap in the limit of small pressures"});
+  visit(&S::damping, Kept{"damping", "damping at each pressure"});
+  visit(&S::law_bend,
+        Quantity{"law_bend", dimensionless,
+                 "decay length at the far end of the window over that at its close end, less 1"});
+  visit(&S::decay_length_closest_over_rms_height,
+        Quantity{"decay_length_closest_over_rms_height", dimensionless,
+                 "local decay length at the close end of the window over rms height"});
+  visit(&S::decay_length_farthest_over_rms_height,
+        Quantity{"decay_length_farthest_over_rms_height", dimensionless,
+                 "local decay length at the far end of the window over rms height"});
+  visit(&S::decay_length_min_over_rms_height,
+        Quantity{"decay_length_min_over_rms_height", dimensionless,
+                 "minimum decay length over parts of the window, over rms height"});
+  visit(&S::decay_length_max_over_rms_height,
+        Quantity{"decay_length_max_over_rms_height", dimensionless,
+                 "maximum decay length over parts of the window, over rms height"});
+  visit(&S::decay_length_equal_weights_over_rms_height,
+        Quantity{"decay_length_equal_weights_over_rms_height", dimensionless,
+                 "decay length, all loads weighted alike, over rms height"});
+  visit(&S::asymptotic_decay_length_over_rms_height,
+        Quantity{"asymptotic_decay_length_over_rms_height", dimensionless,
+                 "decay length in the limit of small pressures over rms height"});
+}
 
 /// Patches of contact of the boundary elements at one pressure.
 struct SpotStatistics {
-  double count = ForceSample::unknown;
+  double spot_count = ForceSample::unknown;
   double corrected_area_fraction = ForceSample::unknown;  ///< see ContactSpots
-  double largest_area = ForceSample::unknown;             ///< m²
-  double mean_area = ForceSample::unknown;                ///< m²
-  std::vector<double> sizes;  ///< spots of 2^k to 2^(k+1) − 1 cells, k = 0, 1, …
+  double largest_spot_area = ForceSample::unknown;        ///< m²
+  double mean_spot_area = ForceSample::unknown;           ///< m²
+  std::vector<double> spots_by_size;  ///< of 2^k to 2^(k+1) − 1 cells, k = 0, 1, …
+
+  /// The area of the largest spot over that of all.
+  double largest_spot_share() const { return largest_spot_area / (spot_count * mean_spot_area); }
 };
+
+template <class Visitor>
+constexpr void describe(Visitor&& visit, std::type_identity<SpotStatistics>) {
+  using enum Dimension;
+  using S = SpotStatistics;
+  visit(&S::spot_count, Quantity{"spot_count", dimensionless, "number of contact spots"});
+  visit(&S::corrected_area_fraction,
+        Quantity{"corrected_area_fraction", dimensionless,
+                 "contact area over nominal area, corrected by the perimeter"});
+  visit(&S::largest_spot_area,
+        Quantity{"largest_spot_area", length_squared, "area of the largest contact spot"});
+  visit(&S::mean_spot_area,
+        Quantity{"mean_spot_area", length_squared, "mean area of contact spots"});
+  visit(&S::spots_by_size, Quantity{"spots_by_size", dimensionless,
+                                    "contact spots of min_cells to twice as many cells"});
+  visit(&S::largest_spot_share, Quantity{"largest_spot_share", dimensionless,
+                                         "area of the largest contact spot over that of all"});
+}
 
 /// Everything computed for one surface.
 struct Realisation {
@@ -67,41 +182,45 @@ struct Realisation {
   HeightStatistics heights;
   SpectralMoments moments;
   SummitStatistics summits;
-  SummitEnsemble ensemble;  ///< of the Greenwood–Williamson theory, from the moments
-  ModelResult bem, gw_moments, gw_deterministic;
-  ModelResult gw_monte_carlo, gw_interacting,
-      persson;                        ///< where StudyConfiguration::models has them
+  SummitEnsemble ensemble;          ///< of the Greenwood–Williamson theory, from the moments
+  std::vector<ModelResult> models;  ///< those of the configuration, in the order of contact_models()
   std::vector<SpotStatistics> spots;  ///< for each pressure
   double corrected_area_slope = ForceSample::
       unknown;  ///< κ of the boundary elements with the area corrected by its perimeter
-  /// u0 of Persson's p ∝ exp(−ū/u0), which is also K = pA0/u0 of Campañá, Persson and Müser, m; with ContactModel::persson.
-  double persson_decay_length = ForceSample::unknown;
   SurfacePicture
       picture;  ///< of one realisation of a study, see wants_picture(); of the others empty
+
+  /// Throws InvalidInput for a model that was not asked for.
+  const ModelResult& of(ContactModel model) const;
+  ModelResult& of(ContactModel model);
 };
 
-/// Where the results of a model are, and what people call it.
-struct StudyModel {
-  ContactModel model;
-  const char* title;
-  ModelResult Realisation::*result;
-};
-inline constexpr std::array study_models{
-    StudyModel{ContactModel::bem, "boundary elements", &Realisation::bem},
-    StudyModel{ContactModel::gw_moments, "GW, summits from spectral moments",
-               &Realisation::gw_moments},
-    StudyModel{ContactModel::gw_deterministic, "GW, the surface's own summits",
-               &Realisation::gw_deterministic},
-    StudyModel{ContactModel::gw_monte_carlo, "GW, summits drawn at random",
-               &Realisation::gw_monte_carlo},
-    StudyModel{ContactModel::gw_interacting, "GW, own summits, interacting",
-               &Realisation::gw_interacting},
-    StudyModel{ContactModel::persson, "Persson's theory", &Realisation::persson}};
+template <class Visitor>
+constexpr void describe(Visitor&& visit, std::type_identity<Realisation>) {
+  using enum Dimension;
+  using S = Realisation;
+  visit(&S::seed, Quantity{"seed", dimensionless,
+                           "seed of the generator; 0 for a measured surface"});
+  visit(&S::grid, Kept{"grid", "points and sizes"});
+  visit(&S::periodic, Kept{"periodic", "whether the surface is"});
+  visit(&S::seam_step, Quantity{"seam_step", dimensionless,
+                                "rms difference of opposite edges over rms height"});
+  visit(&S::heights, Part{"heights", "statistics of heights"});
+  visit(&S::moments, Part{"moments", "spectral moments"});
+  visit(&S::summits, Part{"summits", "statistics of summits"});
+  visit(&S::ensemble, Kept{"ensemble", "summits of the Greenwood-Williamson theory"});
+  visit(&S::models, Kept{"models", "what each contact model says"});
+  visit(&S::spots, Kept{"spots", "contact spots of boundary elements at each pressure"});
+  visit(&S::corrected_area_slope,
+        Quantity{"corrected_area_slope", dimensionless,
+                 "slope of A/A0, corrected by the perimeter, over p/(E* rms slope)"});
+  visit(&S::picture, Kept{"picture", "heights, first contacts, spectrum, distribution"});
+}
 
 /// Whether K_t of the boundary elements comes from stick solves: where they are wanted, and the moduli are those of a body.
 bool stick_solves(const StudyConfiguration& configuration);
 
-/// Those of the configuration, in the order of study_models.
+/// Those of the configuration, in the order of contact_models().
 std::vector<StudyModel> models_of(const StudyConfiguration& configuration);
 
 /// The surface of a seed, or the measured one (its plane removed, as the configuration says). Throws as generators and readers do.

@@ -8,6 +8,8 @@
 #include <salebra/study/parts.hpp>
 #include <salebra/study/realisation.hpp>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace salebra {
@@ -37,28 +39,34 @@ struct StudyResult {
   Bootstrap bootstrap;             ///< makes all intervals below
 
   std::vector<StudyModel> models() const { return models_of(configuration); }
-  /// Mean over the realisations of any number that belongs to one.
-  EnsembleMean mean(const std::function<double(const Realisation&)>& value) const;
+  /// Mean over the realisations of a number that belongs to one, or to what a model says of one.
+  EnsembleMean mean(const NumberOf<Realisation>& number) const;
+  EnsembleMean mean(const NumberOf<ModelResult>& number, ContactModel model) const;
   /// Over the realisations; one surface has no interval.
-  EnsembleMean decay_length(ModelResult Realisation::*model) const;
-  EnsembleMean decay_length_over_rms_height(ModelResult Realisation::*model) const;
-  EnsembleMean area_slope(ModelResult Realisation::*model) const;
-  /// Of a quantity of each pressure, in the order of pressures.
-  std::vector<EnsembleMean> curve(ModelResult Realisation::*model,
-                                  double ForceSample::*quantity) const;
-  std::vector<EnsembleMean> damping(double DampingPoint::*quantity,
-                                    ModelResult Realisation::*model = &Realisation::bem) const;
-  std::vector<EnsembleMean> damping_deviation(
-      ModelResult Realisation::*model = &Realisation::bem) const;
-  /// How far F ∝ exp(−ū/l) is from holding over the window of the fit: l at its far end over l at its close end, less 1, by the
-  /// parabola of test_exponential(). An interval without 0 refutes the law for this kind of surface.
-  EnsembleMean law_bend(ModelResult Realisation::*model) const;
-  /// A quantity of a model over that of the boundary elements on the same surface, at each pressure.
-  std::vector<EnsembleMean> over_bem(ModelResult Realisation::*model,
-                                     double ForceSample::*quantity) const;
-  /// A route to the damping of a model over the theorem on the boundary-element curve of the same surface, at each pressure.
-  std::vector<EnsembleMean> damping_over_bem(ModelResult Realisation::*model,
-                                             double DampingPoint::*quantity) const;
+  EnsembleMean decay_length(ContactModel model = ContactModel::bem) const;
+  EnsembleMean decay_length_over_rms_height(ContactModel model = ContactModel::bem) const;
+  /// mean() of a column of ModelResult, such as "area_slope" or "law_bend". Throws InvalidInput for another name.
+  EnsembleMean fitted(std::string_view column, ContactModel model = ContactModel::bem) const;
+
+  /// Of a quantity of each pressure, in the order of pressures; contacts that did not converge take no part.
+  std::vector<EnsembleMean> at_pressures(
+      const std::function<double(const Realisation&, std::size_t)>& number) const;
+  std::vector<EnsembleMean> curve(const NumberOf<ForceSample>& number,
+                                  ContactModel model = ContactModel::bem) const;
+  std::vector<EnsembleMean> damping(const NumberOf<DampingPoint>& number,
+                                    ContactModel model = ContactModel::bem) const;
+  std::vector<EnsembleMean> spots(const NumberOf<SpotStatistics>& number) const;
+  /// A quantity of a model over that of the boundary elements on the same surface.
+  std::vector<EnsembleMean> over_bem(const NumberOf<ForceSample>& number, ContactModel model) const;
+  /// A route to the loss of a model over the theorem on the boundary-element curve of the same surface.
+  std::vector<EnsembleMean> damping_over_bem(const NumberOf<DampingPoint>& number,
+                                             ContactModel model) const;
+  /// Those ratios of a model that files and answers have, by the names of their quantities.
+  std::vector<std::pair<std::string, std::vector<EnsembleMean>>> comparison(
+      ContactModel model) const;
+
+  /// Minimum and maximum mean of DampingPoint::deviation over the pressures, NaN without any.
+  std::pair<double, double> deviation_range(ContactModel model = ContactModel::bem) const;
   /// The numbers of surfaces of convergence(): the milestones, and all.
   std::vector<std::size_t> convergence_counts() const;
   /// The mean of l/h_rms of the boundary elements over the first convergence_counts() realisations: how the mean converges.
@@ -83,7 +91,7 @@ struct StudyRun {
   StudyParts* parts = nullptr;
 };
 
-/// The ensembles of every point of the configuration's parameter grid, in the order of grid_points(): every surface through
+/// The ensembles of every point of the configuration's parameter grid, in the order of parameter_combinations(): every surface through
 /// analyse_realisation(), in parallel over surfaces. With a precision, a point ends at the first M >= least_realisations surfaces (in
 /// the order of the seeds, M a milestone) for which the 95 % intervals of l/h_rms and of κ of the boundary elements are narrower than ±precision of
 /// their means. The result has the same bits for every thread count. A point that was not begun when the run was stopped is left out.

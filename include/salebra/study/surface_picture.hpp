@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <salebra/base/grid.hpp>
 #include <salebra/contact/normal/normal.hpp>
+#include <salebra/results/describe.hpp>
 #include <salebra/study/configuration.hpp>
 #include <string>
 #include <vector>
@@ -36,6 +37,30 @@ struct SurfacePicture {
   /// Marks the points that carry pressure under load number k.
   void add_contact(std::int16_t k, const NormalContactState& state);
 };
+
+template <class Visitor>
+constexpr void describe(Visitor&& visit, std::type_identity<SurfacePicture>) {
+  using S = SurfacePicture;
+  visit(&S::origin, Kept{"origin", "file, or generator with its seed"});
+  visit(&S::stride, Kept{"stride", "points of the surface for one of the maps"});
+  visit(&S::nx, Kept{"nx", "points of the maps along x"});
+  visit(&S::ny, Kept{"ny", "points of the maps along y"});
+  visit(&S::step_x, Kept{"step_x", "between points of the maps along x, m"});
+  visit(&S::step_y, Kept{"step_y", "between points of the maps along y, m"});
+  visit(&S::heights, Kept{"heights", "height above the mean, m"});
+  visit(&S::first_load,
+        Kept{"first_load",
+             "number of the least pressure of the curve at which the point touches; -1: none"});
+  visit(&S::wavenumber, Kept{"wavenumber", "wave number, rad/m"});
+  visit(&S::density, Kept{"density", "power spectral density C, m^4"});
+  visit(&S::law_density, Kept{"law_density", "C of the self-affine law, m^4"});
+  visit(&S::law, Kept{"law", "where the law comes from"});
+  visit(&S::hurst, Kept{"hurst", "Hurst exponent"});
+  visit(&S::hurst_low, Kept{"hurst_low", "Hurst exponent, lower 95 % limit"});
+  visit(&S::hurst_high, Kept{"hurst_high", "Hurst exponent, upper 95 % limit"});
+  visit(&S::height, Kept{"height", "height above the mean, middle of a bin, m"});
+  visit(&S::height_density, Kept{"height_density", "share of the points over the bin width, 1/m"});
+}
 
 /// One picture a study: of its first seed, or of the measured surface.
 bool wants_picture(const StudyConfiguration& configuration, std::uint64_t seed);

@@ -2,7 +2,7 @@
 // Surface that shares the memory of a NumPy array, and texts for repr().
 #include "interop/surface.hpp"
 
-#include <salebra/base/quantity.hpp>
+#include <salebra/results/quantity.hpp>
 #include <salebra/base/units.hpp>
 
 namespace salebra::python {

@@ -12,6 +12,6 @@ std::vector<std::uint64_t> seeds_of(const StudyConfiguration& configuration);
 
 /// The realisations of one point of the parameter grid, computed side by side and looked at in the order of their seeds. result has
 /// configuration and pressures, and receives the rest. start: what the whole run had finished before.
-void run_point(StudyResult& result, const StudyRun& run, const RealisationReport& start);
+void run_case(StudyResult& result, const StudyRun& run, const RealisationReport& start);
 
 }  // namespace salebra::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Run of one parameter combination: realisations in parallel until the requested precision is met.
-#include "point_run.hpp"
+#include "case_run.hpp"
 
 #include <fmt/format.h>
 #include <omp.h>
@@ -33,8 +33,8 @@ std::size_t enough(const StudyResult& result,
   std::vector<double> lengths, slopes;
   for (std::size_t i = 0; i < finished; ++i) {
     const Realisation& realisation = *realisations[i];
-    lengths.push_back(realisation.bem.fit.decay_length / realisation.heights.rms_height);
-    slopes.push_back(realisation.bem.area_slope);
+    lengths.push_back(realisation.of(ContactModel::bem).fit.decay_length / realisation.heights.rms_height);
+    slopes.push_back(realisation.of(ContactModel::bem).area_slope);
   }
   const auto precise = [&](const std::vector<double>& values) {
     const EnsembleMean estimate = result.bootstrap.mean(values);
@@ -44,9 +44,9 @@ std::size_t enough(const StudyResult& result,
   return precise(lengths) && precise(slopes) ? finished : 0;
 }
 
-class PointRun {
+class CaseRun {
  public:
-  PointRun(StudyResult& result, const StudyRun& run, const RealisationReport& start)
+  CaseRun(StudyResult& result, const StudyRun& run, const RealisationReport& start)
       : result_(result),
         run_(run),
         report_(start),
@@ -205,8 +205,8 @@ std::vector<std::uint64_t> seeds_of(const StudyConfiguration& configuration) {
   return generated ? generated->seeds : std::vector<std::uint64_t>{0};
 }
 
-void run_point(StudyResult& result, const StudyRun& run, const RealisationReport& start) {
-  PointRun(result, run, start).go();
+void run_case(StudyResult& result, const StudyRun& run, const RealisationReport& start) {
+  CaseRun(result, run, start).go();
 }
 
 }  // namespace salebra::detail

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reader and writer of force curves as text tables with units in their titles.
+#include "text_curve.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <salebra/base/error.hpp>
-#include <salebra/base/quantity.hpp>
 #include <salebra/base/version.hpp>
-#include <salebra/io/provenance.hpp>
 
-#include "curve_quantities.hpp"
-#include "loaded_surface.hpp"
-#include "text_numbers.hpp"
+#include "io/loaded_surface.hpp"
+#include "io/text_numbers.hpp"
+
 
 namespace salebra::detail {
 namespace {
@@ -25,14 +25,14 @@ struct Column {
 };
 
 double factor_of(const std::filesystem::path& file, const std::string& unit,
-                 std::string_view name) {
+                 const Quantity& quantity) {
   if (unit.empty()) return 1;
-  const Dimension dimension = find_quantity(name).dimension;
   try {
-    return parse_quantity("1 " + unit, dimension, name);
+    return parse_quantity("1 " + unit, quantity.dimension, quantity.name);
   } catch (const InvalidInput&) {
-    refuse(file, "gives the column " + std::string(name) + " in '" + unit +
-                     "', which is no unit of it; write " + std::string(si_unit(dimension)));
+    refuse(file, "gives the column " + std::string(quantity.name) + " in '" + unit +
+                     "', which is no unit of it; write " +
+                     std::string(si_unit(quantity.dimension)));
   }
 }
 
@@ -48,9 +48,10 @@ Column column_of(const std::filesystem::path& file, std::string_view title) {
     unit = trimmed(title.substr(bracket + 1, close - bracket - 1));
   }
   if (name == "converged") return {.converged = true};
-  const auto quantity = std::ranges::find(curve_quantities, name, &CurveQuantity::name);
-  if (quantity == curve_quantities.end()) return {};
-  return {.member = quantity->member, .factor = factor_of(file, unit, name)};
+  for (const CurveQuantity& known : curve_quantities())
+    if (known.quantity.name == name)
+      return {.member = known.member, .factor = factor_of(file, unit, known.quantity)};
+  return {};
 }
 
 /// Splits a line of titles at commas or semicolons, or else at blanks that are not before or within brackets.
@@ -171,19 +172,18 @@ std::string text_of(const ForceCurve& curve, const Provenance& provenance) {
   if (!curve.model.empty()) text += "# model: " + curve.model + "\n";
   if (curve.nominal_area > 0) text += fmt::format("# nominal_area: {} m^2\n", curve.nominal_area);
   if (!std::isnan(curve.rms_height)) text += fmt::format("# rms_height: {} m\n", curve.rms_height);
-  std::vector<const CurveQuantity*> known;
-  for (const CurveQuantity& quantity : curve_quantities)
-    if (std::ranges::any_of(curve.samples, [&](const ForceSample& sample) {
-          return !std::isnan(sample.*quantity.member);
-        }))
-      known.push_back(&quantity);
-  for (const CurveQuantity* quantity : known)
-    text +=
-        fmt::format("{} [{}],", quantity->name, si_unit(find_quantity(quantity->name).dimension));
+  std::vector<CurveQuantity> known = curve_quantities();
+  std::erase_if(known, [&](const CurveQuantity& item) {
+    return std::ranges::all_of(curve.samples, [&](const ForceSample& sample) {
+      return std::isnan(sample.*item.member);
+    });
+  });
+  for (const auto& [quantity, member] : known)
+    text += fmt::format("{} [{}],", quantity.name, si_unit(quantity.dimension));
   text += "converged\n";
   for (const ForceSample& sample : curve.samples) {
-    for (const CurveQuantity* quantity : known) {
-      const double value = sample.*quantity->member;
+    for (const auto& [quantity, member] : known) {
+      const double value = sample.*member;
       text += std::isnan(value) ? "nan," : fmt::format("{},", value);
     }
     text += sample.converged ? "1\n" : "0\n";

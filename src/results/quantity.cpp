@@ -1,33 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Table of result names: dimension and long name of each quantity in files and answers.
 #include <algorithm>
-#include <array>
-#include <salebra/base/quantity.hpp>
+#include <salebra/results/contact.hpp>
+#include <salebra/results/damping.hpp>
+#include <salebra/results/spectrum.hpp>
+#include <salebra/results/surface.hpp>
+#include <vector>
 
 namespace salebra {
 namespace {
 
 using enum Dimension;
-constexpr std::array quantities{
-    Quantity{"size_x", length, "length of the surface along x"},
-    Quantity{"size_y", length, "length of the surface along y"},
+/// Names of results that no struct describes yet.
+const Quantity others[] = {
     Quantity{"x", length, "position along x"},
     Quantity{"y", length, "position along y"},
     Quantity{"heights", length, "height, positive out of the material"},
     Quantity{"mean", length, "mean height"},
-    Quantity{"rms_height", length, "root mean square height"},
-    Quantity{"rms_slope", dimensionless, "root mean square of the gradient"},
-    Quantity{"moment0", length_squared, "spectral moment m0"},
-    Quantity{"moment2", dimensionless, "spectral moment m2 of a profile"},
-    Quantity{"moment4", inverse_length_squared, "spectral moment m4 of a profile"},
-    Quantity{"nayak", dimensionless, "Nayak parameter m0 m4 / m2^2"},
-    Quantity{"skewness", dimensionless, "skewness of heights"},
-    Quantity{"kurtosis", dimensionless, "kurtosis of heights, 3 for a Gaussian"},
-    Quantity{"density", inverse_length_squared, "summits per area"},
-    Quantity{"radius", length, "radius of summits"},
-    Quantity{"mean_radius", length, "mean radius of summits"},
-    Quantity{"summit_rms", length, "standard deviation of summit heights"},
-    Quantity{"mean_height", length, "mean summit height above the mean plane"},
     Quantity{"Sa", length, "ISO 25178-2 arithmetic mean height"},
     Quantity{"Sq", length, "ISO 25178-2 root mean square height"},
     Quantity{"Ssk", dimensionless, "ISO 25178-2 skewness"},
@@ -54,55 +43,14 @@ constexpr std::array quantities{
     Quantity{"wavelength_low", length, "wavelength, lower 95 % limit"},
     Quantity{"wavelength_high", length, "wavelength, upper 95 % limit"},
     Quantity{"correlation_length", length, "correlation length"},
-    Quantity{"nominal_area", length_squared, "nominal area"},
-    Quantity{"contact_modulus", pressure, "contact modulus E*"},
-    Quantity{"tangential_modulus", pressure, "tangential modulus G*"},
     Quantity{"modulus_ratio", dimensionless, "G*/E*"},
-    Quantity{"pressure", pressure, "nominal pressure"},
     Quantity{"max_pressure", pressure, "largest contact pressure"},
-    Quantity{"force", force, "normal force"},
-    Quantity{"contact_area_fraction", dimensionless, "contact area over nominal area"},
-    Quantity{"mean_gap", length, "mean gap of the deformed surfaces"},
-    Quantity{"indentation", length, "indentation"},
-    Quantity{"separation", length, "distance of the smooth plane from the mean plane of summits"},
     Quantity{"elastic_energy", energy, "elastic energy"},
-    Quantity{"normal_stiffness", stiffness, "normal stiffness dF/d(indentation)"},
-    Quantity{"tangential_stiffness", stiffness, "tangential stiffness in full stick"},
     Quantity{"curvature", curvature, "second derivative of force by indentation"},
     Quantity{"seconds", Dimension::time, "wall time"},
-    Quantity{"decay_length", length, "decay length of force with mean gap"},
-    Quantity{"decay_length_low", length, "decay length, lower 95 % limit"},
-    Quantity{"decay_length_high", length, "decay length, upper 95 % limit"},
-    Quantity{"decay_length_closest", length, "local decay length at the closest gap of the window"},
-    Quantity{"decay_length_farthest", length,
-             "local decay length at the farthest gap of the window"},
     Quantity{"decay_length_by_weights", length, "decay length for each way to weight the loads"},
-    Quantity{"decay_length_over_rms_height", dimensionless, "decay length over rms height"},
     Quantity{"local_decay_length", length, "local decay length -d(mean gap)/d ln(pressure)"},
-    Quantity{"decay_length_min", length, "least decay length over parts of the window"},
-    Quantity{"decay_length_max", length, "largest decay length over parts of the window"},
-    Quantity{"significance", dimensionless, "probability of so large a bend if the law held"},
-    Quantity{"area_slope", dimensionless, "slope of A/A0 over p/(E* rms slope)"},
-    Quantity{"corrected_area_slope", dimensionless,
-             "slope of A/A0, corrected by the perimeter, over p/(E* rms slope)"},
-    Quantity{"corrected_area_fraction", dimensionless,
-             "contact area over nominal area, corrected by the perimeter"},
-    Quantity{"spot_count", dimensionless, "number of contact spots"},
-    Quantity{"spots_by_size", dimensionless, "contact spots of least_cells to twice as many cells"},
-    Quantity{"largest_spot_area", length_squared, "area of the largest contact spot"},
-    Quantity{"mean_spot_area", length_squared, "mean area of contact spots"},
-    Quantity{"hurst", dimensionless, "Hurst exponent"},
-    Quantity{"rolloff", length, "roll-off wavelength"},
-    Quantity{"short_cutoff", length, "shortest wavelength"},
-    Quantity{"reference_pressure", pressure, "fitted pressure at zero mean gap"},
-    Quantity{"pressure_min", pressure, "lowest pressure of the fit"},
-    Quantity{"pressure_max", pressure, "highest pressure of the fit"},
-    Quantity{"normal_amplitude", length, "amplitude of the normal oscillation"},
-    Quantity{"tangential_amplitude", length, "amplitude of the tangential oscillation"},
-    Quantity{"phase", angle, "phase between the oscillations"},
     Quantity{"frequency", frequency, "frequency"},
-    Quantity{"angular_frequency", angular_frequency, "angular frequency"},
-    Quantity{"drag_velocity", velocity, "drag velocity"},
     Quantity{"force_amplitude", force, "amplitude of the normal force"},
     Quantity{"mean_force", force, "normal force, mean over a cycle"},
     Quantity{"tangential_frequency", frequency, "frequency of the tangential motion"},
@@ -159,15 +107,32 @@ constexpr std::array quantities{
     Quantity{"shear", pressure, "tangential stress"},
 };
 
+template <class... Structs>
+std::vector<Quantity> columns_of() {
+  std::vector<Quantity> all;
+  const auto add = [&](const auto&, const Quantity& quantity) { all.push_back(quantity); };
+  (for_each_column<Structs>(add), ...);
+  all.insert(all.end(), std::begin(others), std::end(others));
+  return all;
+}
+
+/// The entry of a name, or none.
+const Quantity* entry_of(std::string_view name) {
+  static const std::vector<Quantity> quantities =
+      columns_of<Grid2D, HeightStatistics, SpectralMoments, SummitStatistics, SummitEnsemble,
+                 SelfAffineParameters, Material, ForceCurve, ForceSample, ExponentialFit,
+                 ExponentialTest, WindowSensitivity, EqualFrequency, Drag>();
+  const auto found = std::ranges::find(quantities, name, &Quantity::name);
+  return found != quantities.end() ? &*found : nullptr;
+}
+
 }  // namespace
 
 Quantity find_quantity(std::string_view name) {
-  const auto* found = std::ranges::find(quantities, name, &Quantity::name);
-  return found != quantities.end() ? *found : Quantity{name, dimensionless, name};
+  const Quantity* found = entry_of(name);
+  return found ? *found : Quantity{name, dimensionless, name};
 }
 
-bool is_quantity(std::string_view name) {
-  return std::ranges::find(quantities, name, &Quantity::name) != quantities.end();
-}
+bool is_quantity(std::string_view name) { return entry_of(name) != nullptr; }
 
 }  // namespace salebra

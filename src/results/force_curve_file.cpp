@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/base/quantity.hpp>
-#include <salebra/io/force_curve_file.hpp>
+#include <salebra/results/force_curve_file.hpp>
 
-#include "atomic_file.hpp"
-#include "curve_quantities.hpp"
-#include "loaded_surface.hpp"
+#include "io/atomic_file.hpp"
+#include "io/loaded_surface.hpp"
+#include "text_curve.hpp"
 
 namespace salebra {
 namespace {
@@ -25,11 +24,10 @@ bool complete(const std::vector<double>& values) {
 
 void write_force_curve(ResultGroup& group, const ForceCurve& curve) {
   std::string coordinate;
-  for (const auto& quantity : detail::curve_quantities) {
-    const std::vector<double> values = curve.column(quantity.member);
+  for (const auto& [meaning, member] : detail::curve_quantities()) {
+    const std::vector<double> values = curve.column(member);
     if (!known(values)) continue;
-    const Quantity meaning = find_quantity(quantity.name);
-    const std::string name(quantity.name), units(si_unit(meaning.dimension)),
+    const std::string name(meaning.name), units(si_unit(meaning.dimension)),
         long_name(meaning.long_name);
     if (coordinate.empty()) {
       const bool orders =
@@ -76,11 +74,11 @@ ForceCurve read_force_curve(const ResultReader& reader, const std::string& group
     first = false;
     return values;
   };
-  for (const auto& quantity : detail::curve_quantities) {
+  for (const auto& [quantity, member] : detail::curve_quantities()) {
     const std::string name(quantity.name);
     if (!reader.has(group + "/" + name)) continue;
     const std::vector<double> values = column(name);
-    for (std::size_t i = 0; i < values.size(); ++i) curve.samples[i].*quantity.member = values[i];
+    for (std::size_t i = 0; i < values.size(); ++i) curve.samples[i].*member = values[i];
   }
   if (study) {
     if (const auto models = reader.labels(group + "/model"); !models.empty())

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <salebra/io/provenance.hpp>
+#include <salebra/results/contact.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace salebra::detail {
+
+/// A number of ForceSample, as files of one curve have it.
+struct CurveQuantity {
+  Quantity quantity;
+  double ForceSample::*member;
+};
+
+/// All of them, the loads first.
+inline std::vector<CurveQuantity> curve_quantities() {
+  std::vector<CurveQuantity> all;
+  describe(
+      [&](auto member, const Quantity& quantity) {
+        if constexpr (std::is_same_v<decltype(member), double ForceSample::*>)
+          all.push_back({quantity, member});
+      },
+      std::type_identity<ForceSample>{});
+  const auto rank = [](const CurveQuantity& item) {
+    return item.member == &ForceSample::pressure ? 0 : item.member == &ForceSample::force ? 1 : 2;
+  };
+  std::ranges::stable_sort(all, {}, rank);
+  return all;
+}
+
+ForceCurve read_text_curve(const std::filesystem::path& file, std::string_view content);
+std::string text_of(const ForceCurve& curve, const Provenance& provenance);
+
+}  // namespace salebra::detail

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The registry of contact models: how each presses the surface of a study.
+#include "contact_models.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <mutex>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/asperity/asperity_sampling.hpp>
+#include <salebra/contact/normal/contact_spots.hpp>
+#include <salebra/contact/asperity/interacting_summits.hpp>
+#include <salebra/contact/sweep.hpp>
+#include <salebra/contact/theories.hpp>
+#include <salebra/surface/spectrum.hpp>
+
+namespace salebra {
+namespace {
+
+using detail::ModelWork;
+
+SpotStatistics spot_statistics(const ContactSpots& contact, const Grid2D& grid) {
+  SpotStatistics statistics;
+  statistics.spot_count = double(contact.spots.size());
+  statistics.corrected_area_fraction = contact.corrected_area_fraction;
+  statistics.largest_spot_area = contact.spots.empty() ? 0 : contact.spots.front().area;
+  statistics.mean_spot_area = contact.spots.empty() ? 0
+                                                    : contact.contact_area_fraction * grid.area() /
+                                                          double(contact.spots.size());
+  statistics.spots_by_size.assign(std::size_t(std::bit_width(std::uint64_t(grid.points()))), 0.0);
+  for (const ContactSpot& spot : contact.spots) {
+    const auto cells = std::uint64_t(std::llround(spot.area / grid.cell_area()));
+    statistics.spots_by_size[std::size_t(std::bit_width(cells) - 1)] += 1;
+  }
+  return statistics;
+}
+
+ModelResult boundary_elements(ModelWork& work) {
+  Realisation& realisation = work.realisation;
+  const Surface& surface = work.surface;
+  std::mutex picture_guard;
+  SweepOptions sweep;
+  sweep.contact.tolerance = work.configuration.tolerance;
+  sweep.contact.on_progress = work.progress;
+  sweep.stick = stick_solves(work.configuration);
+  realisation.spots.resize(work.pressures.size());
+  sweep.on_state = [&](std::size_t k, const NormalContactState& state) {
+    realisation.spots[k] =
+        spot_statistics(contact_spots(state.pressure, surface.grid), surface.grid);
+    if (realisation.picture.empty()) return;
+    const std::scoped_lock lock(picture_guard);
+    realisation.picture.add_contact(std::int16_t(k), state);
+  };
+  return {.curve =
+              sweep_pressures(surface, work.configuration.material, work.pressures, sweep)};
+}
+
+ModelResult statistical_summits(ModelWork& work) {
+  const StatisticalSummits summits(work.realisation.ensemble, work.configuration.material,
+                                   work.surface.grid.area());
+  return {.curve = curve_at_pressures(summits, work.pressures)};
+}
+
+ModelResult own_summits(ModelWork& work) {
+  const HeightStatistics& heights = work.realisation.heights;
+  const DeterministicSummits summits(work.summits.summits, work.configuration.material,
+                                     work.summits.searched_area, heights.mean, heights.rms_height);
+  return {.curve = curve_at_pressures(summits, work.pressures)};
+}
+
+ModelResult drawn_summits(ModelWork& work) {
+  const SummitEnsemble& ensemble = work.realisation.ensemble;
+  const double area = work.surface.grid.area();
+  const int count = std::max(1, int(std::lround(ensemble.density * area)));
+  const DeterministicSummits summits(
+      draw_summits(ensemble, count, std::sqrt(area), work.realisation.seed),
+      work.configuration.material, area, -ensemble.mean_height,
+      work.realisation.heights.rms_height);
+  return {.curve = curve_at_pressures(summits, work.pressures)};
+}
+
+ModelResult interacting_summits(ModelWork& work) {
+  const HeightStatistics& heights = work.realisation.heights;
+  const InteractingSummits summits(work.summits.summits, work.configuration.material,
+                                   work.surface.grid, heights.mean, heights.rms_height);
+  return {.curve = curve_at_pressures(summits, work.pressures, work.progress)};
+}
+
+/// The modes that the surface has, ring by ring.
+std::vector<RoughnessShell> shells_of(const Surface& surface) {
+  const PowerSpectrum spectrum = power_spectrum(surface);
+  const RadialSpectrum rings = radial_spectrum(spectrum, 16);
+  std::vector<RoughnessShell> shells;
+  for (std::size_t i = 0; i < rings.wavenumber.size(); ++i) {
+    const double power = double(rings.modes[i]) * rings.density[i] * spectrum.cell();
+    if (power > 0) shells.push_back({rings.wavenumber[i], power});
+  }
+  return shells;
+}
+
+ModelResult persson_theory(ModelWork& work) {
+  const Material& material = work.configuration.material;
+  const PerssonTheory theory(shells_of(work.surface), material.contact_modulus);
+  ModelResult result{
+      .curve = persson_curve(theory, material, work.surface.grid.area(), work.pressures),
+      .asymptotic_decay_length = theory.asymptote().decay_length};
+  result.curve.rms_height = work.realisation.heights.rms_height;
+  return result;
+}
+
+using enum ContactModel;
+constexpr std::array registry{
+    StudyModel{bem, "bem", "boundary elements", 0.218e-6, &boundary_elements},
+    StudyModel{gw_moments, "gw_moments", "GW, summits from spectral moments", 0,
+               &statistical_summits},
+    StudyModel{gw_deterministic, "gw_deterministic", "GW, the surface's own summits", 0,
+               &own_summits},
+    StudyModel{gw_monte_carlo, "gw_monte_carlo", "GW, summits drawn at random", 0, &drawn_summits},
+    StudyModel{gw_interacting, "gw_interacting", "GW, own summits, interacting", 0.155e-6,
+               &interacting_summits},
+    StudyModel{persson, "persson", "Persson's theory", 0, &persson_theory}};
+
+static_assert([] {
+  for (std::size_t i = 0; i < registry.size(); ++i)
+    if (registry[i].id != ContactModel(i)) return false;
+  return true;
+}(), "a model stands at the place of its enumerator");
+
+}  // namespace
+
+std::span<const StudyModel> contact_models() { return registry; }
+
+ContactModel contact_model(std::string_view name) {
+  std::vector<std::string_view> known;
+  for (const StudyModel& model : registry) {
+    if (name == model.name) return model.id;
+    known.emplace_back(model.name);
+  }
+  throw InvalidInput(
+      fmt::format("models: '{}' is not known; known are {}", name, fmt::join(known, ", ")));
+}
+
+const char* name_of(ContactModel model) { return registry[std::size_t(model)].name; }
+
+std::vector<ContactModel> all_contact_models() {
+  std::vector<ContactModel> models;
+  for (const StudyModel& model : registry) models.push_back(model.id);
+  return models;
+}
+
+std::vector<ContactModel> contact_models(const std::vector<std::string>& names) {
+  std::vector<ContactModel> models{ContactModel::bem};
+  for (const std::string& name : names) {
+    const ContactModel model = contact_model(name);
+    if (std::ranges::find(models, model) == models.end()) models.push_back(model);
+  }
+  std::ranges::sort(models);
+  return models;
+}
+
+}  // namespace salebra
