@@ -63,6 +63,19 @@ double area_slope(const std::vector<double>& pressures, const std::vector<double
   return product / square;
 }
 
+/// α of K = αF/h_rms over the window.
+double stiffness_coefficient(const ForceCurve& curve, const PressureWindow& window) {
+  double product = 0, square = 0;
+  for (const ForceSample& sample : curve.samples) {
+    if (!sample.converged || !window.contains(sample.pressure, PressureWindow::round_off) ||
+        std::isnan(sample.normal_stiffness))
+      continue;
+    product += sample.force * sample.normal_stiffness;
+    square += sample.force * sample.force;
+  }
+  return curve.rms_height * product / square;
+}
+
 std::vector<DampingPoint> damping_curve(const ModelResult& model,
                                         const StudyConfiguration& configuration) {
   const double modulus_ratio = configuration.material.modulus_ratio();
@@ -141,6 +154,7 @@ void analyse(ModelResult& result, const StudyConfiguration& configuration, doubl
   }
   result.area_slope = area_slope(curve.column(&ForceSample::pressure),
                                  curve.column(&ForceSample::contact_area_fraction), scale);
+  result.stiffness_coefficient = stiffness_coefficient(curve, result.fit.window);
   result.damping = damping_curve(result, configuration);
 }
 

@@ -341,6 +341,16 @@ TEST_CASE("A study's contacts, fits and area slopes follow the settings", "[ense
     CHECK(found.sensitivity.decay_length_max ==
           window_sensitivity(found.curve, configuration.window).decay_length_max);
   }
+  // α: least squares through the origin of K h_rms over F, in the window of the fit.
+  const ModelResult& fitted = windowed.realisations[0].of(ContactModel::bem);
+  double stiffness = 0, force = 0;
+  for (std::size_t k = 6; k <= 10; ++k) {
+    const ForceSample& sample = fitted.curve.samples[k];
+    stiffness += sample.force * sample.normal_stiffness;
+    force += sample.force * sample.force;
+  }
+  CHECK(fitted.stiffness_coefficient ==
+        Approx(stiffness / force * windowed.realisations[0].heights.rms_height).epsilon(1e-12));
   // κ: least squares through the origin of A/A0 over p/(E*h'), from 0.002 to 0.05.
   const Realisation& r = tight.realisations[0];
   const double scale = 1e10 * r.moments.rms_slope();

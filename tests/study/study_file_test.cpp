@@ -163,6 +163,8 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
                  [](const auto& m) { return m.sensitivity.decay_length_min; });
   file.of_models("fit/decay_length_max",
                  [](const auto& m) { return m.sensitivity.decay_length_max; });
+  file.of_models("fit/stiffness_coefficient",
+                 [](const auto& m) { return m.stiffness_coefficient; });
   file.of_models("fit/area_slope", [](const auto& m) { return m.area_slope; });
   std::vector<EnsembleMean> lengths, ratios, slopes;
   for (const StudyModel& model : contact_models()) {

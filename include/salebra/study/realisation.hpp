@@ -74,6 +74,8 @@ struct ModelResult {
   double decay_length_equal_weights = ForceSample::unknown;
   /// κ of A/A0 = κ p/(E*h'): least squares through the origin over loads of 0.002 to 0.05 E*h', h' that of the surface.
   double area_slope = ForceSample::unknown;
+  /// α of K = αF/h_rms: least squares through the origin over the pressures of the fit; h_rms/l where the exponential law holds.
+  double stiffness_coefficient = ForceSample::unknown;
   /// u0 of Persson's p ∝ exp(−ū/u0), which is also K = pA0/u0 of Campañá, Persson and Müser, m; of ContactModel::persson.
   double asymptotic_decay_length = ForceSample::unknown;
   std::vector<DampingPoint> damping = {};  ///< for each sample of the curve
@@ -116,6 +118,9 @@ constexpr void describe(Visitor&& visit, std::type_identity<ModelResult>) {
         Quantity{"decay_length_equal_weights", length, "decay length, all loads weighted alike"});
   visit(&S::area_slope,
         Quantity{"area_slope", dimensionless, "slope of A/A0 over p/(E* rms slope)"});
+  visit(&S::stiffness_coefficient,
+        Quantity{"stiffness_coefficient", dimensionless,
+                 "slope of normal stiffness times rms height over force, within the fit"});
   visit(&S::asymptotic_decay_length,
         Quantity{"asymptotic_decay_length", length,
                  "decay length of force with mean gap in the limit of small pressures"});
