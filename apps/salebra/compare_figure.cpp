@@ -88,7 +88,7 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
                        result.damping(&DampingPoint::law_damping_constant));
   law.low = law.high = {};
   law.style = PlotStyle::dashed;
-  law.color = 6;
+  law.color = 7;
   damping.curves.push_back(std::move(law));
   return panels;
 }

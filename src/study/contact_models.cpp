@@ -10,8 +10,10 @@
 #include <bit>
 #include <cmath>
 #include <mutex>
+#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/asperity_sampling.hpp>
+#include <salebra/contact/asperity/greenwood_tripp.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/contact/asperity/interacting_summits.hpp>
 #include <salebra/contact/sweep.hpp>
@@ -112,6 +114,19 @@ ModelResult persson_theory(ModelWork& work) {
   return result;
 }
 
+/// Greenwood and Tripp's two rough sides, equal and independent, whose sum has the moments of the surface.
+ModelResult two_rough_sides(ModelWork& work) {
+  const SpectralMoments& moments = work.realisation.moments;
+  const double rms_height = work.realisation.heights.rms_height;
+  SummitEnsemble side =
+      summit_ensemble(moments.moment0 / 2, moments.moment2() / 2, moments.moment4() / 2);
+  side.rms_height = rms_height / std::numbers::sqrt2;
+  const GreenwoodTripp sides(side, side, work.configuration.material, work.surface.grid.area());
+  ModelResult result{.curve = curve_at_pressures(sides, work.pressures)};
+  result.curve.rms_height = rms_height;
+  return result;
+}
+
 using enum ContactModel;
 constexpr std::array registry{
     StudyModel{bem, "bem", "boundary elements", 0.218e-6, &boundary_elements},
@@ -122,7 +137,9 @@ constexpr std::array registry{
     StudyModel{gw_monte_carlo, "gw_monte_carlo", "GW, summits drawn at random", 0, &drawn_summits},
     StudyModel{gw_interacting, "gw_interacting", "GW, own summits, interacting", 0.155e-6,
                &interacting_summits},
-    StudyModel{persson, "persson", "Persson's theory", 0, &persson_theory}};
+    StudyModel{persson, "persson", "Persson's theory", 0, &persson_theory},
+    StudyModel{greenwood_tripp, "greenwood_tripp", "Greenwood-Tripp, two equal rough sides", 0,
+               &two_rough_sides}};
 
 static_assert([] {
   for (std::size_t i = 0; i < registry.size(); ++i)

@@ -153,7 +153,7 @@ TEST_CASE("A comparison has every model, its ratios and the theories", "[study]"
   CHECK(point["point"] == "H = 0.8");
   CHECK(keys(point["models"]) == std::set<std::string>{"bem", "gw_moments", "gw_deterministic",
                                                        "gw_monte_carlo", "gw_interacting",
-                                                       "persson"});
+                                                       "persson", "greenwood_tripp"});
   // √(2π) and √(8/π).
   CHECK(point["theories"]["bgt_area_slope"] == Approx(2.50662827463));
   CHECK(point["theories"]["persson_area_slope"] == Approx(1.59576912161));

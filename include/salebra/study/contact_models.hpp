@@ -20,7 +20,8 @@ enum class ContactModel {
   gw_deterministic,
   gw_monte_carlo,
   gw_interacting,
-  persson
+  persson,
+  greenwood_tripp
 };
 
 /// A contact model: the name that files, JSON and study files have for it, that of the enumerator; what people call it; what it costs for
