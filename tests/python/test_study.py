@@ -111,6 +111,21 @@ def test_a_file_of_results_gives_arrays_with_units_and_attributes(result: salebr
         salebra.ResultReader(tmp_path / "absent.h5")
 
 
+def test_columns_have_one_name_and_unit_in_python_and_in_files(result: salebra.StudyResult, tmp_path: Path) -> None:
+    result.write(tmp_path / "study.h5")
+    reader = salebra.ResultReader(tmp_path / "study.h5")
+    bem = result.realisations[0].bem
+    for group, owner, columns in (
+        ("curve", bem.curve, salebra._core._curve_columns()),
+        ("damping", bem.damping[0], salebra._core._damping_columns()),
+    ):
+        assert len(columns) > 5
+        for name, units, long_name in columns:
+            assert reader.units(f"{group}/{name}") == units
+            documentation = getattr(type(owner), name).__doc__
+            assert documentation.startswith(long_name) and (units == "1" or f", {units}." in documentation)
+
+
 def test_a_group_of_a_file_becomes_a_dataset(result: salebra.StudyResult, tmp_path: Path) -> None:
     pytest.importorskip("xarray")
     result.write(tmp_path / "study.h5")
