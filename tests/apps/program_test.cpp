@@ -41,7 +41,7 @@ TEST_CASE("Help is what a bare call, help and --help show", "[program]") {
   CHECK(test.run("help info").out == test.run("info --help").out);
 }
 
-TEST_CASE("--quiet leaves nothing on stderr but errors", "[program]") {
+TEST_CASE("Quiet, a command leaves nothing on stderr but errors", "[program]") {
   const ProgramTest test;
   // Too coarse for its spectrum, which generate warns of.
   const std::string coarse =

@@ -64,8 +64,8 @@ TEST_CASE("report refuses what holds no study", "[report]") {
   test.write("study.toml", study);
   REQUIRE(test.run("study study.toml --no-stick --no-report -o result.h5").status == 0);
   check_refused(test.run("report missing.h5"), "missing.h5: does not exist");
-  check_refused(test.run("report study.toml"), "study.toml: cannot open it as HDF5");
-  check_refused(test.run("report ."), "does not exist");
+  check_refused(test.run("report study.toml"), "study.toml: is no HDF5 file");
+  check_refused(test.run("report ."), ".: is not a regular file");
   check_refused(test.run("report"), "RESULTS");
   const std::string whole = test.read("result.h5");
   for (const double part : {0.02, 0.3, 0.9}) {
