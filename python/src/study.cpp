@@ -138,8 +138,8 @@ nb::list columns_of() {
 }
 
 void bind_result(nb::module_& m) {
-  m.def("_curve_columns", &columns_of<ForceSample>);
-  m.def("_damping_columns", &columns_of<DampingPoint>);
+  m.def("_curve_columns", &columns_of<ForceSample>, nb::sig("def _curve_columns() -> list[typing.Any]"));
+  m.def("_damping_columns", &columns_of<DampingPoint>, nb::sig("def _damping_columns() -> list[typing.Any]"));
   nb::class_<EnsembleMean>(m, "EnsembleMean",
                            "A mean with its 95 % interval; NaN limits where there is none.")
       .def_ro("mean", &EnsembleMean::mean)

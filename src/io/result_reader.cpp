@@ -30,7 +30,7 @@ struct ResultReader::State {
 };
 
 ResultReader::ResultReader(const std::filesystem::path& file)
-    : state_(std::make_unique<State>(detail::hdf5::Document(detail::InputFile(file)))) {}
+    : state_(std::make_unique<State>(State{detail::hdf5::Document(detail::InputFile(file))})) {}
 
 ResultReader::ResultReader(ResultReader&&) noexcept = default;
 ResultReader::~ResultReader() = default;

@@ -210,7 +210,7 @@ TEST_CASE("A sweep leads to a curve, its fit and a damping constant", "[sweep][f
   REQUIRE(swept.status == 0);
   const auto curve = swept.json()["curve"];
   CHECK(keys(swept.json()) == std::set<std::string>{"curve"});
-  CHECK(keys(curve) == std::set<std::string>{"pressure", "mean_gap", "indentation",
+  CHECK(keys(curve) == std::set<std::string>{"pressure", "force", "mean_gap", "indentation",
                                              "contact_area_fraction", "normal_stiffness",
                                              "tangential_stiffness", "converged"});
   for (const auto& column : curve) CHECK(column.size() == 8);
@@ -247,6 +247,7 @@ TEST_CASE("Greenwood-Williamson curves come from a surface or from parameters", 
   make_rough(test);
   const std::set<std::string> curve_keys{"separation",
                                          "pressure",
+                                         "force",
                                          "mean_gap",
                                          "indentation",
                                          "contact_area_fraction",

@@ -89,7 +89,7 @@ def commands_of(script):
 
 def steps(arguments, folder):
     """What runs on the programs of a folder: the name of each step and whether it works, with what it said."""
-    environment = {**os.environ, "PATH": str(folder), "CMAKE_CXX_COMPILER_LAUNCHER": ""}
+    environment = {**os.environ, "PATH": str(folder), "CMAKE_C_COMPILER_LAUNCHER": "", "CMAKE_CXX_COMPILER_LAUNCHER": ""}
     # CMake also looks where systems have their programs, whatever the PATH.
     # cpack takes its -D as a word of its own.
     only = ["-D", "CMAKE_SYSTEM_IGNORE_PATH=" + ";".join(f"{top}{name}" for top in ("/", "/usr/", "/usr/local/") for name in ("bin", "sbin"))]

@@ -69,7 +69,7 @@ struct ModelResult {
   /// How far the law bends over the window of the fit; unknown for fewer than four points.
   ExponentialTest test = {};
   WindowSensitivity sensitivity = {};
-  LocalDecayLength local = {};
+  LocalDecayLength local{};
   /// l of a fit in which all loads count alike, m; see FitWeights.
   double decay_length_equal_weights = ForceSample::unknown;
   /// κ of A/A0 = κ p/(E*h'): least squares through the origin over loads of 0.002 to 0.05 E*h', h' that of the surface.
