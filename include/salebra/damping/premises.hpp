@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <salebra/contact/law/law.hpp>
+#include <salebra/damping/oscillation.hpp>
+#include <string>
+#include <vector>
+
+/// Whether a damping constant without slip may be used: the premises behind it, each with the limits at which the loss changes by
+/// 5 % and by 20 % (docs/theory.md, section 8).
+namespace salebra {
+
+/// What is known of a contact in addition to its law and its motion. NaN: not known.
+struct ContactFacts {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double friction_coefficient = unknown;  ///< μ > 0
+  double hardness = unknown;              ///< H > 0, Pa
+  double density = unknown;               ///< ρ > 0, kg/m³
+  /// X > 0, m: case (a) the greatest tangential displacement from the mean, u_x if not given; case (b) the way from one turning
+  /// point of the slow motion to the other, velocity times duration.
+  double excursion = unknown;
+  double contact_modulus = unknown;   ///< E* > 0, Pa
+  double dundurs = unknown;           ///< β; one elastic body with the law's G*/E* if not given
+  double loaded_size = unknown;       ///< a, m: radius of one contact, side of a rough surface
+  double nominal_pressure = unknown;  ///< F over the nominal area or over the one contact, Pa
+  double largest_pressure = unknown;  ///< Pa
+  double mean_contact_pressure = unknown;  ///< F over the true contact area, Pa
+  double rms_slope = unknown;              ///< h' of a rough surface
+};
+
+enum class Verdict {
+  holds,     ///< within the limit of 5 %
+  doubtful,  ///< between the limits
+  broken,    ///< beyond the limit of 20 %
+  unknown    ///< something is not known: Premise::needs
+};
+std::string name_of(Verdict verdict);
+
+struct Premise {
+  double value = ContactFacts::unknown;
+  /// NaN: the loss does not change so much at any value that the law covers, or a fact is missing without which there is no limit.
+  double limit_5_percent = ContactFacts::unknown;
+  double limit_20_percent = ContactFacts::unknown;
+  Verdict verdict = Verdict::unknown;
+  std::string needs =
+      {};  ///< member of ContactFacts, or "drag_velocity", that a verdict needs; empty: none
+};
+
+/// Largest motion that keeps the slip premises to 5 % with a coefficient of friction.
+struct LargestMotion {
+  double friction_coefficient = ContactFacts::unknown;
+  /// Of the opening levels: v of case (b), m/s, else u_x, m.
+  double drag_velocity = ContactFacts::unknown;
+  double tangential_amplitude = ContactFacts::unknown;
+  double excursion =
+      ContactFacts::unknown;  ///< X of the closed levels, m; 0: no slow motion at this velocity
+};
+
+/// The six premises. With g = G*/E* of the law, levels ζ that open and close during the cycle (ζ > δ0 − u_z) and levels that stay
+/// closed, each a spring that may be stretched by (μ/g)(δ − ζ):
+struct Premises {
+  /// value  M = μ u_z/(g u_x), case (b) μ u_z ω/(g v); dimensionless, the larger the better.
+  /// limits computed from the springs of the law: (a) M at which the loss with slip differs by 5 % from that without; all levels,
+  ///        because the slip of opening and of closed levels partly cancel at some phases. (b) the same of the opening levels.
+  Premise slip_of_opening_levels;
+  /// value  X, m.
+  /// limits (a) the u_x of the limit above. (b) X at which the closed levels lose, by slip, 5 % of the relaxation loss over the same
+  ///        way there and back at the velocity v, many normal cycles: ∫K_t'(e + πv/ω)(X − 2e)dζ = 0.05 W Xω/(2πv), e = (μ/g)(δ0 − u_z − ζ).
+  ///        0 where X would be shorter than the way in one normal cycle: no slow motion at this velocity keeps the premise.
+  Premise slip_of_closed_levels;
+  /// value  u_z, m.
+  /// limits computed: u_z at which Eq. (12), (15) or (16), proportional to u_z, is 5 % off the theorem at finite amplitude, mean
+  ///        indentation held. A loss at finite amplitude does not need this premise.
+  Premise amplitude;
+  /// value  the largest that is known of: largest pressure/H, 1.5 mean pressure of the contact/H (a paraboloid's), E*h'/H.
+  /// limits estimated: 0.6 (flow begins below the surface at 1.6 yield stresses, H = 2.8; Greenwood and Williamson's ψ) and 1.
+  Premise plasticity;
+  /// value  ω a/c_s, c_s = √(G/ρ) of one elastic body with the law's G*/E*.
+  /// limits estimated: a stuck circle has the impedance K(1 + 0.58i ωa/c_s), so that 0.55 and 1.2 change |K| by 5 and 20 %; in case (a)
+  ///        less, where waves carry away 5 % of the loss: π·0.58 (ωa/c_s) u_x² K_t²/(2G*a).
+  Premise inertia;
+  /// value  share of the loss that the coupling of pressure and traction changes, 1.3|β|³: interpolates direct simulations of rough
+  ///        surfaces, 3 % at ν = 0.3, 17 % at ν = 0, none at ν = 0.5.
+  /// limits 0.05 and 0.2.
+  Premise coupling;
+
+  /// For the μ that is known, otherwise for μ = 0.1, 0.3 and 1.
+  std::vector<LargestMotion> largest;
+};
+
+/// mean_indentation: δ0, m, as DampingResult::indentation. Below the lowest load of a table the law is continued by an exponential of
+/// the F/K there. Drag::drag_velocity NaN: not known; the largest is found.
+/// throws  InvalidInput for facts that are not > 0, for a nominal pressure above the hardness, and as relaxation_damping()
+/// cost    about 10 ms and 10⁴ evaluations of the law
+Premises premises_of(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
+                     const ContactFacts& facts = {});
+/// Two frequencies: as case (a), over the common period; without one the slip is not known.
+Premises premises_of(const ContactLaw& law, double mean_indentation, const TwoFrequencies& motion,
+                     const ContactFacts& facts = {});
+
+/// Energy lost in a cycle with friction, J.
+struct LossWithSlip {
+  double work_per_cycle = ContactFacts::unknown;
+  double relaxation_work = ContactFacts::unknown;  ///< of it, by levels that open and close
+  double slip_work = ContactFacts::unknown;        ///< of it, by levels that stay closed
+};
+
+/// The same springs with friction. Case (b) without an excursion: sliding that goes on, all levels slip; with one: mean of a cycle on
+/// the way there and back.
+/// throws  InvalidInput for μ or an excursion that is not > 0, and as relaxation_damping()
+LossWithSlip loss_with_slip(const ContactLaw& law, double mean_indentation,
+                            const Oscillation& motion, double friction_coefficient,
+                            double excursion = ContactFacts::unknown);
+
+}  // namespace salebra

@@ -1,0 +1,538 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Premises of a damping constant without slip, and the loss with slip, from the springs of a contact law.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <salebra/base/error.hpp>
+#include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/premises.hpp>
+#include <salebra/damping/tangential_contact.hpp>
+#include <type_traits>
+
+namespace salebra {
+namespace {
+
+using std::numbers::pi;
+constexpr double unknown = ContactFacts::unknown;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Of ½K_t x²: what is below it is round-off of a contact that loses nothing.
+constexpr double no_loss = 1e-10;
+constexpr int steps = 360;  // the ratio of two losses on one path is then good to 1e-4
+
+// A table continued below its lowest load, F = F1 exp((δ − δ1)/l), l = F1/K1, K_t likewise; other laws as they are.
+class ContinuedLaw final : public ContactLaw {
+ public:
+  explicit ContinuedLaw(const ContactLaw& law)
+      : ContactLaw(law.modulus_ratio()), law_(law), low_(law.lowest_indentation()) {
+    if (!std::isfinite(low_)) return;
+    force_ = law.force(low_);
+    length_ = force_ / law.normal_stiffness(low_);
+    stiffness_ = law.tangential_stiffness(low_);
+  }
+  double force(double indentation) const override {
+    return indentation < low_ ? force_ * tail(indentation) : law_.force(indentation);
+  }
+  double normal_stiffness(double indentation) const override {
+    return indentation < low_ ? force_ / length_ * tail(indentation)
+                              : law_.normal_stiffness(indentation);
+  }
+  double curvature(double indentation) const override {
+    return indentation < low_ ? force_ / (length_ * length_) * tail(indentation)
+                              : law_.curvature(indentation);
+  }
+  double tangential_stiffness(double indentation) const override {
+    return indentation < low_ ? stiffness_ * tail(indentation)
+                              : law_.tangential_stiffness(indentation);
+  }
+  double tangential_curvature(double indentation) const override {
+    return indentation < low_ ? stiffness_ / length_ * tail(indentation)
+                              : law_.tangential_curvature(indentation);
+  }
+  double highest_indentation() const override { return law_.highest_indentation(); }
+  double indentation_of(double force) const override { return law_.indentation_of(force); }
+  std::vector<double> break_points() const override { return law_.break_points(); }
+
+ private:
+  double tail(double indentation) const {
+    return force_ > 0 ? std::exp((indentation - low_) / length_) : 0;
+  }
+  const ContactLaw& law_;
+  double low_, force_ = 0, length_ = 1, stiffness_ = 0;
+};
+
+// The levels above `bottom` alone. Only K_t, F and the ends are asked of it.
+class OpeningLevels final : public ContactLaw {
+ public:
+  OpeningLevels(const ContactLaw& law, double bottom)
+      : ContactLaw(law.modulus_ratio()),
+        law_(law),
+        bottom_(bottom),
+        force_(law.force(bottom)),
+        stiffness_(law.tangential_stiffness(bottom)) {}
+  double force(double indentation) const override { return law_.force(indentation) - force_; }
+  double normal_stiffness(double indentation) const override {
+    return law_.normal_stiffness(indentation);
+  }
+  double curvature(double indentation) const override { return law_.curvature(indentation); }
+  double tangential_stiffness(double indentation) const override {
+    return law_.tangential_stiffness(indentation) - stiffness_;
+  }
+  double tangential_curvature(double indentation) const override {
+    return law_.tangential_curvature(indentation);
+  }
+  double lowest_indentation() const override { return bottom_; }
+  double highest_indentation() const override { return law_.highest_indentation(); }
+  double indentation_of(double force) const override { return law_.indentation_of(force); }
+  std::vector<double> break_points() const override { return law_.break_points(); }
+
+ private:
+  const ContactLaw& law_;
+  double bottom_, force_, stiffness_;
+};
+
+// One period whose displacement is that of u_x = 1 m, or v/ω = 1 m.
+std::optional<SampledMotion> unit_path(const Oscillation& motion, double mean) {
+  return std::visit(
+      [&](auto one) -> SampledMotion {
+        if constexpr (std::is_same_v<decltype(one), Drag>)
+          one.drag_velocity = one.angular_frequency;
+        else
+          one.tangential_amplitude = 1;
+        return sample(Oscillation(one), mean, steps);
+      },
+      motion);
+}
+
+std::optional<SampledMotion> unit_path(TwoFrequencies motion, double mean) {
+  if (common_period(motion).normal_cycles == 0) return {};
+  motion.tangential_amplitude = 1;
+  return sample(motion, mean, steps);
+}
+
+double normal_amplitude_of(const Oscillation& motion) {
+  return std::visit([](const auto& one) { return one.normal_amplitude; }, motion);
+}
+double normal_amplitude_of(const TwoFrequencies& motion) { return motion.normal_amplitude; }
+
+const Drag* drag_of(const Oscillation& motion) { return std::get_if<Drag>(&motion); }
+const Drag* drag_of(const TwoFrequencies&) { return nullptr; }
+
+// Tangential displacement that M counts: u_x or v/ω.
+double displacement_of(const Oscillation& motion) {
+  if (const Drag* drag = drag_of(motion)) return drag->drag_velocity / drag->angular_frequency;
+  return std::get<EqualFrequency>(motion).tangential_amplitude;
+}
+double displacement_of(const TwoFrequencies& motion) { return motion.tangential_amplitude; }
+
+struct Loss {
+  double total = 0, permanent = 0;
+};
+
+// Springs under a path, in units of μ/g: a spring may be stretched by δ − ζ, displacements count in (μ/g) m, losses in (μ/g)² J.
+class Springs {
+ public:
+  // furthest: largest displacement from the path's beginning.
+  Springs(const ContactLaw& law, SampledMotion path, bool closed_levels, double furthest)
+      : path_(std::move(path)), closed_levels_(closed_levels) {
+    const auto [low, high] = std::ranges::minmax(path_.indentation);
+    const OpeningLevels opening(law, low);
+    const ContactLaw& levels = closed_levels ? law : static_cast<const ContactLaw&>(opening);
+    contact_.emplace(levels, low, high,
+                     TangentialContactOptions{.friction = law.modulus_ratio(),
+                                              .table_tolerance = 1e-9,
+                                              .tangential_range = furthest});
+    TangentialContact stuck(opening, low, high, {.table_tolerance = 1e-9});
+    stick_ = follow(stuck, 1, 1, 0).total;
+    scale_ = law.tangential_stiffness(high);
+  }
+
+  // Loss without slip at the displacement 1.
+  double stick() const { return stick_ > no_loss * scale_ ? stick_ : 0; }
+  // Of the steady state at a displacement. ahead: how far the contact is dragged at its least indentation before.
+  Loss at(double displacement, double ahead = 0) {
+    // Opening levels have no history.
+    const int periods = closed_levels_ && ahead == 0 ? 2 : 1;
+    return follow(*contact_, displacement, periods, ahead);
+  }
+  // |W/W(no slip) − 1|.
+  double change(double displacement) {
+    const double loss = at(displacement).total, without = stick() * displacement * displacement;
+    if (without > 0) return std::abs(loss / without - 1);
+    return loss > no_loss * scale_ * displacement * displacement ? infinity : 0;
+  }
+
+ private:
+  Loss follow(TangentialContact& contact, double displacement, int periods, double ahead) const {
+    // sample() begins at the least indentation.
+    double x = displacement * path_.displacement.front();
+    contact.start(path_.indentation.front(), x);
+    const double before = x;
+    if (ahead > 0) contact.move_to(path_.indentation.front(), x += ahead);
+    const double offset = x - before;
+    Loss begun;
+    for (int period = 0; period < periods; ++period) {
+      begun = {contact.dissipated(), contact.dissipated_in_permanent_contact()};
+      for (std::size_t i = 1; i < path_.time.size(); ++i)
+        contact.move_to(path_.indentation[i], offset + displacement * path_.displacement[i]);
+    }
+    return {contact.dissipated() - begun.total,
+            contact.dissipated_in_permanent_contact() - begun.permanent};
+  }
+
+  SampledMotion path_;
+  bool closed_levels_;
+  std::optional<TangentialContact> contact_;
+  double stick_ = 0, scale_ = 0;
+};
+
+struct Limits {
+  double five = unknown, twenty = unknown;
+};
+
+// Least arguments at which change() passes 5 and 20 %, looked for from `low`, where nothing changes yet, to `high`.
+Limits first_crossings(const std::function<double(double)>& change, double low, double high) {
+  constexpr double step = 1.2;
+  constexpr int halvings = 18;
+  Limits limits;
+  double below = low;
+  for (double* limit : {&limits.five, &limits.twenty}) {
+    const double percent = limit == &limits.five ? 0.05 : 0.2;
+    double above = below;
+    while (change(above) <= percent) {
+      below = above;
+      if (above >= high) return limits;
+      above = std::min(above * step, high);
+    }
+    for (int i = 0; i < halvings && above > below; ++i) {
+      const double middle = std::sqrt(below * above);
+      (change(middle) > percent ? above : below) = middle;
+    }
+    *limit = above;
+  }
+  return limits;
+}
+
+// Levels that stay closed on a slow way there and back, in units of μ/g.
+class ClosedLevels {
+ public:
+  ClosedLevels(const ContactLaw& law, double bottom, double way_per_cycle)
+      : law_(law), bottom_(bottom), way_per_cycle_(way_per_cycle) {}
+
+  // ∫K_t'(e + w/2)(X − 2e) dζ, the loss on a way X with w in each normal cycle, e = δ_min − ζ.
+  double loss(double excursion) const {
+    constexpr int cells = 256;
+    double sum = 0, above = law_.tangential_stiffness(bottom_);
+    for (int i = 0; i < cells; ++i) {
+      const double end = 0.5 * excursion * (i + 1) / cells;
+      const double below = law_.tangential_stiffness(bottom_ - end);
+      const double stretch = 0.5 * excursion * (i + 0.5) / cells;
+      sum += (above - below) * (stretch + 0.5 * way_per_cycle_) * (excursion - 2 * stretch);
+      above = below;
+    }
+    return sum;
+  }
+  // Mean over the normal cycles of the way.
+  double loss_per_cycle(double excursion) const {
+    return loss(excursion) * way_per_cycle_ / excursion;
+  }
+
+  // Ways on which the loss is 5 and 20 % of `relaxation` per normal cycle; 0 where they were shorter than that of one cycle.
+  Limits limits(double relaxation, double longest) const {
+    const double negligible = no_loss * law_.tangential_stiffness(bottom_);
+    const auto change = [&](double excursion) {
+      const double slip = loss_per_cycle(excursion);
+      if (relaxation > 0) return slip / relaxation;
+      return slip > negligible * excursion * excursion ? infinity : 0;
+    };
+    Limits found = first_crossings(change, way_per_cycle_, std::max(longest, way_per_cycle_));
+    for (double* limit : {&found.five, &found.twenty})
+      if (*limit <= way_per_cycle_) *limit = 0;
+    return found;
+  }
+
+ private:
+  const ContactLaw& law_;
+  double bottom_, way_per_cycle_;
+};
+
+void judge(Premise& premise, bool large_is_good = false) {
+  const double value = premise.value;
+  if (std::isnan(value)) return;
+  const auto beyond = [&](double limit) { return large_is_good ? value < limit : value > limit; };
+  premise.verdict = beyond(premise.limit_20_percent)  ? Verdict::broken
+                    : beyond(premise.limit_5_percent) ? Verdict::doubtful
+                                                      : Verdict::holds;
+}
+
+void check(const ContactFacts& facts) {
+  for (const auto& [value, field] : {std::pair{facts.friction_coefficient, "friction_coefficient"},
+                                     {facts.hardness, "hardness"},
+                                     {facts.density, "density"},
+                                     {facts.excursion, "excursion"},
+                                     {facts.contact_modulus, "contact_modulus"},
+                                     {facts.loaded_size, "loaded_size"}})
+    if (!std::isnan(value)) require_positive(value, field);
+  if (facts.nominal_pressure > facts.hardness)
+    require(false, "hardness", facts.hardness,
+            "Pa is below the mean pressure of the contact, where all of it would flow; reduce the "
+            "load or give the hardness in Pa");
+}
+
+// Poisson's ratio of one elastic body with this G*/E* = 2(1 − ν)/(2 − ν).
+double poisson_of(double modulus_ratio) { return (2 - 2 * modulus_ratio) / (2 - modulus_ratio); }
+
+Premise plasticity_of(const ContactFacts& facts) {
+  // Flow begins below a paraboloid's centre at 1.6 yield stresses, H is 2.8 of them.
+  Premise premise{.limit_5_percent = 0.6, .limit_20_percent = 1};
+  // Of a paraboloid.
+  constexpr double largest_over_mean = 1.5;
+  double stress = unknown;
+  for (const double one : {facts.largest_pressure, largest_over_mean * facts.mean_contact_pressure,
+                           facts.contact_modulus * facts.rms_slope})
+    stress = std::fmax(stress, one);
+  premise.value = stress / facts.hardness;
+  if (std::isnan(facts.hardness))
+    premise.needs = "hardness";
+  else if (std::isnan(stress))
+    premise.needs = "largest_pressure";
+  judge(premise);
+  return premise;
+}
+
+Premise coupling_of(const ContactLaw& law, const ContactFacts& facts) {
+  Premise premise{.limit_5_percent = 0.05, .limit_20_percent = 0.2};
+  const double poisson = poisson_of(law.modulus_ratio());
+  const double dundurs =
+      std::isnan(facts.dundurs) ? (1 - 2 * poisson) / (2 * (1 - poisson)) : facts.dundurs;
+  // Direct simulations of rough surfaces: 3 % at ν = 0.3 (β = 0.286), 17 % at ν = 0 (β = 0.5).
+  premise.value = 1.3 * std::pow(std::abs(dundurs), 3);
+  judge(premise);
+  return premise;
+}
+
+double frequency_of(const Oscillation& motion) {
+  return std::visit([](const auto& one) { return one.angular_frequency; }, motion);
+}
+double frequency_of(const TwoFrequencies& motion) {
+  return std::max(motion.normal_angular_frequency, motion.tangential_angular_frequency);
+}
+
+// stick: loss for u_x = 1 m.
+Premise inertia_of(const ContactLaw& law, double mean, double angular_frequency, bool drag,
+                   double stick, const ContactFacts& facts) {
+  // A stuck circle on a half-space: K(1 + 0.58i a0) for small a0 = ωa/c_s.
+  constexpr double radiation = 0.58;
+  const auto change_of_modulus = [](double change) {
+    return std::sqrt((1 + change) * (1 + change) - 1) / radiation;
+  };
+  Premise premise{.limit_5_percent = change_of_modulus(0.05),
+                  .limit_20_percent = change_of_modulus(0.2)};
+  if (!(angular_frequency > 0)) {
+    premise.needs = "angular_frequency";
+    return premise;
+  }
+  for (const auto& [value, field] : {std::pair{facts.density, "density"},
+                                     {facts.contact_modulus, "contact_modulus"},
+                                     {facts.loaded_size, "loaded_size"}})
+    if (std::isnan(value) && premise.needs.empty()) premise.needs = field;
+  if (!premise.needs.empty()) return premise;
+  const double ratio = law.modulus_ratio(), poisson = poisson_of(ratio);
+  const double shear = ratio * facts.contact_modulus * (2 - poisson) / 4;
+  premise.value = angular_frequency * facts.loaded_size / std::sqrt(shear / facts.density);
+  if (!drag && stick > 0) {
+    const double stiffness = law.tangential_stiffness(mean);
+    const double whole = 2 * ratio * facts.contact_modulus * facts.loaded_size;
+    const double radiated = pi * radiation * stiffness * std::min(1.0, stiffness / whole);
+    premise.limit_5_percent = std::min(premise.limit_5_percent, 0.05 * stick / radiated);
+    premise.limit_20_percent = std::min(premise.limit_20_percent, 0.2 * stick / radiated);
+  }
+  judge(premise);
+  return premise;
+}
+
+Oscillation with_amplitude(const Oscillation& motion, double amplitude) {
+  return std::visit(
+      [&](auto one) -> Oscillation {
+        one.normal_amplitude = amplitude;
+        if constexpr (std::is_same_v<decltype(one), Drag>)
+          one.drag_velocity = one.angular_frequency;
+        else
+          one.tangential_amplitude = 1;
+        return one;
+      },
+      motion);
+}
+TwoFrequencies with_amplitude(TwoFrequencies motion, double amplitude) {
+  motion.normal_amplitude = amplitude;
+  motion.tangential_amplitude = 1;
+  return motion;
+}
+
+template <class Motion>
+Premise amplitude_of(const ContactLaw& law, double mean, const Motion& motion, double length) {
+  Premise premise{.value = normal_amplitude_of(motion)};
+  const auto loss = [&](double amplitude) {
+    const DampingResult result = relaxation_damping(
+        law, AtIndentation{mean}, with_amplitude(motion, amplitude), {.tolerance = 1e-7});
+    // Frequencies without a common period have a power alone.
+    return std::isnan(result.work_per_cycle) ? result.power : result.work_per_cycle;
+  };
+  // The limit of W/u_z for small u_z, not F'' itself: that of a table jumps at its samples.
+  const double least = 1e-4 * length;
+  const double range = std::min(mean - law.lowest_indentation(), law.highest_indentation() - mean);
+  // Beyond thirty l an exponential law has no loss that could be told from its top's.
+  const double most = std::min(30 * length, range);
+  if (!(most > least)) return premise;
+  const double slope = loss(least) / least;
+  if (!(slope > 0)) {
+    judge(premise);
+    return premise;
+  }
+  const Limits limits = first_crossings(
+      [&](double amplitude) { return std::abs(slope * amplitude / loss(amplitude) - 1); }, least,
+      most);
+  premise.limit_5_percent = limits.five;
+  premise.limit_20_percent = limits.twenty;
+  judge(premise);
+  return premise;
+}
+
+// A length of the law's own where it stands: F/K, or u_z where there is no contact in the mean.
+double length_of(const ContactLaw& law, double mean, double amplitude) {
+  const double force = law.force(mean), stiffness = law.normal_stiffness(mean);
+  return force > 0 && stiffness > 0 ? force / stiffness : amplitude;
+}
+
+template <class Motion>
+Premises all_premises(const ContactLaw& given, double mean, const Motion& motion,
+                      const ContactFacts& facts) {
+  check(facts);
+  const ContinuedLaw law(given);
+  const double amplitude = normal_amplitude_of(motion);
+  require_positive(amplitude, "normal_amplitude");
+  const Drag* drag = drag_of(motion);
+  const double bottom = mean - amplitude;
+  const double length = length_of(law, mean, amplitude);
+  Premises premises;
+  premises.amplitude = amplitude_of(given, mean, motion, length);
+  premises.plasticity = plasticity_of(facts);
+  premises.coupling = coupling_of(law, facts);
+  Premise& opening = premises.slip_of_opening_levels;
+  Premise& closed = premises.slip_of_closed_levels;
+  const double stretch = facts.friction_coefficient / law.modulus_ratio();  // μ/g
+  const double displacement = std::abs(displacement_of(motion));
+  opening.value = stretch * amplitude / displacement;
+  closed.value = std::isnan(facts.excursion) && !drag ? displacement : facts.excursion;
+  if (std::isnan(displacement)) opening.needs = "drag_velocity";
+  if (std::isnan(facts.friction_coefficient)) opening.needs = "friction_coefficient";
+  closed.needs = opening.needs;
+
+  double stick = 0;
+  Limits displacements;  // in units of μ/g
+  if (const auto path = unit_path(motion, mean)) {
+    // A contact that loses nothing without slip slips first at about its depth; M = 0.1 has long changed any other loss.
+    const double longest = std::max(10 * amplitude, 2 * (length + amplitude));
+    Springs springs(law, *path, drag == nullptr, (drag ? 2 * pi : 2) * longest * 2);
+    stick = springs.stick();
+    double shortest = 1e-2 * amplitude;
+    while (springs.change(shortest) > 0.01 && shortest > 1e-9 * amplitude) shortest /= 4;
+    displacements = first_crossings([&](double x) { return springs.change(x); }, shortest, longest);
+    opening.limit_5_percent = amplitude / displacements.five;
+    opening.limit_20_percent = amplitude / displacements.twenty;
+  } else {
+    opening.value = unknown;
+  }
+  if (opening.needs.empty()) judge(opening, true);
+  premises.inertia = inertia_of(law, mean, frequency_of(motion), drag != nullptr, stick, facts);
+
+  const auto closed_limits = [&](double limit) {
+    const double way = 2 * pi * displacement / limit;
+    return ClosedLevels(law, bottom, way)
+        .limits(stick * displacement * displacement / (limit * limit), 100 * length + way);
+  };
+  if (!drag) {
+    closed.limit_5_percent = stretch * displacements.five;
+    closed.limit_20_percent = stretch * displacements.twenty;
+  } else if (closed.needs.empty()) {
+    const Limits limits = closed_limits(stretch);
+    closed.limit_5_percent = stretch * limits.five;
+    closed.limit_20_percent = stretch * limits.twenty;
+    if (std::isnan(closed.value)) closed.needs = "excursion";
+    // No excursion is short enough.
+    if (limits.twenty == 0) closed.verdict = Verdict::broken, closed.needs.clear();
+  }
+  if (closed.needs.empty()) judge(closed);
+
+  std::vector<double> coefficients{facts.friction_coefficient};
+  if (std::isnan(facts.friction_coefficient)) coefficients = {0.1, 0.3, 1};
+  for (const double coefficient : coefficients) {
+    const double limit = coefficient / law.modulus_ratio();
+    LargestMotion largest{.friction_coefficient = coefficient};
+    if (drag) {
+      largest.drag_velocity = limit * displacements.five * drag->angular_frequency;
+      if (!std::isnan(displacement)) largest.excursion = limit * closed_limits(limit).five;
+    } else {
+      largest.tangential_amplitude = largest.excursion = limit * displacements.five;
+    }
+    premises.largest.push_back(largest);
+  }
+  return premises;
+}
+
+}  // namespace
+
+std::string name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::holds:
+      return "holds";
+    case Verdict::doubtful:
+      return "doubtful";
+    case Verdict::broken:
+      return "broken";
+    case Verdict::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+Premises premises_of(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
+                     const ContactFacts& facts) {
+  return all_premises(law, mean_indentation, motion, facts);
+}
+
+Premises premises_of(const ContactLaw& law, double mean_indentation, const TwoFrequencies& motion,
+                     const ContactFacts& facts) {
+  return all_premises(law, mean_indentation, motion, facts);
+}
+
+LossWithSlip loss_with_slip(const ContactLaw& given, double mean, const Oscillation& motion,
+                            double friction_coefficient, double excursion) {
+  require_positive(friction_coefficient, "friction_coefficient");
+  if (!std::isnan(excursion)) require_positive(excursion, "excursion");
+  const double amplitude = normal_amplitude_of(motion);
+  require_positive(amplitude, "normal_amplitude");
+  const ContinuedLaw law(given);
+  const double limit = friction_coefficient / law.modulus_ratio(), unit = limit * limit;
+  const double displacement = std::abs(displacement_of(motion)) / limit;
+  const SampledMotion path = *unit_path(motion, mean);
+  if (!drag_of(motion)) {
+    const Loss loss = Springs(law, path, true, 2 * displacement).at(displacement);
+    return {unit * loss.total, unit * (loss.total - loss.permanent), unit * loss.permanent};
+  }
+  const double bottom = mean - amplitude, way = 2 * pi * displacement;
+  const double relaxation = Springs(law, path, false, way).at(displacement).total;
+  double slip = 0;
+  if (!std::isnan(excursion)) {
+    slip = ClosedLevels(law, bottom, way).loss_per_cycle(excursion / limit);
+  } else if (law.tangential_stiffness(bottom) > 0) {
+    // Forty F/K below its edge an exponential contact has nothing left.
+    const double ahead = 40 * law.force(bottom) / law.normal_stiffness(bottom) + way;
+    slip = Springs(law, path, true, ahead + way).at(displacement, ahead).permanent;
+  }
+  return {unit * (relaxation + slip), unit * relaxation, unit * slip};
+}
+
+}  // namespace salebra

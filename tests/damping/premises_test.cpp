@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tests of the premises of a damping constant against scaling laws, closed forms and simulated paths.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
+#include <salebra/damping/closed_form.hpp>
+#include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/premises.hpp>
+#include <salebra/damping/trajectory_damping.hpp>
+
+using namespace salebra;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double ratio = 0.8;
+
+ForceCurve exponential_curve(double length) {
+  ForceCurve curve;
+  for (int i = 0; i <= 60; ++i) {
+    ForceSample sample;
+    sample.indentation = length * (i - 40) / 5;
+    sample.force = std::exp(sample.indentation / length);
+    sample.normal_stiffness = sample.force / length;
+    // A K_t of its own, 10 % above (G*/E*)K.
+    sample.tangential_stiffness = 1.1 * ratio * sample.normal_stiffness;
+    curve.samples.push_back(sample);
+  }
+  return curve;
+}
+
+/// X there and back at the velocity v, with `cycles` normal cycles each way; from and to the least indentation.
+SampledMotion there_and_back(const Drag& drag, double mean, int cycles) {
+  constexpr int steps = 400;
+  SampledMotion path;
+  for (int i = 0; i <= 2 * cycles * steps; ++i) {
+    const double angle = 2 * pi * i / steps;
+    path.time.push_back(angle / drag.angular_frequency);
+    path.indentation.push_back(mean -
+                               drag.normal_amplitude * std::cos(2 * pi * (i % steps) / steps));
+    const double whole = 2 * pi * cycles;
+    path.displacement.push_back(drag.drag_velocity / drag.angular_frequency *
+                                std::min(angle, 2 * whole - angle));
+  }
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or less", "[premises]") {
+  const double mean = 1e-6;
+  const PowerLaw cone(1e9, 2, ratio), paraboloid(1e7, 1.5, ratio);
+  const ExponentialLaw exponential(1, 1e-7, ratio);
+  const TabulatedLaw table(exponential_curve(1e-7), ratio);
+  struct Case {
+    const ContactLaw* law;
+    double mean;
+    Oscillation motion;
+    double friction;
+  };
+  const auto equal = [](double amplitude, double phase) {
+    return EqualFrequency{
+        .normal_amplitude = amplitude, .tangential_amplitude = 1e-8, .phase = phase};
+  };
+  const Case cases[] = {
+      {&cone, mean, equal(2e-7, pi / 2), 0.3},      {&paraboloid, mean, equal(5e-7, pi / 4), 0.1},
+      {&paraboloid, mean, equal(1.2e-6, 2.3), 1},   {&exponential, 0, equal(1e-8, 3 * pi / 4), 0.2},
+      {&table, 0, equal(4e-8, pi / 2), 0.5},        {&cone, mean, Drag{1e-7, 1e-3, 1e5}, 0.3},
+      {&exponential, 0, Drag{3e-8, 1e-3, 1e5}, 0.2}};
+  for (const Case& one : cases) {
+    CAPTURE(&one - cases);
+    const Premises premises =
+        premises_of(*one.law, one.mean, one.motion, {.friction_coefficient = one.friction});
+    const Premise& opening = premises.slip_of_opening_levels;
+    // Friction that puts the same motion at the limit's M.
+    const auto change_at = [&](double limit) {
+      const double friction = one.friction * limit / opening.value;
+      const SampledMotion path = sample(one.motion, one.mean, 2000);
+      const double stick = trajectory_damping(*one.law, path).work_per_cycle;
+      const TrajectoryDamping loss =
+          trajectory_damping(*one.law, path, {.friction = friction, .max_periods = 4000});
+      return std::abs(
+          (std::holds_alternative<Drag>(one.motion) ? loss.relaxation_work : loss.work_per_cycle) /
+              stick -
+          1);
+    };
+    // 2 % of the limit, over which the change goes like 1/M or 1/M².
+    CHECK(change_at(0.98 * opening.limit_5_percent) > 0.05);
+    CHECK(change_at(1.02 * opening.limit_5_percent) < 0.05);
+    CHECK(change_at(0.98 * opening.limit_20_percent) > 0.2);
+    CHECK(change_at(1.02 * opening.limit_20_percent) < 0.2);
+    CHECK(opening.limit_5_percent > opening.limit_20_percent);
+  }
+  // The path of a slide that goes on would leave the table; its K_t is proportional to that of the law.
+  for (const Oscillation& motion :
+       {Oscillation(Drag{1e-7, 1e-3, 1e5}), Oscillation(equal(3e-8, 1))}) {
+    const ContactFacts facts{.friction_coefficient = 0.5};
+    // Cubics through 5 samples in each l.
+    CHECK(premises_of(table, 0, motion, facts).slip_of_opening_levels.limit_5_percent ==
+          Approx(premises_of(exponential, 0, motion, facts).slip_of_opening_levels.limit_5_percent)
+              .epsilon(1e-3));
+  }
+}
+
+TEST_CASE("Limits of slip scale with mu/g and with the lengths of the contact", "[premises]") {
+  const auto limits = [](double scale, double modulus_ratio, double friction, double drag) {
+    const ExponentialLaw law(7, 1e-7 * scale, modulus_ratio);
+    Oscillation motion = EqualFrequency{2e-8 * scale, 1e-9 * scale, 1.0};
+    if (drag > 0) motion = Drag{2e-8 * scale, drag * scale, 1e5};
+    return premises_of(law, 0, motion, {.friction_coefficient = friction});
+  };
+  for (const double drag : {0.0, 1e-8}) {
+    const Premises one = limits(1, 0.8, 0.3, drag), larger = limits(5, 0.8, 0.3, drag);
+    const double more = 2 * (0.6 / 0.3) * (0.8 / 0.7) / 2;  // of μ/g
+    const Premises rougher = limits(1, 0.7, 0.6, drag * more);
+    // Bisected to 1e-6.
+    CHECK(larger.slip_of_opening_levels.limit_5_percent ==
+          Approx(one.slip_of_opening_levels.limit_5_percent).epsilon(1e-4));
+    CHECK(larger.slip_of_closed_levels.limit_5_percent ==
+          Approx(5 * one.slip_of_closed_levels.limit_5_percent).epsilon(1e-4));
+    CHECK(rougher.slip_of_opening_levels.limit_20_percent ==
+          Approx(one.slip_of_opening_levels.limit_20_percent).epsilon(1e-4));
+    CHECK(rougher.slip_of_closed_levels.limit_20_percent ==
+          Approx(more * one.slip_of_closed_levels.limit_20_percent).epsilon(1e-4));
+    CHECK(larger.amplitude.limit_5_percent ==
+          Approx(5 * one.amplitude.limit_5_percent).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("A flat punch slips where Coulomb's limit of its one level is passed", "[premises]") {
+  const IndenterLaw law(flat_punch_profile(1e-3), Material::of_contact_modulus(1e9, 0.3));
+  const double mean = 1e-6, amplitude = 3e-7, stretch = 0.3 / law.modulus_ratio();
+  // |x| <= (μ/g)(δ0 + u_z sin ωt) with x = u_x cos ωt at 90°: u_x = (μ/g)√(δ0² − u_z²).
+  const Premises equal = premises_of(law, mean, EqualFrequency{amplitude, 1e-8, pi / 2},
+                                     {.friction_coefficient = 0.3});
+  const double onset = stretch * std::sqrt(mean * mean - amplitude * amplitude);
+  CHECK(equal.slip_of_closed_levels.limit_5_percent == Approx(onset).epsilon(1e-3));
+  CHECK(equal.slip_of_closed_levels.verdict == Verdict::holds);
+  // Both turning points at the limit: X = 2(μ/g)δ_min.
+  const Premises drag =
+      premises_of(law, mean, Drag{amplitude, 1e-6, 1e5},
+                  {.friction_coefficient = 0.3, .excursion = 3 * stretch * (mean - amplitude)});
+  CHECK(drag.slip_of_closed_levels.limit_5_percent ==
+        Approx(2 * stretch * (mean - amplitude)).epsilon(1e-2));
+  CHECK(drag.slip_of_closed_levels.verdict == Verdict::broken);
+}
+
+TEST_CASE("The excursion of a slow motion is limited by slip of the closed levels", "[premises]") {
+  const ExponentialLaw law(1, 1e-7, ratio);
+  const double friction = 0.3;
+  for (const int cycles : {3, 10, 40}) {
+    CAPTURE(cycles);
+    Drag drag{2e-8, 0, 1e5};
+    // Slow enough for an excursion of that many cycles to be near the limit.
+    const double number = 1.5 * std::pow(cycles / 0.238, 2);
+    drag.drag_velocity = friction / ratio * drag.normal_amplitude * drag.angular_frequency / number;
+    const SampledMotion path = there_and_back(drag, 0, cycles);
+    const double stick = trajectory_damping(law, path).work_per_cycle;
+    const double slip = trajectory_damping(law, path, {.friction = friction}).slip_work;
+    const double excursion = cycles * 2 * pi * drag.drag_velocity / drag.angular_frequency;
+    const double mean_slip = loss_with_slip(law, 0, drag, friction, excursion).slip_work;
+    // The turning points take part of a cycle each.
+    CHECK(2 * cycles * mean_slip == Approx(slip).epsilon(0.6 / cycles));
+    const Premises premises =
+        premises_of(law, 0, drag, {.friction_coefficient = friction, .excursion = excursion});
+    // The share goes like X².
+    const double expected = excursion * std::sqrt(0.05 * stick / slip);
+    CHECK(premises.slip_of_closed_levels.limit_5_percent == Approx(expected).epsilon(1.0 / cycles));
+  }
+  // The example of many introductions: 1 mm/s, 1 nm, 20 kHz, l = 30 nm.
+  const ExponentialLaw rough(1, 3e-8, ratio);
+  const Premises fast =
+      premises_of(rough, 0, Drag{1e-9, 1e-3, 2 * pi * 2e4}, {.friction_coefficient = 0.3});
+  CHECK(fast.slip_of_opening_levels.verdict == Verdict::broken);
+  CHECK(fast.slip_of_closed_levels.verdict == Verdict::broken);
+  CHECK(fast.slip_of_closed_levels.limit_20_percent == 0);
+  CHECK(fast.largest.front().excursion == 0);
+}
+
+TEST_CASE("The loss with slip is that of the simulated path", "[premises]") {
+  const PowerLaw law(1e7, 1.5, ratio);
+  for (const Oscillation& motion :
+       {Oscillation(EqualFrequency{3e-7, 1e-7, 1.0}), Oscillation(Drag{3e-7, 1e-2, 1e5})}) {
+    const TrajectoryDamping path =
+        trajectory_damping(law, sample(motion, 1e-6, 2000), {.friction = 0.3});
+    REQUIRE(path.converged);
+    const LossWithSlip loss = loss_with_slip(law, 1e-6, motion, 0.3);
+    // 360 steps in place of 2000, of second order.
+    CHECK(loss.work_per_cycle == Approx(path.work_per_cycle).epsilon(2e-4));
+    CHECK(loss.relaxation_work == Approx(path.relaxation_work).epsilon(1e-3));
+    CHECK(loss.slip_work == Approx(path.slip_work).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("The limit of amplitude is where the closed forms of the exponential law part",
+          "[premises]") {
+  const double length = 1e-7;
+  const ExponentialLaw law(1, length, ratio);
+  const Premises drag = premises_of(law, 0, Drag{1e-9, 1, 1e5}),
+                 equal = premises_of(law, 0, EqualFrequency{6e-8, 1e-9, pi / 2, 1e5});
+  const auto off = [&](const Oscillation& motion) {
+    const DampingResult result = relaxation_damping(law, AtIndentation{0}, motion);
+    return std::abs(result.small_amplitude_work / result.work_per_cycle - 1);
+  };
+  CHECK(off(Drag{drag.amplitude.limit_5_percent, 1, 1e5}) == Approx(0.05).epsilon(1e-3));
+  CHECK(off(Drag{drag.amplitude.limit_20_percent, 1, 1e5}) == Approx(0.2).epsilon(1e-3));
+  // W/Eq. (12) = 4(k cosh k − sinh k)/k³·3/4 = 1 + k²/10 + …: 20/19 at k = 0.72.
+  CHECK(off(EqualFrequency{equal.amplitude.limit_5_percent, 1, pi / 2}) ==
+        Approx(0.05).epsilon(1e-3));
+  CHECK(equal.amplitude.limit_5_percent == Approx(0.72 * length).epsilon(0.02));
+  CHECK(drag.amplitude.verdict == Verdict::holds);
+  // F'' of a cone is constant: only a contact that opens changes it.
+  const PowerLaw cone(1e9, 2, ratio);
+  CHECK(premises_of(cone, 1e-6, Drag{1e-7, 1, 1e5}).amplitude.limit_5_percent > 1e-6);
+}
+
+TEST_CASE("Premises name what they need, and refuse facts that cannot be", "[premises]") {
+  const ExponentialLaw law(1, 1e-7, ratio);
+  const Drag motion{1e-9, 1e-6, 1e5};
+  const Premises bare = premises_of(law, 0, motion);
+  CHECK(bare.slip_of_opening_levels.needs == "friction_coefficient");
+  CHECK(bare.slip_of_opening_levels.limit_5_percent > 1);
+  CHECK(bare.plasticity.needs == "hardness");
+  CHECK(bare.inertia.needs == "density");
+  REQUIRE(bare.largest.size() == 3);
+  CHECK(bare.largest[2].drag_velocity == Approx(10 * bare.largest[0].drag_velocity));
+  // v at the limit has M there.
+  ContactFacts facts{.friction_coefficient = 0.3};
+  Drag slow = motion;
+  slow.drag_velocity = bare.largest[1].drag_velocity;
+  const Premise at_limit = premises_of(law, 0, slow, facts).slip_of_opening_levels;
+  CHECK(at_limit.value == Approx(at_limit.limit_5_percent).epsilon(1e-6));
+  CHECK(premises_of(law, 0, motion, facts).slip_of_closed_levels.needs == "excursion");
+  slow.drag_velocity = ContactFacts::unknown;
+  CHECK(premises_of(law, 0, slow, facts).slip_of_opening_levels.needs == "drag_velocity");
+
+  facts = {.hardness = 1e9,
+           .density = 8000,
+           .contact_modulus = 1e11,
+           .loaded_size = 1e-3,
+           .nominal_pressure = 1e8,
+           .mean_contact_pressure = 5e8};
+  const Premises known = premises_of(law, 0, motion, facts);
+  CHECK(known.plasticity.value == Approx(0.75));
+  CHECK(known.plasticity.verdict == Verdict::doubtful);
+  // ν = 1/3, G = G*(2 − ν)/4 = 33.3 GPa, c_s = 2041 m/s.
+  CHECK(known.inertia.value == Approx(1e5 * 1e-3 / 2041).epsilon(1e-3));
+  // ν = 0 has G* = E*; there the coupling is largest.
+  CHECK(premises_of(ExponentialLaw(1, 1e-7, 1), 0, motion).coupling.verdict == Verdict::doubtful);
+  CHECK(premises_of(ExponentialLaw(1, 1e-7, 2.0 / 3), 0, motion).coupling.value ==
+        Approx(0).margin(1e-12));
+
+  for (const double bad : {0.0, -1.0, double(HUGE_VAL)}) {
+    CHECK_THROWS_AS(premises_of(law, 0, motion, {.friction_coefficient = bad}), InvalidInput);
+    CHECK_THROWS_AS(premises_of(law, 0, motion, {.hardness = bad}), InvalidInput);
+    CHECK_THROWS_AS(premises_of(law, 0, motion, {.density = bad}), InvalidInput);
+    CHECK_THROWS_AS(premises_of(law, 0, motion, {.excursion = bad}), InvalidInput);
+  }
+  CHECK_THROWS_AS(premises_of(law, 0, motion, {.hardness = 1e6, .nominal_pressure = 2e6}),
+                  InvalidInput);
+}
