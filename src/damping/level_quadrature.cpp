@@ -13,34 +13,18 @@
 #include <salebra/damping/level_quadrature.hpp>
 #include <vector>
 
+#include "phase_quadrature.hpp"
+
 namespace salebra {
 namespace {
 
+using detail::chebyshev_slope;
+using detail::gauss_nodes;
+using detail::loss;
+using detail::loss_of;
+using detail::Node;
+using detail::normal_amplitude;
 using std::numbers::pi;
-
-struct Node {
-  double theta, weight;
-};
-
-// Gauss–Legendre nodes on [0, π], by Newton's iteration from Chebyshev's nodes.
-std::vector<Node> gauss_nodes(int count) {
-  std::vector<Node> nodes;
-  for (int k = count; k >= 1; --k) {
-    double x = std::cos(pi * (k - 0.25) / (count + 0.5)), slope = 1;
-    for (int iteration = 0; iteration < 8; ++iteration) {
-      double previous = 1, value = x;  // P_0, P_1
-      for (int l = 2; l <= count; ++l) {
-        const double next = ((2 * l - 1) * x * value - (l - 1) * previous) / l;
-        previous = value;
-        value = next;
-      }
-      slope = count * (x * value - previous) / (x * x - 1);
-      x -= value / slope;
-    }
-    nodes.push_back({pi / 2 * (1 + x), pi / ((1 - x * x) * slope * slope)});
-  }
-  return nodes;
-}
 
 // A function of the phase by its Chebyshev coefficients in c = cosθ.
 struct Series {
@@ -64,13 +48,6 @@ struct Series {
     return sum;
   }
 };
-
-// T_l'(c) at c = cosθ: l sin(lθ)/sinθ, and its limits l², ∓l² at the ends.
-double chebyshev_slope(Index l, double theta) {
-  const double order = static_cast<double>(l), sine = std::sin(theta);
-  if (sine > 1e-7) return order * std::sin(order * theta) / sine;
-  return std::cos(theta) > 0 || l % 2 == 1 ? order * order : -order * order;
-}
 
 double Series::slope(double theta) const {
   double sum = 0;
@@ -121,21 +98,6 @@ Series best_fit(const FitData& data, int highest_degree) {
   return best;
 }
 
-// W as a linear functional of K_t(θ), by parts. least: K_t at θ = π.
-double loss(const Oscillation& motion, const std::vector<Node>& nodes,
-            const std::function<double(std::size_t)>& stiffness, double least) {
-  double sum = 0;
-  if (const auto* equal = std::get_if<EqualFrequency>(&motion)) {
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      sum += nodes[k].weight * stiffness(k) * std::sin(2 * nodes[k].theta);
-    return 2 * std::pow(equal->tangential_amplitude * std::sin(equal->phase), 2) * sum;
-  }
-  const auto& drag = std::get<Drag>(motion);
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    sum += nodes[k].weight * nodes[k].theta * (stiffness(k) - least);
-  return 4 * std::pow(drag.drag_velocity / drag.angular_frequency, 2) * sum;
-}
-
 // What independent errors of K_t at the nodes, and of the least one, make of W: the square root of the sum of their squares.
 double scatter_of_loss(const Oscillation& motion, const std::vector<Node>& nodes,
                        const std::vector<double>& errors, double error_of_least) {
@@ -147,19 +109,6 @@ double scatter_of_loss(const Oscillation& motion, const std::vector<Node>& nodes
                         motion, nodes, [&](std::size_t i) { return i == k ? errors[k] : 0.0; }, 0),
                     2);
   return std::sqrt(sum);
-}
-
-double normal_amplitude(const Oscillation& motion) {
-  return std::visit([](const auto& m) { return m.normal_amplitude; }, motion);
-}
-
-// Fine nodes: the functional of smooth functions, to round-off.
-constexpr int fine_nodes = 96;
-
-double loss_of(const Oscillation& motion, const std::function<double(double)>& stiffness) {
-  static const std::vector<Node> nodes = gauss_nodes(fine_nodes);
-  return loss(
-      motion, nodes, [&](std::size_t k) { return stiffness(nodes[k].theta); }, stiffness(pi));
 }
 
 void validate(const Oscillation& motion, double mean_indentation,

@@ -57,7 +57,8 @@ Field spline_coefficients(const Field& heights) {
   const Index nx = heights.rows(), ny = heights.cols(), width = ny / 2 + 1;
   Modes modes = modes_of(heights);
   const auto gain = [](Index wave, Index count) {
-    const double angle = 2 * std::numbers::pi * static_cast<double>(wave) / static_cast<double>(count);
+    const double angle =
+        2 * std::numbers::pi * static_cast<double>(wave) / static_cast<double>(count);
     return (2 + std::cos(angle)) / 3;
   };
   for (Index i = 0; i < nx; ++i)
@@ -79,8 +80,8 @@ Field spline_rows(const Field& coefficients, Index factor) {
       auto here = fine.row(row * factor + part);
       here.setZero();
       for (Index k = 0; k < 4; ++k)
-        here += weights[static_cast<std::size_t>(k)] *
-                coefficients.row((row + k - 1 + rows) % rows);
+        here +=
+            weights[static_cast<std::size_t>(k)] * coefficients.row((row + k - 1 + rows) % rows);
     }
   }
   return fine;

@@ -17,7 +17,8 @@ Surface waves(Index points) {
   Surface surface{grid, Field(grid.nx, grid.ny), true, ""};
   for (Index i = 0; i < grid.nx; ++i)
     for (Index j = 0; j < grid.ny; ++j) {
-      const double x = 2 * pi * double(i) / double(grid.nx), y = 2 * pi * double(j) / double(grid.ny);
+      const double x = 2 * pi * double(i) / double(grid.nx),
+                   y = 2 * pi * double(j) / double(grid.ny);
       surface.heights(i, j) = 1 + std::cos(3 * x + 2 * y) + 0.5 * std::sin(5 * x - 4 * y) +
                               0.25 * std::cos(6 * x) + 0.125 * std::cos(5 * y) * std::cos(x);
     }
@@ -50,14 +51,16 @@ TEST_CASE("A refined surface keeps its own points, periodic or not, with odd and
         double worst = 0;
         for (Index i = 0; i < count; ++i)
           for (Index j = 0; j < 9; ++j)
-            worst = std::max(worst, std::abs(fine.heights(i * factor, j * factor) -
-                                             surface.heights(i, j)));
+            worst = std::max(
+                worst, std::abs(fine.heights(i * factor, j * factor) - surface.heights(i, j)));
         CHECK(worst < 1e-13);
       }
     }
 }
 
-TEST_CASE("The spline of a smooth surface converges with the fourth power of the distance of its points") {
+TEST_CASE(
+    "The spline of a smooth surface converges with the fourth power of the distance of its "
+    "points") {
   const auto error = [](Index points) {
     Surface coarse{{points, points, 1, 1}, Field(points, points), false, ""}, exact = coarse;
     exact.heights.resize(2 * points, 2 * points);
@@ -69,7 +72,8 @@ TEST_CASE("The spline of a smooth surface converges with the fourth power of the
         coarse.heights(i, j) = height(double(i) / double(points), double(j) / double(points));
     for (Index i = 0; i < 2 * points; ++i)
       for (Index j = 0; j < 2 * points; ++j)
-        exact.heights(i, j) = height(0.5 * double(i) / double(points), 0.5 * double(j) / double(points));
+        exact.heights(i, j) =
+            height(0.5 * double(i) / double(points), 0.5 * double(j) / double(points));
     return largest_difference(refined(coarse, 2).heights, exact.heights);
   };
   const double order = std::log2(error(32) / error(64));

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <salebra/base/progress.hpp>
+#include <salebra/contact/half_space/half_space.hpp>
+#include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/law/force_curve.hpp>
+#include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/oscillation.hpp>
+#include <vector>
+
+namespace salebra {
+
+struct SurfaceDampingOptions {
+  Hold hold = Hold::indentation;
+  Amplitude amplitude = Amplitude::finite;
+  Boundary boundary = Boundary::periodic;
+  /// Intervals between the indentations at which the contact is solved: 4, 8, 16 or 32.
+  int levels = 8;
+  /// Doubles the levels, up to 32, where the last doubling changed W by more than the scatter of whole cells.
+  bool choose_levels = true;
+  /// Halvings of the cells (refined(), surface/refine.hpp). 0: the error of the cells is not known, and no error is stated.
+  int refinements = 1;
+  /// W on the cells as they are, to which the refinements only give the error; false: on the finest.
+  bool keep_cells = false;
+  /// Halves the cells on, beyond `refinements`, for the loads whose error is not yet below this part of W; 0: does not.
+  double relative_error = 0;
+  Index most_points = 2048;  ///< along the longer side of a grid that relative_error may ask for
+  Progress on_progress = {};
+};
+
+/// Damping of one surface at one load, with its error. All errors are of work_per_cycle, J; NaN where not known.
+struct SurfaceDamping {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double work_per_cycle = unknown;    ///< W, J
+  double damping_constant = unknown;  ///< γ, N s/m
+  /// All that follow together: the root of the sum of their squares.
+  double error = unknown;
+  double cell_error = unknown;  ///< change of W by the last halving of the cells, beyond scatter
+  double scatter =
+      unknown;  ///< two standard deviations of W by the chance at which whole cells touch
+  double level_error =
+      unknown;  ///< half the change of W by the last doubling of the levels, beyond scatter
+  double ratio_error = unknown;  ///< of K_t/((G*/E*)K) and its slope between the loads of the curve
+  double solver_error = unknown;     ///< tolerance of the forces, as it enters W
+  double stiffness_ratio = unknown;  ///< K_t/((G*/E*)K) at the load
+  double window = unknown;  ///< half the range of indentations that were solved, m; at least u_z
+  int levels = 0;
+  Index points = 0;  ///< along x, of the grid that W belongs to
+  bool converged =
+      false;  ///< every contact did, and the cycle lies within the range of the contact
+
+  double damping_constant_error() const { return error * damping_constant / work_per_cycle; }
+};
+
+/// Relaxation damping of one surface at each load of its curve, from contacts at indentations inside the oscillation, and no
+/// interpolation between loads: W = ½∮ s² dK_t by parts (docs/theory.md, section 7) with K_t = ρ(G*/E*)F'.
+///     F   least-squares polynomial through the forces of the contacts at Chebyshev–Lobatto points of δ. Forces are smooth: cells that enter change F
+///         at second order only, while K and K_t jump. Half as many powers as intervals (3 for 4 intervals).
+///     ρ   K_t/((G*/E*)K) of the curve: at the load, with its slope in ln F from the neighbouring loads.
+/// The range of δ is that of the oscillation; where too few cells enter within it (fewer than 100 on the finer grid), it is widened until they do, at most to
+/// F/(4K), over which F changes by e^{±1/4}.
+///
+/// Errors. Of the levels: n against n/2 intervals, nested. Of the solver: its tolerance, relative to F, times the weights of the forces in W. Of ρ: the
+/// difference of its slopes to both sides. Of whole cells two parts. Scatter: cells that enter do so at chance indentations, each
+/// raises K by the same step, so that W, a sum over N of them, has the relative standard deviation 1/√N for equal weights; the weights are those of the quadrature,
+/// N is counted, and the residuals of the polynomial are compared with what this scatter makes of them: where they are larger (rows of
+/// cells that touch together), it is multiplied by their ratio. Bias: the surface is interpolated on cells of half the size, at the same
+/// pressure, and what W changes by, beyond the scatter of both, is the error.
+///
+/// curve   of this surface and material, by sweep_pressures(); samples that did not converge are left out (converged = false)
+/// throws  InvalidInput for a curve without loads, levels that are none of the four, relative_error outside [0, 1); Interrupted where
+///         on_progress says stop
+/// cost    for each load levels + 3 to 9 normal contacts on each grid, in parallel over loads; a halving of the cells costs five times
+///         the grid before it
+std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Material& material,
+                                            const Oscillation& motion, const ForceCurve& curve,
+                                            const SurfaceDampingOptions& options = {});
+
+}  // namespace salebra

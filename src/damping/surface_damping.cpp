@@ -1,0 +1,466 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Damping of one surface from contacts inside the oscillation, with the errors of levels, cells and solver.
+#include <omp.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/contact/normal/normal.hpp>
+#include <salebra/damping/closed_form.hpp>
+#include <salebra/damping/surface_damping.hpp>
+#include <salebra/surface/refine.hpp>
+
+#include "contact/normal/contact_memory.hpp"
+#include "phase_quadrature.hpp"
+
+namespace salebra {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using std::numbers::pi;
+
+constexpr int most_levels = 32;
+// Of the finest grid at the least: the scatter of W is then a tenth.
+constexpr double enough_cells = 100;
+constexpr double widest_window = 0.25;  // of F/K
+
+/// ρ = K_t/((G*/E*)K) about one load of the curve, linear in ln F.
+struct StiffnessRatio {
+  double value = 1, slope = 0, force = 0;
+  double error = 0;  // of the relative size of W
+
+  double at(double other_force) const {
+    // Where the contact opens, F' goes to zero with F, and ρ does not matter.
+    return value + slope * std::clamp(std::log(std::max(other_force, 0.0) / force), -1.0, 1.0);
+  }
+};
+
+StiffnessRatio ratio_at(const ForceCurve& curve, std::size_t load, double modulus_ratio) {
+  const auto ratio = [&](const ForceSample& sample) {
+    return sample.tangential_stiffness / (modulus_ratio * sample.normal_stiffness);
+  };
+  const ForceSample& here = curve.samples[load];
+  StiffnessRatio result{.force = here.force};
+  result.value = ratio(here);
+  std::vector<double> slopes;
+  for (const int side : {-1, 1}) {
+    for (auto k = static_cast<std::ptrdiff_t>(load) + side;
+         k >= 0 && k < static_cast<std::ptrdiff_t>(curve.samples.size()); k += side) {
+      const ForceSample& other = curve.samples[static_cast<std::size_t>(k)];
+      if (!other.converged || !std::isfinite(ratio(other))) continue;
+      slopes.push_back((ratio(other) - result.value) / std::log(other.force / here.force));
+      break;
+    }
+  }
+  // K_t' = ρ(G*/E*)F''(1 + d lnρ/d lnK): the slope enters W with its full size.
+  if (slopes.size() == 2) {
+    result.slope = (slopes[0] + slopes[1]) / 2;
+    result.error = std::abs(slopes[0] - slopes[1]) / 2 / result.value;
+  } else if (slopes.size() == 1) {
+    result.slope = slopes[0];
+    result.error = std::abs(slopes[0]) / result.value;
+  }
+  return result;
+}
+
+/// Least squares over Chebyshev–Lobatto points of [−1, 1], from 1 to −1.
+struct Rule {
+  VectorXd points;
+  MatrixXd basis, inverse;  // T_l at the points; coefficients = inverse · values
+
+  Rule(int levels, int degree) : points(levels + 1), basis(levels + 1, degree + 1) {
+    for (int k = 0; k <= levels; ++k) {
+      points(k) = std::cos(pi * k / levels);
+      for (int l = 0; l <= degree; ++l) basis(k, l) = std::cos(pi * k * l / levels);
+    }
+    inverse = basis.completeOrthogonalDecomposition().pseudoInverse();
+  }
+  explicit Rule(int levels) : Rule(levels, levels == 4 ? 3 : levels / 2) {}
+};
+
+double value_of(const VectorXd& coefficients, double x) {
+  const double angle = std::acos(std::clamp(x, -1.0, 1.0));
+  double sum = 0;
+  for (Index l = 0; l < coefficients.size(); ++l)
+    sum += coefficients(l) * std::cos(static_cast<double>(l) * angle);
+  return sum;
+}
+
+double slope_of(const VectorXd& coefficients, double x) {
+  const double angle = std::acos(std::clamp(x, -1.0, 1.0));
+  double sum = 0;
+  for (Index l = 1; l < coefficients.size(); ++l)
+    sum += coefficients(l) * detail::chebyshev_slope(l, angle);
+  return sum;
+}
+
+/// The contacts of one load on one grid.
+class Levels {
+ public:
+  Levels(const Surface& surface, double contact_modulus, const NormalContactOptions& options)
+      : surface_(surface), contact_modulus_(contact_modulus), options_(options) {
+    // Where a periodic contact is full the indentation has no meaning.
+    const double top = surface.heights.maxCoeff();
+    limit_ = options.boundary == Boundary::free ? std::numeric_limits<double>::infinity()
+                                                : (top - surface.heights).mean();
+  }
+
+  struct Contact {
+    double force = 0;
+    double cells = 0;
+  };
+
+  bool usable() const { return converged_; }
+
+  /// The indentation under a pressure.
+  double indentation_at(double pressure) {
+    NormalContactState state =
+        press_to_pressure(surface_, contact_modulus_, pressure, with_start(false));
+    take(state);
+    return state.indentation;
+  }
+
+  Contact at(double indentation) {
+    if (indentation <= 0) return {};
+    if (indentation >= limit_) {
+      converged_ = false;
+      return {};
+    }
+    NormalContactState state =
+        press_to_indentation(surface_, contact_modulus_, indentation, with_start(true));
+    take(state);
+    return {state.force,
+            std::round(state.contact_area_fraction * static_cast<double>(surface_.grid.points()))};
+  }
+
+ private:
+  NormalContactOptions with_start(bool warm) const {
+    NormalContactOptions options = options_;
+    if (warm && last_.size() > 0) options.initial_pressure = &last_;
+    return options;
+  }
+  void take(NormalContactState& state) {
+    if (state.interrupted) throw Interrupted("damping: interrupted");
+    converged_ = converged_ && state.converged;
+    last_ = std::move(state.pressure);
+  }
+
+  const Surface& surface_;
+  double contact_modulus_;
+  NormalContactOptions options_;
+  double limit_;
+  Field last_;
+  bool converged_ = true;
+};
+
+/// What one grid says of one load.
+struct GridValue {
+  double work = SurfaceDamping::unknown;
+  double scatter = std::numeric_limits<double>::infinity();  // one standard deviation of `work`, J
+  double level_error = 0, solver_error = 0;                  // J
+  int levels = 0;
+  Index points = 0;
+  bool converged = false;
+};
+
+class Load {
+ public:
+  Load(const Material& material, const Oscillation& motion, const SurfaceDampingOptions& options,
+       const ForceCurve& curve, std::size_t k)
+      : material_(material),
+        motion_(motion),
+        options_(options),
+        sample_(curve.samples[k]),
+        ratio_(ratio_at(curve, k, material.modulus_ratio())),
+        amplitude_(detail::normal_amplitude(motion)) {
+    levels_ = options.levels;
+    half_ = amplitude_;
+    if (options.hold == Hold::force && options.amplitude == Amplitude::finite)
+      // The weight sinks back by u_z²F''/(4K), about u_z²K/(4F).
+      half_ += std::min(amplitude_,
+                        amplitude_ * amplitude_ * sample_.normal_stiffness / sample_.force / 2);
+    half_ = std::min(half_, 2 * amplitude_);
+  }
+
+  const std::vector<GridValue>& values() const { return values_; }
+  const StiffnessRatio& ratio() const { return ratio_; }
+  double window() const { return half_; }
+  bool usable() const {
+    return sample_.converged && sample_.force > 0 && std::isfinite(ratio_.value) &&
+           (values_.empty() || values_.back().converged);
+  }
+
+  void solve(const Surface& surface, const Progress& progress) {
+    NormalContactOptions contact;
+    contact.boundary = options_.boundary;
+    contact.on_progress = progress;
+    contact.tolerance = tolerance();
+    const bool first = values_.empty();
+    Levels levels(surface, material_.contact_modulus, contact);
+    const double center = levels.indentation_at(sample_.pressure);
+    if (first) widen(levels, center);
+    values_.push_back(integrate(levels, center));
+    values_.back().points = surface.grid.nx;
+    values_.back().converged = values_.back().converged && levels.usable();
+  }
+
+ private:
+  /// The second difference of F over the window is about F(KH/F)², and its tenth of a thousandth is lost in nothing else.
+  double tolerance() const {
+    const double strain = half_ * sample_.normal_stiffness / sample_.force;
+    return std::clamp(1e-4 * strain * strain, 1e-13, 1e-8);
+  }
+
+  void widen(Levels& levels, double center) {
+    const double widest = widest_window * sample_.force / sample_.normal_stiffness;
+    const double wanted = enough_cells / std::pow(4.0, std::min(options_.refinements, 1));
+    while (half_ < widest && levels.usable()) {
+      const double cells = levels.at(center + half_).cells - levels.at(center - half_).cells;
+      if (cells >= wanted) break;
+      half_ = std::min(widest, half_ * std::clamp(1.2 * wanted / std::max(cells, 1.0), 2.0, 8.0));
+    }
+  }
+
+  GridValue integrate(Levels& levels, double center) {
+    GridValue value;
+    std::vector<Levels::Contact> contacts;
+    for (int n = levels_;; n *= 2) {
+      std::vector<Levels::Contact> finer(static_cast<std::size_t>(n + 1));
+      const bool nested = !contacts.empty();
+      for (int k = 0; k <= n; ++k)
+        finer[static_cast<std::size_t>(k)] = nested && k % 2 == 0
+                                                 ? contacts[static_cast<std::size_t>(k / 2)]
+                                                 : levels.at(center + half_ * std::cos(pi * k / n));
+      contacts = std::move(finer);
+      if (!levels.usable()) return value;
+      value = evaluate(contacts, n);
+      levels_ = n;
+      if (n > 4) {
+        std::vector<Levels::Contact> half;
+        for (std::size_t k = 0; k < contacts.size(); k += 2) half.push_back(contacts[k]);
+        const double change = std::abs(value.work - evaluate(half, n / 2).work);
+        value.level_error =
+            std::sqrt(std::max(0.0, change * change - value.scatter * value.scatter)) / 2;
+      }
+      if (!options_.choose_levels || n >= most_levels || !(value.level_error > value.scatter))
+        return value;
+    }
+  }
+
+  GridValue evaluate(const std::vector<Levels::Contact>& contacts, int n) const {
+    const Rule rule(n);
+    VectorXd force(n + 1);
+    for (int k = 0; k <= n; ++k) force(k) = contacts[static_cast<std::size_t>(k)].force;
+    const VectorXd series = rule.inverse * force;
+    GridValue value;
+    value.levels = n;
+    const double mean = mean_position(series);
+    if (!std::isfinite(mean)) return value;
+    VectorXd weights(series.size());  // of the coefficients in W
+    for (Index l = 0; l < weights.size(); ++l)
+      weights(l) = work_of(VectorXd::Unit(weights.size(), l), series, mean);
+    const VectorXd node_weights = rule.inverse.transpose() * weights;
+    value.work = weights.dot(series);
+    value.converged = true;
+    value.solver_error = tolerance() * sample_.force * node_weights.lpNorm<1>();
+    value.scatter = scatter(contacts, rule, force, series, node_weights);
+    return value;
+  }
+
+  /// x = (δ − centre)/half of the mean indentation.
+  double mean_position(const VectorXd& series) const {
+    if (options_.hold == Hold::indentation || options_.amplitude == Amplitude::small) return 0;
+    constexpr int phases = 64;
+    double x = 0;
+    for (int iteration = 0; iteration < 20; ++iteration) {
+      double mean = 0, slope = 0;
+      for (int k = 0; k < phases; ++k) {
+        const double there = x + amplitude_ / half_ * std::cos(pi * (k + 0.5) / phases);
+        mean += value_of(series, there) / phases;
+        slope += slope_of(series, there) / phases;
+      }
+      const double step = (sample_.force - mean) / slope;
+      x += step;
+      if (std::abs(step) < 1e-12) break;
+    }
+    return std::abs(x) + amplitude_ / half_ <= 1 + 1e-9 ? x : SurfaceDamping::unknown;
+  }
+
+  /// W of a term of the series of F, with ρ at the forces of the whole series.
+  double work_of(const VectorXd& term, const VectorXd& series, double mean) const {
+    const double modulus_ratio = material_.modulus_ratio();
+    const auto stiffness = [&](double x) {
+      return ratio_.at(value_of(series, x)) * modulus_ratio * slope_of(term, x) / half_;
+    };
+    if (options_.amplitude == Amplitude::small) {
+      constexpr double step = 1e-3;
+      const double curvature =
+          (stiffness(mean + step) - stiffness(mean - step)) / (2 * step * half_);
+      return std::visit(
+          [&](const auto& m) { return closed_form::work_per_cycle(1.0, curvature, m); }, motion_);
+    }
+    return detail::loss_of(motion_, [&](double theta) {
+      return stiffness(mean + amplitude_ / half_ * std::cos(theta));
+    });
+  }
+
+  /// Standard deviation of W: N cells enter at chance indentations, as many in each interval as were counted, and each adds the same to K.
+  double scatter(const std::vector<Levels::Contact>& contacts, const Rule& rule,
+                 const VectorXd& force, const VectorXd& series, const VectorXd& weights) const {
+    const double curvature = 4 * (Rule(rule.points.size() - 1, 2).inverse.row(2).dot(force));
+    const Index intervals = rule.points.size() - 1;
+    constexpr int parts = 8;
+    double cells = 0, work_variance = 0;
+    MatrixXd steps(rule.points.size(),
+                   intervals * parts);  // F of a step of K, and how many there are
+    VectorXd numbers(intervals * parts);
+    for (Index j = 0; j < intervals; ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      const double entered = std::max(0.0, contacts[at].cells - contacts[at + 1].cells);
+      cells += entered;
+      for (int part = 0; part < parts; ++part) {
+        const double x =
+            rule.points(j) + (rule.points(j + 1) - rule.points(j)) * (part + 0.5) / parts;
+        steps.col(j * parts + part) = (rule.points.array() - x).max(0.0).matrix();
+        numbers(j * parts + part) = entered / parts;
+      }
+    }
+    if (!(cells > 0) || !(curvature > 0)) return std::numeric_limits<double>::infinity();
+    const double step = 2 * curvature / cells;  // F'' has the same over the window in the mean
+    const VectorXd responses = steps.transpose() * weights;
+    work_variance = step * step * numbers.dot(responses.cwiseAbs2());
+    const MatrixXd residual_of =
+        MatrixXd::Identity(force.size(), force.size()) - rule.basis * rule.inverse;
+    double expected = 0;
+    for (Index j = 0; j < steps.cols(); ++j)
+      expected += numbers(j) * (residual_of * steps.col(j)).squaredNorm();
+    const double found = (force - rule.basis * series).squaredNorm();
+    const double ratio = found / (step * step * expected);
+    return std::sqrt(work_variance * std::max(1.0, ratio / usual_ratio));
+  }
+
+  // Residuals have this much more than the scatter makes of them, in the mean over generated surfaces: F of a surface is no polynomial
+  // even where its cells are infinitely small.
+  static constexpr double usual_ratio = 3;
+
+  const Material& material_;
+  const Oscillation& motion_;
+  const SurfaceDampingOptions& options_;
+  const ForceSample sample_;
+  const StiffnessRatio ratio_;
+  const double amplitude_;
+  double half_ = 0;
+  int levels_ = 8;
+  std::vector<GridValue> values_;
+};
+
+SurfaceDamping result_of(const Load& load, const Oscillation& motion,
+                         const SurfaceDampingOptions& options) {
+  SurfaceDamping result;
+  const auto& values = load.values();
+  if (values.empty() || !load.usable()) return result;
+  const GridValue& value = options.keep_cells ? values.front() : values.back();
+  result.converged = true;
+  result.work_per_cycle = value.work;
+  result.damping_constant = closed_form::damping_constant(value.work, motion);
+  result.level_error = value.level_error;
+  result.solver_error = value.solver_error;
+  result.scatter = 2 * value.scatter;
+  result.ratio_error = std::abs(value.work) * load.ratio().error;
+  result.stiffness_ratio = load.ratio().value;
+  result.window = load.window();
+  result.levels = value.levels;
+  result.points = value.points;
+  if (values.size() < 2) return result;
+  const GridValue& other = options.keep_cells ? values.back() : values[values.size() - 2];
+  const double change = value.work - other.work;
+  result.cell_error = std::sqrt(std::max(
+      0.0, change * change - value.scatter * value.scatter - other.scatter * other.scatter));
+  result.error =
+      std::sqrt(result.cell_error * result.cell_error + result.scatter * result.scatter +
+                result.level_error * result.level_error + result.ratio_error * result.ratio_error +
+                result.solver_error * result.solver_error);
+  return result;
+}
+
+void validate(const ForceCurve& curve, const SurfaceDampingOptions& options) {
+  require(!curve.samples.empty(), "curve", 0, "loads; compute at least one");
+  require(options.levels == 4 || options.levels == 8 || options.levels == 16 ||
+              options.levels == most_levels,
+          "levels", options.levels, "must be 4, 8, 16 or 32");
+  require(options.refinements >= 0 && options.refinements <= 4, "refinements", options.refinements,
+          "must lie in 0 … 4");
+  require(options.relative_error >= 0 && options.relative_error < 1, "relative_error",
+          options.relative_error, "must lie between 0 and 1");
+}
+
+}  // namespace
+
+std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Material& material,
+                                            const Oscillation& motion, const ForceCurve& curve,
+                                            const SurfaceDampingOptions& options) {
+  surface.require_complete("a contact calculation");
+  validate(curve, options);
+  std::vector<Load> loads;
+  for (std::size_t k = 0; k < curve.samples.size(); ++k)
+    loads.emplace_back(material, motion, options, curve, k);
+
+  const int halvings = options.relative_error > 0 ? 30 : options.refinements;
+  for (int halving = 0; halving <= halvings; ++halving) {
+    std::vector<Load*> open;
+    for (Load& load : loads) {
+      if (!load.usable()) continue;
+      const SurfaceDamping result = result_of(load, motion, options);
+      if (halving <= options.refinements ||
+          !(result.error <= options.relative_error * std::abs(result.work_per_cycle)))
+        open.push_back(&load);
+    }
+    const Index factor = Index(1) << halving;
+    if (open.empty() || (halving > options.refinements &&
+                         std::max(surface.grid.nx, surface.grid.ny) * factor > options.most_points))
+      break;
+    const Surface fine = refined(surface, factor);
+    const int wanted = std::min(static_cast<int>(open.size()), parallel::threads());
+    require_memory(fine.grid,
+                   wanted * detail::contact_memory(fine.grid, {.boundary = options.boundary}),
+                   "contacts on all threads (fewer --threads need less)");
+    std::atomic<bool> stop = false;
+    std::atomic<int> finished = 0;
+    std::exception_ptr failure;
+    const Progress progress = [&](const ProgressReport& report) {
+      // Only the calling thread may talk to its caller.
+      if (options.on_progress && omp_get_thread_num() == 0 &&
+          !options.on_progress(
+              {"damping", double(finished) / double(open.size()), finished, report.residual}))
+        stop = true;
+      return !stop.load();
+    };
+    // The highest loads take longest and go first.
+#pragma omp parallel for schedule(dynamic, 1) num_threads(wanted) if (wanted > 1)
+    for (int back = 0; back < static_cast<int>(open.size()); ++back) {
+      if (stop) continue;
+      try {
+        open[open.size() - 1 - static_cast<std::size_t>(back)]->solve(fine, progress);
+        ++finished;
+      } catch (...) {
+        stop = true;
+#pragma omp critical(salebra_surface_damping_failure)
+        if (!failure) failure = std::current_exception();
+      }
+    }
+    if (failure) std::rethrow_exception(failure);
+    if (stop) throw Interrupted("damping: interrupted");
+  }
+  std::vector<SurfaceDamping> results;
+  for (const Load& load : loads) results.push_back(result_of(load, motion, options));
+  return results;
+}
+
+}  // namespace salebra
