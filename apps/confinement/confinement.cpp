@@ -30,7 +30,7 @@ namespace {
 
 /// What precedes every piece on the pipe.
 struct Header {
-  enum Kind : std::uint64_t { data, refusal, end };
+  enum Kind : std::uint64_t { data, refusal, failure, end };
   std::uint64_t kind, size;
 };
 constexpr std::size_t longest_refusal = 4096;
@@ -56,8 +56,8 @@ void send(int pipe, Header::Kind kind, std::span<const std::byte> bytes) {
   write_all(pipe, bytes);
 }
 
-void send_refusal(int pipe, std::string_view text) {
-  send(pipe, Header::refusal, std::as_bytes(std::span(text.substr(0, longest_refusal))));
+void send_text(int pipe, Header::Kind kind, std::string_view text) {
+  send(pipe, kind, std::as_bytes(std::span(text.substr(0, longest_refusal))));
 }
 
 void limit(int resource, rlim_t most, rlim_t grace = 0) {
@@ -125,10 +125,13 @@ void confine(const Hdf5Reading& reading, int pipe, std::optional<rlim_t> present
       reading.read([&](std::span<const std::byte> bytes) { send(pipe, Header::data, bytes); });
       send(pipe, Header::end, {});
     } catch (const InvalidInput& error) {
-      send_refusal(pipe, error.what());
+      send_text(pipe, Header::refusal, error.what());
+    } catch (const IoError& error) {
+      send_text(pipe, Header::failure, error.what());
     } catch (const std::bad_alloc&) {
-      send_refusal(pipe, reading.file.string() +
-                             ": takes more memory than a file of its size should; it is damaged");
+      send_text(pipe, Header::refusal,
+                reading.file.string() +
+                    ": takes more memory than a file of its size should; it is damaged");
     }
   } catch (...) {
   }
@@ -256,9 +259,11 @@ void run_confined(const Hdf5Reading& reading) {
       case Header::end:
         return;
       case Header::refusal:
+      case Header::failure:
         if (header.size <= longest_refusal) {
           std::string text(header.size, '\0');
           if (!child.receive(std::as_writable_bytes(std::span(text)))) refuse_dead(reading, child);
+          if (header.kind == Header::failure) throw IoError(text);
           throw InvalidInput(text);
         }
         [[fallthrough]];

@@ -106,8 +106,8 @@ std::optional<HeightDistribution> distribution_of(const GenerateArguments& argum
 void report_memory(const Grid2D& grid, std::size_t bytes, Session& session) {
   const double needed = static_cast<double>(bytes);
   require_memory(grid, needed, "a surface");
-  session.note(fmt::format("memory: {:.3g} GB needed, {:.3g} GB available", 1e-9 * needed,
-                           1e-9 * static_cast<double>(available_memory())));
+  session.note(fmt::format("memory: {} needed, {} available", memory_text(needed),
+                           memory_text(static_cast<double>(available_memory()))));
 }
 
 /// A random surface, with what is to be said of it added to the answer.

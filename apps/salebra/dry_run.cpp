@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <salebra/base/memory.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/study/cost.hpp>
 #include <salebra/study/realisation.hpp>
@@ -18,11 +19,6 @@ std::string about(double seconds) {
   if (seconds < 1) return "a second";
   const double unit = std::pow(10, std::floor(std::log10(seconds)) - (seconds < 100 ? 0 : 1));
   return format_duration(std::round(seconds / unit) * unit);
-}
-
-std::string megabytes(double bytes) {
-  return bytes < 1e9 ? fmt::format("{:.0f} MB", 1e-6 * bytes)
-                     : fmt::format("{:.1f} GB", 1e-9 * bytes);
 }
 
 std::string describe(const PointCost& point) {
@@ -94,8 +90,8 @@ void answer_dry_run(const StudyConfiguration& configuration, Session& session) {
       cost.contacts(),
       stick_solves(configuration) ? " and K_t by a stick solve" : "; K_t = (G*/E*)K", models,
       configuration.precision > 0 ? "at most " : "", about(cost.seconds), cost.threads,
-      configuration.has(ContactModel::gw_interacting) ? "three" : "two", megabytes(cost.memory),
-      cost.available > 0 ? fmt::format(" of {} that are free", megabytes(cost.available)) : "");
+      configuration.has(ContactModel::gw_interacting) ? "three" : "two", memory_text(cost.memory),
+      cost.available > 0 ? fmt::format(" of {} that are free", memory_text(cost.available)) : "");
   text += file.empty() ? "files     none; add --output FILE to keep the results\n"
                        : fmt::format("files     {}; while it runs, finished surfaces in {}.parts\n",
                                      file, file);

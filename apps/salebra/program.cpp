@@ -12,6 +12,7 @@
 #include <new>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/base/printable.hpp>
 #include <salebra/base/suggestion.hpp>
 #include <salebra/base/undefined_points.hpp>
 #include <salebra/base/version.hpp>
@@ -19,6 +20,7 @@
 
 #include "confinement/confinement.hpp"
 #include "help_text.hpp"
+#include "scarce_memory.hpp"
 #include "terminal.hpp"
 
 namespace salebra::cli {
@@ -26,7 +28,8 @@ namespace {
 
 int fail(int status, std::string_view message) {
   std::string line = printable(message);
-  std::ranges::replace_if(line, [](char symbol) { return symbol == '\n' || symbol == '\t'; }, ' ');
+  std::ranges::replace_if(
+      line, [](char symbol) { return symbol == '\n' || symbol == '\t'; }, ' ');
   print_remark(
       fmt::format("salebra: {} {}\n", emphasised("error:", Emphasis::error, STDERR_FILENO), line));
   return status;
@@ -188,6 +191,7 @@ int run_program(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   catch_interrupts();
   confinement::install();
+  prepare_for_scarce_memory();
   try {
     run(argc, argv);
     return 0;

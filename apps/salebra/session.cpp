@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <salebra/base/printable.hpp>
 
 #include "terminal.hpp"
 #include "text.hpp"

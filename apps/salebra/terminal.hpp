@@ -22,8 +22,4 @@ void print_answer(std::string_view text);
 /// Prints a remark on standard error. Where that fails there is nowhere to say so, and the work goes on.
 void print_remark(std::string_view text) noexcept;
 
-/// Text that may hold names of files and what they contain, safe for a terminal: control characters other than newline and tab, and
-/// bytes that are not UTF-8, appear as \x1b. Everything that the program prints for people passes through here.
-std::string printable(std::string_view text);
-
 }  // namespace salebra::cli

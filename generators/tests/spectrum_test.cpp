@@ -202,6 +202,6 @@ TEST_CASE("A surface that the memory cannot hold is refused before it is begun",
   const Grid2D huge{8'000'000, 8'000'000, 1.0, 1.0};
   const SelfAffineSpectrum spectrum({.rolloff = 0.1, .short_cutoff = 0.01, .rms_height = 1e-6});
   CHECK_THROWS_WITH(filtered_noise(huge, spectrum, 1),
-                    Contains("points: 8000000 x 8000000 need 5.12e+05 GB"));
+                    Contains("points: 8000000 x 8000000 need 512 TB"));
   CHECK(generation_memory({4096, 4096, 1.0, 1.0}) < 1.15 * 4096 * 4096 * sizeof(double));
 }

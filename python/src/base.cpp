@@ -7,11 +7,12 @@
 #include <algorithm>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/results/quantity.hpp>
+#include <salebra/base/printable.hpp>
 #include <salebra/base/spectral_moments.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/io/provenance.hpp>
+#include <salebra/results/quantity.hpp>
 #include <tuple>
 
 #include "bindings.hpp"
@@ -50,13 +51,30 @@ void bind_base(nb::module_& m) {
       "file>: <value> "
       "<constraint>; <what to do>\". Also a ValueError.";
   io.attr("__doc__") =
-      "The operating system refused a write (disk full, no permission). Also an OSError.";
+      "The operating system refused a read or a write (disk full, no permission). Also an OSError.";
   not_converged.attr("__doc__") =
       "A computation ended without reaching its tolerance, where no result could say so. Also a "
       "RuntimeError. Solvers "
       "do not raise it: they return a result with converged = False.";
   interrupted.attr("__doc__") =
       "A progress function returned False where the work so far is of no use. Also a RuntimeError.";
+  // Tried before those of the classes themselves. Messages quote names and files, which must not command a terminal.
+  nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
+    const auto raise = [](const nb::handle& kind, const Error& what) {
+      PyErr_SetString(kind.ptr(), printable(what.what()).c_str());
+    };
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const InvalidInput& what) {
+      raise(invalid, what);
+    } catch (const IoError& what) {
+      raise(io, what);
+    } catch (const NotConverged& what) {
+      raise(not_converged, what);
+    } catch (const Interrupted& what) {
+      raise(interrupted, what);
+    }
+  });
 
   m.def(
       "version", [] { return std::string(version()); },

@@ -72,13 +72,21 @@ template <class Real>
 using FftwPlan =
     std::unique_ptr<std::remove_pointer_t<typename Fftw<Real>::Plan>, DestroyPlan<Real>>;
 
+// Whether a plan was begun and not ended: a program that turns FFTW's lack of memory into an exception leaves the planner's tables
+// half-way.
+template <class Real>
+inline bool planner_is_broken = false;
+
 // Runs `make` under the planner's lock.
 template <class Real, class Make>
 FftwPlan<Real> plan(Make make) {
   typename Fftw<Real>::Plan made = nullptr;
   {
     const std::scoped_lock lock(fftw_planner_mutex());
+    if (planner_is_broken<Real>) throw std::bad_alloc();
+    planner_is_broken<Real> = true;
     made = make();
+    planner_is_broken<Real> = false;
   }
   if (!made) throw Error("fft: FFTW could not make a plan");
   return FftwPlan<Real>(made);

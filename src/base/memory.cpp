@@ -70,15 +70,26 @@ std::size_t available_memory() {
   return 0;
 }
 
-void require_memory(const Grid2D& grid, double bytes, std::string_view work) {
+bool fits_into_memory(double bytes) {
   constexpr double not_asked_for = 64e6;
-  if (bytes < not_asked_for) return;
+  if (bytes < not_asked_for) return true;
   const double available = static_cast<double>(available_memory());
-  if (available == 0 || bytes <= available) return;
+  return available == 0 || bytes <= available;
+}
+
+std::string memory_text(double bytes) {
+  for (const auto& [unit, size] : {std::pair{"MB", 1e6}, {"GB", 1e9}, {"TB", 1e12}, {"PB", 1e15}})
+    if (bytes < 999.5 * size) return fmt::format("{:.3g} {}", bytes / size, unit);
+  return fmt::format("{:.3g} EB", bytes / 1e18);
+}
+
+void require_memory(const Grid2D& grid, double bytes, std::string_view work) {
+  if (fits_into_memory(bytes)) return;
   throw InvalidInput(
-      fmt::format("points: {} x {} need {:.3g} GB of memory for {} and {:.3g} GB are available; "
+      fmt::format("points: {} x {} need {} of memory for {} and {} are available; "
                   "use fewer points",
-                  grid.nx, grid.ny, 1e-9 * bytes, work, 1e-9 * available));
+                  grid.nx, grid.ny, memory_text(bytes), work,
+                  memory_text(static_cast<double>(available_memory()))));
 }
 
 }  // namespace salebra

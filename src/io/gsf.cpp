@@ -40,7 +40,7 @@ LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view conte
   if (static_cast<std::uint64_t>(nx) > available / static_cast<std::uint64_t>(ny))
     refuse(file,
            fmt::format("declares {} x {} points, more than it holds; it is truncated", nx, ny));
-  surface.heights.resize(nx, ny);
+  surface.heights = heights_of(file, nx, ny);
   for (Index iy = 0; iy < ny; ++iy) {
     for (Index ix = 0; ix < nx; ++ix) {
       const auto place = static_cast<std::size_t>(iy * nx + ix);

@@ -14,6 +14,8 @@ namespace {
 
 constexpr haddr_t longest = std::numeric_limits<off_t>::max();
 
+thread_local int read_failure = 0;
+
 /// HDF5 casts its base to this and back.
 struct OpenFile : H5FD_t {
   int descriptor = -1;
@@ -61,6 +63,7 @@ herr_t read_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t 
     const ssize_t got = pread(static_cast<const OpenFile*>(file)->descriptor, to, size,
                               static_cast<off_t>(address));
     if (got < 0 && errno == EINTR) continue;
+    if (got < 0) read_failure = errno;
     if (got <= 0) return -1;
     to += got;
     address += static_cast<haddr_t>(got);
@@ -91,7 +94,10 @@ H5FD_class_t driver_class() {
 
 }  // namespace
 
+int failed_read() { return read_failure; }
+
 File open_descriptor(int descriptor) {
+  read_failure = 0;
   static const H5FD_class_t driver = driver_class();
   static const hid_t id = H5FDregister(&driver);
   const Properties access(H5Pcreate(H5P_FILE_ACCESS), "prepare reading");

@@ -5,6 +5,7 @@
 #include <hdf5_hl.h>
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 
 #include "hdf5_descriptor.hpp"
@@ -77,8 +78,8 @@ AttributeValue value_of(hid_t object, const std::string& name) {
 std::vector<std::string> coordinates_of(hid_t dataset, std::size_t rank) {
   std::vector<std::string> names;
   const auto collect = [](hid_t, unsigned, hid_t scale, void* list) -> herr_t {
-    std::string path(
-        static_cast<std::size_t>(std::max<ssize_t>(H5Iget_name(scale, nullptr, 0), 0)), '\0');
+    std::string path(static_cast<std::size_t>(std::max<ssize_t>(H5Iget_name(scale, nullptr, 0), 0)),
+                     '\0');
     H5Iget_name(scale, path.data(), path.size() + 1);
     static_cast<std::vector<std::string>*>(list)->push_back(path.substr(path.rfind('/') + 1));
     return 1;
@@ -198,7 +199,8 @@ class Outline {
       // A group within itself, or reached by many ways, would be listed without end.
       if (!groups_.insert(info.addr).second)
         return refuse_object(path, "is a group that has another name too; give it one");
-      if (depth > deepest) return refuse_object(path, "lies too deep in groups; the file is damaged");
+      if (depth > deepest)
+        return refuse_object(path, "lies too deep in groups; the file is damaged");
       return visit_group(path, opened, depth);
     } catch (const IoError& error) {
       return refuse_object(path, std::string(error.what()) + "; the file is truncated or damaged");
@@ -235,12 +237,11 @@ class Outline {
   Object::Kind visit_link(const std::string& path, hid_t group, const std::string& name,
                           H5L_type_t type, std::size_t depth) {
     if (path.size() > longest_path)
-      refuse(file_.path(), "has names of more than " + std::to_string(longest_path) +
-                               " bytes; it is damaged");
+      refuse(file_.path(),
+             "has names of more than " + std::to_string(longest_path) + " bytes; it is damaged");
     if (type == H5L_TYPE_HARD)
       return visit(path, H5Oopen(group, name.c_str(), H5P_DEFAULT), depth + 1);
-    return refuse_object(path, type == H5L_TYPE_SOFT
-                                   ? "is a symbolic link; store the object itself"
+    return refuse_object(path, type == H5L_TYPE_SOFT ? "is a symbolic link; store the object itself"
                                : type == H5L_TYPE_EXTERNAL
                                    ? "is an external link, to another file; store the object itself"
                                    : "is a link of an unknown kind; store the object itself");
@@ -315,14 +316,21 @@ hsize_t rows_at_once(hid_t properties, const std::vector<hsize_t>& shape) {
   return std::max<hsize_t>(block_bytes / std::max<hsize_t>(row, 1) / step, 1) * step;
 }
 
-/// Calls HDF5, and says of the file what HDF5 refuses.
+/// Calls HDF5, and says of the file what HDF5 refuses. The work calls its argument before it hands anything over.
 template <class Work>
 void about(const InputFile& file, const Work& work) {
   be_silent();
   H5PLset_loading_state(0);  // filters from elsewhere
+  const auto require_read = [&] {
+    if (const int error = failed_read(); error != 0)
+      throw IoError(file.path().string() + ": cannot be read (" + std::strerror(error) +
+                    "); check the disk");
+  };
   try {
-    work();
-  } catch (const IoError& error) {
+    work(require_read);
+  } catch (const Error& error) {
+    require_read();
+    if (dynamic_cast<const InvalidInput*>(&error)) throw;
     refuse(file.path(), std::string(error.what()) + "; it is truncated or damaged");
   }
 }
@@ -339,15 +347,16 @@ std::vector<hsize_t> shape_of(hid_t dataset) {
 }
 
 void read_outline(const InputFile& file, const HandOver& hand_over) {
-  about(file, [&] {
+  about(file, [&](const auto& require_read) {
     const std::string bytes = encode(Outline(file).read());
+    require_read();
     hand_over(std::as_bytes(std::span(bytes)));
   });
 }
 
 void read_numbers(const InputFile& file, const std::string& path,
                   const std::vector<std::uint64_t>& shape, const HandOver& hand_over) {
-  about(file, [&] {
+  about(file, [&](const auto& require_read) {
     const File handle = open_descriptor(file.descriptor());
     const Dataset dataset(H5Dopen2(handle, path.c_str(), H5P_DEFAULT), "open " + path);
     const Properties properties(H5Dget_create_plist(dataset), "read the layout of " + path);
@@ -360,6 +369,7 @@ void read_numbers(const InputFile& file, const std::string& path,
       double value = 0;
       check(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value),
             "read " + path);
+      require_read();
       return hand_over(std::as_bytes(std::span(&value, 1)));
     }
     hsize_t row = 1;
@@ -374,10 +384,11 @@ void read_numbers(const InputFile& file, const std::string& path,
       check(H5Sselect_hyperslab(in_file, H5S_SELECT_SET, start.data(), nullptr, count.data(),
                                 nullptr),
             "read " + path);
-      const Space in_memory(
-          H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), "read " + path);
+      const Space in_memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr),
+                            "read " + path);
       check(H5Dread(dataset, H5T_NATIVE_DOUBLE, in_memory, in_file, H5P_DEFAULT, values.data()),
             "read " + path);
+      require_read();
       hand_over(std::as_bytes(std::span(values.data(), count[0] * row)));
     }
   });

@@ -24,8 +24,7 @@ std::string heights_name(const Document& document) {
   }
   if (!found.empty()) return found;
   if (!refused.empty()) return refused;
-  refuse(document.path(),
-         "has no dataset heights (nx, ny) at its root; store the surface there");
+  refuse(document.path(), "has no dataset heights (nx, ny) at its root; store the surface there");
 }
 
 }  // namespace
@@ -49,9 +48,10 @@ LoadedSurface read_hdf5(const std::filesystem::path& file) {
   if (const auto periodic = number("periodic")) surface.periodic = *periodic != 0;
   for (const Object* object : {&heights, &root})
     if (surface.unit.empty()) surface.unit = object->text("units").value_or("");
-  surface.heights.resize(static_cast<Index>(heights.shape[0]),
-                         static_cast<Index>(heights.shape[1]));
-  document.numbers(name, {surface.heights.data(), static_cast<std::size_t>(surface.heights.size())});
+  surface.heights =
+      heights_of(file, static_cast<Index>(heights.shape[0]), static_cast<Index>(heights.shape[1]));
+  document.numbers(name,
+                   {surface.heights.data(), static_cast<std::size_t>(surface.heights.size())});
   return surface;
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
 #include <utility>
 
@@ -18,8 +19,10 @@ namespace salebra::detail {
 namespace {
 
 [[noreturn]] void refuse_unreadable(const std::filesystem::path& path, int error) {
-  refuse(path, std::string("cannot be read (") + std::strerror(error) +
-                   "); check its permissions and the disk");
+  const std::string why = std::string("cannot be read (") + std::strerror(error) + ")";
+  if (error == EACCES || error == EPERM || error == ENAMETOOLONG || error == EISDIR)
+    refuse(path, why + "; check its name and its permissions");
+  throw IoError(path.string() + ": " + why + "; check the disk");
 }
 
 }  // namespace

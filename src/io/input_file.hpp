@@ -12,7 +12,8 @@ namespace salebra::detail {
 /// Only a regular file is opened. A pipe or a device would let a reader wait for ever or read without end.
 class InputFile {
  public:
-  /// Throws InvalidInput naming the file if there is no such regular file, or the system does not let it be read.
+  /// Throws InvalidInput naming the file if there is no such regular file, or the user may not read it; IoError where the system
+  /// cannot open it.
   explicit InputFile(std::filesystem::path path);
   InputFile(InputFile&& other) noexcept;
   InputFile& operator=(InputFile&& other) noexcept;
@@ -22,7 +23,7 @@ class InputFile {
   int descriptor() const { return descriptor_; }
   std::uint64_t size() const { return size_; }
 
-  /// Bytes from the start: all, or fewer where the file ends before. Throws InvalidInput where they cannot be read.
+  /// Bytes from the start: all, or fewer where the file ends before. Throws IoError where the disk does not give them.
   std::string head(std::uint64_t bytes) const;
   /// The whole file. Throws InvalidInput for an empty file, for one of more than `limit` bytes, and for one that does not fit
   /// in the memory that is free.

@@ -22,6 +22,9 @@ struct LoadedSurface {
 /// InvalidInput "<file>: <what>".
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what);
 
+/// Room for the heights of a file, not initialised. Throws InvalidInput where they do not fit into the memory that is free.
+Field heights_of(const std::filesystem::path& file, Index nx, Index ny);
+
 /// The whole of a regular file. Throws InvalidInput if there is no such file or it cannot be read.
 std::string file_content(const std::filesystem::path& file);
 

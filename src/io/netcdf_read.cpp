@@ -223,7 +223,7 @@ LoadedSurface read_netcdf(const std::filesystem::path& file, std::string_view co
 
   LoadedSurface surface;
   surface.unit = unit_of(heights);
-  Field stored(rows, columns);
+  Field stored = heights_of(file, rows, columns);
   for (Index k = 0; k < stored.size(); ++k)
     stored.data()[k] = value_at(bytes.data() + static_cast<std::size_t>(k) * size, heights.kind);
   if (const auto fill = heights.number("_FillValue"))

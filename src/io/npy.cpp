@@ -199,7 +199,7 @@ LoadedSurface read_npy(const std::filesystem::path& file, std::string_view conte
   const bool swapped = (order == '>') == (std::endian::native == std::endian::little) &&
                        (order == '<' || order == '>');
   LoadedSurface surface;
-  surface.heights.resize(nx, ny);
+  surface.heights = heights_of(file, nx, ny);
   for (Index ix = 0; ix < nx; ++ix) {
     for (Index iy = 0; iy < ny; ++iy) {
       const Index place = header.fortran_order ? iy * nx + ix : ix * ny + iy;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/io/read_surface.hpp>
 
@@ -52,6 +53,16 @@ void refuse(const std::filesystem::path& file, const std::string& what) {
   std::ranges::replace_if(
       line, [](char symbol) { return (symbol >= '\0' && symbol < ' ') || symbol == '\x7f'; }, '?');
   throw InvalidInput(file.string() + ": " + line);
+}
+
+Field heights_of(const std::filesystem::path& file, Index nx, Index ny) {
+  const double bytes = sizeof(double) * static_cast<double>(nx) * static_cast<double>(ny);
+  if (!fits_into_memory(bytes))
+    refuse(file, "holds " + std::to_string(nx) + " x " + std::to_string(ny) +
+                     " points, which need " + memory_text(bytes) + " of memory, and " +
+                     memory_text(static_cast<double>(available_memory())) +
+                     " are available; crop it or use fewer points");
+  return uninitialised_field(nx, ny);
 }
 
 bool is_hdf5(const std::filesystem::path& file) { return InputFile(file).is_hdf5(); }

@@ -82,7 +82,7 @@ LoadedSurface read_sur(const std::filesystem::path& file, std::string_view conte
     refuse(file, "has an inversion of an unknown kind; is it a SUR file?");
   const bool has_undefined = header.int16(86) == 1;
   const std::int64_t undefined = std::int64_t{header.int32(100)} - 2;
-  surface.heights.resize(nx, ny);
+  surface.heights = heights_of(file, nx, ny);
   const Header data(content.substr(begin));
   for (Index iy = 0; iy < ny; ++iy) {
     for (Index ix = 0; ix < nx; ++ix) {

@@ -188,7 +188,7 @@ LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& me
   surface.unit = "m";
   surface.size_x = std::abs(step_x) * static_cast<double>(nx);
   surface.size_y = std::abs(step_y) * static_cast<double>(ny);
-  surface.heights.resize(nx, ny);
+  surface.heights = heights_of(file, nx, ny);
   // Points may be listed against the direction of an axis; x and y grow with ix and iy all the same.
   for (Index row = 0; row < ny; ++row) {
     const Index iy = step_y > 0 ? row : ny - 1 - row;

@@ -8,9 +8,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <sstream>
@@ -19,12 +19,27 @@
 namespace salebra::detail {
 namespace {
 
+/// A small regular file; nothing where there is none. A pipe in its place would be waited for.
 std::optional<std::string> read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return {};
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
+  int descriptor;
+  do {
+    descriptor = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  } while (descriptor < 0 && errno == EINTR);
+  if (descriptor < 0) return {};
+  std::optional<std::string> text;
+  struct stat status = {};
+  if (fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode)) {
+    std::array<char, 4096> piece;
+    ssize_t got = 0;
+    text.emplace();
+    do {
+      got = read(descriptor, piece.data(), piece.size());
+      if (got > 0) text->append(piece.data(), static_cast<std::size_t>(got));
+    } while (got > 0 ? text->size() < piece.size() : got < 0 && errno == EINTR);
+    if (got < 0) text.reset();
+  }
+  close(descriptor);
+  return text;
 }
 
 std::string first_line(const std::filesystem::path& file) {
@@ -43,8 +58,9 @@ std::string process_space() {
 }
 
 struct ProcessStatus {
-  char state = 0;       ///< one letter of proc_pid_stat(5); 0 where it is not known
-  std::string started;  ///< ticks since boot, which tells a process from a later one of the same number
+  char state = 0;  ///< one letter of proc_pid_stat(5); 0 where it is not known
+  std::string
+      started;  ///< ticks since boot, which tells a process from a later one of the same number
 };
 
 ProcessStatus status_of(pid_t process) {
@@ -101,9 +117,9 @@ double modified(const struct stat& status) {
 StudyLock::StudyLock(std::filesystem::path file, std::chrono::milliseconds stale_after)
     : file_(std::move(file)), stale_after_(stale_after) {
   const auto moment = std::chrono::steady_clock::now().time_since_epoch().count();
-  identity_ = fmt::format("{}\n{}\n{}\n{:x}-{:x}\n", process_space(), getpid(),
-                          status_of(getpid()).started, moment,
-                          reinterpret_cast<std::uintptr_t>(this));
+  identity_ =
+      fmt::format("{}\n{}\n{}\n{:x}-{:x}\n", process_space(), getpid(), status_of(getpid()).started,
+                  moment, reinterpret_cast<std::uintptr_t>(this));
   // Each failed attempt saw a lock vanish or be taken over: not many in a row.
   for (int attempt = 0; attempt < 20 && !held_; ++attempt) held_ = try_link();
   if (!held_)
@@ -142,6 +158,10 @@ bool StudyLock::try_link() {
   if (linked || fresh.st_nlink == 2) return true;
   if (link_error != EEXIST) fail(file_, link_error);
 
+  std::error_code ignored;
+  const auto kind = std::filesystem::symlink_status(file_, ignored).type();
+  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
+    throw InvalidInput(fmt::format("{}: is no regular file; remove it", file_.string()));
   const auto found = read_text(file_);
   if (!found || stat(file_.c_str(), &present) != 0) return false;  // it has just gone
   const Owner owner = parse(*found);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/moments.hpp>
 
@@ -33,6 +34,7 @@ Line fit_line(const std::vector<double>& heights, std::size_t first, std::size_t
 }  // namespace
 
 BearingCurve::BearingCurve(const Surface& surface) {
+  require_memory(surface.grid, 16 * static_cast<double>(surface.grid.points()), "a bearing curve");
   const HeightStatistics statistics = height_statistics(surface);
   heights_.reserve(static_cast<std::size_t>(statistics.defined_points));
   for (const double height : surface.heights.reshaped<Eigen::RowMajor>())

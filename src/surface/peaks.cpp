@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 #include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/surface/peaks.hpp>
 
 #include "shape.hpp"
@@ -52,6 +53,7 @@ std::vector<Peak> significant_peaks(const Surface& surface, double least_promine
   const double* heights = surface.heights.data();
   const auto points = static_cast<std::size_t>(grid.points());
   std::vector<std::int32_t> order;
+  require_memory(grid, 16 * static_cast<double>(points), "a list of peaks");
   order.reserve(points);
   for (std::size_t k = 0; k < points; ++k)
     if (!std::isnan(heights[k])) order.push_back(static_cast<std::int32_t>(k));

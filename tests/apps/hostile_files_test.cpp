@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files of strangers, read by the program: each is read or refused in one line, within bounds, and nothing beside it is read.
+#include "hostile_files.hpp"
+
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -9,7 +11,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "hostile_files.hpp"
 #include "run_program.hpp"
 
 namespace {
@@ -93,7 +94,8 @@ TEST_CASE("Every command that reads HDF5 refuses storage outside the file", "[ho
   const ProgramTest test;
   lay_baits(test);
   hostile::write_hdf5_files(test.folder());
-  REQUIRE(test.run("generate --points 16 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um --rms-height 1nm -o s.h5")
+  REQUIRE(test.run("generate --points 16 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff "
+                   "0.2um --rms-height 1nm -o s.h5")
               .status == 0);
   // Each command meets its dataset where it looks for it; what it says of the rest of the file is its own matter.
   const std::string press = "contact s.h5 --pressure 1MPa --contact-modulus 10GPa ";
@@ -119,7 +121,8 @@ TEST_CASE("Pipes, devices and folders are refused by every reader at once", "[ho
   const ProgramTest test;
   lay_baits(test);
   REQUIRE(mkfifo((test.folder() / "a.npy.json").c_str(), 0600) == 0);
-  REQUIRE(test.run("generate --points 16 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um --rms-height 1nm -o s.npy")
+  REQUIRE(test.run("generate --points 16 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff "
+                   "0.2um --rms-height 1nm -o s.npy")
               .status == 0);
   fs::copy_file(test.folder() / "s.npy", test.folder() / "a.npy");
   check_harmless(test.run("info a.npy"), "a.npy.json: is not a regular file");
@@ -127,7 +130,7 @@ TEST_CASE("Pipes, devices and folders are refused by every reader at once", "[ho
     for (const std::string& command :
          {"info " + file, "convert " + file + " b.npy", "statistics " + file, "fit " + file,
           "study " + file + " -o r.h5", "study --surface " + file + " -o r.h5",
-          "damping --curve " + file + " --pressure 1MPa" + motion,
+          "damping --curve " + file + " --pressure 1MPa" + motion, "report " + file + " -o r.html",
           "mdr --shape table --table " + file + " --indentation 1nm --contact-modulus 1GPa"}) {
       INFO(command);
       const auto result = run_bounded(test, command, 0);
@@ -135,12 +138,13 @@ TEST_CASE("Pipes, devices and folders are refused by every reader at once", "[ho
       check_harmless(result, "");
     }
   }
-  CHECK(test.files() == std::set<std::string>{"a.npy", "a.npy.json", "pipe", "s.npy",
-                                              "s.npy.json", "secret.txt"});
+  CHECK(test.files() ==
+        std::set<std::string>{"a.npy", "a.npy.json", "pipe", "s.npy", "s.npy.json", "secret.txt"});
 }
 
-TEST_CASE("Headers that promise more than their file, deep nesting and tiny numbers end in an answer",
-          "[hostile]") {
+TEST_CASE(
+    "Headers that promise more than their file, deep nesting and tiny numbers end in an answer",
+    "[hostile]") {
   const ProgramTest test;
   const auto tried = [&](const std::string& name, const std::string& content,
                          const std::string& command) {
@@ -160,25 +164,29 @@ TEST_CASE("Headers that promise more than their file, deep nesting and tiny numb
     std::string header = description + std::string(118 - description.size() - 1, ' ') + "\n";
     return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + header + std::string(64, '\0');
   };
-  surface("huge.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (4000000000, 4000000000), }"));
+  surface("huge.npy",
+          npy("{'descr': '<f8', 'fortran_order': False, 'shape': (4000000000, 4000000000), }"));
   surface("long.npy", std::string("\x93NUMPY\x02\x00\xff\xff\xff\xff", 12));
   surface("huge.gsf", "Gwyddion Simple Field 1.0\nXRes = 2000000000\nYRes = 2000000000\n");
-  surface("huge.gxyzf",
-          "Gwyddion XYZ Field 1.0\nNChannels = 1\nNPoints = 4000000000000000000\n\n" + std::string(32, '\0'));
+  surface("huge.gxyzf", "Gwyddion XYZ Field 1.0\nNChannels = 1\nNPoints = 4000000000000000000\n\n" +
+                            std::string(32, '\0'));
   surface("huge.sur", "DIGITAL SURF" + std::string(500, '\xff'));
   surface("huge.nc", std::string("CDF\x02\x00\x00\x00\x00\x00\x00\x00\x0a\x7f\xff\xff\xff", 16) +
                          std::string(64, '\xff'));
   surface("zip.x3p", "PK\x03\x04" + std::string(64, '\xff'));
-  surface("tiny.txt", "# Width: 1e-320 m\n# Height: 1e-320 m\n1 2 3 1\n2 3 4 5\n1 2 1 2\n4 1 2 2\n");
+  surface("tiny.txt",
+          "# Width: 1e-320 m\n# Height: 1e-320 m\n1 2 3 1\n2 3 4 5\n1 2 1 2\n4 1 2 2\n");
   surface("row.txt", std::string(1 << 20, ' ') + "1\n2\n");
   surface("points.xyz", "0 0 1e308\n1e-320 0 1\n0 1e308 1\n1e-320 1e308 5e-324\n");
   surface("escape.txt", "# Width: 1 \x1b[2J\n1 2 \x1b[31m\n");
 
   const std::string deep = "{\"size_x\":" + std::string(500000, '[');
   test.write("deep.npy.json", deep);
-  tried("deep.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 4), }"), "info deep.npy");
+  tried("deep.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 4), }"),
+        "info deep.npy");
   test.write("tiny.npy.json", R"({"size_x": 1e-320, "size_y": 1e-320, "units": "m"})");
-  tried("tiny.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 4), }"), "info tiny.npy");
+  tried("tiny.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 4), }"),
+        "info tiny.npy");
 
   std::string key = "a";
   for (int i = 0; i < 60000; ++i) key += ".a";
@@ -199,15 +207,18 @@ TEST_CASE("Headers that promise more than their file, deep nesting and tiny numb
 
 TEST_CASE("Names of files neither break the line nor command the terminal", "[hostile]") {
   const ProgramTest test;
-  for (const std::string name : {"a\nb", "|touch pwned;", "a\"b'c", "-dash", "\x1b]0;title\x07", "\x9b" "2J", "a\tb"}) {
+  for (const std::string name : {"a\nb", "|touch pwned;", "a\"b'c", "-dash", "\x1b]0;title\x07",
+                                 "\x9b"
+                                 "2J",
+                                 "a\tb"}) {
     INFO(name);
     test.write(name, "neither text nor numbers");
     std::string quoted = "'";
-    for (const char symbol : name) quoted += symbol == '\'' ? std::string("'\\''") : std::string(1, symbol);
+    for (const char symbol : name)
+      quoted += symbol == '\'' ? std::string("'\\''") : std::string(1, symbol);
     quoted += "'";
-    for (const std::string& command :
-         {"info ./" + quoted, "fit ./" + quoted,
-          "study ./" + quoted + " --dry-run", "info " + quoted}) {
+    for (const std::string& command : {"info ./" + quoted, "fit ./" + quoted,
+                                       "study ./" + quoted + " --dry-run", "info " + quoted}) {
       INFO(command);
       const auto result = test.run(command);
       INFO(result.err);
@@ -221,8 +232,7 @@ TEST_CASE("Names of files neither break the line nor command the terminal", "[ho
 TEST_CASE("Names inside a file are printed with their control characters escaped", "[hostile]") {
   const ProgramTest test;
   test.write("points.txt", "1 2\n3 4\n");
-  const auto converted = test.run(
-      "convert points.txt s.h5 --size-x 1um --size-y 1um");
+  const auto converted = test.run("convert points.txt s.h5 --size-x 1um --size-y 1um");
   REQUIRE(converted.status == 0);
   fs::rename(test.folder() / "s.h5", test.folder() / "\x1b[2J.h5");
   const auto result = test.run("convert ./'\x1b[2J.h5' ./'\x1b[1A.npy'");

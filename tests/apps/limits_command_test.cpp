@@ -41,7 +41,7 @@ TEST_CASE("A contact that a limit of memory does not hold is refused in one line
   for (const std::string command : {"contact s.h5 --contact-modulus 1GPa --pressure 1MPa",
                                     "sweep s.h5 --contact-modulus 1GPa --pressures 1MPa:2MPa:2"})
     check_refused(test.run(command + " --threads 1 --quiet", "ulimit -d 200000;"),
-                  "points: 2048 x 2048 need 0.18 GB of memory for a contact and 0.");
+                  "points: 2048 x 2048 need 180 MB of memory for a contact and ");
   // What fits is computed.
   CHECK(test.run("contact s.h5 --contact-modulus 1GPa --pressure 1MPa --threads 1 --quiet",
                  "ulimit -d 400000;")
@@ -53,6 +53,19 @@ TEST_CASE("A contact that a limit of memory does not hold is refused in one line
   CHECK(test.files() == std::set<std::string>{"s.h5"});
 }
 
+TEST_CASE("A file whose heights a limit of memory does not hold is refused in one line",
+          "[limits]") {
+  const ProgramTest test;
+  // One byte a point in the file, of which most are a hole on the disk, and eight in memory: 64 MB and 512 MB.
+  std::string header = "{'descr': '|i1', 'fortran_order': False, 'shape': (8000, 8000), }";
+  header.resize(117, ' ');
+  header += '\n';
+  test.write("big.npy", std::string("\x93NUMPY\x01\x00\x76\x00", 10) + header);
+  std::filesystem::resize_file(test.folder() / "big.npy", 10 + header.size() + 8000 * 8000);
+  check_refused(test.run("info big.npy --size-x 1um --threads 1", "ulimit -d 400000;"),
+                "big.npy: holds 8000 x 8000 points, which need 512 MB of memory, and ");
+}
+
 TEST_CASE("A study whose threads do not fit into memory is refused before its first surface",
           "[limits]") {
   const ProgramTest test;
@@ -61,7 +74,7 @@ TEST_CASE("A study whose threads do not fit into memory is refused before its fi
   test.write("study.toml", text);
   // With stick solves 155 bytes a cell: 0.33 GB for two threads.
   check_refused(test.run("study study.toml -o result.h5 --threads 2 --quiet", "ulimit -d 300000;"),
-                "of memory for the surfaces of all threads (fewer --threads need less) and 0.");
+                "of memory for the surfaces of all threads (fewer --threads need less) and ");
   CHECK(test.files() == std::set<std::string>{"study.toml"});
 }
 

@@ -23,8 +23,9 @@ namespace {
 class Machine {
  public:
   Machine() {
-    write("proc/meminfo",
-          "MemTotal:       16000000 kB\nMemFree:         1000000 kB\nMemAvailable:    8000000 kB\n");
+    write(
+        "proc/meminfo",
+        "MemTotal:       16000000 kB\nMemFree:         1000000 kB\nMemAvailable:    8000000 kB\n");
     write("proc/self/status", "Name:\tsalebra\nVmSize:\t 2000000 kB\nVmData:\t  500000 kB\n");
     write("proc/self/limits",
           "Limit                     Soft Limit           Hard Limit           Units     \n"
@@ -42,8 +43,7 @@ class Machine {
     write(folder + "memory.usage_in_bytes", std::to_string(used) + "\n");
     // The plain names are those of the group without its children.
     write(folder + "memory.stat", "inactive_file 1\nactive_file 1\ntotal_inactive_file " +
-                                      std::to_string(cached - 1000) +
-                                      "\ntotal_active_file 1000\n");
+                                      std::to_string(cached - 1000) + "\ntotal_active_file 1000\n");
   }
   void group2(const std::string& path, const std::string& max, const std::string& high, long used,
               long cached) const {
@@ -72,7 +72,8 @@ TEST_CASE("Without cgroups the machine's available memory counts", "[memory]") {
   const Machine machine;
   CHECK(machine.left() == 8000000.0 * 1024);
   // A kernel without a memory controller.
-  machine.write("proc/self/mountinfo", "30 24 0:26 / /sys/fs/cgroup/cpu rw - cgroup cgroup rw,cpu\n");
+  machine.write("proc/self/mountinfo",
+                "30 24 0:26 / /sys/fs/cgroup/cpu rw - cgroup cgroup rw,cpu\n");
   machine.write("proc/self/cgroup", "2:cpu:/\n");
   CHECK(machine.left() == 8000000.0 * 1024);
   const Scratch nothing;
@@ -143,12 +144,23 @@ TEST_CASE("A container sees its own cgroup where its mount is, whatever its path
 
 TEST_CASE("Limits of the process on addresses and data count less what it has", "[memory]") {
   const Machine machine;
-  machine.write("proc/self/limits", "Max data size             unlimited            unlimited   bytes\n"
-                                    "Max address space         3048000000           unlimited   bytes\n");
+  machine.write("proc/self/limits",
+                "Max data size             unlimited            unlimited   bytes\n"
+                "Max address space         3048000000           unlimited   bytes\n");
   CHECK(machine.left() == 3048e6 - 2000000.0 * 1024);
-  machine.write("proc/self/limits", "Max data size             812000000            unlimited   bytes\n"
-                                    "Max address space         3048000000           unlimited   bytes\n");
+  machine.write("proc/self/limits",
+                "Max data size             812000000            unlimited   bytes\n"
+                "Max address space         3048000000           unlimited   bytes\n");
   CHECK(machine.left() == 812e6 - 500000.0 * 1024);
+}
+
+TEST_CASE("Sizes of memory have three digits and a unit", "[memory]") {
+  CHECK(memory_text(64e6) == "64 MB");
+  CHECK(memory_text(721.4e6) == "721 MB");
+  CHECK(memory_text(999.6e6) == "1 GB");
+  CHECK(memory_text(1.437e9) == "1.44 GB");
+  CHECK(memory_text(2.81e14) == "281 TB");
+  CHECK(memory_text(3e19) == "30 EB");
 }
 
 TEST_CASE("Work beyond a limit on this process is refused, and small work is not", "[memory]") {
@@ -171,8 +183,8 @@ TEST_CASE("Work beyond a limit on this process is refused, and small work is not
     } catch (const InvalidInput& error) {
       message = error.what();
     }
-    const bool told = message.starts_with("points: 10 x 20 need 2 GB of memory for a test and 0.") &&
-                      message.ends_with(" GB are available; use fewer points");
+    const bool told = message.starts_with("points: 10 x 20 need 2 GB of memory for a test and ") &&
+                      message.ends_with(" MB are available; use fewer points");
     require_memory({10, 20, 1, 2}, 60e6, "a small test");
     // What the process took in between is a page or two.
     _exit(before > after && after <= 900000000 && after > 890000000 && told ? 0 : 1);

@@ -4,6 +4,8 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <link.h>
+#include <pthread.h>
 #include <stdarg.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>
@@ -32,6 +34,31 @@ std::array<char, 4096> working_folder;
 std::array<std::atomic<bool>, 1024> below;  // descriptors of files below the folder
 std::atomic<bool> in_main = false;
 
+/// Where HDF5 and GNU's OpenMP lie in memory. Neither survives a failed allocation of its own (docs/reliability.md).
+struct Range {
+  uintptr_t begin = 0, end = 0;
+  bool holds(const void* place) const {
+    const auto address = reinterpret_cast<uintptr_t>(place);
+    return address >= begin && address < end;
+  }
+};
+std::array<Range, 8> exempt;
+
+int find_exempt(dl_phdr_info* library, size_t, void*) {
+  if (!strstr(library->dlpi_name, "libhdf5") && !strstr(library->dlpi_name, "libgomp")) return 0;
+  for (int i = 0; i < library->dlpi_phnum; ++i) {
+    const auto& part = library->dlpi_phdr[i];
+    if (part.p_type != PT_LOAD || (part.p_flags & PF_X) == 0) continue;
+    for (Range& range : exempt)
+      if (range.end == 0) {
+        range = {library->dlpi_addr + part.p_vaddr,
+                 library->dlpi_addr + part.p_vaddr + part.p_memsz};
+        break;
+      }
+  }
+  return 0;
+}
+
 // Only the program itself is disturbed, not what it starts.
 __attribute__((constructor)) void load_plan() {
   const char* file = getenv("SALEBRA_FAULTS");
@@ -42,7 +69,9 @@ __attribute__((constructor)) void load_plan() {
                       static_cast<int>(descriptor), 0);
   syscall(SYS_close, descriptor);
   if (mapped == MAP_FAILED || !getcwd(working_folder.data(), working_folder.size())) _exit(98);
+  dl_iterate_phdr(find_exempt, nullptr);
   plan = static_cast<Plan*>(mapped);
+  pthread_atfork(nullptr, nullptr, [] { plan = nullptr; });
 }
 
 /// Counts the call; true where it has to fail, with errno set.
@@ -90,8 +119,11 @@ ssize_t granted(int descriptor, size_t size) {
   return plan->error == short_write ? static_cast<ssize_t>((size + 1) / 2) : -1;
 }
 
-bool allocation_fails() {
-  if (!plan || !in_main || !fails(Kind::memory)) return false;
+bool allocation_fails(const void* caller) {
+  if (!plan || !in_main) return false;
+  for (const Range& range : exempt)
+    if (range.holds(caller)) return false;
+  if (!fails(Kind::memory)) return false;
   errno = ENOMEM;
   return true;
 }
@@ -237,18 +269,37 @@ int link(const char* from, const char* to) noexcept {
   return static_cast<int>(syscall(SYS_link, from, to));
 }
 
-void* malloc(size_t size) noexcept { return allocation_fails() ? nullptr : __libc_malloc(size); }
+// Its first call, in which the C library allocates for it.
+int H5open() {
+  const bool before = in_main.exchange(false);
+  static const auto real = reinterpret_cast<int (*)()>(dlsym(RTLD_NEXT, "H5open"));
+  const int status = real();
+  in_main = before;
+  return status;
+}
+
+// The C library would allocate it in HDF5's place.
+char* strdup(const char* text) noexcept {
+  if (allocation_fails(__builtin_return_address(0))) return nullptr;
+  const size_t size = strlen(text) + 1;
+  return static_cast<char*>(memcpy(__libc_malloc(size), text, size));
+}
+
+void* malloc(size_t size) noexcept {
+  return allocation_fails(__builtin_return_address(0)) ? nullptr : __libc_malloc(size);
+}
 
 void* calloc(size_t count, size_t size) noexcept {
-  return allocation_fails() ? nullptr : __libc_calloc(count, size);
+  return allocation_fails(__builtin_return_address(0)) ? nullptr : __libc_calloc(count, size);
 }
 
 void* realloc(void* old, size_t size) noexcept {
-  return size > 0 && allocation_fails() ? nullptr : __libc_realloc(old, size);
+  return size > 0 && allocation_fails(__builtin_return_address(0)) ? nullptr
+                                                                   : __libc_realloc(old, size);
 }
 
 void* memalign(size_t alignment, size_t size) noexcept {
-  return allocation_fails() ? nullptr : __libc_memalign(alignment, size);
+  return allocation_fails(__builtin_return_address(0)) ? nullptr : __libc_memalign(alignment, size);
 }
 
 void* aligned_alloc(size_t alignment, size_t size) noexcept { return memalign(alignment, size); }

@@ -28,6 +28,8 @@ def test_errors_are_those_that_python_users_catch() -> None:
     assert issubclass(salebra.NotConverged, RuntimeError) and issubclass(salebra.NotConverged, salebra.Error)
     with pytest.raises(ValueError, match="nominal_pressure: -1 must be"):
         salebra.press_to_pressure(generated(), 1e9, -1.0)
+    with pytest.raises(ValueError, match=r"\\x1b\[31mred"):
+        salebra.read_surface("\x1b[31mred")
     with pytest.raises(ValueError, match="no-such-file"):
         salebra.read_surface("no-such-file.h5")
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -254,6 +255,13 @@ TEST_CASE("Parts of a study are not begun anew by accident, nor shared by two", 
   CHECK(StudyParts(scratch.folder, true).count() == 1);
   StudyParts(scratch.folder, true).discard();
   CHECK_FALSE(fs::exists(scratch.folder));
+}
+
+TEST_CASE("A pipe in place of the lock is refused, not waited for", "[parts]") {
+  const Scratch scratch;
+  fs::create_directory(scratch.folder);
+  REQUIRE(mkfifo((scratch.folder / "lock").c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(StudyParts(scratch.folder, true), Contains("lock: is no regular file"));
 }
 
 TEST_CASE("The lock of a dead process is taken over at once", "[parts]") {

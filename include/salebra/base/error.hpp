@@ -21,7 +21,7 @@ class InvalidInput : public Error {
   using Error::Error;
 };
 
-/// The operating system refused a write (disk full, no permission). The CLI exits with 1.
+/// The operating system refused a read or a write (disk full, no permission, broken disk). The CLI exits with 1.
 class IoError : public Error {
  public:
   using Error::Error;

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <memory>
 #include <salebra/base/grid.hpp>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -40,9 +41,14 @@ LargeArray<Element> large_array(std::size_t size) {
 /// where /proc is not mounted, and 0 where the system does not say. Cost: some ten small files, 0.1 ms.
 std::size_t available_memory();
 
-/// Throws InvalidInput "points: 4096 x 4096 need 0.72 GB of memory for WORK and 0.45 GB are available; use fewer points" where bytes
-/// exceed available_memory(): asked before the work, since the system kills a process that uses memory beyond a limit instead of
-/// refusing it. What takes less than 64 MB is not asked for. bytes: the minimum that the work takes in addition to what the process
+/// Whether so many bytes are below available_memory(). True for less than 64 MB, which is not asked for.
+bool fits_into_memory(double bytes);
+
+/// "721 MB", "1.44 GB", "281 TB": three digits.
+std::string memory_text(double bytes);
+
+/// Throws InvalidInput "points: 4096 x 4096 need 721 MB of memory for WORK and 450 MB are available; use fewer points" where bytes
+/// do not fit: asked before the work, since the system kills a process that uses memory beyond a limit instead of refusing it. bytes: the minimum that the work takes in addition to what the process
 /// has.
 void require_memory(const Grid2D& grid, double bytes, std::string_view work);
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Escapes for what a terminal would obey.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <salebra/base/printable.hpp>
+
+namespace salebra {
+namespace {
+
+/// Bytes of the UTF-8 character that the text begins with; 0 where it begins with none, or with a control character.
+std::size_t character_length(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text.front());
+  if (lead < 0x80) return lead >= ' ' && lead != 0x7f;
+  const std::size_t length = lead < 0xc2   ? 0
+                             : lead < 0xe0 ? 2
+                             : lead < 0xf0 ? 3
+                             : lead < 0xf5 ? 4
+                                           : 0;
+  if (length == 0 || length > text.size()) return 0;
+  const auto continues = [](char byte) { return (byte & 0xc0) == 0x80; };
+  if (!std::ranges::all_of(text.substr(1, length - 1), continues)) return 0;
+  const bool control = lead == 0xc2 && static_cast<unsigned char>(text[1]) < 0xa0;
+  return control ? 0 : length;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const bool layout = text.front() == '\n' || text.front() == '\t';
+    const std::size_t length = layout ? 1 : character_length(text);
+    if (length > 0)
+      result += text.substr(0, length);
+    else
+      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return result;
+}
+
+}  // namespace salebra
