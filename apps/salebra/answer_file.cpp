@@ -10,8 +10,8 @@ namespace salebra::cli {
 namespace {
 
 double number(const Json& value) {
-  if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+  if (value.is_boolean()) return value.truth() ? 1 : 0;
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.number();
 }
 
 }  // namespace
@@ -29,10 +29,10 @@ void write_answer(ResultFile& file, const std::string& path, const Json& object)
     if (value.is_object()) {
       write_answer(file, path + "/" + name, value);
     } else if (value.is_string()) {
-      group.attribute(name, value.get<std::string>());
+      group.attribute(name, value.text());
     } else if (value.is_array()) {
       std::vector<double> values;
-      for (const Json& item : value) values.push_back(number(item));
+      for (const Json& item : value.elements()) values.push_back(number(item));
       if (!has_samples) group.index("sample", values.size(), "number of the case");
       has_samples = true;
       group.dataset(name, values, {"sample"}, unit, long_name);

@@ -223,7 +223,8 @@ void run(const CompareArguments& arguments, Session& session) {
     for (const StudyResult& result : results) {
       const std::string name = describe_point(configuration.ensemble, result.configuration);
       Json point{{"point", name}};
-      point.update(comparison_json(result));
+      const Json comparison = comparison_json(result);
+      for (const auto& [key, part] : comparison.items()) point[key] = part;
       answer["points"].push_back(std::move(point));
       text += "== " + name + " ==\n" + comparison_text(result) + "\n";
     }
@@ -252,7 +253,7 @@ std::string other_models() {
 
 void add_compare_command(Program& program) {
   auto arguments = std::make_shared<CompareArguments>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "compare", "every contact model on the same surfaces, down to the damping constant",
       {"salebra compare data/paper.toml -o paper.h5 --plot paper.png",
        "salebra compare data/quickstart.toml --precision 5% --json"},

@@ -6,7 +6,6 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 
-#include "command_options.hpp"
 #include "options.hpp"
 #include "program.hpp"
 #include "written_text.hpp"
@@ -14,30 +13,30 @@
 namespace salebra::cli {
 namespace {
 
-std::string command_names(const CLI::App& app) {
+std::string command_names(const Program& program) {
   std::string names;
-  for (const CLI::App* command : commands_of(app))
-    names += (names.empty() ? "" : " ") + command->get_name();
+  for (const Command& command : program.commands())
+    names += (names.empty() ? "" : " ") + command.name();
   return names;
 }
 
-std::string bash_script(const CLI::App& app) {
+std::string bash_script(const Program& program) {
   std::string options, choices;
-  for (const CLI::App* command : commands_of(app)) {
+  for (const Command& command : program.commands()) {
     std::vector<std::string> names;
-    for (const OptionDescription& option : options_of(*command)) {
-      if (option.positional && option.choices.empty()) continue;
-      if (option.positional) {
-        choices += fmt::format("    '{} ') choices='{}' ;;\n", command->get_name(),
-                               fmt::join(option.choices, " "));
+    for (const Option& option : command.options()) {
+      if (option.positional() && option.choices().empty()) continue;
+      if (option.positional()) {
+        choices += fmt::format("    '{} ') choices='{}' ;;\n", command.name(),
+                               fmt::join(option.choices(), " "));
         continue;
       }
-      names.insert(names.end(), option.names.begin(), option.names.end());
-      if (!option.choices.empty())
-        choices += fmt::format("    '{} {}') choices='{}' ;;\n", command->get_name(),
-                               option.names.back(), fmt::join(option.choices, " "));
+      names.insert(names.end(), option.names().begin(), option.names().end());
+      if (!option.choices().empty())
+        choices += fmt::format("    '{} {}') choices='{}' ;;\n", command.name(),
+                               option.names().back(), fmt::join(option.choices(), " "));
     }
-    options += fmt::format("    {}) options='{}' ;;\n", command->get_name(), fmt::join(names, " "));
+    options += fmt::format("    {}) options='{}' ;;\n", command.name(), fmt::join(names, " "));
   }
   return fmt::format(R"(# Completion of salebra for bash, made by: salebra completion bash
 _salebra() {{
@@ -66,7 +65,7 @@ _salebra() {{
 }}
 complete -F _salebra salebra
 )",
-                     command_names(app), options, choices);
+                     command_names(program), options, choices);
 }
 
 /// For a word of zsh between single quotes, inside the brackets of _arguments.
@@ -79,27 +78,29 @@ std::string zsh_text(std::string_view text) {
   return result;
 }
 
-std::string zsh_argument(const OptionDescription& option) {
+std::string zsh_argument(const Option& option) {
   // A number has nothing to complete, which a blank says.
-  std::string action = option.positional || option.value == "FILE" ? "_files" : " ";
-  if (!option.choices.empty()) action = fmt::format("({})", fmt::join(option.choices, " "));
-  if (option.positional) return fmt::format("'::{}:{}'", zsh_text(option.names.front()), action);
+  std::string action = option.positional() || option.type_name() == "FILE" ? "_files" : " ";
+  if (!option.choices().empty()) action = fmt::format("({})", fmt::join(option.choices(), " "));
+  if (option.positional())
+    return fmt::format("'::{}:{}'", zsh_text(option.names().front()), action);
   std::string argument;
-  for (const std::string& name : option.names) {
-    argument += fmt::format("{}'*{}[{}]", argument.empty() ? "" : " ", name, zsh_text(option.what));
-    if (!option.value.empty()) argument += fmt::format(":{}:{}", zsh_text(option.value), action);
+  for (const std::string& name : option.names()) {
+    argument +=
+        fmt::format("{}'*{}[{}]", argument.empty() ? "" : " ", name, zsh_text(option.help()));
+    if (!option.type_name().empty())
+      argument += fmt::format(":{}:{}", zsh_text(option.type_name()), action);
     argument += "'";
   }
   return argument;
 }
 
-std::string zsh_script(const CLI::App& app) {
+std::string zsh_script(const Program& program) {
   std::string commands, options;
-  for (const CLI::App* command : commands_of(app)) {
-    commands +=
-        fmt::format("    '{}:{}'\n", command->get_name(), zsh_text(command->get_description()));
-    options += fmt::format("      {}) _arguments", command->get_name());
-    for (const OptionDescription& option : options_of(*command))
+  for (const Command& command : program.commands()) {
+    commands += fmt::format("    '{}:{}'\n", command.name(), zsh_text(command.what()));
+    options += fmt::format("      {}) _arguments", command.name());
+    for (const Option& option : command.options())
       options += " \\\n        " + zsh_argument(option);
     options += " ;;\n";
   }
@@ -127,12 +128,12 @@ if [[ $funcstack[1] == _salebra ]]; then _salebra "$@"; else compdef _salebra sa
 
 void add_completion_command(Program& program) {
   auto name = std::make_shared<std::string>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "completion", "the script with which a shell completes commands and options",
       {"salebra completion bash -o ~/.local/share/bash-completion/completions/salebra",
        "salebra completion zsh"},
-      [name, &program_app = program.app()](Session& session) {
-        answer_text(*name == "bash" ? bash_script(program_app) : zsh_script(program_app), session);
+      [name, &program](Session& session) {
+        answer_text(*name == "bash" ? bash_script(program) : zsh_script(program), session);
       });
   add_choice(command, "SHELL", *name, {"bash", "zsh"}, "the shell")->required();
 }

@@ -118,7 +118,7 @@ void run(const ContactArguments& arguments, Session& session) {
 
 void add_contact_command(Program& program) {
   auto arguments = std::make_shared<ContactArguments>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "contact", "press a surface against an elastic half-space by boundary elements",
       {"salebra contact rough.h5 --pressure 10MPa --contact-modulus 115GPa",
        "salebra contact scan.txt --boundary free --indentation 50nm --hardness 3GPa --young 200GPa "
@@ -141,7 +141,7 @@ void add_contact_command(Program& program) {
   add_choice(command, "--precision", arguments->precision, {"mixed", "full"},
              "of the iterations; residuals are in double always; default mixed");
   command.add_option("--max-iterations", arguments->max_iterations, "on the finest grid")
-      ->capture_default_str();
+      ->show_default();
   add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
                "of the complementarity residual; default 1e-10");
 }

@@ -38,7 +38,7 @@ void run(ConvertArguments& arguments, Session& session) {
 
 void add_convert_command(Program& program) {
   auto arguments = std::make_shared<ConvertArguments>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "convert", "write a surface in another format",
       {"salebra convert scan.sur scan.h5 --fill",
        "salebra convert heights.npy rough.h5 --size-x 10um --size-y 10um --detrend plane"},

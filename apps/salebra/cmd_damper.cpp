@@ -174,7 +174,7 @@ void run(const DamperArguments& arguments, Session& session) {
 
 void add_damper_command(Program& program) {
   auto arguments = std::make_shared<DamperArguments>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "damper", "a contact under fast normal oscillation as a tunable damper",
       {"salebra damper --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 "
        "--normal-amplitude 20nm --frequency 20kHz --mass 10g --spring-stiffness 1kN/m",

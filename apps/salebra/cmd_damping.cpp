@@ -231,7 +231,7 @@ void run(const DampingArguments& arguments, Session& session) {
 
 void add_damping_command(Program& program) {
   auto arguments = std::make_shared<DampingArguments>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "damping", "relaxation damping of a contact under an oscillation",
       {"salebra damping --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 "
        "--normal-amplitude 5nm --drag-velocity 1mm/s --frequency 20kHz --amplitude small",

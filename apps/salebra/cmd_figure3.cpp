@@ -99,7 +99,7 @@ void run(const Figure3Arguments& arguments, Session& session) {
 
 void add_figure3_command(Program& program) {
   auto arguments = std::make_shared<Figure3Arguments>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "figure3", "the paper's Fig. 3: four shapes, their contact regions and the work of a cycle",
       {"salebra figure3 --contact-modulus 1GPa --poisson 0.3 --plot figure3.png",
        "salebra figure3 --young 70GPa --poisson 0.33 --mode drag --points 256 -o figure3.h5 "

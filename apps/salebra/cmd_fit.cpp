@@ -65,13 +65,12 @@ void run(const FitArguments& arguments, Session& session) {
     answer["decay_length_low"] = fit.decay_length_low;
     answer["decay_length_high"] = fit.decay_length_high;
   }
-  answer.update({{"reference_pressure", fit.reference_pressure},
-                 {"r_squared", fit.r_squared},
-                 {"window",
-                  {{"pressure_min", fit.window.pressure_min},
-                   {"pressure_max", fit.window.pressure_max},
-                   {"points", fit.window.points}}},
-                 {"decay_length_over_rms_height", fit.decay_length_over_rms_height}});
+  answer["reference_pressure"] = fit.reference_pressure;
+  answer["r_squared"] = fit.r_squared;
+  answer["window"] = {{"pressure_min", fit.window.pressure_min},
+                      {"pressure_max", fit.window.pressure_max},
+                      {"points", fit.window.points}};
+  answer["decay_length_over_rms_height"] = fit.decay_length_over_rms_height;
   Json by_weights = Json::object();
   for (const auto& [name, other] : weightings)
     by_weights[name] = fit_exponential(curve, window, other).decay_length;
@@ -103,7 +102,7 @@ void run(const FitArguments& arguments, Session& session) {
 
 void add_fit_command(Program& program) {
   auto arguments = std::make_shared<FitArguments>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "fit", "decay length l of p = p0 exp(-mean gap/l) from a curve",
       {"salebra fit curve.h5", "salebra fit curve.h5 --pressure-window 1MPa,50MPa --json"},
       [arguments](Session& session) { run(*arguments, session); });
@@ -119,7 +118,7 @@ void add_fit_command(Program& program) {
                   "what a sample counts: spacing, the length of gap it stands for (computed "
                   "curves); equal (noise in proportion to F); force, F^2 (noise of one size). The "
                   "last two give a 95 % interval of l too")
-      ->check(CLI::IsMember({"spacing", "equal", "force"}));
+      ->choices({"spacing", "equal", "force"});
 }
 
 }  // namespace salebra::cli

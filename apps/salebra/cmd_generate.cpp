@@ -253,7 +253,7 @@ void run(const GenerateArguments& arguments, Session& session) {
 
 void add_generate_command(Program& program) {
   auto arguments = std::make_shared<GenerateArguments>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "generate", "make a random surface, a profile or an analytic shape",
       {"salebra generate --points 512 --size-x 10um --hurst 0.8 --rolloff 2um --short-cutoff 160nm "
        "--rms-height 30nm -o rough.h5",
@@ -272,7 +272,7 @@ void add_generate_command(Program& program) {
              {"filtered-noise", "random-phase", "exact-rms"},
              "Gaussian process, exact mode powers, or exact rms; default filtered-noise");
   command
-      .add_option_function<std::string>(
+      .add_option_function(
           "--seed", [arguments](const std::string& text) { arguments->seed = seed_of(text); },
           "any whole number >= 0; default 1")
       ->type_name("INTEGER");

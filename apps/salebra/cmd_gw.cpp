@@ -101,7 +101,7 @@ void run(const GwArguments& arguments, Session& session) {
 
 void add_gw_command(Program& program) {
   auto arguments = std::make_shared<GwArguments>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "gw", "Greenwood-Williamson contact of a surface or of given summits",
       {"salebra gw rough.h5 --summits deterministic --pressures 1:100MPa:16 --contact-modulus "
        "115GPa --poisson 0.3",

@@ -60,7 +60,7 @@ void run(const SurfaceOptions& options, Session& session) {
 
 void add_info_command(Program& program) {
   auto options = std::make_shared<SurfaceOptions>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "info", "size and statistics of a surface",
       {"salebra info scan.txt",
        "salebra info heights.npy --size-x 10um --size-y 10um --detrend none --json"},

@@ -182,7 +182,7 @@ void run(Arguments arguments, Session& session) {
 
 void add_init_command(Program& program) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App& command =
+  Command& command =
       program.add_command("init", "write a study file in which every key is explained",
                           {"salebra init study.toml",
                            "salebra init scan.toml --surface scan.txt --size-x 10um --size-y 10um"},

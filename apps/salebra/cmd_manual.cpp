@@ -9,7 +9,6 @@
 #include <salebra/base/suggestion.hpp>
 #include <salebra/base/version.hpp>
 
-#include "command_options.hpp"
 #include "help_text.hpp"
 #include "program.hpp"
 #include "written_text.hpp"
@@ -59,38 +58,36 @@ std::string title(const std::string& page) {
                      version());
 }
 
-std::string option_list(const std::vector<OptionDescription>& options) {
+std::string option_list(const std::vector<const Option*>& options) {
   std::string result;
-  for (const OptionDescription& option : options) {
+  for (const Option* option : options) {
     std::string names;
-    for (const std::string& name : option.names)
+    for (const std::string& name : option->names())
       names += fmt::format("{}\\fB{}\\fR", names.empty() ? "" : ", ", roff(name));
-    if (!option.value.empty() && !option.positional)
-      names += fmt::format(" \\fI{}\\fR", roff(option.value));
-    const bool listed = option.what.find(" | ") != std::string::npos;
-    result += fmt::format(".TP\n{}\n{}\n", names, roff(option.what));
-    if (!option.choices.empty() && !listed)
+    if (!option->type_name().empty() && !option->positional())
+      names += fmt::format(" \\fI{}\\fR", roff(option->type_name()));
+    result += fmt::format(".TP\n{}\n{}\n", names, roff(option->help()));
+    if (!option->choices().empty() && !option->help_lists_choices())
       result +=
-          fmt::format("One of {}.\n", roff(fmt::format("{}", fmt::join(option.choices, ", "))));
+          fmt::format("One of {}.\n", roff(fmt::format("{}", fmt::join(option->choices(), ", "))));
   }
   return result;
 }
 
-std::string command_page(const CLI::App& command) {
-  const std::string name = command.get_name();
+std::string command_page(const Command& command) {
+  const std::string name = command.name();
   std::string page = title("salebra-" + name) +
                      fmt::format(".SH NAME\nsalebra\\-{} \\- {}\n.SH SYNOPSIS\n.B salebra {}\n",
-                                 name, roff(command.get_description()), name);
-  const std::vector<OptionDescription> options = options_of(command);
+                                 name, roff(command.what()), name);
   std::vector<std::string> groups;
-  std::vector<OptionDescription> arguments;
-  for (const OptionDescription& option : options) {
-    if (option.positional) {
-      const std::string argument = fmt::format("\\fI{}\\fR", option.names.front());
-      page += (option.required ? argument : "[" + argument + "]") + "\n";
-      arguments.push_back(option);
-    } else if (std::ranges::find(groups, option.group) == groups.end()) {
-      groups.push_back(option.group);
+  std::vector<const Option*> arguments;
+  for (const Option& option : command.options()) {
+    if (option.positional()) {
+      const std::string argument = fmt::format("\\fI{}\\fR", option.names().front());
+      page += (option.required() ? argument : "[" + argument + "]") + "\n";
+      arguments.push_back(&option);
+    } else if (std::ranges::find(groups, option.group()) == groups.end()) {
+      groups.push_back(option.group());
     }
   }
   page += "[\\fIOPTIONS\\fR]\n.SH DESCRIPTION\n";
@@ -99,19 +96,18 @@ std::string command_page(const CLI::App& command) {
   if (!arguments.empty()) page += ".SH ARGUMENTS\n" + option_list(arguments);
   page += ".SH OPTIONS\n";
   for (const std::string& group : groups) {
-    std::vector<OptionDescription> members;
-    for (const OptionDescription& option : options)
-      if (!option.positional && option.group == group) members.push_back(option);
+    std::vector<const Option*> members;
+    for (const Option& option : command.options())
+      if (!option.positional() && option.group() == group) members.push_back(&option);
     if (group != "Options") page += ".SS " + roff(group) + "\n";
     page += option_list(members);
   }
-  const std::string footer = command.get_footer();
-  if (const auto examples = footer.find("Examples:\n"); examples != std::string::npos)
-    page += ".SH EXAMPLES\n.nf\n" + roff(footer.substr(examples + 10)) + "\n.fi\n";
+  page += ".SH EXAMPLES\n.nf\n" +
+          roff("  " + command.examples()[0] + "\n  " + command.examples()[1]) + "\n.fi\n";
   return page + std::string(exit_status) + ".SH SEE ALSO\n.BR salebra (1)\n";
 }
 
-std::string program_page(const CLI::App& app) {
+std::string program_page(const Program& program) {
   std::string page =
       title("salebra") + fmt::format(
                              ".SH NAME\nsalebra \\- {}\n.SH SYNOPSIS\n.B salebra\n"
@@ -121,20 +117,19 @@ std::string program_page(const CLI::App& app) {
   page += paragraphs(first_steps());
   page += ".SH COMMANDS\n";
   std::string also;
-  for (const CLI::App* command : commands_of(app)) {
-    page += fmt::format(".TP\n\\fB{}\\fR\n{}\n", roff(command->get_name()),
-                        roff(command->get_description()));
-    also += fmt::format("{}.BR salebra\\-{} (1)", also.empty() ? "" : ",\n", command->get_name());
+  for (const Command& command : program.commands()) {
+    page += fmt::format(".TP\n\\fB{}\\fR\n{}\n", roff(command.name()), roff(command.what()));
+    also += fmt::format("{}.BR salebra\\-{} (1)", also.empty() ? "" : ",\n", command.name());
   }
   return page + std::string(exit_status) + ".SH SEE ALSO\n" + also + "\n";
 }
 
-std::string page_of(const CLI::App& app, const std::string& name) {
-  if (name.empty()) return program_page(app);
+std::string page_of(const Program& program, const std::string& name) {
+  if (name.empty()) return program_page(program);
   std::vector<std::string> names;
-  for (const CLI::App* command : commands_of(app)) {
-    if (command->get_name() == name) return command_page(*command);
-    names.push_back(command->get_name());
+  for (const Command& command : program.commands()) {
+    if (command.name() == name) return command_page(command);
+    names.push_back(command.name());
   }
   throw InvalidInput(fmt::format("COMMAND: {} is not a command{}; see salebra --help", name,
                                  did_you_mean(name, names)));
@@ -144,12 +139,10 @@ std::string page_of(const CLI::App& app, const std::string& name) {
 
 void add_manual_command(Program& program) {
   auto name = std::make_shared<std::string>();
-  CLI::App& command =
-      program.add_command("manual", "a manual page of the program or of one command",
-                          {"salebra manual study | man -l -", "salebra manual -o salebra.1"},
-                          [name, &program_app = program.app()](Session& session) {
-                            answer_text(page_of(program_app, *name), session);
-                          });
+  Command& command = program.add_command(
+      "manual", "a manual page of the program or of one command",
+      {"salebra manual study | man -l -", "salebra manual -o salebra.1"},
+      [name, &program](Session& session) { answer_text(page_of(program, *name), session); });
   command.add_option("COMMAND", *name, "the command; without it the program")->type_name("NAME");
 }
 

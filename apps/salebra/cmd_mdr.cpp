@@ -166,7 +166,7 @@ void run(const MdrArguments& arguments, Session& session) {
 
 void add_mdr_command(Program& program) {
   auto arguments = std::make_shared<MdrArguments>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "mdr", "axisymmetric contact and its damping by the method of dimensionality reduction",
       {"salebra mdr --profile parabola --radius 10mm --indentation 1um --contact-modulus 1GPa "
        "--poisson 0.3 --mode equal-frequency --normal-amplitude 300nm --tangential-amplitude 200nm "
@@ -200,10 +200,10 @@ void add_mdr_command(Program& program) {
       ->type_name("FILE")
       ->group(more);
   command.add_option("--map-phases", arguments->phases, "of the stress map; default 256")
-      ->check(CLI::Range(8, 100000))
+      ->range(8, 100000)
       ->group(more);
   command.add_option("--map-radii", arguments->radii, "of the stress map; default 400")
-      ->check(CLI::Range(8, 100000))
+      ->range(8, 100000)
       ->group(more);
   add_values(command, "--friction-numbers", arguments->friction_numbers, Dimension::dimensionless,
              "M of the map; default 0.1:100:25")

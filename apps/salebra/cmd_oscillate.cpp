@@ -237,7 +237,7 @@ void run(const OscillateArguments& arguments, Session& session) {
 void add_oscillate_command(Program& program) {
   auto arguments = std::make_shared<OscillateArguments>();
   arguments->motion.mode = "equal-frequency";
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "oscillate", "three-dimensional simulation of an oscillating contact",
       {"salebra oscillate --shape pyramids --contact-modulus 1GPa --poisson 0.3 --phase 45deg "
        "--json",

@@ -195,7 +195,7 @@ void run(const StatisticsArguments& arguments, Session& session) {
 
 void add_statistics_command(Program& program) {
   auto arguments = std::make_shared<StatisticsArguments>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "statistics", "spectrum, correlation, bearing curve and areal parameters of a surface",
       {"salebra statistics scan.txt -o scan.csv --plot scan.png",
        "salebra statistics scan.sur --detrend quadratic --fill --tip-radius 10nm --convention "

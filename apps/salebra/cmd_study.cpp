@@ -147,7 +147,7 @@ void run(const StudyArguments& arguments, Session& session) {
 
 void add_study_command(Program& program) {
   auto arguments = std::make_shared<StudyArguments>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "study", "from surfaces to damping constants: the whole job",
       {"salebra study data/quickstart.toml -o quickstart.h5",
        "salebra study --surface scan.txt --contact-modulus 115GPa --poisson 0.3 "

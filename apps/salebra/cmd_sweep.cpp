@@ -54,7 +54,7 @@ void run(const SweepArguments& arguments, Session& session) {
 
 void add_sweep_command(Program& program) {
   auto arguments = std::make_shared<SweepArguments>();
-  CLI::App& command = program.add_command(
+  Command& command = program.add_command(
       "sweep", "force-gap curve of a surface over many pressures",
       {"salebra sweep rough.h5 --pressures 1:100MPa:16 --contact-modulus 115GPa --poisson 0.3 "
        "--stiffness -o curve.h5",

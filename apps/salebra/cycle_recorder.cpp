@@ -40,7 +40,7 @@ std::vector<int> field_steps_of(const RecordOptions& record, int steps_of_cycle)
 
 }  // namespace
 
-void RecordOptions::add_to(CLI::App& app) {
+void RecordOptions::add_to(Command& app) {
   app.add_option("--checkpoint", checkpoint,
                  "file that keeps the state of the cycle while it runs; removed at its end")
       ->type_name("FILE");

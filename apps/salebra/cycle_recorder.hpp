@@ -21,7 +21,7 @@ struct RecordOptions {
   bool resume = false;
   std::vector<double> field_steps;
 
-  void add_to(CLI::App& app);
+  void add_to(Command& app);
   /// Before any work: that the files suit what is asked for.
   void check(const Session& session) const;
 };

@@ -14,13 +14,13 @@
 
 namespace salebra::cli {
 
-void FollowOptions::add_to(CLI::App& app) {
+void FollowOptions::add_to(Command& app) {
   const std::string group = "Friction and measured motion";
   add_quantity(app, "--friction", friction, Dimension::dimensionless,
                "coefficient; without it full stick")
       ->group(group);
   app.add_option("--steps", steps, "straight steps a cycle where friction is followed")
-      ->check(CLI::Range(8, 10000000))
+      ->range(8, 10000000)
       ->group(group);
   app.add_option("--trajectory", trajectory,
                  "follow one period from a file of time, indentation, displacement (SI)")

@@ -16,7 +16,7 @@ struct FollowOptions {
   std::string trajectory;
   int steps = 2000;
 
-  void add_to(CLI::App& app);
+  void add_to(Command& app);
   /// μ; infinite where it was not given.
   double coefficient() const;
 };

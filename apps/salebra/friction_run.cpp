@@ -93,7 +93,7 @@ void warn_of_cycle(const char* which, const FrictionalCycleResult& cycle, double
 
 }  // namespace
 
-void FrictionOptions::add_to(CLI::App& app) {
+void FrictionOptions::add_to(Command& app) {
   const std::string group = "Friction";
   add_quantity(app, "--friction", friction, Dimension::dimensionless,
                "Coulomb's coefficient: steps through the cycle once more, with slip where the "

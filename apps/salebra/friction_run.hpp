@@ -18,7 +18,7 @@ struct FrictionOptions {
   bool coupled = false;
   int max_periods = 6;
 
-  void add_to(CLI::App& app);
+  void add_to(Command& app);
   bool given() const { return friction || coupled; }
   /// The option that was given, for messages.
   std::string name() const { return friction ? "--friction" : "--coupled"; }

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Help of each command beyond its one line, and the layout of --help.
+// Help of each command beyond its one line, of help_text.hpp.
 #include "help_text.hpp"
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-
-#include "terminal.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -149,19 +145,6 @@ std::string_view first_steps() {
          "  salebra init --surface scan.x3p         a study file for it\n\n"
          "salebra help COMMAND explains a command and ends with two examples.\n"
          "Exit status: 0 done, 1 failed while running, 2 bad usage or input, 130 interrupted.";
-}
-
-std::string HelpFormatter::make_description(const CLI::App* app) const {
-  std::string description = CLI::Formatter::make_description(app);
-  if (const CommandHelp* help = app->get_parent() ? find_help(app->get_name()) : nullptr)
-    description += "\n" + std::string(help->text) + "\n\n";
-  return description;
-}
-
-std::string HelpFormatter::make_group(std::string group, bool is_positional,
-                                      std::vector<const CLI::Option*> options) const {
-  return CLI::Formatter::make_group(emphasised(group, Emphasis::heading, STDOUT_FILENO),
-                                    is_positional, std::move(options));
 }
 
 }  // namespace salebra::cli

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <string>
 #include <string_view>
 
 namespace salebra::cli {
@@ -20,13 +18,5 @@ const CommandHelp* find_help(std::string_view command);
 
 /// What the help of the program itself ends with.
 std::string_view first_steps();
-
-/// CLI11's help with the text of a command below its one line, headings emphasised on a terminal.
-class HelpFormatter : public CLI::Formatter {
- public:
-  std::string make_description(const CLI::App* app) const override;
-  std::string make_group(std::string group, bool is_positional,
-                         std::vector<const CLI::Option*> options) const override;
-};
 
 }  // namespace salebra::cli

@@ -9,7 +9,7 @@
 
 namespace salebra::cli {
 
-void IndenterOptions::add_to(CLI::App& app) {
+void IndenterOptions::add_to(Command& app) {
   const std::string group = "Indenter";
   add_choice(app, "--profile", profile,
              {"cone", "parabola", "power", "sphere", "flat", "rounded", "table"}, "shape")

@@ -15,7 +15,7 @@ struct IndenterOptions {
   std::string profile, table;
   std::optional<double> angle, radius, exponent, coefficient, flat_radius, edge_radius;
 
-  void add_to(CLI::App& app);
+  void add_to(Command& app);
   /// Throws InvalidInput naming the option that is missing, and those that the profile does not have.
   std::shared_ptr<const IndenterProfile> indenter() const;
 };

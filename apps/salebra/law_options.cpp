@@ -87,7 +87,7 @@ std::vector<Position> positions_on_curve(const LawOptions& arguments, const Forc
 
 }  // namespace
 
-void LawOptions::add_to(CLI::App& command) {
+void LawOptions::add_to(Command& command) {
   const std::string group = "Law";
   add_choice(command, "--law", law, {"exponential", "cone", "parabola", "power"}, "F(indentation)")
       ->group(group);

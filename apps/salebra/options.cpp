@@ -6,15 +6,14 @@
 
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/base/suggestion.hpp>
 #include <salebra/io/read_surface.hpp>
 
 namespace salebra::cli {
 
-CLI::Option* add_quantity(CLI::App& app, const std::string& name, std::optional<double>& target,
-                          Dimension dimension, const std::string& help) {
+Option* add_quantity(Command& app, const std::string& name, std::optional<double>& target,
+                     Dimension dimension, const std::string& help) {
   return app
-      .add_option_function<std::string>(
+      .add_option_function(
           name,
           [&target, dimension, name](const std::string& text) {
             target = parse_quantity(text, dimension, name);
@@ -24,10 +23,10 @@ CLI::Option* add_quantity(CLI::App& app, const std::string& name, std::optional<
                                                         : std::string(si_unit(dimension)));
 }
 
-CLI::Option* add_values(CLI::App& app, const std::string& name, std::vector<double>& target,
-                        Dimension dimension, const std::string& help) {
+Option* add_values(Command& app, const std::string& name, std::vector<double>& target,
+                   Dimension dimension, const std::string& help) {
   return app
-      .add_option_function<std::string>(
+      .add_option_function(
           name,
           [&target, dimension, name](const std::string& text) {
             target = parse_values(text, dimension, name);
@@ -38,16 +37,11 @@ CLI::Option* add_values(CLI::App& app, const std::string& name, std::vector<doub
                       : fmt::format("VALUES in {}", si_unit(dimension)));
 }
 
-CLI::Option* add_choice(CLI::App& app, const std::string& name, std::string& target,
-                        const std::vector<std::string>& choices, const std::string& help) {
+Option* add_choice(Command& app, const std::string& name, std::string& target,
+                   const std::vector<std::string>& choices, const std::string& help) {
   return app.add_option(name, target, fmt::format("{}: {}", help, fmt::join(choices, " | ")))
       ->type_name("NAME")
-      ->check([name, choices](const std::string& text) {
-        return std::ranges::find(choices, text) != choices.end()
-                   ? std::string()
-                   : fmt::format("'{}' is not one of {}{}", text, fmt::join(choices, ", "),
-                                 did_you_mean(text, choices));
-      });
+      ->choices(choices);
 }
 
 double required(const std::optional<double>& value, std::string_view option,
@@ -56,7 +50,7 @@ double required(const std::optional<double>& value, std::string_view option,
   return *value;
 }
 
-void MaterialOptions::add_to(CLI::App& app) {
+void MaterialOptions::add_to(Command& app) {
   const std::string group = "Material";
   add_values(app, "--young", young, Dimension::pressure,
              "Young's modulus E1[,E2]; one: the other side is rigid")
@@ -110,7 +104,7 @@ double MaterialOptions::modulus_ratio() const {
   return material_with_tangential_modulus().modulus_ratio();
 }
 
-void SurfaceOptions::add_to(CLI::App& app, bool needed, const std::string& field) {
+void SurfaceOptions::add_to(Command& app, bool needed, const std::string& field) {
   app.add_option(field, file,
                  "file with heights: HDF5, NetCDF, X3P, NPY, GSF, GXYZF, SUR, text matrix or XYZ")
       ->required(needed)
@@ -148,7 +142,7 @@ std::optional<Detrend> SurfaceOptions::detrend_method() const {
   return {};
 }
 
-void PositionOptions::add_to(CLI::App& app, bool with_indentation) {
+void PositionOptions::add_to(Command& app, bool with_indentation) {
   const std::string group = "Position";
   add_quantity(app, "--pressure", pressure, Dimension::pressure, "nominal pressure")->group(group);
   add_quantity(app, "--mean-gap", mean_gap, Dimension::length, "mean gap of the deformed surfaces")
@@ -164,7 +158,7 @@ int PositionOptions::count() const {
   return mean_gap.has_value() + pressure.has_value() + indentation.has_value() + force.has_value();
 }
 
-void MotionOptions::add_to(CLI::App& app, bool with_two_frequencies) {
+void MotionOptions::add_to(Command& app, bool with_two_frequencies) {
   const std::string group = "Motion (one quantity may be a range from:to:count or a list)";
   std::vector<std::string> modes = {"drag", "equal-frequency"};
   if (with_two_frequencies) modes.push_back("two-frequencies");

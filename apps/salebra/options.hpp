@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <salebra/base/grid.hpp>
@@ -14,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "command.hpp"
 #include "session.hpp"
 
 /// Option groups that several commands share. Each is a plain struct that must outlive the parsing; add_to() declares the
@@ -21,14 +21,14 @@
 namespace salebra::cli {
 
 /// --name QUANTITY, with a unit.
-CLI::Option* add_quantity(CLI::App& app, const std::string& name, std::optional<double>& target,
-                          Dimension dimension, const std::string& help);
+Option* add_quantity(Command& app, const std::string& name, std::optional<double>& target,
+                     Dimension dimension, const std::string& help);
 /// --name VALUES: one quantity, a list or a range.
-CLI::Option* add_values(CLI::App& app, const std::string& name, std::vector<double>& target,
-                        Dimension dimension, const std::string& help);
+Option* add_values(Command& app, const std::string& name, std::vector<double>& target,
+                   Dimension dimension, const std::string& help);
 /// --name NAME out of a few; the target's present value is the default.
-CLI::Option* add_choice(CLI::App& app, const std::string& name, std::string& target,
-                        const std::vector<std::string>& choices, const std::string& help);
+Option* add_choice(Command& app, const std::string& name, std::string& target,
+                   const std::vector<std::string>& choices, const std::string& help);
 
 /// The value of an option that the other options make necessary.
 double required(const std::optional<double>& value, std::string_view option,
@@ -39,7 +39,7 @@ struct MaterialOptions {
   std::vector<double> young, poisson;
   std::optional<double> contact_modulus, tangential_modulus;
 
-  void add_to(CLI::App& app);
+  void add_to(Command& app);
   bool given() const {
     return !young.empty() || !poisson.empty() || contact_modulus || tangential_modulus;
   }
@@ -58,7 +58,7 @@ struct SurfaceOptions {
   std::string detrend, height_unit;
 
   /// field: "SURFACE", or "--surface" to make it an option.
-  void add_to(CLI::App& app, bool needed = true, const std::string& field = "SURFACE");
+  void add_to(Command& app, bool needed = true, const std::string& field = "SURFACE");
   bool given() const { return !file.empty(); }
   /// What --detrend says; empty if it was not given.
   std::optional<Detrend> detrend_method() const;
@@ -70,7 +70,7 @@ struct SurfaceOptions {
 struct PositionOptions {
   std::optional<double> mean_gap, pressure, indentation, force;
 
-  void add_to(CLI::App& app, bool with_indentation);
+  void add_to(Command& app, bool with_indentation);
   /// Number of positions given.
   int count() const;
 };
@@ -85,7 +85,7 @@ struct MotionOptions {
       tangential_frequency, drag_velocity;
 
   /// with_two_frequencies: offers --mode two-frequencies; then use all_motions().
-  void add_to(CLI::App& app, bool with_two_frequencies = false);
+  void add_to(Command& app, bool with_two_frequencies = false);
   /// Whether any of its quantities was.
   bool given() const {
     return !normal_amplitude.empty() || !tangential_amplitude.empty() || !phase.empty() ||

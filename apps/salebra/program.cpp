@@ -3,8 +3,10 @@
 #include "program.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <exception>
@@ -70,35 +72,98 @@ std::string describe(const CLI::App& app, const CLI::ParseError& error) {
                      did_you_mean(name, options));
 }
 
+/// CLI11's help with the text of a command below its one line, headings emphasised on a terminal.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_description(const CLI::App* app) const override {
+    std::string description = CLI::Formatter::make_description(app);
+    if (const CommandHelp* help = app->get_parent() ? find_help(app->get_name()) : nullptr)
+      description += "\n" + std::string(help->text) + "\n\n";
+    return description;
+  }
+  std::string make_group(std::string group, bool is_positional,
+                         std::vector<const CLI::Option*> options) const override {
+    return CLI::Formatter::make_group(emphasised(group, Emphasis::heading, STDOUT_FILENO),
+                                      is_positional, std::move(options));
+  }
+};
+
+CLI::Validator validator_of(const std::vector<std::string>& choices, bool shown) {
+  return CLI::Validator(
+      [choices](const std::string& text) {
+        return std::ranges::find(choices, text) != choices.end()
+                   ? std::string()
+                   : fmt::format("'{}' is not one of {}{}", text, fmt::join(choices, ", "),
+                                 did_you_mean(text, choices));
+      },
+      shown ? fmt::format("{{{}}}", fmt::join(choices, ",")) : "");
+}
+
+void declare(CLI::App& app, const Option& option) {
+  const std::string names = fmt::format("{}", fmt::join(option.names(), ","));
+  CLI::Option* made = std::visit(
+      [&](const auto& target) -> CLI::Option* {
+        using T = std::decay_t<decltype(target)>;
+        if constexpr (std::is_same_v<T, std::monostate>)
+          return app.set_help_flag(names, option.help());
+        else if constexpr (std::is_same_v<T, bool*>)
+          return app.add_flag(names, *target, option.help());
+        else if constexpr (std::is_pointer_v<T>)
+          return app.add_option(names, *target, option.help());
+        else
+          return app.add_option_function<std::string>(names, target, option.help());
+      },
+      option.target());
+  made->group(option.group());
+  if (!option.type_name().empty()) made->type_name(option.type_name());
+  if (option.required()) made->required();
+  if (option.check()) made->check(option.check());
+  if (option.range()) made->check(CLI::Range(option.range()->first, option.range()->second));
+  if (!option.choices().empty())
+    made->check(validator_of(option.choices(), !option.help_lists_choices()));
+  if (option.delimiter()) made->delimiter(*option.delimiter());
+  if (option.shows_default()) made->capture_default_str();
+}
+
 /// Commands under the headings of their kinds; what is not described stays under CLI11's own.
-void group_commands(CLI::App& app) {
-  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    if (const CommandHelp* help = find_help(command->get_name()))
-      command->group(std::string(help->group));
+void declare(CLI::App& app, const Command& command) {
+  CLI::App* made = app.add_subcommand(command.name(), command.what());
+  made->footer(
+      "Values take units (10um, 20kHz, 115GPa, 90deg); a bare number is SI.\n\nExamples:\n  " +
+      command.examples()[0] + "\n  " + command.examples()[1]);
+  for (const Option& option : command.options()) declare(*made, option);
+  if (const CommandHelp* help = find_help(command.name())) made->group(std::string(help->group));
+  made->callback(command.action());
 }
 
 }  // namespace
 
-CLI::App& Program::add_command(const std::string& name, const std::string& what,
-                               const std::array<std::string, 2>& examples, Action action,
-                               const std::string& picture, OutputCheck check) {
+Command& Program::add_command(const std::string& name, const std::string& what,
+                              const std::array<std::string, 2>& examples, Action action,
+                              const std::string& picture, OutputCheck check) {
   auto common = std::make_shared<CommonOptions>();
-  CLI::App* command = app_.add_subcommand(name, what);
-  command->footer(
-      "Values take units (10um, 20kHz, 115GPa, 90deg); a bare number is SI.\n\nExamples:\n  " +
-      examples[0] + "\n  " + examples[1]);
+  Command& command = commands_.emplace_back(
+      name, what, examples, [common, action = std::move(action), line = command_line_, check] {
+        Session session(*common, line, check);
+        const int threads = std::min(common->threads, parallel::most_threads());
+        if (threads < common->threads)
+          session.warn(fmt::format("--threads {}: too many for this machine; {} are used",
+                                   common->threads, threads));
+        parallel::set_threads(threads);
+        action(session);
+      });
   const std::string group = "Common options";
-  command->add_flag("--json", common->json, "print exactly one JSON object, in SI units")
+  command.add_flag("--json", common->json, "print exactly one JSON object, in SI units")
       ->group(group);
-  command->add_option("-o,--output", common->output, "file to write")
+  command.add_option("-o,--output", common->output, "file to write")
       ->type_name("FILE")
       ->group(group);
   if (!picture.empty())
-    command->add_option("--plot", common->plot, "picture to draw, .png or .svg: " + picture)
+    command.add_option("--plot", common->plot, "picture to draw, .png or .svg: " + picture)
         ->type_name("FILE")
         ->group(group);
-  command->add_flag("--force", common->force, "replace an existing output file")->group(group);
-  command->add_option("--threads", common->threads, "threads to use; 0 means all")
+  command.add_flag("--force", common->force, "replace an existing output file")->group(group);
+  command.add_option("--threads", common->threads, "threads to use; 0 means all")
       ->group(group)
       ->check([](const std::string& text) {
         int threads = 0;
@@ -106,20 +171,11 @@ CLI::App& Program::add_command(const std::string& name, const std::string& what,
                    ? std::string()
                    : text + " must be a whole number >= 0";
       });
-  command->add_flag("--quiet", common->quiet, "nothing on stderr but errors")->group(group);
-  command->add_option("--progress", common->progress, "auto: on a terminal only; always; never")
+  command.add_flag("--quiet", common->quiet, "nothing on stderr but errors")->group(group);
+  command.add_option("--progress", common->progress, "auto: on a terminal only; always; never")
       ->group(group)
-      ->check(CLI::IsMember({"auto", "always", "never"}));
-  command->callback([common, action = std::move(action), line = command_line_, check] {
-    Session session(*common, line, check);
-    const int threads = std::min(common->threads, parallel::most_threads());
-    if (threads < common->threads)
-      session.warn(fmt::format("--threads {}: too many for this machine; {} are used",
-                               common->threads, threads));
-    parallel::set_threads(threads);
-    action(session);
-  });
-  return *command;
+      ->choices({"auto", "always", "never"});
+  return command;
 }
 
 namespace {
@@ -132,11 +188,11 @@ void run(int argc, char** argv) {
   app.formatter(std::make_shared<HelpFormatter>());
   app.get_formatter()->column_width(34);
   app.footer(std::string(first_steps()));
-  Program program(app, join(argc, argv));
+  Program program(join(argc, argv));
 #define SALEBRA_COMMAND(name) add_##name##_command(program);
 #include "command_list.inc"
 #undef SALEBRA_COMMAND
-  group_commands(app);
+  for (const Command& command : program.commands()) declare(app, command);
 
   std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) words = {"--help"};
@@ -145,12 +201,10 @@ void run(int argc, char** argv) {
     words.erase(words.begin());
     words.emplace_back("--help");
   }
-  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  std::vector<std::string> names;
+  for (const Command& command : program.commands()) names.push_back(command.name());
   const std::string word = words.front();
-  if (!word.starts_with('-') &&
-      std::ranges::find(commands, word, &CLI::App::get_name) == commands.end()) {
-    std::vector<std::string> names;
-    for (const CLI::App* command : commands) names.push_back(command->get_name());
+  if (!word.starts_with('-') && std::ranges::find(names, word) == names.end()) {
     throw InvalidInput(
         fmt::format("{}: is not a command{}; see salebra --help", word, did_you_mean(word, names)));
   }

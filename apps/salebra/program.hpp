@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <array>
+#include <deque>
 #include <functional>
 #include <string>
 
+#include "command.hpp"
 #include "session.hpp"
 
 namespace salebra::cli {
@@ -14,26 +15,25 @@ namespace salebra::cli {
 /// Returns the exit status: 0 done, 1 failed while running, 2 bad usage or input, 130 interrupted.
 int run_program(int argc, char** argv);
 
-/// A subcommand with the common options. Its action runs after all options have been read.
+/// All commands, each with the common options. An action runs after all options have been read.
 class Program {
  public:
   using Action = std::function<void(Session&)>;
 
-  explicit Program(CLI::App& app, std::string command_line)
-      : app_(app), command_line_(std::move(command_line)) {}
+  explicit Program(std::string command_line) : command_line_(std::move(command_line)) {}
 
   /// examples: two command lines with what they do, shown at the end of --help.
   /// picture: what Session::plot() is given, for the help of --plot; a command without pictures has no such option.
-  CLI::App& add_command(const std::string& name, const std::string& what,
-                        const std::array<std::string, 2>& examples, Action action,
-                        const std::string& picture = "", OutputCheck check = OutputCheck::at_start);
+  Command& add_command(const std::string& name, const std::string& what,
+                       const std::array<std::string, 2>& examples, Action action,
+                       const std::string& picture = "", OutputCheck check = OutputCheck::at_start);
 
-  /// All commands and options, for what is made of them: completion, manual pages.
-  const CLI::App& app() const { return app_; }
+  /// In the order of the help; one stays where it is.
+  const std::deque<Command>& commands() const { return commands_; }
 
  private:
-  CLI::App& app_;
   std::string command_line_;
+  std::deque<Command> commands_;
 };
 
 // Each command defines void add_<name>_command(Program&) in cmd_<name>.cpp; the list is in CMakeLists.txt.

@@ -97,10 +97,7 @@ void write_tables(const Session& session, const std::string& group, const Json& 
       break;
     }
     case Kind::json:
-      write_text_file(
-          file,
-          with_tables(answer, tables).dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
-          session.write_options());
+      write_text_file(file, with_tables(answer, tables).dump(2) + "\n", session.write_options());
       break;
     case Kind::csv: {
       std::string text = "name,value,unit,meaning\n";

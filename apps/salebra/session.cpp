@@ -81,8 +81,7 @@ void Session::warn(std::string_view text) {
 void Session::answer(const Json& object, const std::string& text) {
   bar_.clear();
   if (options_.json) {
-    // File names need not be valid UTF-8, JSON must be.
-    print_answer(object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    print_answer(object.dump(2) + "\n");
   } else {
     print_answer(printable(text));
   }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <salebra/base/progress.hpp>
+#include <salebra/io/json.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/plot.hpp>
 #include <salebra/io/provenance.hpp>
@@ -13,8 +13,6 @@
 #include "progress_bar.hpp"
 
 namespace salebra::cli {
-
-using Json = nlohmann::ordered_json;
 
 /// The options that every command has.
 struct CommonOptions {

@@ -74,7 +74,7 @@ Shape shape_named(const std::string& name) {
 
 }  // namespace
 
-void ShapeOptions::add_to(CLI::App& app) {
+void ShapeOptions::add_to(Command& app) {
   const std::string group = "Shape, in place of a spectrum";
   add_choice(app, "--shape", shape,
              {"sphere", "paraboloid", "elliptic-paraboloid", "ellipsoid", "cone", "wedge", "ridge",

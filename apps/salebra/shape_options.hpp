@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <salebra/base/grid.hpp>
 #include <string>
+
+#include "command.hpp"
 
 namespace salebra::cli {
 
@@ -14,7 +15,7 @@ struct ShapeOptions {
   std::optional<double> radius, radius_x, radius_y, semi_x, semi_y, semi_z, angle, depth,
       edge_radius, amplitude, center_x, center_y, count_x, count_y;
 
-  void add_to(CLI::App& app);
+  void add_to(Command& app);
   bool given() const { return !shape.empty(); }
   /// Throws InvalidInput that names an option that is missing, or one that the shape has no use for.
   Surface surface(const Grid2D& grid) const;

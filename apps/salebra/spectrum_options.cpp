@@ -22,7 +22,7 @@ void require_absent(const std::optional<double>& value, std::string_view option,
 
 }  // namespace
 
-void SpectrumOptions::add_to(CLI::App& app) {
+void SpectrumOptions::add_to(Command& app) {
   const std::string group = "Spectrum";
   add_quantity(app, "--hurst", hurst, Dimension::dimensionless,
                "self-affine: Hurst exponent, 0 < H <= 1")

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <optional>
 #include <salebra/generators/profile.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <string>
 
+#include "command.hpp"
 #include "session.hpp"
 
 namespace salebra::cli {
@@ -18,7 +18,7 @@ struct SpectrumOptions {
       correlation_length, stretch_along, stretch_across, lay_angle;
   std::string table, convention = "salebra", correlation;
 
-  void add_to(CLI::App& app);
+  void add_to(Command& app);
   bool given() const { return hurst || !table.empty() || !correlation.empty(); }
   /// cell: the longest period of the surface, m; no wave of a self-affine one is longer, unless a limit is given.
   std::shared_ptr<const Spectrum> spectrum(double cell) const;

@@ -46,7 +46,7 @@ class Pace {
 
 }  // namespace
 
-void StudyArguments::add_to(CLI::App& command) {
+void StudyArguments::add_to(Command& command) {
   command
       .add_option("CONFIG", configuration,
                   "study file (TOML); options take the place of what it says")

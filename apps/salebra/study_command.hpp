@@ -25,7 +25,7 @@ struct StudyArguments {
   bool dry_run = false;
   bool no_report = false;
 
-  void add_to(CLI::App& command);
+  void add_to(Command& command);
   /// The study file, or what a measured surface needs without one, with the options in place of what either says.
   StudyConfiguration study() const;
 };

@@ -19,11 +19,9 @@ std::size_t width_of(std::string_view text) {
 
 std::string cell(const Json& value, Dimension dimension) {
   if (value.is_null()) return "n/a";
-  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  if (value.is_number_unsigned()) return fmt::format("{}", value.get<std::uint64_t>());
-  if (value.is_number_integer()) return fmt::format("{}", value.get<std::int64_t>());
-  if (value.is_number()) return format_quantity(value.get<double>(), dimension);
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.truth() ? "yes" : "no";
+  if (value.is_number_float()) return format_quantity(value.number(), dimension);
+  if (value.is_string()) return value.text();
   return value.dump();
 }
 
@@ -40,10 +38,10 @@ std::string columns_to_table(const Columns& columns, int indent) {
 /// A list of objects of the same keys, a row for each.
 std::string rows_to_table(const Json& list, const std::string& object, int indent) {
   Columns columns;
-  for (const auto& [key, first] : list.front().items()) {
+  for (const auto& [key, first] : list[0].items()) {
     std::vector<std::string>& column = columns.emplace_back(1, key);
-    for (const Json& row : list)
-      column.push_back(cell(row.at(key), quantity_of(key, object).dimension));
+    for (const Json& row : list.elements())
+      column.push_back(cell(row[key], quantity_of(key, object).dimension));
   }
   return columns_to_table(columns, indent);
 }
@@ -62,9 +60,12 @@ void append(std::string& text, const Json& object, const std::string& name, int 
   for (const auto& [key, value] : object.items()) {
     const Dimension dimension = quantity_of(key, name).dimension;
     if (is_line(value)) {
-      std::string words = value.is_array() ? "" : cell(value, dimension);
-      for (const Json& word : value.is_array() ? value : Json::array())
-        words += (words.empty() ? "" : ", ") + word.get<std::string>();
+      std::string words;
+      if (value.is_array())
+        for (const Json& word : value.elements())
+          words += (words.empty() ? "" : ", ") + word.text();
+      else
+        words = cell(value, dimension);
       text += fmt::format("{:{}}{:<{}}  {}\n", "", indent, key, key_width, words);
     } else if (value.is_object()) {
       text += fmt::format("{:{}}{}\n", "", indent, key);
@@ -73,7 +74,7 @@ void append(std::string& text, const Json& object, const std::string& name, int 
       text += fmt::format("{:{}}{}\n{}", "", indent, key, rows_to_table(value, key, indent + 2));
     } else {
       std::vector<std::string> column{key};
-      for (const Json& item : value) column.push_back(cell(item, dimension));
+      for (const Json& item : value.elements()) column.push_back(cell(item, dimension));
       const auto alike = std::ranges::find_if(
           tables, [&](const Columns& table) { return table[0].size() == column.size(); });
       (alike == tables.end() ? tables.emplace_back() : *alike).push_back(std::move(column));

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The theorem by quadrature over phase nodes, with a contact set and its stiffness at each.
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -13,6 +11,7 @@
 #include <salebra/damping/level_quadrature.hpp>
 #include <vector>
 
+#include "base/dense_systems.hpp"
 #include "phase_quadrature.hpp"
 
 namespace salebra {
@@ -75,8 +74,8 @@ Series fit(const FitData& data, int degree) {
                                : data.slope_weight * chebyshev_slope(l, data.slope_theta[at]);
   }
   Series series;
-  series.coefficients = basis.colPivHouseholderQr().solve(right);
-  series.normal_inverse = (basis.transpose() * basis).inverse();
+  series.coefficients = detail::least_squares(basis, right);
+  series.normal_inverse = detail::inverse(Eigen::MatrixXd(basis.transpose() * basis));
   const double freedom = std::max<double>(1, static_cast<double>(rows - degree - 1));
   series.scatter = (right - basis * series.coefficients).norm() / std::sqrt(freedom);
   return series;

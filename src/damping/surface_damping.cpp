@@ -2,7 +2,6 @@
 // Damping of one surface from contacts inside the oscillation, with the errors of levels, cells and solver.
 #include <omp.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -16,6 +15,7 @@
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/surface/refine.hpp>
 
+#include "base/dense_systems.hpp"
 #include "contact/normal/contact_memory.hpp"
 #include "phase_quadrature.hpp"
 
@@ -80,7 +80,7 @@ struct Rule {
       points(k) = std::cos(pi * k / levels);
       for (int l = 0; l <= degree; ++l) basis(k, l) = std::cos(pi * k * l / levels);
     }
-    inverse = basis.completeOrthogonalDecomposition().pseudoInverse();
+    inverse = detail::pseudo_inverse(basis);
   }
   explicit Rule(int levels) : Rule(levels, levels == 4 ? 3 : levels / 2) {}
 };

@@ -129,7 +129,7 @@ void write_netcdf(const std::filesystem::path& file, const Surface& surface,
     throw InvalidInput(file.string() +
                        ": would need more than 4 GiB, which NetCDF CDF-2 cannot "
                        "hold; write HDF5 (.h5)");
-  const std::string information = text_of(description_of(surface, provenance), -1);
+  const std::string information = description_of(surface, provenance).dump();
   const std::size_t size = header_of(surface, information, 0).size();
   AtomicFile output(file, options);
   output.write(header_of(surface, information, size));

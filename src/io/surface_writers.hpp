@@ -2,8 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <salebra/base/grid.hpp>
+#include <salebra/io/json.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/provenance.hpp>
 #include <string>
@@ -12,9 +12,7 @@
 namespace salebra::detail {
 
 /// Size, unit, origin and provenance as a JSON object, for formats that have no place of their own for them.
-nlohmann::ordered_json description_of(const Surface& surface, const Provenance& provenance);
-/// indent   of the members; −1: all on one line
-std::string text_of(const nlohmann::ordered_json& description, int indent);
+Json description_of(const Surface& surface, const Provenance& provenance);
 
 /// Appends the shortest digits that read back as the same double, or "nan".
 void append_number(std::string& text, double value);

@@ -6,9 +6,9 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
+#include <salebra/io/json.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <vector>
@@ -60,9 +60,9 @@ void write_npy(const std::filesystem::path& file, const Surface& surface,
   detail::AtomicFile array(file, options), sidecar(detail::sidecar_of(file), options);
   array.write(start);
   array.write(heights);
-  auto description = detail::description_of(surface, provenance);
+  Json description = detail::description_of(surface, provenance);
   description["md5"] = detail::md5({start, heights});
-  sidecar.write(detail::text_of(description, 2) + "\n");
+  sidecar.write(description.dump(2) + "\n");
   array.finish();
   sidecar.finish();
   // The new sidecar refuses the old array by its checksum; an old one may have none, and would accept the new array.
@@ -106,27 +106,20 @@ void detail::append_number(std::string& text, double value) {
   text.append(digits.data(), end);
 }
 
-nlohmann::ordered_json detail::description_of(const Surface& surface,
-                                              const Provenance& provenance) {
-  nlohmann::ordered_json description{
-      {"size_x", surface.grid.lx},
-      {"size_y", surface.grid.ly},
-      {"periodic", surface.periodic},
-      {"units", "m"},
-      {"origin", surface.origin},
-      {"program", "salebra"},
-      {"version", version()},
-      {"libraries", library_versions()},
-      {"created", provenance.created.empty() ? utc_now() : provenance.created},
-      {"command_line", provenance.command_line},
-      {"configuration", provenance.configuration}};
+Json detail::description_of(const Surface& surface, const Provenance& provenance) {
+  Json description{{"size_x", surface.grid.lx},
+                   {"size_y", surface.grid.ly},
+                   {"periodic", surface.periodic},
+                   {"units", "m"},
+                   {"origin", surface.origin},
+                   {"program", "salebra"},
+                   {"version", version()},
+                   {"libraries", library_versions()},
+                   {"created", provenance.created.empty() ? utc_now() : provenance.created},
+                   {"command_line", provenance.command_line},
+                   {"configuration", provenance.configuration}};
   if (provenance.seed) description["seed"] = *provenance.seed;
   return description;
-}
-
-std::string detail::text_of(const nlohmann::ordered_json& description, int indent) {
-  // Names of files need not be UTF-8.
-  return description.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void write_surface(const std::filesystem::path& file, const Surface& surface,

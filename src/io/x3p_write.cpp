@@ -110,8 +110,7 @@ std::string main_xml(const Surface& surface, const Provenance& provenance,
 </p:ISO5436_2>
 )",
       grid.dx(), grid.dy(), created, version(), created,
-      escaped(text_of(description_of(surface, provenance), -1)), grid.nx, grid.ny,
-      data_link(members));
+      escaped(description_of(surface, provenance).dump()), grid.nx, grid.ny, data_link(members));
 }
 
 void require_zip(bool worked, const char* what) {

@@ -19,7 +19,6 @@
 namespace salebra::detail {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Names = std::vector<std::string>;
 
 static_assert(std::endian::native == std::endian::little,
@@ -394,7 +393,8 @@ void add_direct(Json& payload, const ResultReader& oscillation) {
     throw InvalidInput(file + ": has forces that do not belong to its indentations; it is damaged");
   const auto [low, high] = std::ranges::minmax(indentation);
   const double amplitude = (high - low) / 2, middle = (high + low) / 2;
-  const double wanted = damping.value("normal_amplitude", ForceSample::unknown);
+  const Json& stated = damping["normal_amplitude"];
+  const double wanted = stated.is_number() ? stated.number() : ForceSample::unknown;
   if (!(std::abs(amplitude / wanted - 1) < (stepped ? 0.02 : 0.2)))
     throw InvalidInput(fmt::format(
         "{}: oscillates by {}, the study by {}; give direct results of the study's motion", file,

@@ -36,9 +36,8 @@ std::string escaped(std::string_view text) {
 }
 
 /// JSON that may stand in a <script>: nothing in it can end the element or open a comment.
-std::string script_text(const nlohmann::ordered_json& json) {
-  const std::string text =
-      json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+std::string script_text(const Json& json) {
+  const std::string text = json.dump();
   std::string result;
   result.reserve(text.size());
   for (const char letter : text) {
@@ -82,7 +81,7 @@ void require_report(const std::filesystem::path& html, const WriteOptions& optio
 void write_report(const std::filesystem::path& results, const std::filesystem::path& html,
                   const ReportOptions& options) {
   require_report(html, options.write);
-  nlohmann::ordered_json payload = detail::report_payload(ResultReader(results));
+  Json payload = detail::report_payload(ResultReader(results));
   for (const std::filesystem::path& file : options.direct)
     detail::add_direct(payload, ResultReader(file));
   const std::string name = results.filename().string();

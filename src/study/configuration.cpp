@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -272,33 +271,6 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
   table.require_no_other_keys();
 }
 
-/// Each part of a dotted key is a table within a table to toml++, which takes them apart by recursion: a key of 60,000 parts would
-/// exhaust the stack. It limits the nesting of values itself. Strings are not told from keys here, decimal points are.
-void require_shallow_keys(std::string_view text, const std::string& name) {
-  constexpr int most = 32;
-  const auto is_word = [](char symbol) {
-    return std::isalnum(static_cast<unsigned char>(symbol)) || symbol == '_' || symbol == '-' ||
-           symbol == '+' || symbol == '.';
-  };
-  int parts = 0, line = 1;
-  for (std::size_t i = 0; i < text.size();) {
-    if (text[i] == '\n') {
-      ++line;
-      parts = 0;
-    }
-    const auto begin = text.begin() + static_cast<std::ptrdiff_t>(i);
-    const auto end = std::find_if_not(begin, text.end(), is_word);
-    int dots = 0;  // runs of them
-    for (auto at = begin; at != end; ++at) dots += *at == '.' && (at == begin || at[-1] != '.');
-    const bool number = dots == 1 && std::isdigit(static_cast<unsigned char>(*begin));
-    if (!number) parts += std::min(dots, most + 1);
-    if (parts > most)
-      throw InvalidInput(fmt::format("{}:{}: has a key of more than {} parts; correct it", name,
-                                     line, most));
-    i = std::max(i + 1, static_cast<std::size_t>(end - text.begin()));
-  }
-}
-
 }  // namespace
 
 bool StudyConfiguration::has(ContactModel model) const {
@@ -307,15 +279,7 @@ bool StudyConfiguration::has(ContactModel model) const {
 
 StudyConfiguration parse_study_configuration(const std::string& text, const std::string& name,
                                              const std::filesystem::path& folder) {
-  require_shallow_keys(text, name);
-  toml::table document;
-  try {
-    document = toml::parse(text, name);
-  } catch (const toml::parse_error& error) {
-    throw InvalidInput(fmt::format("{}:{}: is not TOML: {}", name, error.source().begin.line,
-                                   error.description()));
-  }
-  TomlTable root(name, "", document, 1);
+  TomlTable root = TomlTable::parse(text, name);
   // Report a misspelt table as such, not as missing.
   for (const char* table :
        {"surface", "ensemble", "material", "contact", "fit", "damping", "compare"})

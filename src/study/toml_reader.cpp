@@ -4,8 +4,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/suggestion.hpp>
 #include <sstream>
@@ -21,18 +24,75 @@ std::string written(const toml::node& node) {
   return one_line;
 }
 
+/// Each part of a dotted key is a table within a table to toml++, which takes them apart by recursion: a key of 60,000 parts would
+/// exhaust the stack. It limits the nesting of values itself. Strings are not told from keys here, decimal points are.
+void require_shallow_keys(std::string_view text, const std::string& name) {
+  constexpr int most = 32;
+  const auto is_word = [](char symbol) {
+    return std::isalnum(static_cast<unsigned char>(symbol)) || symbol == '_' || symbol == '-' ||
+           symbol == '+' || symbol == '.';
+  };
+  int parts = 0, line = 1;
+  for (std::size_t i = 0; i < text.size();) {
+    if (text[i] == '\n') {
+      ++line;
+      parts = 0;
+    }
+    const auto begin = text.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto end = std::find_if_not(begin, text.end(), is_word);
+    int dots = 0;  // runs of them
+    for (auto at = begin; at != end; ++at) dots += *at == '.' && (at == begin || at[-1] != '.');
+    const bool number = dots == 1 && std::isdigit(static_cast<unsigned char>(*begin));
+    if (!number) parts += std::min(dots, most + 1);
+    if (parts > most)
+      throw InvalidInput(
+          fmt::format("{}:{}: has a key of more than {} parts; correct it", name, line, most));
+    i = std::max(i + 1, static_cast<std::size_t>(end - text.begin()));
+  }
+}
+
 }  // namespace
 
-TomlTable::TomlTable(std::string file, std::string path, const toml::table& table,
-                     std::uint32_t line)
-    : file_(std::move(file)), path_(std::move(path)), table_(&table), line_(line) {}
+/// A table, and the document that it is a part of.
+struct TomlTable::Content {
+  std::shared_ptr<const toml::table> document;
+  const toml::table* table;
+};
+
+struct TomlTable::Access {
+  static const toml::node* find(TomlTable& table, std::string_view key) {
+    table.asked_.emplace(key);
+    return table.content_->table->get(key);
+  }
+  static double quantity_of(const TomlTable& table, const toml::node& node, std::string_view key,
+                            Dimension dimension);
+};
+
+TomlTable::TomlTable(std::string file, std::string path, Content content, std::uint32_t line)
+    : file_(std::move(file)),
+      path_(std::move(path)),
+      content_(std::make_shared<const Content>(std::move(content))),
+      line_(line) {}
+
+TomlTable TomlTable::parse(const std::string& text, const std::string& name) {
+  require_shallow_keys(text, name);
+  try {
+    auto document = std::make_shared<const toml::table>(toml::parse(text, name));
+    return TomlTable(name, "", {document, document.get()}, 1);
+  } catch (const toml::parse_error& error) {
+    throw InvalidInput(fmt::format("{}:{}: is not TOML: {}", name, error.source().begin.line,
+                                   error.description()));
+  }
+}
+
+bool TomlTable::has(std::string_view key) const { return content_->table->contains(key); }
 
 std::string TomlTable::path_of(std::string_view key) const {
   return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
 }
 
 std::uint32_t TomlTable::line_of(std::string_view key) const {
-  for (const auto& [name, node] : *table_) {
+  for (const auto& [name, node] : *content_->table) {
     if (name.str() == key) return name.source().begin.line;
   }
   return line_;
@@ -54,17 +114,13 @@ void TomlTable::rethrow_located(const std::string& message) const {
   fail(message.substr(0, colon), message.substr(colon + 2));
 }
 
-const toml::node* TomlTable::find(std::string_view key) {
-  asked_.emplace(key);
-  return table_->get(key);
-}
-
 std::optional<TomlTable> TomlTable::table(std::string_view key) {
-  const toml::node* node = find(key);
+  const toml::node* node = Access::find(*this, key);
   if (!node) return {};
   check(node->is_table(), key,
         fmt::format("{} must be a table; write [{}]", written(*node), path_of(key)));
-  return TomlTable(file_, path_of(key), *node->as_table(), node->source().begin.line);
+  return TomlTable(file_, path_of(key), {content_->document, node->as_table()},
+                   node->source().begin.line);
 }
 
 TomlTable TomlTable::required_table(std::string_view key) {
@@ -74,14 +130,14 @@ TomlTable TomlTable::required_table(std::string_view key) {
 }
 
 std::optional<std::string> TomlTable::text(std::string_view key) {
-  const toml::node* node = find(key);
+  const toml::node* node = Access::find(*this, key);
   if (!node) return {};
   check(node->is_string(), key, written(*node) + " must be a string; put it in quotes");
   return node->value<std::string>();
 }
 
 std::vector<std::string> TomlTable::texts(std::string_view key) {
-  const toml::node* node = find(key);
+  const toml::node* node = Access::find(*this, key);
   if (!node) return {};
   std::vector<std::string> all;
   const auto add = [&](const toml::node& item) {
@@ -107,31 +163,31 @@ std::optional<std::size_t> TomlTable::choice(std::string_view key,
   return std::size_t(found - names.begin());
 }
 
-double TomlTable::quantity_of(const toml::node& node, std::string_view key,
-                              Dimension dimension) const {
+double TomlTable::Access::quantity_of(const TomlTable& table, const toml::node& node,
+                                      std::string_view key, Dimension dimension) {
   if (const auto number = node.value<double>(); number && (node.is_number())) {
-    check(std::isfinite(*number), key, "must be a finite number");
+    table.check(std::isfinite(*number), key, "must be a finite number");
     return *number;
   }
-  check(node.is_string(), key, written(node) + " must be a number, or a string with a unit");
+  table.check(node.is_string(), key, written(node) + " must be a number, or a string with a unit");
   try {
     return parse_quantity(*node.value<std::string>(), dimension, key);
   } catch (const InvalidInput& error) {
-    rethrow_located(error.what());
+    table.rethrow_located(error.what());
   }
 }
 
 std::optional<double> TomlTable::quantity(std::string_view key, Dimension dimension) {
-  const toml::node* node = find(key);
+  const toml::node* node = Access::find(*this, key);
   if (!node) return {};
-  return quantity_of(*node, key, dimension);
+  return Access::quantity_of(*this, *node, key, dimension);
 }
 
 double TomlTable::required_quantity(std::string_view key, Dimension dimension) {
   const auto value = quantity(key, dimension);
   if (!value) {
     // A misspelt key is no other than the missing one.
-    for (const auto& [name, node] : *table_)
+    for (const auto& [name, node] : *content_->table)
       if (!nearest_name(name.str(), {std::string(key)}).empty())
         fail(name.str(), fmt::format("this key is not known (did you mean {}?)", key));
     throw InvalidInput(
@@ -141,11 +197,12 @@ double TomlTable::required_quantity(std::string_view key, Dimension dimension) {
 }
 
 std::vector<double> TomlTable::values(std::string_view key, Dimension dimension) {
-  const toml::node* node = find(key);
+  const toml::node* node = Access::find(*this, key);
   if (!node) return {};
   std::vector<double> all;
   if (const toml::array* array = node->as_array()) {
-    for (const toml::node& item : *array) all.push_back(quantity_of(item, key, dimension));
+    for (const toml::node& item : *array)
+      all.push_back(Access::quantity_of(*this, item, key, dimension));
     check(!all.empty(), key, "must not be empty");
   } else if (node->is_string()) {
     try {
@@ -154,13 +211,13 @@ std::vector<double> TomlTable::values(std::string_view key, Dimension dimension)
       rethrow_located(error.what());
     }
   } else {
-    all.push_back(quantity_of(*node, key, dimension));
+    all.push_back(Access::quantity_of(*this, *node, key, dimension));
   }
   return all;
 }
 
 std::vector<std::int64_t> TomlTable::integers(std::string_view key) {
-  const toml::node* node = find(key);
+  const toml::node* node = Access::find(*this, key);
   if (!node) return {};
   std::vector<std::int64_t> all;
   const auto add = [&](const toml::node& item) {
@@ -177,7 +234,7 @@ std::vector<std::int64_t> TomlTable::integers(std::string_view key) {
 }
 
 void TomlTable::require_no_other_keys() const {
-  for (const auto& [name, node] : *table_) {
+  for (const auto& [name, node] : *content_->table) {
     const std::string key(name.str());
     if (!asked_.contains(key)) {
       const std::vector<std::string> known(asked_.begin(), asked_.end());

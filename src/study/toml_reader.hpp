@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
@@ -18,10 +17,10 @@ namespace salebra::detail {
 /// Each error is InvalidInput "FILE:LINE: table.key: value constraint".
 class TomlTable {
  public:
-  /// line stands for the table itself where it lacks a key.
-  TomlTable(std::string file, std::string path, const toml::table& table, std::uint32_t line);
+  /// The whole of a document; name is its file's, for errors.
+  static TomlTable parse(const std::string& text, const std::string& name);
 
-  bool has(std::string_view key) const { return table_->contains(key); }
+  bool has(std::string_view key) const;
   std::optional<TomlTable> table(std::string_view key);
   TomlTable required_table(std::string_view key);
 
@@ -54,14 +53,17 @@ class TomlTable {
   void require_no_other_keys() const;
 
  private:
-  const toml::node* find(std::string_view key);
+  struct Content;  // types of the TOML library, which one source knows
+  struct Access;
+
+  /// line stands for the table itself where it lacks a key.
+  TomlTable(std::string file, std::string path, Content content, std::uint32_t line);
   std::uint32_t line_of(std::string_view key) const;
   std::string path_of(std::string_view key) const;
-  double quantity_of(const toml::node& node, std::string_view key, Dimension dimension) const;
   [[noreturn]] void rethrow_located(const std::string& message) const;
 
   std::string file_, path_;
-  const toml::table* table_;
+  std::shared_ptr<const Content> content_;
   std::uint32_t line_;
   std::set<std::string, std::less<>> asked_;
 };

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Removal of the mean, of a plane or of a quadratic surface by least squares.
-#include <Eigen/QR>
 #include <cmath>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/moments.hpp>
+
+#include "base/dense_systems.hpp"
 
 namespace salebra {
 namespace {
@@ -38,7 +39,7 @@ void subtract_fit(Surface& surface) {
       right += terms * (height - mean);
     }
   }
-  const Eigen::Vector<double, Terms> trend = normal.completeOrthogonalDecomposition().solve(right);
+  const Eigen::Vector<double, Terms> trend = detail::shortest_solution(normal, right);
   for (Index ix = 0; ix < nx; ++ix)
     for (Index iy = 0; iy < ny; ++iy)
       surface.heights(ix, iy) -=

@@ -2,13 +2,14 @@
 // Hurst exponent and self-affine range from a power spectrum, by maximum likelihood.
 #include <gsl/gsl_cdf.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <salebra/surface/spectrum.hpp>
 #include <vector>
+
+#include "base/dense_systems.hpp"
 
 namespace salebra {
 namespace {
@@ -153,7 +154,7 @@ Eigen::Vector2d fit_power_law(const std::vector<Mode>& modes, const Eigen::Matri
       score += mode.weight * excess * Eigen::Vector2d(1, mode.x);
     }
     // A far start overshoots; a step of more than one unit is shortened.
-    Eigen::Vector2d step = information.ldlt().solve(score);
+    Eigen::Vector2d step = detail::positive_solution(information, score);
     step /= std::max(1.0, step.norm());
     law += step;
     if (step.norm() < 1e-10) break;
@@ -209,7 +210,7 @@ HurstEstimate estimate_hurst(const PowerSpectrum& spectrum) {
   // A window makes neighbouring modes alike: rings that happen to scatter less than that are luck, not knowledge.
   const double dispersion =
       std::max(scatter / freedom, spectrum.windowed ? spectrum.correlated_modes : 0);
-  const double error = std::sqrt(dispersion * information.inverse()(1, 1)) / 2;
+  const double error = std::sqrt(dispersion * detail::inverse(information)(1, 1)) / 2;
   const double half_width = gsl_cdf_tdist_Pinv(0.975, freedom) * error;
   Index all = 0;
   for (const Mode& mode : modes) all += static_cast<Index>(2 * mode.weight);

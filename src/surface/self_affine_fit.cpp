@@ -2,13 +2,14 @@
 // Roll-off and short cut-off of a self-affine spectrum by maximum likelihood, with intervals.
 #include <gsl/gsl_cdf.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <salebra/surface/self_affine_fit.hpp>
 #include <vector>
+
+#include "base/dense_systems.hpp"
 
 namespace salebra {
 namespace {
@@ -81,7 +82,7 @@ double deviance(const std::vector<Ring>& rings, double kink) {
       gradient += ring.weight * (1 - ratio) * terms;
       curvature += ring.weight * std::max(ratio, 1e-3) * terms * terms.transpose();
     }
-    Eigen::Vector2d step = curvature.completeOrthogonalDecomposition().solve(-gradient);
+    Eigen::Vector2d step = detail::shortest_solution<2>(curvature, -gradient);
     double next = value(law + step);
     for (int halving = 0; next > best && halving < 40; ++halving) {
       step /= 2;

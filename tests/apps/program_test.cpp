@@ -63,6 +63,15 @@ TEST_CASE("Wrong usage is refused in one line", "[program]") {
   check_refused(test.run("verify --progress often"), "--progress");
 }
 
+TEST_CASE("A misspelt choice is answered with the nearest, whatever the option", "[program]") {
+  const ProgramTest test;
+  test.write("curve.txt", "");
+  CHECK_THAT(test.run("verify --progress alwais").err, Contains("did you mean always?"));
+  CHECK_THAT(test.run("fit curve.txt --weights spaceing").err, Contains("did you mean spacing?"));
+  CHECK_THAT(test.run("contact curve.txt --boundary fre").err, Contains("did you mean free?"));
+  CHECK_THAT(test.run("completion bas").err, Contains("did you mean bash?"));
+}
+
 TEST_CASE("This installation agrees with the analytic solutions", "[program][verify]") {
   const auto result = ProgramTest().run("verify --json");
   INFO(result.out);

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+/// What a command takes. Commands declare it here; program.cpp alone knows the library that parses the command line, and hands it
+/// over. Help, completion and manual pages read the same declarations.
+namespace salebra::cli {
+
+/// An option, a flag or a positional argument. What is set here returns the option, so that one declaration is one expression.
+class Option {
+ public:
+  /// Where a given value goes, converted; a flag is a bool. --help has no place.
+  using Target = std::variant<std::monostate, bool*, std::string*, int*, std::optional<int>*,
+                              std::vector<std::string>*, std::function<void(const std::string&)>>;
+  /// Says what is wrong with a text; empty if nothing is.
+  using Check = std::function<std::string(const std::string&)>;
+
+  /// names: "-o,--output", or the one name of a positional argument.
+  Option(const std::string& names, Target target, std::string help);
+
+  /// Heading under which the help lists it.
+  Option* group(std::string name);
+  /// Kind of value, such as FILE.
+  Option* type_name(std::string name);
+  Option* required(bool needed = true);
+  /// The only values allowed; a misspelt one is answered with the nearest.
+  Option* choices(std::vector<std::string> values);
+  /// For whole numbers, both ends included.
+  Option* range(int least, int greatest);
+  Option* check(Check check);
+  /// One argument may hold several values, with this between them.
+  Option* delimiter(char separator);
+  /// The help shows the target's present value.
+  Option* show_default();
+
+  const std::vector<std::string>& names() const { return names_; }
+  const Target& target() const { return target_; }
+  const std::string& help() const { return help_; }
+  const std::string& group() const { return group_; }
+  /// Empty for a flag.
+  const std::string& type_name() const { return type_name_; }
+  const std::vector<std::string>& choices() const { return choices_; }
+  /// The help's text has the choices in it: "a | b | c".
+  bool help_lists_choices() const;
+  const std::optional<std::pair<int, int>>& range() const { return range_; }
+  const Check& check() const { return check_; }
+  std::optional<char> delimiter() const { return delimiter_; }
+  bool positional() const { return names_.front().front() != '-'; }
+  bool required() const { return required_; }
+  bool shows_default() const { return shows_default_; }
+
+ private:
+  std::vector<std::string> names_;
+  Target target_;
+  std::string help_, group_ = "Options", type_name_;
+  std::vector<std::string> choices_;
+  std::optional<std::pair<int, int>> range_;
+  Check check_;
+  std::optional<char> delimiter_;
+  bool required_ = false, shows_default_ = false;
+};
+
+class Command {
+ public:
+  /// what: in one line. examples: two command lines. action: runs after all options have been read.
+  Command(std::string name, std::string what, std::array<std::string, 2> examples,
+          std::function<void()> action);
+
+  /// Targets must outlive the parsing. An option stays where it is.
+  template <class T>
+  Option* add_option(const std::string& names, T& target, std::string help) {
+    return add(names, &target, std::move(help));
+  }
+  /// read: is given the text, and may throw InvalidInput.
+  Option* add_option_function(const std::string& names,
+                              std::function<void(const std::string&)> read, std::string help) {
+    return add(names, std::move(read), std::move(help));
+  }
+  Option* add_flag(const std::string& names, bool& target, std::string help) {
+    return add(names, &target, std::move(help));
+  }
+
+  const std::string& name() const { return name_; }
+  const std::string& what() const { return what_; }
+  const std::array<std::string, 2>& examples() const { return examples_; }
+  const std::function<void()>& action() const { return action_; }
+  /// In the order of their declaration, --help first.
+  const std::deque<Option>& options() const { return options_; }
+
+ private:
+  Option* add(const std::string& names, Option::Target target, std::string help);
+
+  std::string name_, what_;
+  std::array<std::string, 2> examples_;
+  std::function<void()> action_;
+  std::deque<Option> options_;
+};
+
+}  // namespace salebra::cli

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace salebra {
+
+/// A JSON value to write: null, truth, number, text, array, or object whose members keep the order in which they came.
+///   Json answer{{"area", 0.1}, {"spots", {1, 2, 3}}};    // a list of pairs that begin with a text is an object
+///   answer["unit"] = "m^2";                              // null becomes an object, by push_back an array
+/// throws    std::logic_error where a value is not of the kind that is asked for
+class Json {
+ public:
+  using Array = std::vector<Json>;
+  using Object = std::vector<std::pair<std::string, Json>>;
+
+  Json() = default;
+  Json(std::nullptr_t) {}
+  Json(bool truth) : value_(truth) {}
+  template <std::integral T>
+  requires(!std::same_as<T, bool>) Json(T number) {
+    if constexpr (std::signed_integral<T>)
+      value_ = static_cast<std::int64_t>(number);
+    else
+      value_ = static_cast<std::uint64_t>(number);
+  }
+  Json(double number) : value_(number) {}
+  Json(const char* text) : value_(std::string(text)) {}
+  Json(std::string_view text) : value_(std::string(text)) {}
+  Json(std::string text) : value_(std::move(text)) {}
+  template <class T>
+  Json(const std::vector<T>& values) : value_(Array(values.begin(), values.end())) {}
+  Json(std::initializer_list<Json> values);
+  /// Empty ones.
+  static Json array();
+  static Json object();
+
+  bool is_null() const { return std::holds_alternative<std::monostate>(value_); }
+  bool is_boolean() const { return std::holds_alternative<bool>(value_); }
+  bool is_number() const { return is_number_integer() || is_number_float(); }
+  bool is_number_integer() const {
+    return std::holds_alternative<std::int64_t>(value_) ||
+           std::holds_alternative<std::uint64_t>(value_);
+  }
+  bool is_number_float() const { return std::holds_alternative<double>(value_); }
+  bool is_string() const { return std::holds_alternative<std::string>(value_); }
+  bool is_array() const { return std::holds_alternative<Array>(value_); }
+  bool is_object() const { return std::holds_alternative<Object>(value_); }
+  bool is_structured() const { return is_array() || is_object(); }
+
+  bool truth() const;
+  double number() const;
+  const std::string& text() const;
+
+  /// Members of an object, elements of an array; 0 for null, 1 for the others.
+  std::size_t size() const;
+  bool empty() const { return size() == 0; }
+  bool contains(std::string_view key) const;
+
+  /// Adds the member where there is none.
+  Json& operator[](std::string_view key);
+  const Json& operator[](std::string_view key) const;
+  Json& operator[](std::size_t index);
+  const Json& operator[](std::size_t index) const;
+  void push_back(Json value);
+  /// Removes a member, if there is one.
+  void erase(std::string_view key);
+
+  /// Pairs of key and value.
+  Object& items() &;
+  const Object& items() const&;
+  const Object& items() const&& = delete;  // a loop over a temporary's would outlive it
+  /// Elements of an array.
+  Array& elements() &;
+  const Array& elements() const&;
+  const Array& elements() const&& = delete;
+
+  /// JSON text; with indent < 0 in one line. Text that is not UTF-8, such as a file's name, has U+FFFD where it is not; a number that
+  /// is not finite becomes null.
+  std::string dump(int indent = -1) const;
+
+  using Value = std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, std::string,
+                             Array, Object>;
+  const Value& value() const { return value_; }
+
+ private:
+  Value value_;
+};
+
+}  // namespace salebra
