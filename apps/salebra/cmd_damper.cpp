@@ -12,6 +12,7 @@
 #include "figures.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
+#include "premise_options.hpp"
 #include "program.hpp"
 #include "text.hpp"
 
@@ -23,7 +24,8 @@ struct DamperArguments {
   MaterialOptions material;
   std::string amplitude = "finite", hold = "indentation";
   std::vector<double> normal_amplitude, frequency, angular_frequency;
-  std::optional<double> mass, spring_stiffness, falling_slope, largest_amplitude;
+  std::optional<double> mass, spring_stiffness, falling_slope, largest_amplitude, drag_velocity;
+  PremiseOptions premises;
 };
 
 std::vector<double> angular_frequencies(const DamperArguments& arguments) {
@@ -109,6 +111,24 @@ void add_border(Figure& figure, const std::vector<double>& omega,
   panel.curves.push_back(border);
 }
 
+// Of each amplitude, at the highest frequency: slip does not depend on it, inertia grows with it.
+PremiseReport premises_of_map(const DamperArguments& arguments, const LawOptions::Contact& contact,
+                              const std::vector<double>& omega, const DampingOptions& options) {
+  const ContactFacts facts = arguments.premises.facts(arguments.material);
+  if (arguments.drag_velocity) require_positive(*arguments.drag_velocity, "--drag-velocity");
+  PremiseReport report{.list = arguments.normal_amplitude.size() > 1};
+  for (const double amplitude : arguments.normal_amplitude) {
+    Drag motion{amplitude, 0, std::ranges::max(omega)};
+    const double indentation =
+        relaxation_damping(*contact.law, contact.positions.front(), motion, options).indentation;
+    motion.drag_velocity = arguments.drag_velocity.value_or(ContactFacts::unknown);
+    report.cases.push_back(premises_of(
+        *contact.law, indentation, motion,
+        at_state(facts, *contact.law, contact.curve ? &*contact.curve : nullptr, indentation)));
+  }
+  return report;
+}
+
 void run(const DamperArguments& arguments, Session& session) {
   const LawOptions::Contact contact = arguments.law.contact(arguments.material);
   require(contact.positions.size() == 1, "--force-newton",
@@ -125,6 +145,7 @@ void run(const DamperArguments& arguments, Session& session) {
   Json object;
   Figure figure;
   DamperMap map;
+  const PremiseReport premises = premises_of_map(arguments, contact, omega, options);
   if (arguments.normal_amplitude.size() > 1)
     object["normal_amplitude"] = arguments.normal_amplitude;
   if (omega.size() > 1) object["angular_frequency"] = omega;
@@ -167,7 +188,9 @@ void run(const DamperArguments& arguments, Session& session) {
     session.plot(figure);
   }
   const bool pairs = map.normal_amplitude.size() > 1 && map.angular_frequency.size() > 1;
-  session.answer(object, pairs ? text_of(object, map) : to_text(object));
+  const std::string text = pairs ? text_of(object, map) : to_text(object);
+  if (premises.cases.empty()) return session.answer(object, text);
+  premises.answer(session, object, text);
 }
 
 }  // namespace
@@ -211,6 +234,10 @@ void add_damper_command(Program& program) {
   add_quantity(command, "--largest-amplitude", arguments->largest_amplitude, Dimension::length,
                "to look for stability in; default the largest --normal-amplitude, or 1um")
       ->group(use);
+  arguments->premises.add_to(command);
+  add_quantity(command, "--drag-velocity", arguments->drag_velocity, Dimension::velocity,
+               "of the slow motion that is damped, to judge slip")
+      ->group("Premises");
 }
 
 }  // namespace salebra::cli

@@ -14,6 +14,7 @@
 #include "follow.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
+#include "premise_options.hpp"
 #include "program.hpp"
 
 namespace salebra::cli {
@@ -26,6 +27,7 @@ struct DampingArguments {
   MotionOptions motion;
   std::vector<double> force_amplitude;
   FollowOptions follow;
+  PremiseOptions premises;
 };
 
 struct Case {
@@ -95,8 +97,24 @@ double small_over_exact(const DampingResult& result, const Motion& motion) {
          result.power;
 }
 
-void follow_motion(const DampingArguments& arguments, const ContactLaw& law, const Case& one,
-                   const DampingOptions& options, Session& session) {
+// The normal oscillation of a case whose force is given has the amplitude that its stiffness makes of it.
+Premises premises_of_case(const LawOptions::Contact& contact, const Case& one,
+                          const DampingResult& result, const ContactFacts& facts) {
+  const ContactLaw& law = *contact.law;
+  Motion motion = one.motion;
+  if (one.force_amplitude)
+    std::visit(
+        [&](auto& m) { m.normal_amplitude = *one.force_amplitude / result.normal_stiffness; },
+        motion);
+  const ContactFacts known =
+      at_state(facts, law, contact.curve ? &*contact.curve : nullptr, result.indentation);
+  return std::visit([&](const auto& m) { return premises_of(law, result.indentation, m, known); },
+                    motion);
+}
+
+void follow_motion(const DampingArguments& arguments, const LawOptions::Contact& contact,
+                   const Case& one, const DampingOptions& options, Session& session) {
+  const ContactLaw& law = *contact.law;
   require(!one.force_amplitude, "--friction", arguments.follow.coefficient(),
           "does not go with --force-amplitude; give --normal-amplitude");
   const DampingResult full_stick = damping_of(law, one.position, one.motion, options);
@@ -108,21 +126,15 @@ void follow_motion(const DampingArguments& arguments, const ContactLaw& law, con
   object["curvature"] = full_stick.curvature;
   object["force"] = full_stick.force;
   object["indentation"] = full_stick.indentation;
+  const PremiseReport premises{
+      {premises_of_case(contact, one, full_stick,
+                        arguments.premises.facts(arguments.material, arguments.follow.friction))}};
   if (loss.converged) {
     session.plot(cycle_figure(path, loss));
     write_answer(session, "damping", object);
   }
-  session.answer(object);
+  premises.answer(session, object);
   require_steady(loss);
-}
-
-void tell_deviation(const DampingArguments& arguments, double ratio, Session& session) {
-  if (!std::isfinite(ratio)) return;
-  session.note(fmt::format("the small-amplitude form, {}, is {} off here",
-                           arguments.motion.mode == "drag"              ? "Eq. (15)"
-                           : arguments.motion.mode == "equal-frequency" ? "Eq. (12)"
-                                                                        : "I(r) of two frequencies",
-                           deviation_text(ratio - 1)));
 }
 
 // One period of a single case that a picture can show; nothing for a motion that never repeats.
@@ -139,7 +151,8 @@ void run(const DampingArguments& arguments, Session& session) {
   if (!arguments.follow.trajectory.empty()) {
     require(!arguments.motion.given() && arguments.force_amplitude.empty(), "--trajectory",
             arguments.follow.trajectory, "is the motion; leave out the options of Motion");
-    follow_file(arguments.follow, *arguments.law.law_alone(arguments.material), session);
+    follow_file(arguments.follow, *arguments.law.law_alone(arguments.material),
+                arguments.premises.facts(arguments.material, arguments.follow.friction), session);
     return;
   }
   const auto [quantity, values] = varied(arguments);
@@ -162,7 +175,7 @@ void run(const DampingArguments& arguments, Session& session) {
   const bool one = count == 1;
   if (arguments.follow.friction) {
     require(one, "--friction", *arguments.follow.friction, "takes one motion, not a range");
-    follow_motion(arguments, law, cases.front(), options, session);
+    follow_motion(arguments, contact, cases.front(), options, session);
     return;
   }
 
@@ -174,6 +187,10 @@ void run(const DampingArguments& arguments, Session& session) {
                    static_cast<int>(i + 1), 0}))
       throw Interrupted("damping: stopped before all cases were done");
   }
+  const ContactFacts facts = arguments.premises.facts(arguments.material);
+  PremiseReport premises{.list = !one};
+  for (std::size_t i = 0; i < count; ++i)
+    premises.cases.push_back(premises_of_case(contact, cases[i], results[i], facts));
   const auto lost = std::ranges::count(results, false, &DampingResult::converged);
 
   const auto column = [&](const auto& value_of) -> Json {
@@ -218,9 +235,7 @@ void run(const DampingArguments& arguments, Session& session) {
     else if (session.has_plot())
       session.plot(damping_figure(quantity, values, results));
   }
-  if (one && options.amplitude == Amplitude::finite)
-    tell_deviation(arguments, small_over_exact(results.front(), cases.front().motion), session);
-  session.answer(object);
+  premises.answer(session, object);
   if (lost > 0) {
     throw NotConverged(fmt::format("damping: {} of {} integrals did not reach the tolerance", lost,
                                    results.size()));
@@ -252,6 +267,7 @@ void add_damping_command(Program& program) {
              "what stays in the mean; default indentation")
       ->group(normal);
   arguments->follow.add_to(command);
+  arguments->premises.add_to(command);
   arguments->material.add_to(command);
 }
 

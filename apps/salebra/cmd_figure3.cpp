@@ -8,6 +8,7 @@
 
 #include "options.hpp"
 #include "oscillation_case.hpp"
+#include "premise_options.hpp"
 #include "program.hpp"
 #include "text.hpp"
 
@@ -77,6 +78,7 @@ void run(const Figure3Arguments& arguments, Session& session) {
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     figure.panels.push_back(contact_panel(outcomes[k], shapes[k]));
     object[shapes[k]] = to_json(outcomes[k]);
+    PremiseReport{{premises_of(outcomes[k], {})}}.add_to(object[shapes[k]]);
     const OscillationOutcome& outcome = outcomes[k];
     const auto text = [&](double reference) {
       const std::optional<double> ratio = outcome.over(reference);

@@ -19,6 +19,7 @@
 #include "follow.hpp"
 #include "indenter_options.hpp"
 #include "options.hpp"
+#include "premise_options.hpp"
 #include "program.hpp"
 
 namespace salebra::cli {
@@ -33,6 +34,7 @@ struct MdrArguments {
   std::string hold = "indentation", stress_map, friction_map;
   int phases = 256, radii = 400;
   FollowOptions follow;
+  PremiseOptions premises;
 };
 
 void write_stress_map(const MdrArguments& arguments, const IndenterLaw& law, double indentation,
@@ -86,12 +88,14 @@ void add_state(Json& object, const IndenterLaw& law, double indentation) {
 void run(const MdrArguments& arguments, Session& session) {
   const Material material = arguments.material.material_with_tangential_modulus();
   const IndenterLaw law(arguments.indenter.indenter(), material);
+  const ContactFacts facts =
+      arguments.premises.facts(arguments.material, arguments.follow.friction);
   if (!arguments.follow.trajectory.empty()) {
     require(
         !arguments.indentation && !arguments.force && !arguments.motion.given(), "--trajectory",
         arguments.follow.trajectory,
         "is the whole motion; leave out --indentation, --force-newton and the options of Motion");
-    follow_file(arguments.follow, law, session);
+    follow_file(arguments.follow, law, facts, session);
     return;
   }
   require(arguments.indentation.has_value() != arguments.force.has_value(), "--indentation",
@@ -147,10 +151,9 @@ void run(const MdrArguments& arguments, Session& session) {
   object["closed_form"] = result.small_amplitude_work;
   object["ratio"] =
       (followed ? loss.work_per_cycle : result.work_per_cycle) / result.small_amplitude_work;
-  if (const double deviation = result.small_amplitude_work / result.work_per_cycle - 1;
-      std::isfinite(deviation))
-    session.note(fmt::format(
-        "the small-amplitude form is {:+.2g} % off the loss in full stick here", 100 * deviation));
+  const ContactFacts known = at_state(facts, law, nullptr, result.indentation);
+  const PremiseReport premises{{std::visit(
+      [&](const auto& m) { return premises_of(law, result.indentation, m, known); }, motion)}};
   const bool steady = !followed || loss.converged;
   if (session.has_plot() && !mapped && steady) session.plot(cycle_figure(path, loss));
   if (!arguments.stress_map.empty())
@@ -158,7 +161,7 @@ void run(const MdrArguments& arguments, Session& session) {
                      equal ? Oscillation(*equal) : Oscillation(*drag), session);
   if (!arguments.friction_map.empty())
     write_friction_map(arguments, law, result.indentation, *equal, session);
-  session.answer(object);
+  premises.answer(session, object);
   if (followed) require_steady(loss);
 }
 
@@ -189,6 +192,7 @@ void add_mdr_command(Program& program) {
   arguments->material.add_to(command);
   arguments->motion.add_to(command, true);
   arguments->follow.add_to(command);
+  arguments->premises.add_to(command);
   const std::string more = "Maps";
   command
       .add_option("--stress-map", arguments->stress_map, "HDF5 file for stresses over r and phase")

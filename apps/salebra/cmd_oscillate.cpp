@@ -15,6 +15,7 @@
 #include "friction_run.hpp"
 #include "options.hpp"
 #include "oscillation_case.hpp"
+#include "premise_options.hpp"
 #include "program.hpp"
 
 namespace salebra::cli {
@@ -31,6 +32,7 @@ struct OscillateArguments {
   std::optional<double> direction, relative_error, decay_length;
   RecordOptions record;
   FrictionOptions friction;
+  PremiseOptions premises;
 };
 
 constexpr double default_size = 1e-3;  // m
@@ -141,6 +143,8 @@ void add_exponential_law(Json& object, const OscillationOutcome& outcome, double
 
 void finish(const OscillationOutcome& outcome, const std::optional<FrictionOutcome>& friction,
             const OscillateArguments& arguments, Session& session) {
+  const PremiseReport premises{{premises_of(
+      outcome, arguments.premises.facts(arguments.material, arguments.friction.friction))}};
   if (session.has_output()) {
     ResultFile file(session.output(), session.provenance(), session.write_options());
     write_outcome(file, "", outcome);
@@ -159,7 +163,7 @@ void finish(const OscillationOutcome& outcome, const std::optional<FrictionOutco
     add_friction(object, *friction, outcome);
     object["converged"] = converged;
   }
-  session.answer(object);
+  premises.answer(session, object);
   if (!outcome.converged())
     throw NotConverged("oscillate: a contact or a stick solve did not reach its tolerance");
   if (!converged)
@@ -175,6 +179,8 @@ void finish(const OscillationOutcome& outcome, const std::optional<FrictionOutco
 
 void run(const OscillateArguments& arguments, Session& session) {
   check(arguments, session);
+  // Bad input is refused before the work.
+  arguments.premises.facts(arguments.material, arguments.friction.friction);
   OscillationCase contact;
   contact.material = arguments.material.material_with_tangential_modulus();
   contact.body = arguments.shape.empty() ? file_of(arguments) : shape_of(arguments);
@@ -270,6 +276,7 @@ void add_oscillate_command(Program& program) {
                "l of F = F0 exp(-gap/l), as `fit` finds it: compares with Eq. (16) too");
   arguments->record.add_to(command);
   arguments->friction.add_to(command);
+  arguments->premises.add_to(command);
   arguments->material.add_to(command);
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <salebra/base/error.hpp>
@@ -11,6 +12,7 @@
 #include <salebra/io/result_file.hpp>
 
 #include "figures.hpp"
+#include "premise_options.hpp"
 
 namespace salebra::cli {
 
@@ -52,11 +54,6 @@ TrajectoryDamping follow(const ContactLaw& law, const Motion& motion, const Samp
   return loss;
 }
 
-std::string deviation_text(double deviation) {
-  return std::abs(deviation) < 1e-4 ? "less than 0.01 %"
-                                    : fmt::format("{:+.2g} %", 100 * deviation);
-}
-
 void add_losses(Json& object, const TrajectoryDamping& loss) {
   object["work_per_cycle"] = loss.work_per_cycle;
   object["relaxation_work"] = loss.relaxation_work;
@@ -75,13 +72,17 @@ void require_steady(const TrajectoryDamping& loss) {
         loss.periods));
 }
 
-void follow_file(const FollowOptions& options, const ContactLaw& law, Session& session) {
+void follow_file(const FollowOptions& options, const ContactLaw& law, const ContactFacts& facts,
+                 Session& session) {
   const auto columns = read_number_table(options.trajectory, 3);
   const SampledMotion path{columns[0], columns[1], columns[2]};
   const TrajectoryDamping loss = trajectory_damping(law, path, {.friction = options.coefficient()});
   Json object;
   add_losses(object, loss);
   object["converged"] = loss.converged;
+  const double middle =
+      0.5 * (std::ranges::min(path.indentation) + std::ranges::max(path.indentation));
+  const PremiseReport premises{{premises_of(law, path, at_state(facts, law, nullptr, middle))}};
   if (loss.converged && session.has_output()) {
     ResultFile file(session.output(), session.provenance(), session.write_options());
     ResultGroup group = file.group("trajectory");
@@ -89,11 +90,12 @@ void follow_file(const FollowOptions& options, const ContactLaw& law, Session& s
     group.dataset("indentation", path.indentation, {"time"}, "m", "indentation");
     group.dataset("displacement", path.displacement, {"time"}, "m", "tangential displacement");
     group.dataset("tangential_force", loss.tangential_force, {"time"}, "N", "tangential force");
-    group.dataset("dissipated", loss.dissipated, {"time"}, "J", "energy dissipated since the first time");
+    group.dataset("dissipated", loss.dissipated, {"time"}, "J",
+                  "energy dissipated since the first time");
     file.commit();
   }
   if (loss.converged) session.plot(cycle_figure(path, loss));
-  session.answer(object);
+  premises.answer(session, object);
   require_steady(loss);
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <salebra/contact/law/law.hpp>
+#include <salebra/damping/premises.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <string>
 
@@ -31,9 +32,6 @@ SampledMotion sampled(const Motion& motion, double mean_indentation, int steps);
 TrajectoryDamping follow(const ContactLaw& law, const Motion& motion, const SampledMotion& path,
                          double friction);
 
-/// "+20 %", with two digits; "less than 0.01 %" where the closed form is as good as exact.
-std::string deviation_text(double deviation);
-
 /// Adds the JSON keys of a loss that was followed.
 void add_losses(Json& object, const TrajectoryDamping& loss);
 
@@ -42,6 +40,7 @@ void require_steady(const TrajectoryDamping& loss);
 
 /// --trajectory: reads one period of (time, indentation, displacement), answers, writes --output and --plot.
 /// Throws NotConverged where the last periods differ, and leaves no file.
-void follow_file(const FollowOptions& options, const ContactLaw& law, Session& session);
+void follow_file(const FollowOptions& options, const ContactLaw& law, const ContactFacts& facts,
+                 Session& session);
 
 }  // namespace salebra::cli

@@ -129,9 +129,10 @@ std::unique_ptr<ContactLaw> LawOptions::law_alone(const MaterialOptions& materia
 
 LawOptions::Contact LawOptions::contact(const MaterialOptions& material) const {
   if (!curve.empty() && law.empty()) {
-    const ForceCurve samples = read_force_curve(curve);
-    return {std::make_unique<TabulatedLaw>(samples, material.modulus_ratio()),
-            positions_on_curve(*this, samples)};
+    ForceCurve samples = read_force_curve(curve);
+    auto table = std::make_unique<TabulatedLaw>(samples, material.modulus_ratio());
+    auto positions = positions_on_curve(*this, samples);
+    return {std::move(table), std::move(positions), std::move(samples)};
   }
   if (law == "exponential" && curve.empty()) {
     const auto [name, values] = position_of(*this, {"force"});

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <string>
@@ -21,6 +22,7 @@ struct LawOptions {
   struct Contact {
     std::unique_ptr<ContactLaw> law;
     std::vector<Position> positions;
+    std::optional<ForceCurve> curve = {};  ///< that the law was made from
   };
 
   void add_to(Command& command);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/generators/shapes.hpp>
 
@@ -191,6 +192,24 @@ Json to_json(const OscillationOutcome& outcome) {
   }
   object["converged"] = outcome.converged();
   return object;
+}
+
+Premises premises_of(const OscillationOutcome& outcome, ContactFacts facts) {
+  const OscillationCase& run = outcome.run;
+  const ForceCurve& curve = outcome.levels.curve;
+  const Grid2D& grid = run.body.surface.grid;
+  const double contact = curve.samples.back().contact_area_fraction * grid.area();
+  const bool spot = run.body.boundary == Boundary::free;
+  facts.contact_modulus = run.material.contact_modulus;
+  facts.mean_contact_pressure = curve.samples.back().force / contact;
+  facts.loaded_size = spot ? std::sqrt(contact / std::numbers::pi) : grid.lx;
+  facts.nominal_pressure = outcome.levels.force / (spot ? contact : grid.area());
+  const auto touching = std::ranges::count_if(curve.samples, [](const ForceSample& sample) {
+    return sample.converged && sample.force > 0;
+  });
+  if (touching < 4) return {};
+  return premises_of(TabulatedLaw(curve, run.material.modulus_ratio()), run.indentation, run.motion,
+                     facts);
 }
 
 void write_outcome(ResultFile& file, const std::string& prefix, const OscillationOutcome& outcome) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <salebra/damping/adaptive_quadrature.hpp>
+#include <salebra/damping/premises.hpp>
 #include <salebra/io/plot.hpp>
 #include <salebra/io/result_file.hpp>
 #include <string>
@@ -68,6 +69,8 @@ OscillationOutcome run_routes(OscillationCase run, const OscillationRoutes& rout
 CycleResult simulate(const OscillationCase& run, const CycleOptions& options);
 
 Json to_json(const OscillationOutcome& outcome);
+/// From the force at the contact levels; nothing but what the facts say where fewer than four of them touch.
+Premises premises_of(const OscillationOutcome& outcome, ContactFacts facts);
 /// Groups PREFIXcycle and PREFIXlevels.
 void write_outcome(ResultFile& file, const std::string& prefix, const OscillationOutcome& outcome);
 

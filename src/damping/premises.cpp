@@ -18,49 +18,64 @@ using std::numbers::pi;
 constexpr double unknown = ContactFacts::unknown;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Of ½K_t x²: what is below it is round-off of a contact that loses nothing.
-constexpr double no_loss = 1e-10;
+// Of ½K_t x²: what is below it is what the solvers of a table left of a contact that loses nothing.
+constexpr double no_loss = 1e-7;
 constexpr int steps = 360;  // the ratio of two losses on one path is then good to 1e-4
 
-// A table continued below its lowest load, F = F1 exp((δ − δ1)/l), l = F1/K1, K_t likewise; other laws as they are.
+// A table continued beyond both ends, F = F1 exp((δ − δ1)/l), l = F1/K1, K_t likewise; other laws as they are.
 class ContinuedLaw final : public ContactLaw {
  public:
   explicit ContinuedLaw(const ContactLaw& law)
-      : ContactLaw(law.modulus_ratio()), law_(law), low_(law.lowest_indentation()) {
-    if (!std::isfinite(low_)) return;
-    force_ = law.force(low_);
-    length_ = force_ / law.normal_stiffness(low_);
-    stiffness_ = law.tangential_stiffness(low_);
-  }
+      : ContactLaw(law.modulus_ratio()),
+        law_(law),
+        low_(law, law.lowest_indentation()),
+        // An indenter whose side is reached, or that is not known any further, is not continued.
+        high_(law, std::isfinite(low_.end) ? law.highest_indentation() : infinity) {}
   double force(double indentation) const override {
-    return indentation < low_ ? force_ * tail(indentation) : law_.force(indentation);
+    const End* end = beyond(indentation);
+    return end ? end->force * end->growth(indentation) : law_.force(indentation);
   }
   double normal_stiffness(double indentation) const override {
-    return indentation < low_ ? force_ / length_ * tail(indentation)
-                              : law_.normal_stiffness(indentation);
+    const End* end = beyond(indentation);
+    return end ? end->force / end->length * end->growth(indentation)
+               : law_.normal_stiffness(indentation);
   }
   double curvature(double indentation) const override {
-    return indentation < low_ ? force_ / (length_ * length_) * tail(indentation)
-                              : law_.curvature(indentation);
+    const End* end = beyond(indentation);
+    return end ? end->force / (end->length * end->length) * end->growth(indentation)
+               : law_.curvature(indentation);
   }
   double tangential_stiffness(double indentation) const override {
-    return indentation < low_ ? stiffness_ * tail(indentation)
-                              : law_.tangential_stiffness(indentation);
+    const End* end = beyond(indentation);
+    return end ? end->stiffness * end->growth(indentation) : law_.tangential_stiffness(indentation);
   }
   double tangential_curvature(double indentation) const override {
-    return indentation < low_ ? stiffness_ / length_ * tail(indentation)
-                              : law_.tangential_curvature(indentation);
+    const End* end = beyond(indentation);
+    return end ? end->stiffness / end->length * end->growth(indentation)
+               : law_.tangential_curvature(indentation);
   }
-  double highest_indentation() const override { return law_.highest_indentation(); }
+  double highest_indentation() const override {
+    return std::isfinite(low_.end) ? infinity : law_.highest_indentation();
+  }
   double indentation_of(double force) const override { return law_.indentation_of(force); }
   std::vector<double> break_points() const override { return law_.break_points(); }
 
  private:
-  double tail(double indentation) const {
-    return force_ > 0 ? std::exp((indentation - low_) / length_) : 0;
+  struct End {
+    End(const ContactLaw& law, double at) : end(at) {
+      if (!std::isfinite(at)) return;
+      force = law.force(at);
+      length = force / law.normal_stiffness(at);
+      stiffness = law.tangential_stiffness(at);
+    }
+    double growth(double indentation) const { return std::exp((indentation - end) / length); }
+    double end, force = 0, length = 1, stiffness = 0;
+  };
+  const End* beyond(double indentation) const {
+    return indentation < low_.end ? &low_ : indentation > high_.end ? &high_ : nullptr;
   }
   const ContactLaw& law_;
-  double low_, force_ = 0, length_ = 1, stiffness_ = 0;
+  End low_, high_;
 };
 
 // The levels above `bottom` alone. Only K_t, F and the ends are asked of it.
@@ -93,39 +108,99 @@ class OpeningLevels final : public ContactLaw {
   double bottom_, force_, stiffness_;
 };
 
-// One period whose displacement is that of u_x = 1 m, or v/ω = 1 m.
-std::optional<SampledMotion> unit_path(const Oscillation& motion, double mean) {
-  return std::visit(
-      [&](auto one) -> SampledMotion {
-        if constexpr (std::is_same_v<decltype(one), Drag>)
-          one.drag_velocity = one.angular_frequency;
-        else
-          one.tangential_amplitude = 1;
-        return sample(Oscillation(one), mean, steps);
-      },
-      motion);
+// A motion as the premises see it.
+struct Case {
+  double mean = 0, amplitude = 0;  // δ0, u_z
+  double displacement = 0;         // that M counts: u_x, or v/ω of a drag
+  bool drag = false;
+  double angular_frequency = 0;  // ω of the normal oscillation
+  double fastest = 0;            // of both
+  std::optional<SampledMotion> path =
+      {};  // one period with the displacement 1, from the least indentation
+  std::function<double(double)> loss =
+      {};  // at a normal amplitude, displacement 1; none: no small-amplitude form
+};
+
+// The loss of the same motion at another amplitude; frequencies without a common period have a power alone.
+template <class Motion>
+std::function<double(double)> loss_at(const ContactLaw& law, double mean, Motion motion) {
+  return [&law, mean, motion](double amplitude) mutable {
+    motion.normal_amplitude = amplitude;
+    const DampingResult result =
+        relaxation_damping(law, AtIndentation{mean}, motion, {.tolerance = 1e-7});
+    return std::isnan(result.work_per_cycle) ? result.power : result.work_per_cycle;
+  };
 }
 
-std::optional<SampledMotion> unit_path(TwoFrequencies motion, double mean) {
-  if (common_period(motion).normal_cycles == 0) return {};
+Case case_of(const ContactLaw& law, double mean, EqualFrequency motion) {
+  Case one{.mean = mean,
+           .amplitude = motion.normal_amplitude,
+           .displacement = motion.tangential_amplitude,
+           .angular_frequency = motion.angular_frequency,
+           .fastest = motion.angular_frequency};
   motion.tangential_amplitude = 1;
-  return sample(motion, mean, steps);
+  one.path = sample(motion, mean, steps);
+  one.loss = loss_at(law, mean, motion);
+  return one;
 }
 
-double normal_amplitude_of(const Oscillation& motion) {
-  return std::visit([](const auto& one) { return one.normal_amplitude; }, motion);
+Case case_of(const ContactLaw& law, double mean, Drag motion) {
+  Case one{.mean = mean,
+           .amplitude = motion.normal_amplitude,
+           .displacement = motion.drag_velocity / motion.angular_frequency,
+           .drag = true,
+           .angular_frequency = motion.angular_frequency,
+           .fastest = motion.angular_frequency};
+  motion.drag_velocity = motion.angular_frequency;
+  one.path = sample(motion, mean, steps);
+  one.loss = loss_at(law, mean, motion);
+  return one;
 }
-double normal_amplitude_of(const TwoFrequencies& motion) { return motion.normal_amplitude; }
 
-const Drag* drag_of(const Oscillation& motion) { return std::get_if<Drag>(&motion); }
-const Drag* drag_of(const TwoFrequencies&) { return nullptr; }
-
-// Tangential displacement that M counts: u_x or v/ω.
-double displacement_of(const Oscillation& motion) {
-  if (const Drag* drag = drag_of(motion)) return drag->drag_velocity / drag->angular_frequency;
-  return std::get<EqualFrequency>(motion).tangential_amplitude;
+Case case_of(const ContactLaw& law, double mean, const Oscillation& motion) {
+  return std::visit([&](const auto& kind) { return case_of(law, mean, kind); }, motion);
 }
-double displacement_of(const TwoFrequencies& motion) { return motion.tangential_amplitude; }
+
+Case case_of(const ContactLaw& law, double mean, TwoFrequencies motion) {
+  Case one{
+      .mean = mean,
+      .amplitude = motion.normal_amplitude,
+      .displacement = motion.tangential_amplitude,
+      .angular_frequency = motion.normal_angular_frequency,
+      .fastest = std::max(motion.normal_angular_frequency, motion.tangential_angular_frequency)};
+  motion.tangential_amplitude = 1;
+  if (common_period(motion).normal_cycles > 0) one.path = sample(motion, mean, steps);
+  one.loss = loss_at(law, mean, motion);
+  return one;
+}
+
+Case case_of(const SampledMotion& path) {
+  path.validate();
+  const auto [low, high] = std::ranges::minmax(path.indentation);
+  const auto [back, ahead] = std::ranges::minmax(path.displacement);
+  const double drift = path.drift();
+  Case one{.mean = 0.5 * (low + high),
+           .amplitude = 0.5 * (high - low),
+           .displacement = 0.5 * (ahead - back),
+           .drag = std::abs(drift) > 1e-9 * (ahead - back),
+           .angular_frequency = 2 * pi / path.period()};
+  if (one.drag) one.displacement = drift / (2 * pi);
+  one.fastest = one.angular_frequency;
+  const std::size_t count = path.time.size() - 1;
+  const auto bottom = std::ranges::min_element(path.indentation) - path.indentation.begin();
+  const std::size_t first = static_cast<std::size_t>(bottom) % count;
+  const double unit = one.displacement != 0 ? std::abs(one.displacement) : 1;
+  SampledMotion turned;
+  for (std::size_t i = 0; i <= count; ++i) {
+    const std::size_t at = (first + i) % count;
+    const double laps = static_cast<double>((first + i) / count);
+    turned.time.push_back(path.time[at] + laps * path.period());
+    turned.indentation.push_back(path.indentation[at]);
+    turned.displacement.push_back((path.displacement[at] + laps * drift) / unit);
+  }
+  one.path = std::move(turned);
+  return one;
+}
 
 struct Loss {
   double total = 0, permanent = 0;
@@ -139,20 +214,29 @@ class Springs {
       : path_(std::move(path)), closed_levels_(closed_levels) {
     const auto [low, high] = std::ranges::minmax(path_.indentation);
     const OpeningLevels opening(law, low);
-    const ContactLaw& levels = closed_levels ? law : static_cast<const ContactLaw&>(opening);
-    contact_.emplace(levels, low, high,
-                     TangentialContactOptions{.friction = law.modulus_ratio(),
-                                              .table_tolerance = 1e-9,
-                                              .tangential_range = furthest});
-    TangentialContact stuck(opening, low, high, {.table_tolerance = 1e-9});
-    stick_ = follow(stuck, 1, 1, 0).total;
     scale_ = law.tangential_stiffness(high);
+    const double change = opening.tangential_stiffness(high);
+    if (closed_levels) {
+      contact_.emplace(law, low, high,
+                       TangentialContactOptions{.friction = law.modulus_ratio(),
+                                                .table_tolerance = tolerance,
+                                                .tangential_range = furthest});
+    } else if (change > no_loss * scale_) {
+      contact_.emplace(opening, low, high,
+                       TangentialContactOptions{.friction = law.modulus_ratio(),
+                                                .table_tolerance = above_noise(change),
+                                                .tangential_range = furthest});
+    }
+    if (!(change > no_loss * scale_)) return;
+    TangentialContact stuck(opening, low, high, {.table_tolerance = above_noise(change)});
+    stick_ = follow(stuck, 1, 1, 0).total;
   }
 
   // Loss without slip at the displacement 1.
   double stick() const { return stick_ > no_loss * scale_ ? stick_ : 0; }
   // Of the steady state at a displacement. ahead: how far the contact is dragged at its least indentation before.
   Loss at(double displacement, double ahead = 0) {
+    if (!contact_) return {};
     // Opening levels have no history.
     const int periods = closed_levels_ && ahead == 0 ? 2 : 1;
     return follow(*contact_, displacement, periods, ahead);
@@ -165,6 +249,11 @@ class Springs {
   }
 
  private:
+  static constexpr double tolerance = 1e-9;
+  // The levels' own stiffness is the difference of two that may be much larger: no table fits its last digits.
+  double above_noise(double change) const {
+    return std::clamp(1e-13 * scale_ / change, tolerance, 1e-3);
+  }
   Loss follow(TangentialContact& contact, double displacement, int periods, double ahead) const {
     // sample() begins at the least indentation.
     double x = displacement * path_.displacement.front();
@@ -313,16 +402,9 @@ Premise coupling_of(const ContactLaw& law, const ContactFacts& facts) {
   return premise;
 }
 
-double frequency_of(const Oscillation& motion) {
-  return std::visit([](const auto& one) { return one.angular_frequency; }, motion);
-}
-double frequency_of(const TwoFrequencies& motion) {
-  return std::max(motion.normal_angular_frequency, motion.tangential_angular_frequency);
-}
-
 // stick: loss for u_x = 1 m.
-Premise inertia_of(const ContactLaw& law, double mean, double angular_frequency, bool drag,
-                   double stick, const ContactFacts& facts) {
+Premise inertia_of(const ContactLaw& law, const Case& motion, double stick,
+                   const ContactFacts& facts) {
   // A stuck circle on a half-space: K(1 + 0.58i a0) for small a0 = ωa/c_s.
   constexpr double radiation = 0.58;
   const auto change_of_modulus = [](double change) {
@@ -330,7 +412,7 @@ Premise inertia_of(const ContactLaw& law, double mean, double angular_frequency,
   };
   Premise premise{.limit_5_percent = change_of_modulus(0.05),
                   .limit_20_percent = change_of_modulus(0.2)};
-  if (!(angular_frequency > 0)) {
+  if (!(motion.fastest > 0)) {
     premise.needs = "angular_frequency";
     return premise;
   }
@@ -341,9 +423,9 @@ Premise inertia_of(const ContactLaw& law, double mean, double angular_frequency,
   if (!premise.needs.empty()) return premise;
   const double ratio = law.modulus_ratio(), poisson = poisson_of(ratio);
   const double shear = ratio * facts.contact_modulus * (2 - poisson) / 4;
-  premise.value = angular_frequency * facts.loaded_size / std::sqrt(shear / facts.density);
-  if (!drag && stick > 0) {
-    const double stiffness = law.tangential_stiffness(mean);
+  premise.value = motion.fastest * facts.loaded_size / std::sqrt(shear / facts.density);
+  if (!motion.drag && stick > 0) {
+    const double stiffness = law.tangential_stiffness(motion.mean);
     const double whole = 2 * ratio * facts.contact_modulus * facts.loaded_size;
     const double radiated = pi * radiation * stiffness * std::min(1.0, stiffness / whole);
     premise.limit_5_percent = std::min(premise.limit_5_percent, 0.05 * stick / radiated);
@@ -353,50 +435,26 @@ Premise inertia_of(const ContactLaw& law, double mean, double angular_frequency,
   return premise;
 }
 
-Oscillation with_amplitude(const Oscillation& motion, double amplitude) {
-  return std::visit(
-      [&](auto one) -> Oscillation {
-        one.normal_amplitude = amplitude;
-        if constexpr (std::is_same_v<decltype(one), Drag>)
-          one.drag_velocity = one.angular_frequency;
-        else
-          one.tangential_amplitude = 1;
-        return one;
-      },
-      motion);
-}
-TwoFrequencies with_amplitude(TwoFrequencies motion, double amplitude) {
-  motion.normal_amplitude = amplitude;
-  motion.tangential_amplitude = 1;
-  return motion;
-}
-
-template <class Motion>
-Premise amplitude_of(const ContactLaw& law, double mean, const Motion& motion, double length) {
-  Premise premise{.value = normal_amplitude_of(motion)};
-  const auto loss = [&](double amplitude) {
-    const DampingResult result = relaxation_damping(
-        law, AtIndentation{mean}, with_amplitude(motion, amplitude), {.tolerance = 1e-7});
-    // Frequencies without a common period have a power alone.
-    return std::isnan(result.work_per_cycle) ? result.power : result.work_per_cycle;
-  };
+Premise amplitude_of(const ContactLaw& law, const Case& motion, double length, double stick) {
+  Premise premise{.value = motion.amplitude};
   // The limit of W/u_z for small u_z, not F'' itself: that of a table jumps at its samples.
   const double least = 1e-4 * length;
-  const double range = std::min(mean - law.lowest_indentation(), law.highest_indentation() - mean);
-  // Beyond thirty l an exponential law has no loss that could be told from its top's.
+  const double range =
+      std::min(motion.mean - law.lowest_indentation(), law.highest_indentation() - motion.mean);
+  // Thirty l above its middle an exponential contact has long left every small-amplitude form.
   const double most = std::min(30 * length, range);
-  if (!(most > least)) return premise;
-  const double slope = loss(least) / least;
-  if (!(slope > 0)) {
-    judge(premise);
-    return premise;
+  const double slope = motion.loss && stick > 0 && most > least ? motion.loss(least) / least : 0;
+  if (slope > 0) {
+    const Limits limits = first_crossings(
+        [&](double amplitude) { return std::abs(slope * amplitude / motion.loss(amplitude) - 1); },
+        least, most);
+    premise.limit_5_percent = limits.five;
+    premise.limit_20_percent = limits.twenty;
   }
-  const Limits limits = first_crossings(
-      [&](double amplitude) { return std::abs(slope * amplitude / loss(amplitude) - 1); }, least,
-      most);
-  premise.limit_5_percent = limits.five;
-  premise.limit_20_percent = limits.twenty;
   judge(premise);
+  // No limit within the law's range, and a motion that leaves it.
+  if (slope > 0 && std::isnan(premise.limit_5_percent) && motion.amplitude > 1.001 * most)
+    premise.verdict = Verdict::unknown;
   return premise;
 }
 
@@ -406,36 +464,32 @@ double length_of(const ContactLaw& law, double mean, double amplitude) {
   return force > 0 && stiffness > 0 ? force / stiffness : amplitude;
 }
 
-template <class Motion>
-Premises all_premises(const ContactLaw& given, double mean, const Motion& motion,
-                      const ContactFacts& facts) {
+Premises all_premises(const ContactLaw& given, const Case& motion, const ContactFacts& facts) {
   check(facts);
   const ContinuedLaw law(given);
-  const double amplitude = normal_amplitude_of(motion);
+  const double amplitude = motion.amplitude;
   require_positive(amplitude, "normal_amplitude");
-  const Drag* drag = drag_of(motion);
-  const double bottom = mean - amplitude;
-  const double length = length_of(law, mean, amplitude);
+  const double length = length_of(law, motion.mean, amplitude);
   Premises premises;
-  premises.amplitude = amplitude_of(given, mean, motion, length);
   premises.plasticity = plasticity_of(facts);
   premises.coupling = coupling_of(law, facts);
   Premise& opening = premises.slip_of_opening_levels;
   Premise& closed = premises.slip_of_closed_levels;
   const double stretch = facts.friction_coefficient / law.modulus_ratio();  // μ/g
-  const double displacement = std::abs(displacement_of(motion));
+  const double displacement = std::abs(motion.displacement);
   opening.value = stretch * amplitude / displacement;
-  closed.value = std::isnan(facts.excursion) && !drag ? displacement : facts.excursion;
+  closed.value = std::isnan(facts.excursion) && !motion.drag ? displacement : facts.excursion;
   if (std::isnan(displacement)) opening.needs = "drag_velocity";
   if (std::isnan(facts.friction_coefficient)) opening.needs = "friction_coefficient";
   closed.needs = opening.needs;
 
   double stick = 0;
   Limits displacements;  // in units of μ/g
-  if (const auto path = unit_path(motion, mean)) {
+  if (motion.path) {
     // A contact that loses nothing without slip slips first at about its depth; M = 0.1 has long changed any other loss.
     const double longest = std::max(10 * amplitude, 2 * (length + amplitude));
-    Springs springs(law, *path, drag == nullptr, (drag ? 2 * pi : 2) * longest * 2);
+    const auto [back, ahead] = std::ranges::minmax(motion.path->displacement);
+    Springs springs(law, *motion.path, !motion.drag, 2 * longest * (ahead - back));
     stick = springs.stick();
     double shortest = 1e-2 * amplitude;
     while (springs.change(shortest) > 0.01 && shortest > 1e-9 * amplitude) shortest /= 4;
@@ -443,17 +497,20 @@ Premises all_premises(const ContactLaw& given, double mean, const Motion& motion
     opening.limit_5_percent = amplitude / displacements.five;
     opening.limit_20_percent = amplitude / displacements.twenty;
   } else {
-    opening.value = unknown;
+    // Frequencies without a common period: no path to follow.
+    opening.value = closed.value = unknown;
   }
   if (opening.needs.empty()) judge(opening, true);
-  premises.inertia = inertia_of(law, mean, frequency_of(motion), drag != nullptr, stick, facts);
+  // Without a path the loss is not known here, but there is one.
+  premises.amplitude = amplitude_of(given, motion, length, motion.path ? stick : 1);
+  premises.inertia = inertia_of(law, motion, stick, facts);
 
   const auto closed_limits = [&](double limit) {
     const double way = 2 * pi * displacement / limit;
-    return ClosedLevels(law, bottom, way)
+    return ClosedLevels(law, motion.mean - amplitude, way)
         .limits(stick * displacement * displacement / (limit * limit), 100 * length + way);
   };
-  if (!drag) {
+  if (!motion.drag) {
     closed.limit_5_percent = stretch * displacements.five;
     closed.limit_20_percent = stretch * displacements.twenty;
   } else if (closed.needs.empty()) {
@@ -471,8 +528,8 @@ Premises all_premises(const ContactLaw& given, double mean, const Motion& motion
   for (const double coefficient : coefficients) {
     const double limit = coefficient / law.modulus_ratio();
     LargestMotion largest{.friction_coefficient = coefficient};
-    if (drag) {
-      largest.drag_velocity = limit * displacements.five * drag->angular_frequency;
+    if (motion.drag) {
+      largest.drag_velocity = limit * displacements.five * motion.angular_frequency;
       if (!std::isnan(displacement)) largest.excursion = limit * closed_limits(limit).five;
     } else {
       largest.tangential_amplitude = largest.excursion = limit * displacements.five;
@@ -500,37 +557,41 @@ std::string name_of(Verdict verdict) {
 
 Premises premises_of(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
                      const ContactFacts& facts) {
-  return all_premises(law, mean_indentation, motion, facts);
+  return all_premises(law, case_of(law, mean_indentation, motion), facts);
 }
 
 Premises premises_of(const ContactLaw& law, double mean_indentation, const TwoFrequencies& motion,
                      const ContactFacts& facts) {
-  return all_premises(law, mean_indentation, motion, facts);
+  return all_premises(law, case_of(law, mean_indentation, motion), facts);
 }
 
-LossWithSlip loss_with_slip(const ContactLaw& given, double mean, const Oscillation& motion,
-                            double friction_coefficient, double excursion) {
+Premises premises_of(const ContactLaw& law, const SampledMotion& path, const ContactFacts& facts) {
+  return all_premises(law, case_of(path), facts);
+}
+
+LossWithSlip loss_with_slip(const ContactLaw& given, double mean_indentation,
+                            const Oscillation& motion, double friction_coefficient,
+                            double excursion) {
   require_positive(friction_coefficient, "friction_coefficient");
   if (!std::isnan(excursion)) require_positive(excursion, "excursion");
-  const double amplitude = normal_amplitude_of(motion);
-  require_positive(amplitude, "normal_amplitude");
   const ContinuedLaw law(given);
+  const Case one = case_of(given, mean_indentation, motion);
+  require_positive(one.amplitude, "normal_amplitude");
   const double limit = friction_coefficient / law.modulus_ratio(), unit = limit * limit;
-  const double displacement = std::abs(displacement_of(motion)) / limit;
-  const SampledMotion path = *unit_path(motion, mean);
-  if (!drag_of(motion)) {
-    const Loss loss = Springs(law, path, true, 2 * displacement).at(displacement);
+  const double displacement = std::abs(one.displacement) / limit;
+  if (!one.drag) {
+    const Loss loss = Springs(law, *one.path, true, 2 * displacement).at(displacement);
     return {unit * loss.total, unit * (loss.total - loss.permanent), unit * loss.permanent};
   }
-  const double bottom = mean - amplitude, way = 2 * pi * displacement;
-  const double relaxation = Springs(law, path, false, way).at(displacement).total;
+  const double bottom = mean_indentation - one.amplitude, way = 2 * pi * displacement;
+  const double relaxation = Springs(law, *one.path, false, way).at(displacement).total;
   double slip = 0;
   if (!std::isnan(excursion)) {
     slip = ClosedLevels(law, bottom, way).loss_per_cycle(excursion / limit);
   } else if (law.tangential_stiffness(bottom) > 0) {
     // Forty F/K below its edge an exponential contact has nothing left.
     const double ahead = 40 * law.force(bottom) / law.normal_stiffness(bottom) + way;
-    slip = Springs(law, path, true, ahead + way).at(displacement, ahead).permanent;
+    slip = Springs(law, *one.path, true, ahead + way).at(displacement, ahead).permanent;
   }
   return {unit * (relaxation + slip), unit * relaxation, unit * slip};
 }

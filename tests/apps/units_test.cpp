@@ -253,6 +253,15 @@ class Twin {
   std::istringstream text_;
 };
 
+/// The table alone: premises are told in words, above and below it.
+std::string without_premises(std::string text) {
+  if (text.starts_with("Premises")) text.erase(0, text.find("\n\n") + 2);
+  for (const std::string words : {"\n\nPremises not judged", "\n\nSlip changes"})
+    if (const std::size_t begin = text.find(words); begin != std::string::npos)
+      text.resize(begin + 1);
+  return text;
+}
+
 }  // namespace
 
 TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their quantity",
@@ -306,7 +315,9 @@ TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their qu
     REQUIRE(text.status == 0);
     ordered_json answer = ordered_json::parse(json.out);
     for (const std::string& table : tables) answer.erase(table);
-    Twin twin(text.out);
+    answer.erase("premises");
+    answer.erase("largest_motion");
+    Twin twin(without_premises(text.out));
     twin.check(answer);
     // The words of fit and the tables of statistics follow.
     CHECK((twin.at_end() || command.starts_with("fit") || command.starts_with("statistics")));
@@ -327,9 +338,10 @@ TEST_CASE("A damper's map names amplitude and frequency of each constant", "[dam
       map.push_back({{"normal_amplitude", answer["normal_amplitude"][i]},
                      {"angular_frequency", answer["angular_frequency"][j]},
                      {"damping_constant", answer["damping_constant"][i][j]}});
-  const std::size_t border = text.out.find("\n\n");
+  const std::string tables = without_premises(text.out);
+  const std::size_t border = tables.find("\n\n");
   REQUIRE(border != std::string::npos);
-  Twin pairs(text.out.substr(0, border + 1)), least(text.out.substr(border + 2));
+  Twin pairs(tables.substr(0, border + 1)), least(tables.substr(border + 2));
   pairs.check({{"map", map}});
   CHECK(pairs.at_end());
   least.check({{"angular_frequency", answer["angular_frequency"]},

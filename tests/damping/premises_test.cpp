@@ -147,6 +147,24 @@ TEST_CASE("A flat punch slips where Coulomb's limit of its one level is passed",
   CHECK(drag.slip_of_closed_levels.verdict == Verdict::broken);
 }
 
+TEST_CASE("A table of constant stiffness has no levels but the noise of its last digits",
+          "[premises]") {
+  ForceCurve punch;
+  for (int i = 1; i <= 20; ++i) {
+    ForceSample sample;
+    sample.indentation = 1e-8 * i;
+    sample.force = 3.3e3 * sample.indentation;
+    punch.samples.push_back(sample);
+  }
+  const TabulatedLaw law(punch, ratio);
+  for (const Oscillation& motion :
+       {Oscillation(EqualFrequency{5e-8, 1e-9, 1}), Oscillation(Drag{5e-8, 1e-9, 1})}) {
+    const Premises premises = premises_of(law, 1e-7, motion, {.friction_coefficient = 0.3});
+    CHECK(premises.amplitude.verdict == Verdict::holds);
+    CHECK(premises.slip_of_opening_levels.verdict != Verdict::unknown);
+  }
+}
+
 TEST_CASE("The excursion of a slow motion is limited by slip of the closed levels", "[premises]") {
   const ExponentialLaw law(1, 1e-7, ratio);
   const double friction = 0.3;
@@ -260,4 +278,32 @@ TEST_CASE("Premises name what they need, and refuse facts that cannot be", "[pre
   }
   CHECK_THROWS_AS(premises_of(law, 0, motion, {.hardness = 1e6, .nominal_pressure = 2e6}),
                   InvalidInput);
+}
+
+TEST_CASE("A sampled path has the premises of the motion that it samples", "[premises]") {
+  const PowerLaw law(1e7, 1.5, ratio);
+  const ContactFacts facts{.friction_coefficient = 0.3};
+  for (const Oscillation& motion :
+       {Oscillation(EqualFrequency{3e-7, 1e-7, 1.0, 1e5}), Oscillation(Drag{3e-7, 1e-2, 1e5})}) {
+    SampledMotion path = sample(motion, 1e-6, 360);
+    const double drift = path.drift();
+    // A file may begin anywhere in its period.
+    for (int i = 1; i <= 100; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      path.time.push_back(path.time[360] + path.time[at]);
+      path.indentation.push_back(path.indentation[at]);
+      path.displacement.push_back(path.displacement[at] + drift);
+    }
+    for (auto* column : {&path.time, &path.indentation, &path.displacement})
+      column->erase(column->begin(), column->begin() + 100);
+    const Premises whole = premises_of(law, 1e-6, motion, facts),
+                   sampled = premises_of(law, path, facts);
+    CHECK(sampled.slip_of_opening_levels.value ==
+          Approx(whole.slip_of_opening_levels.value).epsilon(1e-3));
+    CHECK(sampled.slip_of_opening_levels.limit_5_percent ==
+          Approx(whole.slip_of_opening_levels.limit_5_percent).epsilon(1e-3));
+    CHECK(sampled.slip_of_closed_levels.limit_20_percent ==
+          Approx(whole.slip_of_closed_levels.limit_20_percent).epsilon(2e-3));
+    CHECK(sampled.amplitude.verdict == Verdict::holds);
+  }
 }

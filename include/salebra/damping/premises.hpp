@@ -89,14 +89,17 @@ struct Premises {
   std::vector<LargestMotion> largest;
 };
 
-/// mean_indentation: δ0, m, as DampingResult::indentation. Below the lowest load of a table the law is continued by an exponential of
-/// the F/K there. Drag::drag_velocity NaN: not known; the largest is found.
+/// mean_indentation: δ0, m, as DampingResult::indentation. A table is continued beyond its ends by
+/// exponentials with the F/K there. Drag::drag_velocity NaN: not known; the largest is found.
 /// throws  InvalidInput for facts that are not > 0, for a nominal pressure above the hardness, and as relaxation_damping()
 /// cost    about 10 ms and 10⁴ evaluations of the law
 Premises premises_of(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
                      const ContactFacts& facts = {});
 /// Two frequencies: as case (a), over the common period; without one the slip is not known.
 Premises premises_of(const ContactLaw& law, double mean_indentation, const TwoFrequencies& motion,
+                     const ContactFacts& facts = {});
+/// A sampled path about the middle of its indentations, u_z and u_x half its ranges; one that drifts is case (b) with its mean velocity.
+Premises premises_of(const ContactLaw& law, const SampledMotion& path,
                      const ContactFacts& facts = {});
 
 /// Energy lost in a cycle with friction, J.

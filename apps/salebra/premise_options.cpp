@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Options and answers of the premises behind a damping constant.
+#include "premise_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/half_space/coupling.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
+
+#include "text.hpp"
+
+namespace salebra::cli {
+namespace {
+
+struct Name {
+  const char* key;
+  Premise Premises::*premise;
+  const char* words;
+  const char* value;
+  Dimension dimension;
+};
+constexpr Name names[] = {
+    {"slip_of_opening_levels", &Premises::slip_of_opening_levels,
+     "slip where the contact opens and closes", "M =", Dimension::dimensionless},
+    {"slip_of_closed_levels", &Premises::slip_of_closed_levels, "slip where it stays closed",
+     "excursion", Dimension::length},
+    {"amplitude", &Premises::amplitude, "small amplitude of Eqs (12), (15) and (16)",
+     "u_z =", Dimension::length},
+    {"plasticity", &Premises::plasticity, "plasticity", "pressure over hardness",
+     Dimension::dimensionless},
+    {"inertia", &Premises::inertia, "inertia", "ωa/c_s =", Dimension::dimensionless},
+    {"coupling", &Premises::coupling, "coupling", "share of the loss", Dimension::dimensionless},
+};
+
+/// The option that gives a fact.
+Json option_of(const std::string& fact) {
+  if (fact.empty()) return nullptr;
+  // A law given by its formula has neither size nor pressure.
+  if (fact == "loaded_size" || fact == "largest_pressure") return "--curve";
+  if (fact == "angular_frequency") return "--frequency";
+  std::string option = "--" + fact;
+  std::ranges::replace(option, '_', '-');
+  return option;
+}
+
+/// "M = 0.054 (5 % of the loss at 9.4)", of the case that is worst.
+std::string one_objection(const Name& name, const std::vector<Premises>& cases, Verdict verdict) {
+  std::size_t count = 0;
+  const Premise* worst = nullptr;
+  for (const Premises& premises : cases) {
+    const Premise& premise = premises.*name.premise;
+    if (premise.verdict != verdict) continue;
+    ++count;
+    const auto beyond = [](const Premise& p) {
+      return std::abs(std::log(p.value / p.limit_5_percent));
+    };
+    if (worst == nullptr || beyond(premise) > beyond(*worst)) worst = &premise;
+  }
+  if (worst == nullptr) return "";
+  const auto quantity = [&](double value) { return format_quantity(value, name.dimension, 3); };
+  std::string text;
+  if (worst->limit_20_percent == 0)
+    text = fmt::format("{}, at this velocity on any {}", name.words, name.value);
+  else
+    text = fmt::format("{}, {} {} (5 % of the loss at {})", name.words, name.value,
+                       quantity(worst->value), quantity(worst->limit_5_percent));
+  if (cases.size() > 1) text += fmt::format(" in {} of {}", count, cases.size());
+  return text;
+}
+
+std::string objections_of(const std::vector<Premises>& cases, Verdict verdict,
+                          const char* heading) {
+  std::string text;
+  for (const Name& name : names)
+    if (const std::string one = one_objection(name, cases, verdict); !one.empty())
+      text += (text.empty() ? heading : "; ") + one;
+  return text.empty() ? "" : text + "\n";
+}
+
+}  // namespace
+
+void PremiseOptions::add_to(Command& command) {
+  const std::string group = "Premises";
+  add_quantity(command, "--friction-coefficient", friction_coefficient, Dimension::dimensionless,
+               "of the two bodies, to judge slip")
+      ->group(group);
+  add_quantity(command, "--hardness", hardness, Dimension::pressure,
+               "of the softer body, to judge plasticity")
+      ->group(group);
+  add_quantity(command, "--density", density, Dimension::dimensionless,
+               "of the elastic body in kg/m^3, to judge inertia")
+      ->group(group);
+  add_quantity(command, "--excursion", excursion, Dimension::length,
+               "of the slow motion from one turning point to the other, to judge slip of what "
+               "stays in contact")
+      ->group(group);
+}
+
+ContactFacts PremiseOptions::facts(const MaterialOptions& material,
+                                   const std::optional<double>& followed) const {
+  ContactFacts facts;
+  for (const auto& [option, value, fact] :
+       {std::tuple{"--friction-coefficient", &friction_coefficient, &facts.friction_coefficient},
+        std::tuple{"--hardness", &hardness, &facts.hardness},
+        std::tuple{"--density", &density, &facts.density},
+        std::tuple{"--excursion", &excursion, &facts.excursion}}) {
+    if (!*value) continue;
+    require_positive(**value, option);
+    *fact = **value;
+  }
+  if (followed && std::isfinite(*followed) && *followed > 0) {
+    require(!friction_coefficient || *friction_coefficient == *followed, "--friction-coefficient",
+            facts.friction_coefficient, "differs from --friction; give one of them");
+    facts.friction_coefficient = *followed;
+  }
+  if (material.contact_modulus || !material.young.empty())
+    facts.contact_modulus = material.material().contact_modulus;
+  if (material.young.size() == 2 && material.poisson.size() == 2)
+    facts.dundurs =
+        dundurs_constant(facts.contact_modulus,
+                         coupling_constant(ElasticBody{material.young[0], material.poisson[0]},
+                                           ElasticBody{material.young[1], material.poisson[1]}));
+  return facts;
+}
+
+ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
+                      double indentation) {
+  const double force = law.force(indentation);
+  if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law); indenter && force > 0) {
+    const double radius = indenter->contact_radius(indentation);
+    facts.contact_modulus = indenter->contact_modulus();
+    facts.loaded_size = radius;
+    facts.mean_contact_pressure = facts.nominal_pressure =
+        force / (std::numbers::pi * radius * radius);
+  }
+  if (curve == nullptr || !(curve->nominal_area > 0)) return facts;
+  facts.loaded_size = std::sqrt(curve->nominal_area);
+  facts.nominal_pressure = force / curve->nominal_area;
+  // Area and force grow almost in proportion: that of the nearest load will do.
+  const auto distance = [&](const ForceSample& sample) {
+    return std::abs(std::log(sample.force / force));
+  };
+  const auto nearest = std::ranges::min_element(curve->samples, {}, distance);
+  facts.mean_contact_pressure =
+      nearest->force / (nearest->contact_area_fraction * curve->nominal_area);
+  return facts;
+}
+
+void PremiseReport::add_to(Json& answer) const {
+  const auto column = [&](const auto& value_of) -> Json {
+    if (!list) return value_of(cases.front());
+    Json all = Json::array();
+    for (const Premises& premises : cases) all.push_back(value_of(premises));
+    return all;
+  };
+  Json& object = answer["premises"] = Json::object();
+  for (const Name& name : names) {
+    const auto premise = name.premise;
+    Json& one = object[name.key] = Json::object();
+    one["value"] = column([&](const Premises& p) { return (p.*premise).value; });
+    one["limit_5_percent"] =
+        column([&](const Premises& p) { return (p.*premise).limit_5_percent; });
+    one["limit_20_percent"] =
+        column([&](const Premises& p) { return (p.*premise).limit_20_percent; });
+    one["verdict"] = column([&](const Premises& p) { return name_of((p.*premise).verdict); });
+    one["needs"] = nullptr;
+    for (const Premises& p : cases)
+      if (one["needs"].is_null()) one["needs"] = option_of((p.*premise).needs);
+  }
+  Json& largest = answer["largest_motion"] = Json::array();
+  for (std::size_t i = 0; i < cases.front().largest.size(); ++i) {
+    const auto of = [&](double LargestMotion::*member) {
+      return column([&](const Premises& p) { return p.largest[i].*member; });
+    };
+    largest.push_back({{"friction_coefficient", cases.front().largest[i].friction_coefficient},
+                       {"drag_velocity", of(&LargestMotion::drag_velocity)},
+                       {"tangential_amplitude", of(&LargestMotion::tangential_amplitude)},
+                       {"excursion", of(&LargestMotion::excursion)}});
+  }
+}
+
+std::string PremiseReport::objections() const {
+  const std::string text = objections_of(cases, Verdict::broken, "Premises broken: ") +
+                           objections_of(cases, Verdict::doubtful, "Premises doubtful: ");
+  return text.empty() ? "" : text + "\n";
+}
+
+std::string PremiseReport::open_points() const {
+  std::string open, largest;
+  for (const Name& name : names) {
+    const auto unknown = std::ranges::find(
+        cases, Verdict::unknown, [&](const Premises& p) { return (p.*name.premise).verdict; });
+    if (unknown == cases.end()) continue;
+    const Json option = option_of(((*unknown).*name.premise).needs);
+    open += std::string(open.empty() ? "Premises not judged: " : ", ") + name.words +
+            (option.is_null() ? "" : fmt::format(" ({})", option.text()));
+  }
+  if (!open.empty()) open += "\n";
+  // Of the case that bears least.
+  for (std::size_t i = 0; i < cases.front().largest.size(); ++i) {
+    double velocity = HUGE_VAL, amplitude = HUGE_VAL;
+    for (const Premises& p : cases) {
+      velocity = std::fmin(velocity, p.largest[i].drag_velocity);
+      amplitude = std::fmin(amplitude, p.largest[i].tangential_amplitude);
+    }
+    const bool drag = std::isfinite(velocity);
+    if (!drag && !std::isfinite(amplitude)) continue;
+    largest += fmt::format("{}{} with friction {:g}",
+                           largest.empty() ? "Slip changes the loss by less than 5 % up to " : ", ",
+                           drag ? format_quantity(velocity, Dimension::velocity, 3)
+                                : format_quantity(amplitude, Dimension::length, 3),
+                           cases.front().largest[i].friction_coefficient);
+  }
+  if (!largest.empty()) open += largest + "\n";
+  return open.empty() ? "" : "\n" + open;
+}
+
+void PremiseReport::answer(Session& session, Json object, const std::string& text) const {
+  add_to(object);
+  session.answer(object, objections() + text + open_points());
+}
+
+void PremiseReport::answer(Session& session, Json object) const {
+  const std::string text = to_text(object);
+  answer(session, std::move(object), text);
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <salebra/contact/law/force_curve.hpp>
+#include <salebra/damping/premises.hpp>
+#include <string>
+#include <vector>
+
+#include "options.hpp"
+
+namespace salebra::cli {
+
+/// What the premises of a damping constant need beyond contact and motion.
+struct PremiseOptions {
+  std::optional<double> friction_coefficient, hardness, density, excursion;
+
+  void add_to(Command& command);
+  /// Throws InvalidInput for values that are not > 0. followed: the --friction of a command that follows it, which is the same
+  /// coefficient.
+  ContactFacts facts(const MaterialOptions& material,
+                     const std::optional<double>& followed = {}) const;
+};
+
+/// Adds what an indenter or a curve says of the contact at an indentation: pressures and size. curve may be nullptr.
+ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
+                      double indentation);
+
+/// The premises of an answer: of one case, or of a list of them.
+struct PremiseReport {
+  std::vector<Premises> cases = {};
+  bool list = false;
+
+  /// Adds the keys `premises` and `largest_motion`.
+  void add_to(Json& answer) const;
+  /// What is broken or doubtful, to stand above a table, with a blank line after it; empty if nothing is.
+  std::string objections() const;
+  /// What could not be judged, and the largest motion without slip, to stand below the table.
+  std::string open_points() const;
+  /// The answer with its premises, as JSON or text.
+  void answer(Session& session, Json object, const std::string& text) const;
+  void answer(Session& session, Json object) const;
+};
+
+}  // namespace salebra::cli

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tests that every damping constant is printed with its premises, and that their limits are those of a simulation with friction.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+
+#include "run_program.hpp"
+
+using nlohmann::json;
+
+namespace {
+
+const char* const premises[] = {"slip_of_opening_levels",
+                                "slip_of_closed_levels",
+                                "amplitude",
+                                "plasticity",
+                                "inertia",
+                                "coupling"};
+
+/// Any damping constant or loss per cycle in it, by the name of its key.
+bool has_loss(const json& answer) {
+  if (answer.is_array()) return std::ranges::any_of(answer, has_loss);
+  if (!answer.is_object()) return false;
+  for (const auto& [key, value] : answer.items())
+    if (key.find("damping_constant") != std::string::npos ||
+        key.find("work_per_cycle") != std::string::npos || has_loss(value))
+      return true;
+  return false;
+}
+
+void check_premises(const json& object) {
+  REQUIRE(object.contains("premises"));
+  CHECK(object["premises"].size() == std::size(premises));
+  for (const char* name : premises) {
+    INFO(name);
+    const json& premise = object["premises"][name];
+    CHECK(keys(premise) == std::set<std::string>{"value", "limit_5_percent", "limit_20_percent",
+                                                 "verdict", "needs"});
+    const json verdicts =
+        premise["verdict"].is_array() ? premise["verdict"] : json::array({premise["verdict"]});
+    for (const json& verdict : verdicts)
+      CHECK(std::set<std::string>{"holds", "doubtful", "broken", "unknown"}.contains(verdict));
+    CHECK(premise["value"].is_array() == premise["verdict"].is_array());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("The limit of slip that a command prints is where mdr with friction finds it",
+          "[premises]") {
+  const ProgramTest test;
+  const std::string body = " --contact-modulus 1GPa --poisson 0.3 --json ";
+  const std::string shear = " --mode equal-frequency --normal-amplitude ";
+  struct Case {
+    std::string indenter, motion;
+    double friction;
+  };
+  const Case sheared[] = {
+      {"--profile parabola --radius 10mm --indentation 1um", shear + "300nm --phase 90deg", 0.3},
+      {"--profile cone --angle 5deg --indentation 1um", shear + "100nm --phase 45deg", 0.1},
+      {"--profile sphere --radius 1mm --indentation 2um", shear + "1um --phase 135deg", 0.8}};
+  for (const Case& one : sheared) {
+    const std::string command = "mdr " + one.indenter + body + one.motion;
+    const auto run = test.run(fmt::format(
+        "{} --tangential-amplitude 10nm --friction-coefficient {}", command, one.friction));
+    INFO(command << run.err);
+    REQUIRE(run.status == 0);
+    const double limit = run.json()["premises"]["slip_of_closed_levels"]["limit_5_percent"];
+    const auto change = [&](double amplitude) {
+      const auto loss = test.run(fmt::format("{} --tangential-amplitude {} --friction {}", command,
+                                             amplitude, one.friction))
+                            .json();
+      return std::abs(loss["work_per_cycle"].get<double>() / loss["full_stick_work"].get<double>() -
+                      1);
+    };
+    CHECK(change(0.98 * limit) < 0.05);
+    CHECK(change(1.02 * limit) > 0.05);
+  }
+  const std::string drag = " --normal-amplitude 200nm --frequency 1kHz ";
+  const Case dragged[] = {
+      {"--profile power --exponent 4 --coefficient 1e9 --indentation 1um", drag, 0.2},
+      {"--profile parabola --radius 1mm --indentation 500nm", drag, 0.5}};
+  for (const Case& one : dragged) {
+    const std::string command = "mdr " + one.indenter + body + one.motion;
+    const auto slow = test.run(
+        fmt::format("{} --drag-velocity 1um/s --friction-coefficient {}", command, one.friction));
+    INFO(command << slow.err);
+    REQUIRE(slow.status == 0);
+    const auto answer = slow.json();
+    const double limit = answer["largest_motion"][0]["drag_velocity"];
+    const json opening = answer["premises"]["slip_of_opening_levels"];
+    CHECK(1e-6 * opening["value"].get<double>() / opening["limit_5_percent"].get<double>() ==
+          Approx(limit));
+    const auto change = [&](double velocity) {
+      const auto loss = test.run(fmt::format("{} --drag-velocity {} --friction {}", command,
+                                             velocity, one.friction))
+                            .json();
+      return std::abs(
+          loss["relaxation_work"].get<double>() / loss["full_stick_work"].get<double>() - 1);
+    };
+    CHECK(change(0.98 * limit) < 0.05);
+    CHECK(change(1.02 * limit) > 0.05);
+  }
+}
+
+TEST_CASE("Facts of a contact that cannot be are refused by their option", "[premises][input]") {
+  const ProgramTest test;
+  const std::string damping =
+      "damping --law exponential --force-newton 1 --decay-length 30nm --poisson 0.3 "
+      "--normal-amplitude 1nm --drag-velocity 1um/s --frequency 20kHz ";
+  for (const std::string option :
+       {"--friction-coefficient", "--hardness", "--density", "--excursion"})
+    for (const std::string value : {"0", "-1", "nan"})
+      check_refused(test.run(damping + option + " " + value), option + ": ");
+  const std::string mdr =
+      "mdr --profile parabola --radius 10mm --indentation 1um --contact-modulus 1GPa --poisson 0.3 "
+      "--normal-amplitude 300nm --drag-velocity 1um/s --frequency 20kHz -o out.h5 ";
+  // F/(πa²) = 4.2 MPa.
+  check_refused(test.run(mdr + "--hardness 4MPa"), "hardness: 4000000 Pa is below the mean pressure");
+  check_refused(test.run(mdr + "--friction 0.3 --friction-coefficient 0.2"),
+                "--friction-coefficient");
+  CHECK(test.files().empty());
+}
+
+TEST_CASE("Broken premises stand above the table, open ones below it", "[premises]") {
+  const ProgramTest test;
+  const std::string law =
+      "--law exponential --force-newton 1 --decay-length 30nm --poisson 0.3 --frequency 20kHz ";
+  // μ/g · u_z ω = 46 µm/s.
+  const auto fast = test.run(
+      "damping --normal-amplitude 1nm --drag-velocity 1mm/s "
+      "--friction-coefficient 0.3 " +
+      law);
+  CHECK_THAT(fast.out,
+             Catch::StartsWith("Premises broken: slip where the contact opens and closes, "
+                               "M = 0.0458 (5 % of the loss at "));
+  CHECK_THAT(fast.out, Catch::Contains("\n\nwork_per_cycle"));
+  CHECK_THAT(
+      fast.out,
+      Catch::Contains("\n\nPremises not judged: plasticity (--hardness), inertia (--density)\n"));
+  const auto slow = test.run("damping --normal-amplitude 1nm --drag-velocity 1nm/s " + law);
+  CHECK_THAT(slow.out, Catch::StartsWith("work_per_cycle"));
+  CHECK_THAT(slow.out, Catch::Contains("Slip changes the loss by less than 5 % up to "));
+  for (const std::string friction : {"0.1,", "0.3,", "1\n"})
+    CHECK_THAT(slow.out, Catch::Contains(" with friction " + friction));
+  // A list has a verdict for each.
+  const auto list =
+      test.run("damping --normal-amplitude 1:50nm:4 --drag-velocity 1nm/s --json " + law);
+  const json answer = list.json();
+  check_premises(answer);
+  CHECK(answer["premises"]["amplitude"]["verdict"] ==
+        json({"holds", "doubtful", "doubtful", "broken"}));
+}
