@@ -2,6 +2,7 @@
 // `salebra contact`: one contact by boundary elements.
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <salebra/base/error.hpp>
@@ -10,6 +11,7 @@
 
 #include "cycle_columns.hpp"
 #include "options.hpp"
+#include "plausibility.hpp"
 #include "program.hpp"
 
 namespace salebra::cli {
@@ -76,7 +78,11 @@ void run(const ContactArguments& arguments, Session& session) {
   if (arguments.hardness) require_positive(*arguments.hardness, "--hardness");
   const double contact_modulus = arguments.material.material().contact_modulus;
   NormalContactOptions options = contact_options(arguments, session);
-  const Surface surface = arguments.surface.read();
+  const Surface surface = arguments.surface.read(session);
+  if (arguments.position.pressure)
+    for (const std::string& line :
+         doubts_of_pressures(std::array{*arguments.position.pressure}, contact_modulus))
+      session.warn(line);
   Field initial;
   if (!arguments.initial.empty()) {
     initial = ResultReader(arguments.initial).field("contact/contact_pressure");

@@ -23,7 +23,7 @@ void run(ConvertArguments& arguments, Session& session) {
           "is not for this command; name the new file as its second argument");
   require_output(arguments.to, session.write_options());
   if (arguments.surface.detrend.empty()) arguments.surface.detrend = "none";
-  Surface surface = arguments.surface.read();
+  Surface surface = arguments.surface.read(session);
   Json answer{{"file", arguments.to}};
   if (arguments.fill) {
     answer["filled_points"] = surface.undefined_points();

@@ -19,6 +19,7 @@
 #include <salebra/surface/moments.hpp>
 
 #include "options.hpp"
+#include "plausibility.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
 #include "shape_options.hpp"
@@ -208,6 +209,7 @@ void run(const GenerateArguments& arguments, Session& session) {
           "--shape", arguments.shape.shape, "cannot be combined with a spectrum; give one of them");
   if (arguments.profile) return make_profile(arguments, session);
   const Grid2D grid = grid_of(arguments);
+  for (const std::string& line : doubts_of_cells(grid)) session.warn(line);
   Json answer{{"nx", grid.nx}, {"ny", grid.ny}, {"size_x", grid.lx}, {"size_y", grid.ly}};
   Surface surface;
   if (arguments.shape.given()) {

@@ -41,10 +41,10 @@ Json to_json(const SummitEnsemble& ensemble) {
           {"rms_height", ensemble.rms_height}};
 }
 
-Described of_surface(const GwArguments& arguments, const Material& material) {
+Described of_surface(const GwArguments& arguments, const Material& material, Session& session) {
   require(!arguments.density && !arguments.radius && !arguments.summit_rms, "--density", "given",
           "beside a surface, which has its own summits; leave out one of them");
-  const Surface surface = arguments.surface.read();
+  const Surface surface = arguments.surface.read(session);
   const HeightStatistics heights = height_statistics(surface);
   if (arguments.summits == "deterministic") {
     const SummitList list = find_summits(surface);
@@ -87,7 +87,7 @@ void run(const GwArguments& arguments, Session& session) {
           "give exactly one of --pressures and --separations");
   for (const double pressure : arguments.pressures) require_positive(pressure, "--pressures");
   const Material material = arguments.material.material();
-  const Described described = arguments.surface.given() ? of_surface(arguments, material)
+  const Described described = arguments.surface.given() ? of_surface(arguments, material, session)
                                                         : of_parameters(arguments, material);
   const ForceCurve curve = arguments.pressures.empty()
                                ? curve_at_separations(*described.model, arguments.separations)

@@ -41,7 +41,7 @@ Json describe(const Surface& surface, const HurstEstimate& hurst) {
 }
 
 void run(const SurfaceOptions& options, Session& session) {
-  const Surface surface = options.read();
+  const Surface surface = options.read(session);
   SurfaceSpectrum spectrum;
   Json answer;
   try {

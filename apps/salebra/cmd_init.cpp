@@ -131,9 +131,9 @@ struct Arguments {
 };
 
 /// Also reads the surface: what study would refuse is refused here, and its roughness sets the amplitude.
-std::string measured(const Arguments& arguments, std::string& amplitude) {
+std::string measured(const Arguments& arguments, std::string& amplitude, Session& session) {
   const SurfaceOptions& given = arguments.surface;
-  const Surface surface = given.read();
+  const Surface surface = given.read(session);
   const double rms_height = height_statistics(surface).rms_height;
   require(rms_height > 0, "--surface", given.file, "is flat; there is no roughness to study");
   // A thirtieth of the rms height, to one digit.
@@ -167,7 +167,7 @@ void run(Arguments arguments, Session& session) {
   require_output(arguments.file, session.write_options());
   std::string amplitude = toml_string("1nm");
   const std::string surface =
-      arguments.surface.given() ? measured(arguments, amplitude) : std::string(generated_surface);
+      arguments.surface.given() ? measured(arguments, amplitude, session) : std::string(generated_surface);
   write_text_file(arguments.file,
                   heading(fs::path(arguments.file).filename().string()) + surface +
                       fmt::format(fmt::runtime(rest), fmt::arg("amplitude", amplitude)),

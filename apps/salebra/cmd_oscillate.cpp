@@ -50,9 +50,9 @@ Body shape_of(const OscillateArguments& arguments) {
   return shape_body(arguments.shape, grid);
 }
 
-Body file_of(const OscillateArguments& arguments) {
+Body file_of(const OscillateArguments& arguments, Session& session) {
   Body body;
-  body.surface = arguments.surface.read();
+  body.surface = arguments.surface.read(session);
   body.boundary = body.surface.periodic ? Boundary::periodic : Boundary::free;
   require(arguments.position.count() == 1, "--indentation", "not given",
           "beside --surface; give one position");
@@ -183,7 +183,7 @@ void run(const OscillateArguments& arguments, Session& session) {
   arguments.premises.facts(arguments.material, arguments.friction.friction);
   OscillationCase contact;
   contact.material = arguments.material.material_with_tangential_modulus();
-  contact.body = arguments.shape.empty() ? file_of(arguments) : shape_of(arguments);
+  contact.body = arguments.shape.empty() ? file_of(arguments, session) : shape_of(arguments);
   Body& body = contact.body;
   if (!arguments.boundary.empty())
     body.boundary = arguments.boundary == "free" ? Boundary::free : Boundary::periodic;

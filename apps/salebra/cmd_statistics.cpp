@@ -119,7 +119,7 @@ void run(const StatisticsArguments& arguments, Session& session) {
   require_tables(session, names);
   const PsdConvention convention = psd_convention(arguments.convention);
 
-  const Surface surface = arguments.surface.read();
+  const Surface surface = arguments.surface.read(session);
   const Index undefined = surface.undefined_points();
   Json answer{{"nx", surface.grid.nx},
               {"ny", surface.grid.ny},

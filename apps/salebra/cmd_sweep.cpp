@@ -10,6 +10,7 @@
 
 #include "curve_json.hpp"
 #include "options.hpp"
+#include "plausibility.hpp"
 #include "program.hpp"
 
 namespace salebra::cli {
@@ -37,7 +38,9 @@ void run(const SweepArguments& arguments, Session& session) {
   std::vector<double> pressures = arguments.pressures;
   std::ranges::sort(pressures);
   const Material material = arguments.material.material();
-  const ForceCurve curve = sweep_pressures(arguments.surface.read(), material, pressures, options);
+  for (const std::string& line : doubts_of_pressures(pressures, material.contact_modulus))
+    session.warn(line);
+  const ForceCurve curve = sweep_pressures(arguments.surface.read(session), material, pressures, options);
   if (interrupted()) throw Interrupted("sweep: interrupted; nothing was written");
   if (session.has_output())
     write_force_curve(session.output(), curve, session.provenance(), session.write_options());

@@ -8,6 +8,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/io/read_surface.hpp>
 
+#include "plausibility.hpp"
+
 namespace salebra::cli {
 
 Option* add_quantity(Command& app, const std::string& name, std::optional<double>& target,
@@ -122,14 +124,18 @@ void SurfaceOptions::add_to(Command& app, bool needed, const std::string& field)
       ->group(group);
 }
 
-Surface SurfaceOptions::read() const {
+Surface SurfaceOptions::read(Session& session) const {
   if (size_x) require_positive(*size_x, "--size-x");
   if (size_y) require_positive(*size_y, "--size-y");
   ReadOptions options;
   options.size_x = size_x;
   options.size_y = size_y;
   options.height_unit = height_unit;
+  std::vector<std::string> remarks;
+  options.remarks = &remarks;
   Surface surface = read_surface(file, options);
+  for (const auto& lines : {remarks, doubts_of_cells(surface.grid)})
+    for (const std::string& line : lines) session.warn(line);
   const Detrend method = detrend_method().value_or(customary_detrend(surface));
   return detrended(std::move(surface), method);
 }

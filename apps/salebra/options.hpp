@@ -62,8 +62,8 @@ struct SurfaceOptions {
   bool given() const { return !file.empty(); }
   /// What --detrend says; empty if it was not given.
   std::optional<Detrend> detrend_method() const;
-  /// Read and, with --detrend or else as is customary for its kind, detrended.
-  Surface read() const;
+  /// Read and, with --detrend or else as is customary for its kind, detrended. Warns of cells and sizes that are most likely a slip.
+  Surface read(Session& session) const;
 };
 
 /// Where a contact stands. At most one is given.

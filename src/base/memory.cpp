@@ -78,7 +78,8 @@ bool fits_into_memory(double bytes) {
 }
 
 std::string memory_text(double bytes) {
-  for (const auto& [unit, size] : {std::pair{"MB", 1e6}, {"GB", 1e9}, {"TB", 1e12}, {"PB", 1e15}})
+  for (const auto& [unit, size] :
+       {std::pair{"kB", 1e3}, {"MB", 1e6}, {"GB", 1e9}, {"TB", 1e12}, {"PB", 1e15}})
     if (bytes < 999.5 * size) return fmt::format("{:.3g} {}", bytes / size, unit);
   return fmt::format("{:.3g} EB", bytes / 1e18);
 }

@@ -22,12 +22,19 @@ detail::LoadedSurface load(const std::filesystem::path& file) {
 }
 
 double size_along(const std::filesystem::path& file, const char* field,
-                  const std::optional<double>& given, const std::optional<double>& stated) {
+                  const std::optional<double>& given, const std::optional<double>& stated,
+                  std::vector<std::string>* remarks) {
   // Spectra divide by products of four steps, which must neither vanish nor overflow.
   const auto usable = [](double size) { return size >= 1e-60 && size <= 1e60; };
   if (given) {
     require_positive(*given, field);
     require(usable(*given), field, *given, "must be from 1e-60 to 1e60, m");
+    // Sizes are often given rounded.
+    constexpr double rounding = 1e-3;
+    if (remarks && stated && !(std::abs(*given / *stated - 1) < rounding))
+      remarks->push_back(std::string(field) + ": " + format_quantity(*given, Dimension::length) +
+                         " was given, and " + file.string() + " states " +
+                         format_quantity(*stated, Dimension::length));
     return *given;
   }
   if (!stated)
@@ -94,8 +101,8 @@ Surface completed(const std::filesystem::path& file, LoadedSurface loaded,
   Surface surface;
   surface.grid.nx = loaded.heights.rows();
   surface.grid.ny = loaded.heights.cols();
-  surface.grid.lx = size_along(file, "size_x", options.size_x, loaded.size_x);
-  surface.grid.ly = size_along(file, "size_y", options.size_y, loaded.size_y);
+  surface.grid.lx = size_along(file, "size_x", options.size_x, loaded.size_x, options.remarks);
+  surface.grid.ly = size_along(file, "size_y", options.size_y, loaded.size_y, options.remarks);
   surface.heights = std::move(loaded.heights);
   const std::string unit = loaded.unit.empty() ? options.height_unit : loaded.unit;
   if (!unit.empty() && unit != "m") surface.heights *= metres_per(file, unit);

@@ -217,3 +217,28 @@ TEST_CASE("On a full disk nothing half-written stays", "[bad-input]") {
     CHECK(test.files().empty());
   }
 }
+
+TEST_CASE("Input that is allowed and most likely a slip is computed with a warning",
+          "[bad-input]") {
+  const ProgramTest test;
+  const std::string surface = " --hurst 0.8 --rolloff 0.5um --short-cutoff 250nm --rms-height 1nm ";
+  REQUIRE(test.run("generate --points 16 --size-x 1um -o s.h5" + surface).status == 0);
+  const auto warns = [&](const std::string& command, const std::string& part) {
+    const auto result = test.run(command);
+    INFO(result.err);
+    CHECK(result.status == 0);
+    CHECK_THAT(result.err, Catch::Contains("salebra: warning: " + part));
+    CHECK(test.run(command + " --quiet --force").err.empty());
+  };
+  warns("contact s.h5 --pressure 1MPa --contact-modulus 1.15e6",
+        "a nominal pressure of 1 MPa is 0.87 times E* = 1.15 MPa");
+  warns("sweep s.h5 --pressures 1MPa,20GPa --contact-modulus 100GPa",
+        "a nominal pressure of 20 GPa is 0.2 times E* = 100 GPa");
+  warns("info s.h5 --size-x 2um", "size_x: 2 µm was given, and s.h5 states 1 µm");
+  warns("generate --points 16,16 --size-x 1um --size-y 1nm -o thin.h5" + surface,
+        "cells of 62.5 nm x 62.5 pm have sides of 1000 to 1");
+  warns("info thin.h5", "cells of 62.5 nm x 62.5 pm");
+  // Within what is usual nothing is said.
+  CHECK(test.run("contact s.h5 --pressure 9MPa --contact-modulus 100MPa").err.empty());
+  CHECK(test.run("info s.h5 --size-x 1.0001um").err.empty());
+}

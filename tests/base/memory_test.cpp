@@ -155,6 +155,7 @@ TEST_CASE("Limits of the process on addresses and data count less what it has", 
 }
 
 TEST_CASE("Sizes of memory have three digits and a unit", "[memory]") {
+  CHECK(memory_text(500) == "0.5 kB");
   CHECK(memory_text(64e6) == "64 MB");
   CHECK(memory_text(721.4e6) == "721 MB");
   CHECK(memory_text(999.6e6) == "1 GB");

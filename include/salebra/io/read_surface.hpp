@@ -5,6 +5,7 @@
 #include <optional>
 #include <salebra/base/grid.hpp>
 #include <string>
+#include <vector>
 
 namespace salebra {
 
@@ -14,6 +15,7 @@ struct ReadOptions {
   std::optional<double> size_y;  ///< m
   std::optional<bool> periodic;  ///< in place of the file's
   std::string height_unit;       ///< such as "nm", for files that give none; empty: metres
+  std::vector<std::string>* remarks = nullptr;  ///< lines on what the user gave against the file
 };
 
 /// Reads the heights of a surface. What the file is follows from its first bytes, not from its name:

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Remarks on input that is allowed and most likely a slip of the user's hand.
+#include "plausibility.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <salebra/base/units.hpp>
+
+namespace salebra::cli {
+namespace {
+
+std::string ratio_text(double ratio) {
+  return ratio < 100 ? fmt::format("{:.2g}", ratio) : fmt::format("{:.0f}", ratio);
+}
+
+}  // namespace
+
+std::vector<std::string> doubts_of_cells(const Grid2D& grid) {
+  constexpr double most_ratio = 10;
+  const auto [shorter, longer] = std::minmax({grid.dx(), grid.dy()});
+  if (longer <= most_ratio * shorter) return {};
+  return {fmt::format("cells of {} x {} have sides of {} to 1; check the size and the points",
+                      format_quantity(grid.dx(), Dimension::length),
+                      format_quantity(grid.dy(), Dimension::length), ratio_text(longer / shorter))};
+}
+
+std::vector<std::string> doubts_of_pressures(std::span<const double> nominal_pressures,
+                                             double contact_modulus) {
+  constexpr double most_strain = 0.1;
+  if (nominal_pressures.empty()) return {};
+  const double largest = std::ranges::max(nominal_pressures);
+  if (!(largest > most_strain * contact_modulus)) return {};
+  return {fmt::format(
+      "a nominal pressure of {} is {} times E* = {}: linear elasticity holds far below "
+      "E*; check the units, "
+      "a bare number is in Pa",
+      format_quantity(largest, Dimension::pressure), ratio_text(largest / contact_modulus),
+      format_quantity(contact_modulus, Dimension::pressure))};
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/base/grid.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+/// What is allowed and most likely a slip of the user's hand. Each function returns lines for Session::warn().
+namespace salebra::cli {
+
+/// Cells ten times as long as wide.
+std::vector<std::string> doubts_of_cells(const Grid2D& grid);
+
+/// A nominal pressure above a tenth of E*, where strains of the whole surface are no longer small: as a rule a unit was forgotten.
+std::vector<std::string> doubts_of_pressures(std::span<const double> nominal_pressures,
+                                             double contact_modulus);
+
+}  // namespace salebra::cli
