@@ -9,6 +9,7 @@
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/io/result_file.hpp>
 
+#include "curve_figure.hpp"
 #include "cycle_columns.hpp"
 #include "options.hpp"
 #include "plausibility.hpp"
@@ -96,6 +97,7 @@ void run(const ContactArguments& arguments, Session& session) {
   if (state.converged && session.has_output()) {
     write_contact(session, surface.grid, state);
   }
+  if (state.converged && session.has_plot()) session.plot(pressure_figure(surface.grid, state));
   Json answer{{"pressure", state.mean_pressure},
               {"force", state.force},
               {"contact_area_fraction", state.contact_area_fraction},
@@ -130,7 +132,7 @@ void add_contact_command(Program& program) {
        "salebra contact scan.txt --boundary free --indentation 50nm --hardness 3GPa --young 200GPa "
        "--poisson 0.3 -o "
        "contact.h5"},
-      [arguments](Session& session) { run(*arguments, session); });
+      [arguments](Session& session) { run(*arguments, session); }, "maps of pressure and gap");
   arguments->surface.add_to(command);
   arguments->position.add_to(command, true);
   arguments->material.add_to(command);

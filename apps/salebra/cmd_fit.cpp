@@ -11,6 +11,7 @@
 #include <salebra/results/force_curve_file.hpp>
 
 #include "answer_file.hpp"
+#include "curve_figure.hpp"
 #include "law_words.hpp"
 #include "options.hpp"
 #include "program.hpp"
@@ -95,6 +96,7 @@ void run(const FitArguments& arguments, Session& session) {
   Json complete = answer;
   const LocalDecayLength local = local_decay_length(curve);
   complete["local"] = {{"mean_gap", local.mean_gap}, {"decay_length", local.decay_length}};
+  if (session.has_plot()) session.plot(curve_figure(curve, fit));
   session.answer(complete, to_text(answer) + "\n" + verdict);
 }
 
@@ -104,8 +106,9 @@ void add_fit_command(Program& program) {
   auto arguments = std::make_shared<FitArguments>();
   Command& command = program.add_command(
       "fit", "decay length l of p = p0 exp(-mean gap/l) from a curve",
-      {"salebra fit curve.h5", "salebra fit curve.h5 --pressure-window 1MPa,50MPa --json"},
-      [arguments](Session& session) { run(*arguments, session); });
+      {"salebra fit curve.h5", "salebra fit curve.h5 --pressure-window 1MPa,50MPa --plot fit.png"},
+      [arguments](Session& session) { run(*arguments, session); },
+      "pressure over gap with the fitted law, area, stiffness");
   command
       .add_option("CURVE", arguments->curve,
                   "file of sweep, gw or a study of one surface, or a text table")

@@ -9,6 +9,7 @@
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/summits.hpp>
 
+#include "curve_figure.hpp"
 #include "curve_json.hpp"
 #include "options.hpp"
 #include "program.hpp"
@@ -94,6 +95,7 @@ void run(const GwArguments& arguments, Session& session) {
                                : curve_at_pressures(*described.model, arguments.pressures);
   if (session.has_output())
     write_force_curve(session.output(), curve, session.provenance(), session.write_options());
+  if (session.has_plot()) session.plot(curve_figure(curve));
   session.answer({{"parameters", described.parameters}, {"curve", cli::to_json(curve)}});
 }
 
@@ -107,7 +109,8 @@ void add_gw_command(Program& program) {
        "115GPa --poisson 0.3",
        "salebra gw --density 10/um2 --radius 100nm --summit-rms 10nm --distribution exponential "
        "--separations 10nm,20nm,40nm --contact-modulus 115GPa"},
-      [arguments](Session& session) { run(*arguments, session); });
+      [arguments](Session& session) { run(*arguments, session); },
+      "pressure over gap, area, stiffness");
   arguments->surface.add_to(command, false);
   add_choice(command, "--summits", arguments->summits, {"moments", "deterministic"},
              "of a surface; default moments");

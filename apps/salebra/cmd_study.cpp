@@ -9,6 +9,7 @@
 #include <salebra/base/units.hpp>
 #include <salebra/study/study.hpp>
 
+#include "compare_figure.hpp"
 #include "dry_run.hpp"
 #include "program.hpp"
 #include "study_command.hpp"
@@ -122,6 +123,7 @@ void run(const StudyArguments& arguments, Session& session) {
   const std::vector<StudyResult> results =
       run_and_keep(configuration, arguments.resume, report, session);
   if (results.empty()) return;
+  if (session.has_plot()) session.plot(compare_figure(results, configuration.ensemble));
   const StudyFiles files{session.has_output() ? session.output().string() : "", report.write()};
   if (results.size() == 1 && configuration.ensemble.empty()) {
     session.answer(study_json(results.front(), files), study_text(results.front(), files));
@@ -152,7 +154,8 @@ void add_study_command(Program& program) {
       {"salebra study data/quickstart.toml -o quickstart.h5",
        "salebra study --surface scan.txt --contact-modulus 115GPa --poisson 0.3 "
        "--normal-amplitude 1nm --drag-velocity 1mm/s --frequency 20kHz"},
-      [arguments](Session& session) { run(*arguments, session); }, "", study_output);
+      [arguments](Session& session) { run(*arguments, session); },
+      "force, area, stiffness and damping of all models", study_output);
   arguments->add_to(command);
 }
 

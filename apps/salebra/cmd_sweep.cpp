@@ -8,6 +8,7 @@
 #include <salebra/contact/sweep.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
+#include "curve_figure.hpp"
 #include "curve_json.hpp"
 #include "options.hpp"
 #include "plausibility.hpp"
@@ -44,6 +45,7 @@ void run(const SweepArguments& arguments, Session& session) {
   if (interrupted()) throw Interrupted("sweep: interrupted; nothing was written");
   if (session.has_output())
     write_force_curve(session.output(), curve, session.provenance(), session.write_options());
+  if (session.has_plot()) session.plot(curve_figure(curve));
   session.answer({{"curve", to_json(curve)}});
   const auto lost = std::ranges::count(curve.samples, false, &ForceSample::converged);
   if (lost > 0) {
@@ -62,7 +64,8 @@ void add_sweep_command(Program& program) {
       {"salebra sweep rough.h5 --pressures 1:100MPa:16 --contact-modulus 115GPa --poisson 0.3 "
        "--stiffness -o curve.h5",
        "salebra sweep scan.txt --pressures 1MPa,5MPa,20MPa --young 70GPa --poisson 0.33 --json"},
-      [arguments](Session& session) { run(*arguments, session); });
+      [arguments](Session& session) { run(*arguments, session); },
+      "pressure over gap, area, stiffness");
   arguments->surface.add_to(command);
   add_values(command, "--pressures", arguments->pressures, Dimension::pressure, "nominal pressures")
       ->required();

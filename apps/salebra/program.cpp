@@ -159,7 +159,7 @@ Command& Program::add_command(const std::string& name, const std::string& what,
       ->type_name("FILE")
       ->group(group);
   if (!picture.empty())
-    command.add_option("--plot", common->plot, "picture to draw, .png or .svg: " + picture)
+    command.add_option("--plot", common->plot, "picture to draw, .png, .svg or .pdf: " + picture)
         ->type_name("FILE")
         ->group(group);
   command.add_flag("--force", common->force, "replace an existing output file")->group(group);

@@ -13,24 +13,6 @@
 namespace salebra::cli {
 namespace {
 
-PlotPanel height_map(const Surface& surface) {
-  const Grid2D& grid = surface.grid;
-  PlotPanel panel;
-  panel.title = "heights";
-  panel.x = {.label = "x", .unit = "m"};
-  panel.y = {.label = "y", .unit = "m"};
-  panel.equal_scales = true;
-  PlotImage image;
-  for (Index ix = 0; ix < grid.nx; ++ix)
-    image.x.push_back((static_cast<double>(ix) + 0.5) * grid.dx());
-  for (Index iy = 0; iy < grid.ny; ++iy)
-    image.y.push_back((static_cast<double>(iy) + 0.5) * grid.dy());
-  image.values = surface.heights;
-  image.scale = {.label = "height", .unit = "m"};
-  panel.image = std::move(image);
-  return panel;
-}
-
 PlotPanel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hurst) {
   const RadialSpectrum radial = radial_spectrum(spectrum, 6);
   PlotPanel panel;
@@ -95,6 +77,24 @@ PlotPanel distribution_panel(const Surface& surface) {
 
 }  // namespace
 
+PlotPanel map_panel(const Grid2D& grid, const Field& values, const std::string& title,
+                    const PlotAxis& scale) {
+  PlotPanel panel;
+  panel.title = title;
+  panel.x = {.label = "x", .unit = "m"};
+  panel.y = {.label = "y", .unit = "m"};
+  panel.equal_scales = true;
+  PlotImage image;
+  for (Index ix = 0; ix < grid.nx; ++ix)
+    image.x.push_back((static_cast<double>(ix) + 0.5) * grid.dx());
+  for (Index iy = 0; iy < grid.ny; ++iy)
+    image.y.push_back((static_cast<double>(iy) + 0.5) * grid.dy());
+  image.values = values;
+  image.scale = scale;
+  panel.image = std::move(image);
+  return panel;
+}
+
 SurfaceSpectrum spectrum_of(const Surface& surface) {
   SurfaceSpectrum result;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -107,7 +107,8 @@ SurfaceSpectrum spectrum_of(const Surface& surface) {
 
 Figure surface_figure(const Surface& surface, const SurfaceSpectrum& of) {
   Figure figure;
-  figure.panels.push_back(height_map(surface));
+  figure.panels.push_back(
+      map_panel(surface.grid, surface.heights, "heights", {.label = "height", .unit = "m"}));
   if (of.spectrum && of.spectrum->density.maxCoeff() > 0)
     figure.panels.push_back(spectrum_panel(*of.spectrum, of.hurst));
   if (height_statistics(surface).rms_height > 0)

@@ -5,6 +5,7 @@
 #include <salebra/base/grid.hpp>
 #include <salebra/io/plot.hpp>
 #include <salebra/surface/spectrum.hpp>
+#include <string>
 
 namespace salebra::cli {
 
@@ -15,6 +16,10 @@ struct SurfaceSpectrum {
 };
 
 SurfaceSpectrum spectrum_of(const Surface& surface);
+
+/// A field over the cells of a grid, in colours.
+PlotPanel map_panel(const Grid2D& grid, const Field& values, const std::string& title,
+                    const PlotAxis& scale);
 
 /// A surface in three panels: the map of its heights, its radial power spectral density with the fitted law, and the
 /// distribution of its heights beside the Gaussian one of the same mean and rms height. The second panel is left out where there

@@ -283,6 +283,13 @@ std::string gnuplot_script(const Figure& figure, PictureFormat format) {
         "pointscale 2 "
         "dashlength 1.6 background '#ffffff'\n",
         2 * width, 2 * height);
+  } else if (format == PictureFormat::pdf) {
+    constexpr double points_per_inch = 100;
+    out += fmt::format(
+        "set terminal pdfcairo enhanced size {:.2f}in,{:.2f}in font 'Sans,9' linewidth 1 "
+        "pointscale 0.7 "
+        "dashlength 0.8 background '#ffffff'\n",
+        width / points_per_inch, height / points_per_inch);
   } else {
     out += fmt::format(
         "set terminal svg enhanced size {},{} dynamic standalone font 'sans-serif,12' linewidth 1 "

@@ -24,9 +24,13 @@ namespace {
 
 detail::PictureFormat format_of(const std::filesystem::path& file) {
   const std::string suffix = file.extension().string();
-  require(suffix == ".png" || suffix == ".svg", "plot", "'" + file.string() + "'",
-          "has no picture's suffix; use .png or .svg");
-  return suffix == ".png" ? detail::PictureFormat::png : detail::PictureFormat::svg;
+  for (const auto& [known, format] : {std::pair{".png", detail::PictureFormat::png},
+                                      {".svg", detail::PictureFormat::svg},
+                                      {".pdf", detail::PictureFormat::pdf}})
+    if (suffix == known) return format;
+  require(false, "plot", "'" + file.string() + "'",
+          "has no picture's suffix; use .png, .svg or .pdf");
+  return {};
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason) {
@@ -126,7 +130,10 @@ void require_whole(const std::filesystem::path& file, std::string_view picture,
                    detail::PictureFormat format) {
   constexpr std::size_t tail = 32;
   const std::string_view end = picture.substr(picture.size() - std::min(picture.size(), tail));
-  if (end.find(format == detail::PictureFormat::png ? "IEND" : "</svg>") == std::string_view::npos)
+  const char* const last = format == detail::PictureFormat::png   ? "IEND"
+                           : format == detail::PictureFormat::svg ? "</svg>"
+                                                                  : "%%EOF";
+  if (end.find(last) == std::string_view::npos)
     fail(file, "gnuplot left the picture incomplete; is the memory full?");
 }
 

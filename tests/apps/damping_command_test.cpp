@@ -217,7 +217,7 @@ TEST_CASE("Pictures of damping name what they show", "[damping][plot]") {
   CHECK(test.run(law + "--normal-amplitude 50nm --plot cycle.png").status == 0);
   CHECK(test.read("cycle.png").substr(1, 3) == "PNG");
   check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.png"), "--force");
-  check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.pdf"), ".png or .svg");
+  check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.jpg"), ".png, .svg or .pdf");
   // Without gnuplot: one line, status 1, and no answer is lost for a picture that was not asked for.
   const auto without = test.run(law + "--normal-amplitude 50nm --plot new.png", "PATH=/nowhere;");
   CHECK(without.status == 1);

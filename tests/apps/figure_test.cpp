@@ -110,8 +110,9 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
   const Values corrected = numbers(answer["spots"]["corrected_area_fraction"]["mean"]);
   check_alike(drawing.column(2, curve, 1),
               each([&](auto k) { return corrected[k] * scale / pressure[k]; }));
-  check_parallel(drawing.column(4, curve, 1),
-                 logarithms(numbers(answer["models"]["bem"]["damping"]["law_damping_constant"]["mean"])));
+  check_parallel(
+      drawing.column(4, curve, 1),
+      logarithms(numbers(answer["models"]["bem"]["damping"]["law_damping_constant"]["mean"])));
   // The window of the fit, from one to two and a half rms heights.
   CHECK_THAT(drawing.script(), Contains("graph 0,first 1 to") && Contains("graph 0,first 2.5 to"));
 
@@ -161,9 +162,9 @@ TEST_CASE("The numbers of a comparison are those of its file, and the theories' 
     }
     for (const std::string route : {"law_", "small_", "curve_"}) {
       INFO(route);
-      check_alike(
-          numbers(found["damping"][route + "damping_constant"]["mean"]),
-          row_of(file, "damping/ensemble_" + route + "damping_constant_mean", row, loads), 1e-14);
+      check_alike(numbers(found["damping"][route + "damping_constant"]["mean"]),
+                  row_of(file, "damping/ensemble_" + route + "damping_constant_mean", row, loads),
+                  1e-14);
       check_alike(numbers(found["over_bem"][route + "work_per_cycle"]["mean"]),
                   row_of(file, "comparison/" + route + "work_per_cycle_mean", row, loads), 1e-14);
     }
@@ -255,6 +256,38 @@ TEST_CASE("The numbers of a study's answer are those of its file", "[study]") {
       CHECK(answer["comparison"][model]["decay_length"][limit] ==
             file.numbers("fit/ensemble_decay_length_" + limit)[row++]);
   }
+}
+
+TEST_CASE("Pictures of a contact and of its curve draw the numbers of the answers",
+          "[contact][plot]") {
+  const ProgramTest test;
+  REQUIRE(test.run("generate --points 32 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff "
+                   "250nm --rms-height 10nm -o s.h5")
+              .status == 0);
+  const std::string material = " --contact-modulus 1GPa --poisson 0.3 --json";
+  const Drawing press(test, "contact s.h5 --pressure 10MPa" + material);
+  double largest = 0;
+  for (const Values& row : press.image(1))
+    for (const double value : row) largest = std::max(largest, value);
+  // The map has five digits, in MPa.
+  CHECK(largest == Approx(1e-6 * press.answer()["max_pressure"].get<double>()).epsilon(1e-4));
+
+  const Drawing sweep(test, "sweep s.h5 --pressures 1:30MPa:6 --stiffness -o curve.h5" + material);
+  const json curve = sweep.answer()["curve"];
+  check_parallel(sweep.column(1, 0, 1), logarithms(numbers(curve["pressure"])));
+  check_parallel(sweep.column(2, 0, 1), logarithms(numbers(curve["contact_area_fraction"])));
+  check_parallel(sweep.column(3, 1, 1), logarithms(numbers(curve["tangential_stiffness"])));
+
+  // The dashed line falls by one power of e in a decay length, in nm.
+  const Drawing fit(test, "fit curve.h5 --json");
+  const Values gap = fit.column(1, 1, 0), pressure = fit.column(1, 1, 1);
+  REQUIRE(gap.size() == 2);
+  CHECK((gap[1] - gap[0]) / (std::log(10) * (pressure[0] - pressure[1])) ==
+        Approx(1e9 * fit.answer()["decay_length"].get<double>()).epsilon(1e-6));
+
+  test.write("study.toml", study_text("seeds = [3]"));
+  const Drawing study(test, "study study.toml --no-stick --no-report --json");
+  CHECK_THAT(study.script(), Contains("damping constant"));
 }
 
 TEST_CASE("A picture of damping draws how far the small-amplitude form is off", "[damping][plot]") {

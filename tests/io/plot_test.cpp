@@ -77,6 +77,16 @@ TEST_CASE("An SVG shows titles, names and axes whose SI prefix suits the values"
   CHECK(files_in(scratch.folder()) == 1);
 }
 
+TEST_CASE("A PDF is whole and has one page of the size of its panels", "[plot]") {
+  const Scratch scratch;
+  write_plot(scratch / "a.pdf", force_figure());
+  const std::string text = content(scratch / "a.pdf");
+  CHECK_THAT(text, Catch::StartsWith("%PDF-"));
+  // Points of 1/72 inch for a panel of 520 x 390 on the screen, at 100 to the inch.
+  CHECK_THAT(text, Contains("/MediaBox [ 0 0 374 280 ]"));
+  CHECK_THAT(text, Contains("/Count 1"));
+}
+
 TEST_CASE("A PNG has the size of its panels, and maps on logarithmic axes can be drawn", "[plot]") {
   const Scratch scratch;
   Figure figure = force_figure();
@@ -142,8 +152,8 @@ TEST_CASE("Names are shown as they are and never run", "[plot]") {
 TEST_CASE("A figure that cannot be drawn is refused by name", "[plot]") {
   const Scratch scratch;
   Figure figure = force_figure();
-  CHECK_THROWS_WITH(write_plot(scratch / "a.pdf", figure), Contains(".png or .svg"));
-  CHECK_THROWS_AS(write_plot(scratch / "a.pdf", figure), InvalidInput);
+  CHECK_THROWS_WITH(write_plot(scratch / "a.jpg", figure), Contains(".png, .svg or .pdf"));
+  CHECK_THROWS_AS(write_plot(scratch / "a.jpg", figure), InvalidInput);
   CHECK_THROWS_WITH(write_plot(scratch / "no" / "a.png", figure), Contains("does not exist"));
   const auto taken = scratch.file("taken.png", "precious");
   CHECK_THROWS_WITH(write_plot(taken, figure), Contains("exists"));

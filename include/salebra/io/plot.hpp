@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-/// Pictures of results: lines, bands, markers and maps in panels, as PNG or SVG. gnuplot draws them, nothing of it shows here.
+/// Pictures of results: lines, bands, markers and maps in panels, as PNG, SVG or PDF. gnuplot draws them, nothing of it shows here.
 ///
 ///     Figure figure;
 ///     PlotPanel& panel = figure.panels.emplace_back();
@@ -86,10 +86,10 @@ struct Figure {
 std::string plot_text(std::string_view plain);
 
 /// Throws what write_plot would throw at its start, for callers that compute for long before they draw: InvalidInput for a
-/// suffix other than .png and .svg and as require_output; IoError where gnuplot is not installed.
+/// suffix other than .png, .svg and .pdf and as require_output; IoError where gnuplot is not installed.
 void require_plot(const std::filesystem::path& file, const WriteOptions& options = {});
 
-/// Draws a figure to a .png (at twice the size on the screen) or .svg. Large images are averaged down to at most 1200 cells a
+/// Draws a figure to a .png (at twice the size on the screen), .svg or .pdf. Large images are averaged down to at most 1200 cells a
 /// side. The file appears complete or not at all. Throws as require_plot; InvalidInput for columns of different lengths, values
 /// <= 0 only on a logarithmic axis, or a figure without data; IoError where gnuplot fails, with what it said.
 /// Cost: 0.1 to 1 s, one gnuplot process.

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Figures of a force curve with its fitted law, and of the pressure and gap of one contact.
+#include "curve_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <utility>
+
+#include "surface_figure.hpp"
+
+namespace salebra::cli {
+namespace {
+
+/// y over x of the samples that converged and know both.
+PlotCurve points_of(const ForceCurve& curve, std::string name, double ForceSample::*x,
+                    double ForceSample::*y) {
+  PlotCurve points{.name = std::move(name), .style = PlotStyle::line_and_points};
+  for (const ForceSample& sample : curve.samples) {
+    if (!sample.converged || !std::isfinite(sample.*x) || !std::isfinite(sample.*y)) continue;
+    points.x.push_back(sample.*x);
+    points.y.push_back(sample.*y);
+  }
+  return points;
+}
+
+void add_fit(PlotPanel& panel, const ExponentialFit& fit) {
+  const auto gap = [&](double pressure) {
+    return fit.decay_length * std::log(fit.reference_pressure / pressure);
+  };
+  const double low = fit.window.pressure_min, high = fit.window.pressure_max;
+  panel.curves.push_back({.name = "p_0 e^{-ū/l}, fitted between the lines",
+                          .x = {gap(high), gap(low)},
+                          .y = {high, low},
+                          .style = PlotStyle::dashed});
+  panel.lines = {{.at = gap(high), .vertical = true}, {.at = gap(low), .vertical = true}};
+}
+
+}  // namespace
+
+Figure curve_figure(const ForceCurve& curve, const std::optional<ExponentialFit>& fit) {
+  Figure figure;
+  const PlotAxis pressure{.label = "nominal pressure p", .unit = "Pa", .logarithmic = true};
+  PlotCurve gaps = points_of(curve, "computed", &ForceSample::mean_gap, &ForceSample::pressure);
+  require(
+      !gaps.x.empty(), "curve", curve.samples.size(),
+      "samples, none of which converged with a mean gap and a pressure: there is nothing to draw");
+  PlotPanel& law = figure.panels.emplace_back();
+  law.x = {.label = "mean gap ū", .unit = "m"};
+  law.y = pressure;
+  if (!fit) gaps.name.clear();
+  law.curves.push_back(std::move(gaps));
+  if (fit && std::isfinite(fit->decay_length)) add_fit(law, *fit);
+
+  PlotCurve areas =
+      points_of(curve, "", &ForceSample::pressure, &ForceSample::contact_area_fraction);
+  if (!areas.x.empty()) {
+    PlotPanel& panel = figure.panels.emplace_back();
+    panel.x = pressure;
+    panel.y = {.label = "contact area A/A_0", .logarithmic = true};
+    panel.curves.push_back(std::move(areas));
+  }
+  PlotPanel stiffness;
+  stiffness.x = {.label = "normal force F", .unit = "N", .logarithmic = true};
+  stiffness.y = {.label = "stiffness", .unit = "N/m", .logarithmic = true};
+  stiffness.legend = PlotLegend::top_left;
+  for (const auto& [name, member] : {std::pair{"normal, K", &ForceSample::normal_stiffness},
+                                     {"tangential, K_t", &ForceSample::tangential_stiffness}})
+    if (PlotCurve points = points_of(curve, name, &ForceSample::force, member); !points.x.empty())
+      stiffness.curves.push_back(std::move(points));
+  if (!stiffness.curves.empty()) figure.panels.push_back(std::move(stiffness));
+  return figure;
+}
+
+Figure pressure_figure(const Grid2D& grid, const NormalContactState& state) {
+  Figure figure;
+  figure.panels.push_back(
+      map_panel(grid, state.pressure, "contact pressure", {.label = "p", .unit = "Pa"}));
+  figure.panels.push_back(map_panel(grid, state.gap, "gap", {.label = "g", .unit = "m"}));
+  figure.columns = 2;
+  return figure;
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/normal/normal.hpp>
+#include <salebra/io/plot.hpp>
+
+/// The pictures of contacts and of their force curves.
+namespace salebra::cli {
+
+/// Pressure over mean gap, with the fitted law and its window; what else the curve knows: area, stiffness. Throws InvalidInput for a
+/// curve without a sample that converged.
+Figure curve_figure(const ForceCurve& curve, const std::optional<ExponentialFit>& fit = {});
+
+/// Maps of pressure and gap.
+Figure pressure_figure(const Grid2D& grid, const NormalContactState& state);
+
+}  // namespace salebra::cli
