@@ -63,45 +63,44 @@ EnsembleMean simple_decay_length(const StudyResult& result) {
 
 Json model_json(const StudyResult& result, const StudyModel& model) {
   Json answer{{"title", model.title}};
-  answer["curve"] = columns_json<ForceSample>([&](const auto& number) {
-    return result.curve(number, model.id);
-  });
+  answer["curve"] =
+      columns_json<ForceSample>([&](const auto& number) { return result.curve(number, model.id); });
   answer["curve"]["pressure"] = result.pressures;
   for_each_number<ModelResult>([&](const auto&, const Quantity& quantity) {
     answer[std::string(quantity.name)] = to_json(result.fitted(quantity.name, model.id));
   });
-  answer["damping"] = columns_json<DampingPoint>([&](const auto& number) {
-    return result.damping(number, model.id);
-  });
+  answer["damping"] = columns_json<DampingPoint>(
+      [&](const auto& number) { return result.damping(number, model.id); });
   for (const auto& [name, ratios] : result.comparison(model.id))
     answer["over_bem"][name] = to_json(ratios);
   return answer;
 }
 
-Json comparison_json(const StudyResult& result) {
+Json comparison_json(const StudyResult& result, const StudyPremises& premises) {
   Json models = Json::object();
   for (const StudyModel& model : result.models()) models[model.name] = model_json(result, model);
   std::vector<double> relative;
   for (const double pressure : result.pressures)
     relative.push_back(pressure / result.contact_scale);
-  Json spots = columns_json<SpotStatistics>([&](const auto& number) {
-    return result.spots(number);
-  });
+  Json spots =
+      columns_json<SpotStatistics>([&](const auto& number) { return result.spots(number); });
   spots["corrected_area_slope"] = to_json(result.mean(&Realisation::corrected_area_slope));
-  return {{"realisations", result.realisations.size()},
-          {"pressure", result.pressures},
-          {"relative_pressure", relative},
-          {"models", models},
-          {"theories",
-           {{"bgt_area_slope", bgt_slope},
-            {"persson_area_slope", persson_slope},
-            {"bearing_area_fraction", to_json(bearing_area(result))},
-            {"campana_persson_muser",
-             {{"decay_length_over_rms_height", to_json(simple_decay_length(result))},
-              {"normal_stiffness", simple_stiffness(result)}}}}},
-          {"spots", spots},
-          {"flags", flags_json(result)},
-          {"interval_method", result.interval_method()}};
+  Json answer{{"realisations", result.realisations.size()},
+              {"pressure", result.pressures},
+              {"relative_pressure", relative},
+              {"models", models},
+              {"theories",
+               {{"bgt_area_slope", bgt_slope},
+                {"persson_area_slope", persson_slope},
+                {"bearing_area_fraction", to_json(bearing_area(result))},
+                {"campana_persson_muser",
+                 {{"decay_length_over_rms_height", to_json(simple_decay_length(result))},
+                  {"normal_stiffness", simple_stiffness(result)}}}}},
+              {"spots", spots},
+              {"flags", flags_json(result)},
+              {"interval_method", result.interval_method()}};
+  add_premises(answer, premises);
+  return answer;
 }
 
 /// At most `count` of the pressures, evenly spread, and only those for which the boundary elements have a damping.
@@ -170,7 +169,7 @@ std::string loads_table(const StudyResult& result) {
          to_table(rows);
 }
 
-std::string damping_table(const StudyResult& result) {
+std::string damping_table(const StudyResult& result, const StudyPremises& premises) {
   const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
   std::vector<std::vector<std::string>> rows{{"model", "route"}};
   const auto shown = shown_pressures(result, 5);
@@ -189,13 +188,22 @@ std::string damping_table(const StudyResult& result) {
       rows.push_back(std::move(row));
     }
   }
+  if (!std::isnan(result.configuration.known.friction_coefficient)) {
+    const auto reference = result.damping(&DampingPoint::curve_work_per_cycle);
+    std::vector<std::string> row{"boundary elements with slip", "springs"};
+    for (const std::size_t k : shown)
+      row.push_back(number(premises.losses[k].work_per_cycle / reference[k].mean));
+    rows.push_back(std::move(row));
+  }
   return "Damping over that of the boundary-element curve (theorem), at p/(E* h') = …\n" +
          to_table(rows, 2, true);
 }
 
-std::string comparison_text(const StudyResult& result) {
-  return heading(result) + slopes_table(result) + law_verdict(result) + "\n" + loads_table(result) +
-         "\n" + damping_table(result) + "\n" + ensemble_remarks(result);
+std::string comparison_text(const StudyResult& result, const StudyPremises& premises) {
+  const PremiseReport judged{premises.premises, true};
+  return heading(result) + judged.above() + slopes_table(result) + law_verdict(result) + "\n" +
+         loads_table(result) + "\n" + damping_table(result, premises) + judged.open_points() +
+         "\n" + ensemble_remarks(result);
 }
 
 struct CompareArguments {
@@ -217,16 +225,18 @@ void run(const CompareArguments& arguments, Session& session) {
   Json answer = Json::object();
   std::string text;
   if (configuration.ensemble.empty()) {
-    answer = comparison_json(results.front());
-    text = comparison_text(results.front());
+    const StudyPremises premises = premises_of(results.front());
+    answer = comparison_json(results.front(), premises);
+    text = comparison_text(results.front(), premises);
   } else {
     for (const StudyResult& result : results) {
       const std::string name = describe_point(configuration.ensemble, result.configuration);
       Json point{{"point", name}};
-      const Json comparison = comparison_json(result);
+      const StudyPremises premises = premises_of(result);
+      const Json comparison = comparison_json(result, premises);
       for (const auto& [key, part] : comparison.items()) point[key] = part;
       answer["points"].push_back(std::move(point));
-      text += "== " + name + " ==\n" + comparison_text(result) + "\n";
+      text += "== " + name + " ==\n" + comparison_text(result, premises) + "\n";
     }
   }
   answer["files"] = files.json();
@@ -261,9 +271,9 @@ void add_compare_command(Program& program) {
       "force over gap, area, stiffness and damping of all models, with bands", study_output);
   arguments->study.add_to(command);
   command
-      .add_option("--models", arguments->models,
-                  "those to compare with the boundary elements, of " + other_models() +
-                      "; default: all")
+      .add_option(
+          "--models", arguments->models,
+          "those to compare with the boundary elements, of " + other_models() + "; default: all")
       ->delimiter(',')
       ->type_name("NAME,...");
 }

@@ -18,27 +18,28 @@
 namespace salebra::cli {
 namespace {
 
-Json study_json(const StudyResult& result, const StudyFiles& files) {
+Json study_json(const StudyResult& result, const StudyPremises& premises, const StudyFiles& files) {
   Json comparison;
   for (const StudyModel& model : result.models()) {
-    comparison[model.name] = {{"decay_length", to_json(result.decay_length(model.id))},
-                              {"decay_length_over_rms_height",
-                               to_json(result.decay_length_over_rms_height(model.id))}};
+    comparison[model.name] = {
+        {"decay_length", to_json(result.decay_length(model.id))},
+        {"decay_length_over_rms_height", to_json(result.decay_length_over_rms_height(model.id))}};
   }
-  Json damping = columns_json<DampingPoint>([&](const auto& number) {
-    return result.damping(number);
-  });
+  Json damping =
+      columns_json<DampingPoint>([&](const auto& number) { return result.damping(number); });
   std::vector<double> forces;
   for (const double pressure : result.pressures) forces.push_back(pressure * result.grid.area());
   damping["pressure"] = result.pressures;
   damping["force"] = forces;
-  return {{"decay_length", to_json(result.decay_length())},
-          {"decay_length_over_rms_height", to_json(result.decay_length_over_rms_height())},
-          {"damping", damping},
-          {"comparison", comparison},
-          {"realisations", result.realisations.size()},
-          {"flags", flags_json(result)},
-          {"files", files.json()}};
+  Json answer{{"decay_length", to_json(result.decay_length())},
+              {"decay_length_over_rms_height", to_json(result.decay_length_over_rms_height())},
+              {"damping", damping},
+              {"comparison", comparison},
+              {"realisations", result.realisations.size()},
+              {"flags", flags_json(result)},
+              {"files", files.json()}};
+  add_premises(answer, premises);
+  return answer;
 }
 
 /// What the difference between the law and the curve amounts to, in one sentence.
@@ -58,16 +59,18 @@ std::vector<std::string> one_surface_row(const std::string& title, const std::st
   const auto range = [](double from, double to) {
     return from > 0 && to > 0 ? fmt::format("{:.3f} … {:.3f}", from, to) : "n/a";
   };
-  return {title, length, relative,
-          range(model.decay_length_closest_over_rms_height(),
-                model.decay_length_farthest_over_rms_height()),
-          range(model.decay_length_min_over_rms_height(),
-                model.decay_length_max_over_rms_height())};
+  return {
+      title, length, relative,
+      range(model.decay_length_closest_over_rms_height(),
+            model.decay_length_farthest_over_rms_height()),
+      range(model.decay_length_min_over_rms_height(), model.decay_length_max_over_rms_height())};
 }
 
-std::string study_text(const StudyResult& result, const StudyFiles& files) {
+std::string study_text(const StudyResult& result, const StudyPremises& premises,
+                       const StudyFiles& files) {
+  const PremiseReport judged{premises.premises, true};
   const bool sample = result.realisations.size() > 1;
-  std::string text = heading(result);
+  std::string text = heading(result) + judged.above();
   text += "Decay length l of pressure = p0 exp(-mean gap/l)\n";
   std::vector<std::vector<std::string>> rows{
       sample ? std::vector<std::string>{"model", "l", "95 % interval", "l/h_rms", "95 % interval"}
@@ -94,9 +97,11 @@ std::string study_text(const StudyResult& result, const StudyFiles& files) {
   const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
   const std::string law = drag ? "Eq. (16)" : "Eq. (12)";
   text += "Damping constant: " + describe_motion(result.configuration.motion) + "\n";
+  const bool slip = !std::isnan(result.configuration.known.friction_coefficient);
   rows = {{"pressure", "force", law, "computed curve"}};
   if (sample) rows[0].push_back("95 % interval");
   rows[0].push_back(law + " is off by");
+  if (slip) rows[0].push_back("with slip");
   const auto by_law = result.damping(&DampingPoint::law_damping_constant);
   const auto by_curve = result.damping(&DampingPoint::curve_damping_constant);
   const auto deviation = result.damping(&DampingPoint::deviation);
@@ -108,8 +113,11 @@ std::string study_text(const StudyResult& result, const StudyFiles& files) {
     if (sample) rows.back().push_back(interval(by_curve[i], Dimension::damping));
     rows.back().push_back(
         std::isnan(deviation[i].mean) ? "n/a" : fmt::format("{:+.1f} %", 100 * deviation[i].mean));
+    if (slip)
+      rows.back().push_back(
+          format_quantity(premises.damping_constant_with_slip[i], Dimension::damping));
   }
-  text += to_table(rows) + "\n" + verdict(result, law) + "\n";
+  text += to_table(rows) + "\n" + verdict(result, law) + "\n" + judged.open_points();
   if (const std::string remarks = ensemble_remarks(result); !remarks.empty())
     text += "\n" + remarks;
   if (const std::string where = files.text(); !where.empty()) text += "\n" + where;
@@ -126,17 +134,20 @@ void run(const StudyArguments& arguments, Session& session) {
   if (session.has_plot()) session.plot(compare_figure(results, configuration.ensemble));
   const StudyFiles files{session.has_output() ? session.output().string() : "", report.write()};
   if (results.size() == 1 && configuration.ensemble.empty()) {
-    session.answer(study_json(results.front(), files), study_text(results.front(), files));
+    const StudyPremises premises = premises_of(results.front());
+    session.answer(study_json(results.front(), premises, files),
+                   study_text(results.front(), premises, files));
   } else {
     Json points = Json::array();
     std::string text;
     for (const StudyResult& result : results) {
       const std::string name = describe_point(configuration.ensemble, result.configuration);
-      Json point = study_json(result, files);
+      const StudyPremises premises = premises_of(result);
+      Json point = study_json(result, premises, files);
       point.erase("files");
       point["point"] = name;
       points.push_back(std::move(point));
-      text += "== " + name + " ==\n" + study_text(result, {}) + "\n";
+      text += "== " + name + " ==\n" + study_text(result, premises, {}) + "\n";
     }
     session.answer({{"points", points}, {"files", files.json()}}, text + files.text());
   }

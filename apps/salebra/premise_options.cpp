@@ -16,26 +16,6 @@
 namespace salebra::cli {
 namespace {
 
-struct Name {
-  const char* key;
-  Premise Premises::*premise;
-  const char* words;
-  const char* value;
-  Dimension dimension;
-};
-constexpr Name names[] = {
-    {"slip_of_opening_levels", &Premises::slip_of_opening_levels,
-     "slip where the contact opens and closes", "M =", Dimension::dimensionless},
-    {"slip_of_closed_levels", &Premises::slip_of_closed_levels, "slip where it stays closed",
-     "excursion", Dimension::length},
-    {"amplitude", &Premises::amplitude, "small amplitude of Eqs (12), (15) and (16)",
-     "u_z =", Dimension::length},
-    {"plasticity", &Premises::plasticity, "plasticity", "pressure over hardness",
-     Dimension::dimensionless},
-    {"inertia", &Premises::inertia, "inertia", "ωa/c_s =", Dimension::dimensionless},
-    {"coupling", &Premises::coupling, "coupling", "share of the loss", Dimension::dimensionless},
-};
-
 /// The option that gives a fact.
 Json option_of(const std::string& fact) {
   if (fact.empty()) return nullptr;
@@ -47,38 +27,11 @@ Json option_of(const std::string& fact) {
   return option;
 }
 
-/// "M = 0.054 (5 % of the loss at 9.4)", of the case that is worst.
-std::string one_objection(const Name& name, const std::vector<Premises>& cases, Verdict verdict) {
-  std::size_t count = 0;
-  const Premise* worst = nullptr;
-  for (const Premises& premises : cases) {
-    const Premise& premise = premises.*name.premise;
-    if (premise.verdict != verdict) continue;
-    ++count;
-    const auto beyond = [](const Premise& p) {
-      return std::abs(std::log(p.value / p.limit_5_percent));
-    };
-    if (worst == nullptr || beyond(premise) > beyond(*worst)) worst = &premise;
-  }
-  if (worst == nullptr) return "";
-  const auto quantity = [&](double value) { return format_quantity(value, name.dimension, 3); };
-  std::string text;
-  if (worst->limit_20_percent == 0)
-    text = fmt::format("{}, at this velocity on any {}", name.words, name.value);
-  else
-    text = fmt::format("{}, {} {} (5 % of the loss at {})", name.words, name.value,
-                       quantity(worst->value), quantity(worst->limit_5_percent));
-  if (cases.size() > 1) text += fmt::format(" in {} of {}", count, cases.size());
-  return text;
-}
-
-std::string objections_of(const std::vector<Premises>& cases, Verdict verdict,
-                          const char* heading) {
-  std::string text;
-  for (const Name& name : names)
-    if (const std::string one = one_objection(name, cases, verdict); !one.empty())
-      text += (text.empty() ? heading : "; ") + one;
-  return text.empty() ? "" : text + "\n";
+/// Of the first case that could be judged.
+const std::vector<LargestMotion>& any_largest(const std::vector<Premises>& cases) {
+  const auto judged =
+      std::ranges::find_if(cases, [](const Premises& p) { return !p.largest.empty(); });
+  return judged == cases.end() ? cases.front().largest : judged->largest;
 }
 
 }  // namespace
@@ -158,7 +111,7 @@ void PremiseReport::add_to(Json& answer) const {
     return all;
   };
   Json& object = answer["premises"] = Json::object();
-  for (const Name& name : names) {
+  for (const PremiseName& name : premise_names()) {
     const auto premise = name.premise;
     Json& one = object[name.key] = Json::object();
     one["value"] = column([&](const Premises& p) { return (p.*premise).value; });
@@ -172,26 +125,28 @@ void PremiseReport::add_to(Json& answer) const {
       if (one["needs"].is_null()) one["needs"] = option_of((p.*premise).needs);
   }
   Json& largest = answer["largest_motion"] = Json::array();
-  for (std::size_t i = 0; i < cases.front().largest.size(); ++i) {
+  const std::vector<LargestMotion>& judged = any_largest(cases);
+  for (std::size_t i = 0; i < judged.size(); ++i) {
     const auto of = [&](double LargestMotion::*member) {
-      return column([&](const Premises& p) { return p.largest[i].*member; });
+      return column([&](const Premises& p) {
+        return p.largest.empty() ? ContactFacts::unknown : p.largest[i].*member;
+      });
     };
-    largest.push_back({{"friction_coefficient", cases.front().largest[i].friction_coefficient},
+    largest.push_back({{"friction_coefficient", judged[i].friction_coefficient},
                        {"drag_velocity", of(&LargestMotion::drag_velocity)},
                        {"tangential_amplitude", of(&LargestMotion::tangential_amplitude)},
                        {"excursion", of(&LargestMotion::excursion)}});
   }
 }
 
-std::string PremiseReport::objections() const {
-  const std::string text = objections_of(cases, Verdict::broken, "Premises broken: ") +
-                           objections_of(cases, Verdict::doubtful, "Premises doubtful: ");
+std::string PremiseReport::above() const {
+  const std::string text = objections(cases);
   return text.empty() ? "" : text + "\n";
 }
 
 std::string PremiseReport::open_points() const {
   std::string open, largest;
-  for (const Name& name : names) {
+  for (const PremiseName& name : premise_names()) {
     const auto unknown = std::ranges::find(
         cases, Verdict::unknown, [&](const Premises& p) { return (p.*name.premise).verdict; });
     if (unknown == cases.end()) continue;
@@ -201,9 +156,11 @@ std::string PremiseReport::open_points() const {
   }
   if (!open.empty()) open += "\n";
   // Of the case that bears least.
-  for (std::size_t i = 0; i < cases.front().largest.size(); ++i) {
+  const std::vector<LargestMotion>& judged = any_largest(cases);
+  for (std::size_t i = 0; i < judged.size(); ++i) {
     double velocity = HUGE_VAL, amplitude = HUGE_VAL;
     for (const Premises& p : cases) {
+      if (p.largest.empty()) continue;
       velocity = std::fmin(velocity, p.largest[i].drag_velocity);
       amplitude = std::fmin(amplitude, p.largest[i].tangential_amplitude);
     }
@@ -213,7 +170,7 @@ std::string PremiseReport::open_points() const {
                            largest.empty() ? "Slip changes the loss by less than 5 % up to " : ", ",
                            drag ? format_quantity(velocity, Dimension::velocity, 3)
                                 : format_quantity(amplitude, Dimension::length, 3),
-                           cases.front().largest[i].friction_coefficient);
+                           judged[i].friction_coefficient);
   }
   if (!largest.empty()) open += largest + "\n";
   return open.empty() ? "" : "\n" + open;
@@ -221,7 +178,7 @@ std::string PremiseReport::open_points() const {
 
 void PremiseReport::answer(Session& session, Json object, const std::string& text) const {
   add_to(object);
-  session.answer(object, objections() + text + open_points());
+  session.answer(object, above() + text + open_points());
 }
 
 void PremiseReport::answer(Session& session, Json object) const {

@@ -34,7 +34,7 @@ struct PremiseReport {
   /// Adds the keys `premises` and `largest_motion`.
   void add_to(Json& answer) const;
   /// What is broken or doubtful, to stand above a table, with a blank line after it; empty if nothing is.
-  std::string objections() const;
+  std::string above() const;
   /// What could not be judged, and the largest motion without slip, to stand below the table.
   std::string open_points() const;
   /// The answer with its premises, as JSON or text.

@@ -54,6 +54,7 @@ void StudyArguments::add_to(Command& command) {
   surface.add_to(command, false, "--surface");
   material.add_to(command);
   motion.add_to(command);
+  premises.add_to(command);
   add_values(command, "--pressures", pressures, Dimension::pressure,
              "loads of the boundary elements, such as 1MPa:1GPa:16");
   add_quantity(command, "--precision", precision, Dimension::dimensionless,
@@ -147,6 +148,10 @@ StudyConfiguration StudyArguments::study() const {
     study.precision = *precision;
   }
   if (no_stick) study.stick = false;
+  const ContactFacts facts = premises.facts({});
+  for (double ContactFacts::*fact : {&ContactFacts::friction_coefficient, &ContactFacts::hardness,
+                                     &ContactFacts::density, &ContactFacts::excursion})
+    if (!std::isnan(facts.*fact)) study.known.*fact = facts.*fact;
   return study;
 }
 
@@ -341,6 +346,22 @@ Json flags_json(const StudyResult& result) {
   Json flags = Json::object();
   for (const StudyFlag& flag : result.flags) flags[flag.name] = flag.text;
   return flags;
+}
+
+void add_premises(Json& answer, const StudyPremises& found) {
+  PremiseReport{found.premises, true}.add_to(answer);
+  const bool slip = std::ranges::any_of(
+      found.losses, [](const LossWithSlip& loss) { return !std::isnan(loss.work_per_cycle); });
+  if (!slip) return;
+  const auto column = [&](double LossWithSlip::*member) {
+    std::vector<double> values;
+    for (const LossWithSlip& loss : found.losses) values.push_back(loss.*member);
+    return values;
+  };
+  answer["with_slip"] = {{"work_per_cycle", column(&LossWithSlip::work_per_cycle)},
+                         {"relaxation_work", column(&LossWithSlip::relaxation_work)},
+                         {"slip_work", column(&LossWithSlip::slip_work)},
+                         {"damping_constant", found.damping_constant_with_slip}};
 }
 
 }  // namespace salebra::cli

@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <optional>
 #include <salebra/study/study.hpp>
+#include <salebra/study/study_premises.hpp>
 #include <string>
 #include <vector>
 
 #include "options.hpp"
+#include "premise_options.hpp"
 #include "session.hpp"
 
 /// What `study` and `compare` have in common.
@@ -18,6 +20,7 @@ struct StudyArguments {
   SurfaceOptions surface;
   MaterialOptions material;
   MotionOptions motion;
+  PremiseOptions premises;
   std::vector<double> pressures;
   std::optional<double> precision;
   bool no_stick = false;
@@ -92,5 +95,8 @@ std::string law_verdict(const StudyResult& result);
 /// How the mean of l/h_rms settled, and what else may be wrong with the ensemble.
 std::string ensemble_remarks(const StudyResult& result);
 Json flags_json(const StudyResult& result);
+
+/// Adds `premises`, `largest_motion` and, with a coefficient of friction, `with_slip` to an answer with a list of pressures.
+void add_premises(Json& answer, const StudyPremises& found);
 
 }  // namespace salebra::cli

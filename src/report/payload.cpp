@@ -89,6 +89,9 @@ class Point {
     add(json, "fit", fit());
     add(json, "local", local());
     add(json, "damping", damping());
+    if (has("premises/pressure"))
+      if (const auto text = file_.text_attribute(where_ + "premises", "objections"))
+        json["objections"] = *text;
     add(json, "spots", spots());
     add(json, "over_bem",
         by_model("comparison/", {"mean_gap", "contact_area_fraction", "normal_stiffness",

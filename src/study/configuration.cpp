@@ -163,7 +163,18 @@ MeasuredSurface read_measured(TomlTable& table, const std::filesystem::path& fol
   return surface;
 }
 
-Material read_material(TomlTable table) {
+// What is known of the bodies and of the motion, for the premises of the damping.
+double read_fact(TomlTable& table, const char* key, Dimension dimension) {
+  const auto value = table.quantity(key, dimension);
+  if (!value) return ContactFacts::unknown;
+  check_positive(table, key, *value);
+  return *value;
+}
+
+Material read_material(TomlTable table, ContactFacts& known) {
+  known.friction_coefficient = read_fact(table, "friction_coefficient", Dimension::dimensionless);
+  known.hardness = read_fact(table, "hardness", Dimension::pressure);
+  known.density = read_fact(table, "density", Dimension::dimensionless);
   const auto young = table.values("young", Dimension::pressure);
   const auto poisson = table.values("poisson", Dimension::dimensionless);
   const auto modulus = table.quantity("contact_modulus", Dimension::pressure);
@@ -181,7 +192,8 @@ Material read_material(TomlTable table) {
     }
     if (!modulus) table.fail("contact_modulus", "is missing; add it, or young and poisson");
     if (tangential) {
-      table.check(poisson.empty(), "poisson", "cannot be combined with tangential_modulus; give one");
+      table.check(poisson.empty(), "poisson",
+                  "cannot be combined with tangential_modulus; give one");
       return Material::of_moduli(*modulus, *tangential);
     }
     table.check(poisson.size() == 1, "poisson",
@@ -245,7 +257,9 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
   const double normal_amplitude = required_positive(table, "normal_amplitude", Dimension::length);
   std::optional<double> omega = table.quantity("angular_frequency", Dimension::angular_frequency);
   const auto frequency = table.quantity("frequency", Dimension::frequency);
-  table.check(!omega || !frequency, "frequency", "cannot be combined with angular_frequency; give one");
+  configuration.known.excursion = read_fact(table, "excursion", Dimension::length);
+  table.check(!omega || !frequency, "frequency",
+              "cannot be combined with angular_frequency; give one");
   if (omega) check_positive(table, "angular_frequency", *omega);
   if (frequency) {
     check_positive(table, "frequency", *frequency);
@@ -299,7 +313,7 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
     surface->require_no_other_keys();
   }
   if (ensemble) ensemble->located([&] { parameter_combinations(configuration); });
-  configuration.material = read_material(root.required_table("material"));
+  configuration.material = read_material(root.required_table("material"), configuration.known);
   read_contact(root.required_table("contact"), configuration);
   if (auto fit = root.table("fit")) read_fit(*fit, configuration);
   read_damping(root.required_table("damping"), configuration);

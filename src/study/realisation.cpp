@@ -211,6 +211,10 @@ std::vector<double> study_pressures(const StudyConfiguration& configuration) {
     const double scale = contact_scale(configuration);
     for (double& pressure : pressures) pressure *= scale;
   }
+  const double hardness = configuration.known.hardness;
+  require(!(pressures.back() > hardness), "hardness", hardness,
+          "Pa is below the largest pressure of the study; reduce the pressures or give the "
+          "hardness in Pa");
   if (const auto& window = configuration.window) {
     const auto inside = std::ranges::count_if(
         pressures, [&](double pressure) { return window->contains(pressure); });

@@ -7,6 +7,7 @@
 #include <map>
 #include <salebra/results/damping.hpp>
 #include <salebra/results/spectrum.hpp>
+#include <salebra/study/study_premises.hpp>
 #include <set>
 
 namespace salebra::detail {
@@ -227,6 +228,44 @@ void write_damping(Table table, const StudyResult& result) {
   group.attribute("contact_modulus", configuration.material.contact_modulus);
 }
 
+void write_premises(ResultGroup group, const StudyResult& result) {
+  group.coordinate("pressure", result.pressures, "Pa", "nominal pressure");
+  const StudyPremises found = premises_of(result);
+  for (const PremiseName& name : premise_names()) {
+    const std::string key = name.key, unit(si_unit(name.dimension)), words = name.words;
+    const auto put = [&](const std::string& dataset, const std::string& units, const auto& value,
+                         const std::string& meaning) {
+      std::vector<double> values;
+      for (const Premises& one : found.premises) values.push_back(value(one.*name.premise));
+      group.dataset(dataset, values, {"pressure"}, units, meaning);
+    };
+    const auto limit = [&](const char* percent, double Premise::*member) {
+      put(key + "_limit_" + percent + "_percent", unit,
+          [member](const Premise& p) { return p.*member; },
+          words + ", value at which the loss changes by " + percent + " %");
+    };
+    put(key, unit, [](const Premise& p) { return p.value; }, words);
+    limit("5", &Premise::limit_5_percent);
+    limit("20", &Premise::limit_20_percent);
+    put(key + "_verdict", "1", [](const Premise& p) { return double(p.verdict); },
+        "0 holds, 1 doubtful, 2 broken, 3 unknown");
+  }
+  const auto loss = [&](const char* dataset, double LossWithSlip::*member, const char* meaning) {
+    std::vector<double> values;
+    for (const LossWithSlip& one : found.losses) values.push_back(one.*member);
+    group.dataset(dataset, values, {"pressure"}, "J", meaning);
+  };
+  loss("work_per_cycle", &LossWithSlip::work_per_cycle,
+       "energy dissipated in a cycle with friction");
+  loss("relaxation_work", &LossWithSlip::relaxation_work,
+       "energy dissipated in a cycle by springs that open and close");
+  loss("slip_work", &LossWithSlip::slip_work,
+       "energy dissipated in a cycle by slip in permanent contact");
+  group.dataset("damping_constant", found.damping_constant_with_slip, {"pressure"}, "N s/m",
+                "damping constant P/v^2 with friction");
+  group.attribute("objections", objections(found.premises));
+}
+
 void write_spots(Table table, const StudyResult& result) {
   table.realisations(result);
   table.pressures(result);
@@ -313,6 +352,7 @@ void write_study_groups(ResultFile& output, const std::string& where, const Stud
   write_local_decay_lengths(table("local"), result);
   write_fits(table("fit"), result);
   write_damping(table("damping"), result);
+  write_premises(output.group(where + "premises"), result);
   write_spots(table("spots"), result);
   write_comparison(table("comparison"), result);
   if (result.realisations.size() >= 2) write_convergence(table("convergence"), result);

@@ -6,8 +6,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <salebra/io/result_file.hpp>
+#include <sstream>
 
 #include "run_program.hpp"
+#include "study/study_text.hpp"
 
 using nlohmann::json;
 
@@ -119,7 +122,8 @@ TEST_CASE("Facts of a contact that cannot be are refused by their option", "[pre
       "mdr --profile parabola --radius 10mm --indentation 1um --contact-modulus 1GPa --poisson 0.3 "
       "--normal-amplitude 300nm --drag-velocity 1um/s --frequency 20kHz -o out.h5 ";
   // F/(πa²) = 4.2 MPa.
-  check_refused(test.run(mdr + "--hardness 4MPa"), "hardness: 4000000 Pa is below the mean pressure");
+  check_refused(test.run(mdr + "--hardness 4MPa"),
+                "hardness: 4000000 Pa is below the mean pressure");
   check_refused(test.run(mdr + "--friction 0.3 --friction-coefficient 0.2"),
                 "--friction-coefficient");
   CHECK(test.files().empty());
@@ -153,4 +157,99 @@ TEST_CASE("Broken premises stand above the table, open ones below it", "[premise
   check_premises(answer);
   CHECK(answer["premises"]["amplitude"]["verdict"] ==
         json({"holds", "doubtful", "doubtful", "broken"}));
+}
+
+TEST_CASE("Every command that prints a damping constant or a loss prints its premises",
+          "[premises]") {
+  const ProgramTest test;
+  const std::string body = " --contact-modulus 10GPa --poisson 0.3 ";
+  const std::string law = " --law exponential --force-newton 1 --decay-length 30nm --poisson 0.3 ";
+  const std::string drag = " --normal-amplitude 1nm --frequency 20kHz ";
+  test.write("study.toml", study_text("seeds = [3]"));
+  // A run of each command of the program; none for those that print no numbers.
+  const std::map<std::string, std::string> commands{
+      {"generate",
+       "--points 32 --size-x 4um --hurst 0.8 --rolloff 2um --short-cutoff 0.5um "
+       "--rms-height 10nm -o rough.h5"},
+      {"info", "rough.h5"},
+      {"convert", "rough.h5 rough.npy"},
+      {"statistics", "rough.h5"},
+      {"contact", "rough.h5 --pressure 20MPa" + body},
+      {"sweep", "rough.h5 --pressures 2:60MPa:6 -o curve.h5" + body},
+      {"gw", "rough.h5 --pressures 2:60MPa:5" + body},
+      {"fit", "curve.h5"},
+      {"damping", law + drag + "--drag-velocity 1um/s"},
+      {"mdr",
+       "--profile parabola --radius 1mm --indentation 100nm --drag-velocity 1um/s" + body + drag},
+      {"damper", law + drag},
+      {"oscillate", "--shape parabola --points 32 --method levels" + body},
+      {"figure3", "--points 32 --steps 16" + body},
+      {"study", "study.toml --no-stick --no-report -o study.h5"},
+      {"compare", "study.toml --no-stick --no-report --models gw_moments"},
+      {"verify", ""},
+      {"report", ""},
+      {"init", ""},
+      {"completion", ""},
+      {"manual", ""}};
+  const std::string help = test.run("--help").out;
+  int with_loss = 0;
+  for (const std::string name :
+       {"generate", "info", "convert", "statistics", "contact", "sweep", "gw", "fit", "damping",
+        "mdr", "damper", "oscillate", "figure3", "study", "compare", "verify"}) {
+    INFO(name);
+    const auto run = test.run(name + " " + commands.at(name) + " --json");
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    const json answer = run.json();
+    if (!has_loss(answer)) continue;
+    ++with_loss;
+    if (name == "figure3")
+      for (const auto& [shape, object] : answer.items()) check_premises(object);
+    else
+      check_premises(answer);
+  }
+  CHECK(with_loss == 7);
+  // A command that is new has to be listed above.
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string first;
+    if (line.starts_with("  ") && words >> first &&
+        std::islower(static_cast<unsigned char>(first[0])) &&
+        test.run(first + " --help").status == 0) {
+      INFO(first);
+      CHECK(commands.contains(first));
+    }
+  }
+}
+
+TEST_CASE("A study prints the loss with slip, and refuses a hardness below its pressures",
+          "[premises][study]") {
+  const ProgramTest test;
+  test.write("study.toml", study_text("seeds = [3]"));
+  const std::string study = "study study.toml --no-stick --no-report ";
+  const auto plain = test.run(study + "--json").json();
+  CHECK(!plain.contains("with_slip"));
+  CHECK(plain["largest_motion"].size() == 3);
+  const auto run =
+      test.run(study + "--friction-coefficient 0.3 --hardness 1TPa --density 7800 --json -o s.h5");
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const json answer = run.json();
+  const std::size_t loads = answer["damping"]["pressure"].size();
+  CHECK(answer["premises"]["plasticity"]["verdict"] ==
+        json(std::vector<std::string>(loads, "holds")));
+  CHECK(answer["with_slip"]["work_per_cycle"].size() == loads);
+  CHECK_THAT(test.run(study + "--friction-coefficient 0.3").out, Catch::Contains("with slip"));
+  const salebra::ResultReader reader(test.folder() / "s.h5");
+  CHECK(reader.numbers("premises/slip_of_opening_levels_limit_5_percent").size() == loads);
+  CHECK(reader.numbers("premises/work_per_cycle")[1] ==
+        answer["with_slip"]["work_per_cycle"][1].get<double>());
+  check_refused(test.run(study + "--hardness 1kPa -o t.h5"),
+                "hardness: 1000 Pa is below the largest pressure");
+  CHECK(!test.files().contains("t.h5"));
+  std::string facts = study_text("seeds = [3]");
+  facts.replace(facts.find("[material]\n"), 11, "[material]\nhardness = \"0Pa\"\n");
+  test.write("facts.toml", facts);
+  check_refused(test.run("study facts.toml"), "material.hardness: ");
 }

@@ -20,7 +20,7 @@ TEST_CASE("A study answers with the agreed keys and one file", "[study]") {
   INFO(result.err);
   REQUIRE(result.status == 0);
   const auto answer = result.json();
-  CHECK(keys(answer) == std::set<std::string>{"decay_length", "decay_length_over_rms_height",
+  CHECK(keys(answer) == std::set<std::string>{"premises", "largest_motion", "decay_length", "decay_length_over_rms_height",
                                               "damping", "comparison", "realisations", "flags",
                                               "files"});
   CHECK(answer["realisations"] == 3);

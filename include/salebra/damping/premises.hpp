@@ -2,8 +2,10 @@
 #pragma once
 
 #include <limits>
+#include <salebra/base/units.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/oscillation.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -88,6 +90,18 @@ struct Premises {
   /// For the μ that is known, otherwise for μ = 0.1, 0.3 and 1.
   std::vector<LargestMotion> largest;
 };
+
+struct PremiseName {
+  const char* key;  ///< of answers and files: the member's name
+  Premise Premises::*premise;
+  const char* words;    ///< for people
+  const char* value;    ///< what the value is, for people
+  Dimension dimension;  ///< of value and limits
+};
+std::span<const PremiseName> premise_names();
+
+/// What is broken and what is doubtful in any of the cases, a line each, with the worst value; empty where nothing is.
+std::string objections(std::span<const Premises> cases);
 
 /// mean_indentation: δ0, m, as DampingResult::indentation. A table is continued beyond its ends by
 /// exponentials with the F/K there. Drag::drag_velocity NaN: not known; the largest is found.

@@ -9,6 +9,7 @@
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
+#include <salebra/damping/premises.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/study/contact_models.hpp>
 #include <salebra/surface/detrend.hpp>
@@ -75,6 +76,8 @@ struct StudyConfiguration {
   bool has(ContactModel model) const;
   Oscillation motion;
   DampingOptions damping;
+  /// Friction, hardness, density and excursion, for the premises of the damping.
+  ContactFacts known;
   std::string text;  ///< the file as it was read, for provenance
 };
 

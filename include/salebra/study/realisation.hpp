@@ -236,7 +236,8 @@ Surface study_surface(const StudyConfiguration& configuration, std::uint64_t see
 /// The unit of relative pressures, E*h'_rms, Pa, without looking at chance: what the lattice has in the mean, or what was measured.
 double contact_scale(const StudyConfiguration& configuration);
 
-/// Pressures of the sweep in Pa. Throws InvalidInput for a window of the fit with fewer than three of them.
+/// Pressures of the sweep in Pa. Throws InvalidInput for a window of the fit with fewer than three of them, and for
+/// a hardness below the largest.
 std::vector<double> study_pressures(const StudyConfiguration& configuration);
 
 /// Surface → statistics → contact models → exponential law → damping for one surface of the configuration, whose ensemble lists

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Premises and losses with slip of a study, from the mean curve of the boundary elements.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <salebra/study/study_premises.hpp>
+
+namespace salebra {
+namespace {
+
+// P/⟨ẋ²⟩ with P = Wω/2π.
+double damping_constant(double work, const Oscillation& motion) {
+  if (const auto* drag = std::get_if<Drag>(&motion))
+    return work * drag->angular_frequency /
+           (2 * std::numbers::pi * drag->drag_velocity * drag->drag_velocity);
+  const auto& equal = std::get<EqualFrequency>(motion);
+  return work / (std::numbers::pi * equal.tangential_amplitude * equal.tangential_amplitude *
+                 equal.angular_frequency);
+}
+
+ForceCurve mean_curve(const StudyResult& result) {
+  const auto mean_gap = result.curve(&ForceSample::mean_gap);
+  const auto normal = result.curve(&ForceSample::normal_stiffness);
+  const auto tangential = result.curve(&ForceSample::tangential_stiffness);
+  const auto area = result.curve(&ForceSample::contact_area_fraction);
+  ForceCurve curve;
+  double least_gap = HUGE_VAL;
+  for (std::size_t k = 0; k < result.pressures.size(); ++k) {
+    ForceSample& sample = curve.samples.emplace_back();
+    sample.mean_gap = mean_gap[k].mean;
+    sample.pressure = result.pressures[k];
+    sample.force = sample.pressure * result.grid.area();
+    sample.normal_stiffness = normal[k].mean;
+    sample.tangential_stiffness = tangential[k].mean;
+    sample.contact_area_fraction = area[k].mean;
+    // Means over different surfaces, where some did not converge, need not fall.
+    sample.converged = sample.mean_gap < least_gap;
+    if (sample.converged) least_gap = sample.mean_gap;
+  }
+  return curve;
+}
+
+}  // namespace
+
+StudyPremises premises_of(const StudyResult& result) {
+  const StudyConfiguration& configuration = result.configuration;
+  const std::size_t count = result.pressures.size();
+  StudyPremises all{std::vector<Premises>(count), std::vector<LossWithSlip>(count),
+                    std::vector<double>(count, ContactFacts::unknown)};
+  const ForceCurve curve = mean_curve(result);
+  if (std::ranges::count(curve.samples, true, &ForceSample::converged) < 4) return all;
+  const TabulatedLaw law(curve, configuration.material.modulus_ratio());
+  ContactFacts facts = configuration.known;
+  facts.contact_modulus = configuration.material.contact_modulus;
+  facts.loaded_size = std::max(result.grid.lx, result.grid.ly);
+  facts.rms_slope = result.mean([](const Realisation& r) { return r.moments.rms_slope(); }).mean;
+  for (std::size_t k = 0; k < count; ++k) {
+    const ForceSample& sample = curve.samples[k];
+    if (!sample.converged) continue;
+    facts.nominal_pressure = sample.pressure;
+    facts.mean_contact_pressure = sample.pressure / sample.contact_area_fraction;
+    all.premises[k] = premises_of(law, -sample.mean_gap, configuration.motion, facts);
+    if (std::isnan(facts.friction_coefficient)) continue;
+    all.losses[k] = loss_with_slip(law, -sample.mean_gap, configuration.motion,
+                                   facts.friction_coefficient, facts.excursion);
+    all.damping_constant_with_slip[k] =
+        damping_constant(all.losses[k].work_per_cycle, configuration.motion);
+  }
+  return all;
+}
+
+}  // namespace salebra
