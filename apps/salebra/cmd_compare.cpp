@@ -266,7 +266,7 @@ void add_compare_command(Program& program) {
   Command& command = program.add_command(
       "compare", "every contact model on the same surfaces, down to the damping constant",
       {"salebra compare data/paper.toml -o paper.h5 --plot paper.png",
-       "salebra compare data/quickstart.toml --precision 5% --json"},
+       "salebra compare data/quickstart.toml --target-precision 5% --json"},
       [arguments](Session& session) { run(*arguments, session); },
       "force over gap, area, stiffness and damping of all models, with bands", study_output);
   arguments->study.add_to(command);

@@ -69,9 +69,9 @@ void write_contact(const Session& session, const Grid2D& grid, const NormalConta
 
 void run(const ContactArguments& arguments, Session& session) {
   require(arguments.position.count() == 1, "--pressure", arguments.position.count(),
-          "positions are given; give exactly one of --pressure, --mean-gap, --force-newton, "
+          "positions are given; give exactly one of --pressure, --mean-gap, --normal-force, "
           "--indentation");
-  if (arguments.position.force) require_positive(*arguments.position.force, "--force-newton");
+  if (arguments.position.force) require_positive(*arguments.position.force, "--normal-force");
   if (arguments.position.pressure) require_positive(*arguments.position.pressure, "--pressure");
   if (arguments.position.mean_gap) require_positive(*arguments.position.mean_gap, "--mean-gap");
   if (arguments.position.indentation)

@@ -131,7 +131,7 @@ PremiseReport premises_of_map(const DamperArguments& arguments, const LawOptions
 
 void run(const DamperArguments& arguments, Session& session) {
   const LawOptions::Contact contact = arguments.law.contact(arguments.material);
-  require(contact.positions.size() == 1, "--force-newton",
+  require(contact.positions.size() == 1, "--normal-force",
           fmt::format("{} positions", contact.positions.size()),
           "are given; damper takes one, salebra damping takes ranges");
   const Position& position = contact.positions.front();
@@ -199,7 +199,7 @@ void add_damper_command(Program& program) {
   auto arguments = std::make_shared<DamperArguments>();
   Command& command = program.add_command(
       "damper", "a contact under fast normal oscillation as a tunable damper",
-      {"salebra damper --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 "
+      {"salebra damper --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--normal-amplitude 20nm --frequency 20kHz --mass 10g --spring-stiffness 1kN/m",
        "salebra damper --curve curve.h5 --pressure 10MPa --poisson 0.3 --normal-amplitude "
        "1:50nm:20 --frequency 1:100kHz:20 --falling-slope 5 --output map.h5 --plot map.png"},

@@ -68,7 +68,7 @@ DampingResult result_of(const ContactLaw& law, const Case& one, const DampingOpt
   if (!one.force_amplitude) return damping_of(law, one.position, one.motion, options);
   const auto* force = std::get_if<AtForce>(&one.position);
   require(force != nullptr, "--force-amplitude", *one.force_amplitude,
-          "goes with a mean force; give --force-newton or --pressure");
+          "goes with a mean force; give --normal-force or --pressure");
   return std::visit(
       [&](const auto& motion) {
         return relaxation_damping_force_controlled(law, force->force, *one.force_amplitude, motion,
@@ -126,9 +126,9 @@ void follow_motion(const DampingArguments& arguments, const LawOptions::Contact&
   object["curvature"] = full_stick.curvature;
   object["force"] = full_stick.force;
   object["indentation"] = full_stick.indentation;
-  const PremiseReport premises{
-      {premises_of_case(contact, one, full_stick,
-                        arguments.premises.facts(arguments.material, arguments.follow.friction))}};
+  const PremiseReport premises{{premises_of_case(
+      contact, one, full_stick,
+      arguments.premises.facts(arguments.material, arguments.follow.friction_coefficient))}};
   if (loss.converged) {
     session.plot(cycle_figure(path, loss));
     write_answer(session, "damping", object);
@@ -152,7 +152,8 @@ void run(const DampingArguments& arguments, Session& session) {
     require(!arguments.motion.given() && arguments.force_amplitude.empty(), "--trajectory",
             arguments.follow.trajectory, "is the motion; leave out the options of Motion");
     follow_file(arguments.follow, *arguments.law.law_alone(arguments.material),
-                arguments.premises.facts(arguments.material, arguments.follow.friction), session);
+                arguments.premises.facts(arguments.material, arguments.follow.friction_coefficient),
+                session);
     return;
   }
   const auto [quantity, values] = varied(arguments);
@@ -173,8 +174,9 @@ void run(const DampingArguments& arguments, Session& session) {
       cases.back().force_amplitude = at(arguments.force_amplitude, i);
   }
   const bool one = count == 1;
-  if (arguments.follow.friction) {
-    require(one, "--friction", *arguments.follow.friction, "takes one motion, not a range");
+  if (arguments.follow.friction_coefficient) {
+    require(one, "--friction", *arguments.follow.friction_coefficient,
+            "takes one motion, not a range");
     follow_motion(arguments, contact, cases.front(), options, session);
     return;
   }
@@ -248,7 +250,7 @@ void add_damping_command(Program& program) {
   auto arguments = std::make_shared<DampingArguments>();
   Command& command = program.add_command(
       "damping", "relaxation damping of a contact under an oscillation",
-      {"salebra damping --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 "
+      {"salebra damping --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--normal-amplitude 5nm --drag-velocity 1mm/s --frequency 20kHz --amplitude small",
        "salebra damping --curve curve.h5 --pressure 10MPa --poisson 0.3 --normal-amplitude "
        "1:20nm:8 --drag-velocity 1mm/s --frequency 20kHz --plot damping.png"},

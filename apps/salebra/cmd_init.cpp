@@ -43,8 +43,8 @@ first_seed = 1
 
 # [ensemble]                 # lists take the place of a key of [surface]: every combination, with all seeds
 # hurst = [0.3, 0.5, 0.8]    # also: rolloff, short_cutoff, size_x (cells keep their size), points (the surface keeps its size)
-# precision = "2%"           # enough surfaces where the 95 % intervals of l/h_rms and of the area slope are so narrow
-# least_realisations = 8     # before the precision is looked at
+# target_precision = "2%"    # enough surfaces where the 95 % intervals of l/h_rms and of the area slope are so narrow
+# min_realisations = 8       # before the precision is looked at
 )";
 
 constexpr std::string_view measured_surface =

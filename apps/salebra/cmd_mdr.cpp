@@ -89,18 +89,18 @@ void run(const MdrArguments& arguments, Session& session) {
   const Material material = arguments.material.material_with_tangential_modulus();
   const IndenterLaw law(arguments.indenter.indenter(), material);
   const ContactFacts facts =
-      arguments.premises.facts(arguments.material, arguments.follow.friction);
+      arguments.premises.facts(arguments.material, arguments.follow.friction_coefficient);
   if (!arguments.follow.trajectory.empty()) {
     require(
         !arguments.indentation && !arguments.force && !arguments.motion.given(), "--trajectory",
         arguments.follow.trajectory,
-        "is the whole motion; leave out --indentation, --force-newton and the options of Motion");
+        "is the whole motion; leave out --indentation, --normal-force and the options of Motion");
     follow_file(arguments.follow, law, facts, session);
     return;
   }
   require(arguments.indentation.has_value() != arguments.force.has_value(), "--indentation",
-          arguments.indentation ? "given beside" : "and --force-newton are both missing;",
-          arguments.indentation ? "--force-newton; give one of them" : "give one of them");
+          arguments.indentation ? "given beside" : "and --normal-force are both missing;",
+          arguments.indentation ? "--normal-force; give one of them" : "give one of them");
   if (arguments.indentation) require_positive(*arguments.indentation, "--indentation");
   for (const std::string* path : {&arguments.stress_map, &arguments.friction_map})
     if (!path->empty()) require_output(*path, session.write_options());
@@ -110,7 +110,7 @@ void run(const MdrArguments& arguments, Session& session) {
   Json object;
   if (arguments.motion.normal_amplitude.empty()) {
     require(!arguments.motion.given() && arguments.stress_map.empty() &&
-                arguments.friction_map.empty() && !arguments.follow.friction,
+                arguments.friction_map.empty() && !arguments.follow.friction_coefficient,
             "--normal-amplitude", "missing;", "a motion, maps and friction need it");
     add_state(object, law, settled);
     if (session.has_plot()) session.plot(contact_figure(law, settled));
@@ -132,7 +132,7 @@ void run(const MdrArguments& arguments, Session& session) {
                  {.hold = arguments.hold == "force" ? Hold::force : Hold::indentation});
   if (!result.converged) throw NotConverged("mdr: the integral did not reach the tolerance");
   add_state(object, law, result.indentation);
-  const bool followed = arguments.follow.friction.has_value();
+  const bool followed = arguments.follow.friction_coefficient.has_value();
   TrajectoryDamping loss;
   SampledMotion path;
   const bool mapped = !arguments.stress_map.empty() || !arguments.friction_map.empty();
@@ -174,9 +174,10 @@ void add_mdr_command(Program& program) {
       {"salebra mdr --profile parabola --radius 10mm --indentation 1um --contact-modulus 1GPa "
        "--poisson 0.3 --mode equal-frequency --normal-amplitude 300nm --tangential-amplitude 200nm "
        "--phase 90deg --stress-map fig4.h5 --plot fig4.png",
-       "salebra mdr --profile cone --angle 10deg --force-newton 1 --contact-modulus 1GPa --poisson "
+       "salebra mdr --profile cone --angle 10deg --normal-force 1 --contact-modulus 1GPa --poisson "
        "0.3 "
-       "--normal-amplitude 100nm --drag-velocity 1mm/s --frequency 20kHz --friction 0.3"},
+       "--normal-amplitude 100nm --drag-velocity 1mm/s --frequency 20kHz --friction "
+       "0.3"},
       [arguments](Session& session) { run(*arguments, session); },
       "the map that is asked for; else one period of the motion; else the contact at rest");
   arguments->indenter.add_to(command);
@@ -184,7 +185,7 @@ void add_mdr_command(Program& program) {
   add_quantity(command, "--indentation", arguments->indentation, Dimension::length,
                "from first touch")
       ->group(position);
-  add_quantity(command, "--force-newton", arguments->force, Dimension::force, "normal force")
+  add_quantity(command, "--normal-force", arguments->force, Dimension::force, "normal force")
       ->group(position);
   add_choice(command, "--hold", arguments->hold, {"indentation", "force"},
              "what stays fixed at finite amplitude")

@@ -143,8 +143,9 @@ void add_exponential_law(Json& object, const OscillationOutcome& outcome, double
 
 void finish(const OscillationOutcome& outcome, const std::optional<FrictionOutcome>& friction,
             const OscillateArguments& arguments, Session& session) {
-  const PremiseReport premises{{premises_of(
-      outcome, arguments.premises.facts(arguments.material, arguments.friction.friction))}};
+  const PremiseReport premises{
+      {premises_of(outcome, arguments.premises.facts(arguments.material,
+                                                     arguments.friction.friction_coefficient))}};
   if (session.has_output()) {
     ResultFile file(session.output(), session.provenance(), session.write_options());
     write_outcome(file, "", outcome);
@@ -180,7 +181,7 @@ void finish(const OscillationOutcome& outcome, const std::optional<FrictionOutco
 void run(const OscillateArguments& arguments, Session& session) {
   check(arguments, session);
   // Bad input is refused before the work.
-  arguments.premises.facts(arguments.material, arguments.friction.friction);
+  arguments.premises.facts(arguments.material, arguments.friction.friction_coefficient);
   OscillationCase contact;
   contact.material = arguments.material.material_with_tangential_modulus();
   contact.body = arguments.shape.empty() ? file_of(arguments, session) : shape_of(arguments);

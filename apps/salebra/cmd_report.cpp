@@ -34,11 +34,11 @@ void run(const ReportArguments& arguments, Session& session) {
 
 void add_report_command(Program& program) {
   auto arguments = std::make_shared<ReportArguments>();
-  Command& command =
-      program.add_command("report", "the results of a study as one HTML page that needs no network",
-                          {"salebra report quickstart.h5 -o report.html",
-                           "salebra report scan.h5 --title 'Brake disc, 3 h in service' --force"},
-                          [arguments](Session& session) { run(*arguments, session); });
+  Command& command = program.add_command(
+      "report", "the results of a study as one HTML page that needs no network",
+      {"salebra report quickstart.h5 -o report.html",
+       "salebra report scan.h5 --title 'Brake disc, 3 h in service' --overwrite"},
+      [arguments](Session& session) { run(*arguments, session); });
   command
       .add_option("RESULTS", arguments->results,
                   "what study or compare wrote; without --output, the page lies beside it")

@@ -19,9 +19,10 @@ CycleSettings settings_of(const OscillationCase& run, const CycleOptions& option
   CycleSettings settings =
       cycle_settings(run.body.surface.grid, run.material, run.motion, run.indentation, options);
   settings.emplace_back("surface", fingerprint(run.body.surface.heights));
-  settings.emplace_back("friction",
-                        friction.friction ? fmt::format("{}", *friction.friction) : "none");
-  if (friction.friction)
+  settings.emplace_back("friction", friction.friction_coefficient
+                                        ? fmt::format("{}", *friction.friction_coefficient)
+                                        : "none");
+  if (friction.friction_coefficient)
     settings.emplace_back("max_periods", fmt::format("{}", friction.max_periods));
   return settings;
 }
@@ -71,7 +72,7 @@ void RecordOptions::check(const Session& session) const {
   require(there || !resume, "--resume", checkpoint,
           "is not there; leave out --resume to begin the cycle");
   require(!there || resume || session.write_options().overwrite, checkpoint, "exists;",
-          "add --resume to go on from it, or --force to begin anew");
+          "add --resume to go on from it, or --overwrite to begin anew");
 }
 
 CycleRecorder::CycleRecorder(const RecordOptions& record, const OscillationCase& run,
@@ -99,7 +100,7 @@ CycleRecorder::CycleRecorder(const RecordOptions& record, const OscillationCase&
   };
   fields_.emplace(record.fields, run.body.surface, provenance_, writing);
   if (state_) keep(*fields_, state_->step);
-  if (!friction.friction) return;
+  if (!friction.friction_coefficient) return;
   friction_fields_.emplace(record.fields + "-friction", run.body.surface, provenance_, writing);
   // A later period writes each step anew.
   if (friction_state_)

@@ -89,7 +89,7 @@ void answer_dry_run(const StudyConfiguration& configuration, Session& session) {
       "machine, give or take a factor of {}\nmemory    about {}{}\n",
       cost.contacts(),
       stick_solves(configuration) ? " and K_t by a stick solve" : "; K_t = (G*/E*)K", models,
-      configuration.precision > 0 ? "at most " : "", about(cost.seconds), cost.threads,
+      configuration.target_precision > 0 ? "at most " : "", about(cost.seconds), cost.threads,
       configuration.has(ContactModel::gw_interacting) ? "three" : "two", memory_text(cost.memory),
       cost.available > 0 ? fmt::format(" of {} that are free", memory_text(cost.available)) : "");
   text += file.empty() ? "files     none; add --output FILE to keep the results\n"

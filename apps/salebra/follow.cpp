@@ -18,7 +18,7 @@ namespace salebra::cli {
 
 void FollowOptions::add_to(Command& app) {
   const std::string group = "Friction and measured motion";
-  add_quantity(app, "--friction", friction, Dimension::dimensionless,
+  add_quantity(app, "--friction", friction_coefficient, Dimension::dimensionless,
                "coefficient; without it full stick")
       ->group(group);
   app.add_option("--steps", steps, "straight steps a cycle where friction is followed")
@@ -31,8 +31,9 @@ void FollowOptions::add_to(Command& app) {
 }
 
 double FollowOptions::coefficient() const {
-  if (friction) require(*friction >= 0, "--friction", *friction, "must be >= 0");
-  return friction.value_or(std::numeric_limits<double>::infinity());
+  if (friction_coefficient)
+    require(*friction_coefficient >= 0, "--friction", *friction_coefficient, "must be >= 0");
+  return friction_coefficient.value_or(std::numeric_limits<double>::infinity());
 }
 
 DampingResult damping_of(const ContactLaw& law, const Position& position, const Motion& motion,
@@ -47,7 +48,7 @@ SampledMotion sampled(const Motion& motion, double mean_indentation, int steps) 
 
 TrajectoryDamping follow(const ContactLaw& law, const Motion& motion, const SampledMotion& path,
                          double friction) {
-  TrajectoryDamping loss = trajectory_damping(law, path, {.friction = friction});
+  TrajectoryDamping loss = trajectory_damping(law, path, {.friction_coefficient = friction});
   const auto* equal = std::get_if<EqualFrequency>(&motion);
   if (equal != nullptr && !(equal->angular_frequency > 0))
     loss.power = loss.damping_constant = std::numeric_limits<double>::quiet_NaN();
@@ -67,7 +68,8 @@ void add_losses(Json& object, const TrajectoryDamping& loss) {
 void require_steady(const TrajectoryDamping& loss) {
   if (!loss.converged)
     throw NotConverged(fmt::format(
-        "--friction: the losses of the last two of {} periods still differ, because the drag is "
+        "--friction: the losses of the last two of {} periods still differ, because "
+        "the drag is "
         "too short for the whole contact to slide; drag faster, or leave it out for full stick",
         loss.periods));
 }
@@ -76,7 +78,8 @@ void follow_file(const FollowOptions& options, const ContactLaw& law, const Cont
                  Session& session) {
   const auto columns = read_number_table(options.trajectory, 3);
   const SampledMotion path{columns[0], columns[1], columns[2]};
-  const TrajectoryDamping loss = trajectory_damping(law, path, {.friction = options.coefficient()});
+  const TrajectoryDamping loss =
+      trajectory_damping(law, path, {.friction_coefficient = options.coefficient()});
   Json object;
   add_losses(object, loss);
   object["converged"] = loss.converged;

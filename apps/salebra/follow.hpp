@@ -13,7 +13,7 @@ namespace salebra::cli {
 
 /// Following a path step by step: from a file, or because friction makes the loss depend on its history.
 struct FollowOptions {
-  std::optional<double> friction;
+  std::optional<double> friction_coefficient;
   std::string trajectory;
   int steps = 2000;
 

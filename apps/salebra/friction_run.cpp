@@ -95,14 +95,14 @@ void warn_of_cycle(const char* which, const FrictionalCycleResult& cycle, double
 
 void FrictionOptions::add_to(Command& app) {
   const std::string group = "Friction";
-  add_quantity(app, "--friction", friction, Dimension::dimensionless,
+  add_quantity(app, "--friction", friction_coefficient, Dimension::dimensionless,
                "Coulomb's coefficient: steps through the cycle once more, with slip where the "
                "traction would exceed it; without it nothing slips")
       ->group(group);
   app.add_flag("--coupled", coupled,
                "steps once more with pressures and tractions coupled by Dundurs' beta")
       ->group(group);
-  add_quantity(app, "--coupling", dundurs, Dimension::dimensionless,
+  add_quantity(app, "--dundurs", dundurs, Dimension::dimensionless,
                "Dundurs' beta, with --coupled; default: that of the material")
       ->group(group);
   app.add_option("--max-periods", max_periods,
@@ -111,14 +111,14 @@ void FrictionOptions::add_to(Command& app) {
 }
 
 void FrictionOptions::check() const {
-  if (friction) require_positive(*friction, "--friction");
+  if (friction_coefficient) require_positive(*friction_coefficient, "--friction");
   require(max_periods >= 2, "--max-periods", max_periods,
           "must be >= 2: a loss is steady where two periods agree");
   require(max_periods == 6 || given(), "--max-periods", max_periods,
           "is of a cycle with friction; add --friction or --coupled");
   if (!dundurs) return;
-  require(coupled, "--coupling", *dundurs, "means nothing by itself; add --coupled");
-  require(std::abs(*dundurs) <= 0.5, "--coupling", *dundurs, "must be -0.5 ... 0.5");
+  require(coupled, "--dundurs", *dundurs, "means nothing by itself; add --coupled");
+  require(std::abs(*dundurs) <= 0.5, "--dundurs", *dundurs, "must be -0.5 ... 0.5");
 }
 
 void FrictionOptions::check(const Oscillation& motion, double indentation) const {
@@ -143,7 +143,8 @@ FrictionOutcome run_with_friction(const FrictionOptions& options, const Oscillat
                                   const CycleOptions& steps, double coupling,
                                   const FrictionRecord& record, Session& session) {
   FrictionalCycleOptions cycle;
-  cycle.friction = options.friction.value_or(std::numeric_limits<double>::infinity());
+  cycle.friction_coefficient =
+      options.friction_coefficient.value_or(std::numeric_limits<double>::infinity());
   cycle.steps = steps.steps;
   cycle.max_periods = options.max_periods;
   cycle.direction = steps.direction;
@@ -158,7 +159,7 @@ FrictionOutcome run_with_friction(const FrictionOptions& options, const Oscillat
   recorded.on_state = record.on_state;
   recorded.resume = record.resume;
   FrictionOutcome outcome;
-  outcome.friction = options.friction;
+  outcome.friction_coefficient = options.friction_coefficient;
   outcome.cycle = simulate_frictional_cycle(
       boundary_element_pressures(surface, run.material.contact_modulus, contact), surface.grid,
       run.material, trajectory, recorded);
@@ -173,7 +174,8 @@ void add_friction(Json& object, const FrictionOutcome& outcome, const Oscillatio
   const FrictionalCycleResult& cycle = outcome.cycle;
   const double uncertain = no_loss(stuck);
   Json& friction = object["friction"];
-  friction["coefficient"] = outcome.friction ? Json(*outcome.friction) : Json(nullptr);
+  friction["coefficient"] =
+      outcome.friction_coefficient ? Json(*outcome.friction_coefficient) : Json(nullptr);
   add_cycle(friction, cycle, uncertain);
   friction["over_stick"] = over(cycle.work_per_cycle, stuck.work_per_cycle(), uncertain);
   friction["tangential"] = column(cycle, &FrictionalSample::tangential);
@@ -209,7 +211,7 @@ PlotPanel loop_panel(const FrictionOutcome& outcome, const OscillationOutcome& s
     add(name, column(cycle, &FrictionalSample::tangential),
         column(cycle, &FrictionalSample::tangential_force));
   };
-  if (outcome.friction) add_cycle("friction", outcome.cycle);
+  if (outcome.friction_coefficient) add_cycle("friction", outcome.cycle);
   if (outcome.coupled) add_cycle("coupled", *outcome.coupled);
   panel.legend = PlotLegend::top_left;
   return panel;
@@ -217,8 +219,8 @@ PlotPanel loop_panel(const FrictionOutcome& outcome, const OscillationOutcome& s
 
 void write_friction(ResultFile& file, const FrictionOutcome& outcome, const Grid2D& grid) {
   ResultGroup friction = file.group("friction");
-  friction.attribute("coefficient",
-                     outcome.friction.value_or(std::numeric_limits<double>::infinity()));
+  friction.attribute("coefficient", outcome.friction_coefficient.value_or(
+                                        std::numeric_limits<double>::infinity()));
   write_cycle(friction, outcome.cycle, grid);
   if (!outcome.coupled) return;
   ResultGroup coupling = file.group("coupling");

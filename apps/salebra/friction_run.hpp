@@ -14,24 +14,24 @@
 namespace salebra::cli {
 
 struct FrictionOptions {
-  std::optional<double> friction, dundurs;
+  std::optional<double> friction_coefficient, dundurs;
   bool coupled = false;
   int max_periods = 6;
 
   void add_to(Command& app);
-  bool given() const { return friction || coupled; }
+  bool given() const { return friction_coefficient || coupled; }
   /// The option that was given, for messages.
-  std::string name() const { return friction ? "--friction" : "--coupled"; }
+  std::string name() const { return friction_coefficient ? "--friction" : "--coupled"; }
   /// Before any work: that the options suit each other.
   void check() const;
   /// Before the cycles: that a coupled contact stays closed.
   void check(const Oscillation& motion, double indentation) const;
-  /// β/(πE*), 1/Pa: --coupling, or what the material options say of the two bodies.
+  /// β/(πE*), 1/Pa: --dundurs, or what the material options say of the two bodies.
   double coupling(const MaterialOptions& bodies, const Material& material) const;
 };
 
 struct FrictionOutcome {
-  std::optional<double> friction;  ///< none: infinite
+  std::optional<double> friction_coefficient;  ///< none: infinite
   double dundurs = 0;
   FrictionalCycleResult cycle;
   std::optional<FrictionalCycleResult> coupled;

@@ -38,7 +38,7 @@ std::vector<Position> positions_of(const std::string& name, const std::vector<do
     if (name == "indentation") {
       positions.emplace_back(AtIndentation{value});
     } else {
-      require_positive(value, "--force-newton");
+      require_positive(value, "--normal-force");
       positions.emplace_back(AtForce{value});
     }
   }
@@ -50,9 +50,9 @@ std::unique_ptr<ContactLaw> exponential(const LawOptions& arguments,
   const double decay_length =
       required(arguments.decay_length, "--decay-length", "--law exponential needs it");
   require_positive(decay_length, "--decay-length");
-  require(!arguments.force.empty(), "--force-newton", "not given,",
+  require(!arguments.force.empty(), "--normal-force", "not given,",
           "but --law exponential needs it");
-  require_positive(arguments.force.front(), "--force-newton");
+  require_positive(arguments.force.front(), "--normal-force");
   // The law has no scale of its own: F'' = F/l² whatever the reference force.
   return std::make_unique<ExponentialLaw>(arguments.force.front(), decay_length,
                                           material.modulus_ratio());
@@ -108,7 +108,7 @@ void LawOptions::add_to(Command& command) {
                "B of the profile f = B r^N, m^(1-N)")
       ->group(group);
   const std::string position = "Position (may be a range)";
-  add_values(command, "--force-newton", force, Dimension::force, "normal force")->group(position);
+  add_values(command, "--normal-force", force, Dimension::force, "normal force")->group(position);
   add_values(command, "--indentation", indentation, Dimension::length, "from first touch")
       ->group(position);
   add_values(command, "--pressure", pressure, Dimension::pressure, "nominal pressure, of a curve")
@@ -141,7 +141,7 @@ LawOptions::Contact LawOptions::contact(const MaterialOptions& material) const {
   auto force_law = law_alone(material);
   const auto [name, values] = position_of(*this, {"force", "indentation"});
   for (const double value : values)
-    require_positive(value, name == "force" ? "--force-newton" : "--indentation");
+    require_positive(value, name == "force" ? "--normal-force" : "--indentation");
   return {std::move(force_law), positions_of(name, values)};
 }
 

@@ -27,7 +27,7 @@ struct LawOptions {
 
   void add_to(Command& command);
   /// Throws InvalidInput naming the option that is missing or one too many.
-  /// The law alone, for a motion that brings its own indentations. The exponential law's --force-newton is F at indentation 0.
+  /// The law alone, for a motion that brings its own indentations. The exponential law's --normal-force is F at indentation 0.
   std::unique_ptr<ContactLaw> law_alone(const MaterialOptions& material) const;
   Contact contact(const MaterialOptions& material) const;
 };

@@ -52,6 +52,14 @@ double required(const std::optional<double>& value, std::string_view option,
   return *value;
 }
 
+void require_options(const std::vector<std::string>& missing, const std::string& reason) {
+  if (missing.empty()) return;
+  const bool one = missing.size() == 1;
+  throw InvalidInput(fmt::format("{}: not given, but {} needs {}; give {}",
+                                 fmt::join(missing, ", "), reason, one ? "it" : "them",
+                                 one ? "it" : "all of them"));
+}
+
 void MaterialOptions::add_to(Command& app) {
   const std::string group = "Material";
   add_values(app, "--young", young, Dimension::pressure,
@@ -67,6 +75,15 @@ void MaterialOptions::add_to(Command& app) {
       ->group(group);
 }
 
+std::vector<std::string> MaterialOptions::missing(bool tangential) const {
+  std::vector<std::string> options;
+  if (young.empty() && !contact_modulus)
+    options.emplace_back("--contact-modulus (or --young with --poisson)");
+  if (tangential && young.empty() && poisson.empty() && !tangential_modulus)
+    options.emplace_back("--poisson (or --tangential-modulus)");
+  return options;
+}
+
 Material MaterialOptions::material() const {
   if (!young.empty()) {
     require(!contact_modulus && !tangential_modulus, "--young", fmt::format("{}", young.front()),
@@ -79,8 +96,8 @@ Material MaterialOptions::material() const {
                                                            ? ElasticBody{young[1], poisson[1]}
                                                            : ElasticBody{});
   }
-  const double modulus = required(contact_modulus, "--contact-modulus",
-                                  "the material is needed; give it, or --young with --poisson");
+  require_options(missing(false), "the material");
+  const double modulus = *contact_modulus;
   require(poisson.empty() || !tangential_modulus, "--tangential-modulus",
           tangential_modulus.value_or(0), "cannot be combined with --poisson; give one of them");
   require(poisson.size() <= 1, "--poisson", poisson.size(),
@@ -91,11 +108,7 @@ Material MaterialOptions::material() const {
 }
 
 Material MaterialOptions::material_with_tangential_modulus() const {
-  if (young.empty() && poisson.empty() && !tangential_modulus) {
-    throw InvalidInput(
-        "--tangential-modulus: not given, but the tangential stiffness is needed; give it, or "
-        "--poisson");
-  }
+  require_options(missing(true), "the tangential stiffness");
   return material();
 }
 
@@ -153,7 +166,7 @@ void PositionOptions::add_to(Command& app, bool with_indentation) {
   add_quantity(app, "--pressure", pressure, Dimension::pressure, "nominal pressure")->group(group);
   add_quantity(app, "--mean-gap", mean_gap, Dimension::length, "mean gap of the deformed surfaces")
       ->group(group);
-  add_quantity(app, "--force-newton", force, Dimension::force, "normal force")->group(group);
+  add_quantity(app, "--normal-force", force, Dimension::force, "normal force")->group(group);
   if (with_indentation) {
     add_quantity(app, "--indentation", indentation, Dimension::length, "from first touch")
         ->group(group);
@@ -204,22 +217,35 @@ std::pair<std::string, std::vector<double>> MotionOptions::varied() const {
   return found;
 }
 
+std::vector<std::string> MotionOptions::missing() const {
+  const bool drag = mode == "drag", two = mode == "two-frequencies";
+  std::vector<std::string> options;
+  const auto need = [&](bool wanted, bool given, const char* option) {
+    if (wanted && !given) options.emplace_back(option);
+  };
+  need(true, !normal_amplitude.empty(), "--normal-amplitude");
+  need(!drag, !tangential_amplitude.empty(), "--tangential-amplitude");
+  need(!drag, !phase.empty(), "--phase");
+  need(drag, !drag_velocity.empty(), "--drag-velocity");
+  need(two, !tangential_frequency.empty(), "--tangential-frequency");
+  need(drag || two, !frequency.empty() || !angular_frequency.empty(),
+       "--frequency (or --angular-frequency)");
+  return options;
+}
+
 std::vector<Motion> MotionOptions::all_motions() const {
   const bool drag = mode == "drag", two = mode == "two-frequencies";
+  require_options(missing(), "--mode " + mode);
   const auto check = [&](const std::vector<double>& values, std::string_view option, bool wanted) {
-    require(!values.empty() || !wanted, option, "not given,", "but --mode " + mode + " needs it");
     require(values.empty() || wanted, option, "given,",
             "but --mode " + mode + " has none; leave it out");
   };
-  check(normal_amplitude, "--normal-amplitude", true);
   check(tangential_amplitude, "--tangential-amplitude", !drag);
   check(phase, "--phase", !drag);
   check(drag_velocity, "--drag-velocity", drag);
   check(tangential_frequency, "--tangential-frequency", two);
   require(frequency.empty() || angular_frequency.empty(), "--angular-frequency", "given",
           "beside --frequency; give one of them");
-  require((!drag && !two) || !frequency.empty() || !angular_frequency.empty(), "--frequency",
-          "not given,", "but --mode " + mode + " needs it, or --angular-frequency");
 
   std::vector<double> omega = angular_frequency;
   for (const double hertz : frequency) omega.push_back(2 * std::numbers::pi * hertz);

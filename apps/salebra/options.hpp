@@ -34,6 +34,9 @@ Option* add_choice(Command& app, const std::string& name, std::string& target,
 double required(const std::optional<double>& value, std::string_view option,
                 std::string_view reason);
 
+/// Throws InvalidInput that names all missing options at once, if there is any; reason: "the material".
+void require_options(const std::vector<std::string>& missing, const std::string& reason);
+
 /// The two bodies.
 struct MaterialOptions {
   std::vector<double> young, poisson;
@@ -43,6 +46,8 @@ struct MaterialOptions {
   bool given() const {
     return !young.empty() || !poisson.empty() || contact_modulus || tangential_modulus;
   }
+  /// The options that material(), or material_with_tangential_modulus(), lacks.
+  std::vector<std::string> missing(bool tangential) const;
   /// E*, and G* where it is known.
   Material material() const;
   /// E* and G*; an error where G* was not given one way or another.
@@ -92,6 +97,8 @@ struct MotionOptions {
            !frequency.empty() || !angular_frequency.empty() || !tangential_frequency.empty() ||
            !drag_velocity.empty();
   }
+  /// The options that the mode lacks.
+  std::vector<std::string> missing() const;
   /// Motions of all combinations, which is one line of them: throws InvalidInput if two quantities have several values.
   std::vector<Oscillation> motions() const;
   /// The same with --mode two-frequencies among them.

@@ -58,7 +58,15 @@ std::string help_hint(const CLI::App& app) {
 std::string describe(const CLI::App& app, const CLI::ParseError& error) {
   const auto chosen = app.get_subcommands();
   const std::vector<std::string> words = app.remaining(true);
-  if (chosen.empty() || words.empty()) return error.what();
+  if (chosen.empty()) return error.what();
+  if (words.empty()) {
+    if (!dynamic_cast<const CLI::RequiredError*>(&error)) return error.what();
+    std::vector<std::string> missing;
+    for (const CLI::Option* known : chosen.front()->get_options())
+      if (known->get_required() && known->count() == 0) missing.push_back(known->get_name());
+    return missing.size() < 2 ? error.what()
+                              : fmt::format("{} are required", fmt::join(missing, ", "));
+  }
   const auto option = std::ranges::find_if(words, [](const auto& word) { return word[0] == '-'; });
   if (option == words.end()) {
     const bool extra = dynamic_cast<const CLI::ExtrasError*>(&error);
@@ -162,7 +170,8 @@ Command& Program::add_command(const std::string& name, const std::string& what,
     command.add_option("--plot", common->plot, "picture to draw, .png, .svg or .pdf: " + picture)
         ->type_name("FILE")
         ->group(group);
-  command.add_flag("--force", common->force, "replace an existing output file")->group(group);
+  command.add_flag("--overwrite", common->overwrite, "replace an existing output file")
+      ->group(group);
   command.add_option("--threads", common->threads, "threads to use; 0 means all")
       ->group(group)
       ->check([](const std::string& text) {

@@ -17,7 +17,7 @@ namespace salebra::cli {
 /// The options that every command has.
 struct CommonOptions {
   bool json = false;
-  bool force = false;
+  bool overwrite = false;
   bool quiet = false;
   std::string output;  ///< empty: none
   std::string plot;    ///< picture to draw; empty: none
@@ -44,7 +44,7 @@ class Session {
   /// Draws what --plot asked for; nothing where it was not given.
   void plot(const Figure& figure);
   /// For the library's writers.
-  WriteOptions write_options() const { return {.overwrite = options_.force}; }
+  WriteOptions write_options() const { return {.overwrite = options_.overwrite}; }
   Provenance provenance() const;
 
   /// For the library: draws the bar where one is wanted, and returns false after Ctrl-C.

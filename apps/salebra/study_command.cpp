@@ -57,7 +57,7 @@ void StudyArguments::add_to(Command& command) {
   premises.add_to(command);
   add_values(command, "--pressures", pressures, Dimension::pressure,
              "loads of the boundary elements, such as 1MPa:1GPa:16");
-  add_quantity(command, "--precision", precision, Dimension::dimensionless,
+  add_quantity(command, "--target-precision", precision, Dimension::dimensionless,
                "stop where the means of l and of the area slope are known so well, such as 2%");
   command.add_flag("--no-stick", no_stick,
                    "K_t = (G*/E*)K in place of a stick solve on each contact: faster, exact at nu "
@@ -124,6 +124,9 @@ StudyConfiguration StudyArguments::study() const {
   if (from_file) {
     study = read_study_configuration(configuration);
   } else {
+    std::vector<std::string> missing = material.missing(true);
+    for (const std::string& option : motion.missing()) missing.push_back(option);
+    require_options(missing, "a study without a file");
     study.pressures = parse_values("5e-4:0.2:16", Dimension::dimensionless, "pressures");
     study.relative_pressures = true;
   }
@@ -143,9 +146,9 @@ StudyConfiguration StudyArguments::study() const {
     study.relative_pressures = false;
   }
   if (precision) {
-    require(*precision > 0 && *precision < 1, "--precision", *precision,
+    require(*precision > 0 && *precision < 1, "--target-precision", *precision,
             "must be between 0 and 1, such as 2%");
-    study.precision = *precision;
+    study.target_precision = *precision;
   }
   if (no_stick) study.stick = false;
   const ContactFacts facts = premises.facts({});
@@ -337,7 +340,7 @@ std::string ensemble_remarks(const StudyResult& result) {
   }
   if (result.precision_reached)
     text += fmt::format("{} surfaces were enough for a precision of {:.2g} %.\n",
-                        result.realisations.size(), 100 * result.configuration.precision);
+                        result.realisations.size(), 100 * result.configuration.target_precision);
   for (const StudyFlag& flag : result.flags) text += "Note: " + flag.text + ".\n";
   return text;
 }

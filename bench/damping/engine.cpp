@@ -29,7 +29,8 @@ int main(int argc, char** argv) {
   }
   const TabulatedLaw law(curve, 0.8);
   const double low = 3e-7, high = 7e-7;
-  TangentialContact contact(law, low, high, {.friction = friction, .tangential_range = 2e-7});
+  TangentialContact contact(law, low, high,
+                            {.friction_coefficient = friction, .tangential_range = 2e-7});
 
   std::vector<double> indentation, x;
   for (int i = 0; i < per_cycle; ++i) {

@@ -71,7 +71,7 @@ void bind_result(nb::module_& m) {
 FrictionalCycleOptions options_of(double friction, int steps, int max_periods,
                                   double steady_tolerance, double direction, double tolerance,
                                   int max_iterations, Boundary boundary) {
-  FrictionalCycleOptions options{.friction = friction,
+  FrictionalCycleOptions options{.friction_coefficient = friction,
                                  .steps = steps,
                                  .max_periods = max_periods,
                                  .steady_tolerance = steady_tolerance,
@@ -110,7 +110,7 @@ void bind_runs(nb::module_& m) {
         });
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
-      nb::kw_only(), nb::arg("friction") = infinite, nb::arg("steps") = 64,
+      nb::kw_only(), nb::arg("friction_coefficient") = infinite, nb::arg("steps") = 64,
       nb::arg("max_periods") = 6, nb::arg("steady_tolerance") = 1e-5, nb::arg("direction") = 0.0,
       nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
       nb::arg("boundary") = "periodic", nb::arg("checkpoint") = nb::none(),
@@ -118,7 +118,7 @@ void bind_runs(nb::module_& m) {
       R"(Direct three-dimensional simulation of a surface with Coulomb friction through one oscillation.
 
 Each step solves ``|τ| <= μp`` in every cell. Without drift the permanent contact settles within two or three periods; a drag goes on until
-all of it slides: raise max_periods, and look at `steady`. Arguments as :func:`simulate_cycle`, checkpoints included; friction: μ.
+all of it slides: raise max_periods, and look at `steady`. Arguments as :func:`simulate_cycle`, checkpoints included; friction_coefficient: μ.
 )");
   m.def(
       "simulate_coupled_cycle",
@@ -140,7 +140,7 @@ all of it slides: raise max_periods, and look at `steady`. Arguments as :func:`s
         });
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
-      nb::kw_only(), nb::arg("friction") = infinite, nb::arg("coupling") = nb::none(),
+      nb::kw_only(), nb::arg("friction_coefficient") = infinite, nb::arg("coupling") = nb::none(),
       nb::arg("steps") = 64, nb::arg("max_periods") = 6, nb::arg("steady_tolerance") = 1e-5,
       nb::arg("direction") = 0.0, nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
       nb::arg("boundary") = "periodic", nb::arg("progress") = false,

@@ -124,7 +124,7 @@ Parameters
 ----------
 grid : Grid2D
 material : Material
-friction : float
+friction_coefficient : float
     μ >= 0; infinite: full stick.
 motion_scale : float
     > 0, m: the tangential displacement that the tolerance refers to.
@@ -144,8 +144,9 @@ tolerance, max_iterations, boundary
                                         .max_iterations = max_iterations,
                                         .boundary = boundary.value("boundary")}});
           },
-          nb::arg("grid"), nb::arg("material"), nb::kw_only(), nb::arg("friction") = infinite,
-          nb::arg("motion_scale"), nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
+          nb::arg("grid"), nb::arg("material"), nb::kw_only(),
+          nb::arg("friction_coefficient") = infinite, nb::arg("motion_scale"),
+          nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
           nb::arg("boundary") = "periodic")
       .def(
           "advance",

@@ -28,7 +28,7 @@ Parameters
 law : ContactLaw
 lowest, highest : float
     m.
-friction : float
+friction_coefficient : float
     μ >= 0; infinite: full stick, the case of the paper.
 merge_tolerance : float
     How far the stored history may deviate from the motion, m; 0 keeps all of it.
@@ -47,7 +47,7 @@ tangential_range : float
                                   {friction, merge_tolerance, table_tolerance, tangential_range});
           },
           nb::arg("law"), nb::arg("lowest"), nb::arg("highest"), nb::kw_only(),
-          nb::arg("friction") = infinite, nb::arg("merge_tolerance") = 0.0,
+          nb::arg("friction_coefficient") = infinite, nb::arg("merge_tolerance") = 0.0,
           nb::arg("table_tolerance") = 1e-12, nb::arg("tangential_range") = 0.0,
           nb::keep_alive<1, 2>())
       .def("start", &TangentialContact::start, nb::arg("indentation"), nb::arg("x"),
@@ -93,9 +93,10 @@ void bind_damping_of_trajectory(nb::module_& m) {
           return trajectory_damping(law, trajectory, {friction, max_periods});
         });
       },
-      nb::arg("law"), nb::arg("trajectory"), nb::kw_only(), nb::arg("friction") = infinite,
-      nb::arg("max_periods") = 200,
-      "Follows a periodic trajectory until it is steady; exact for its straight steps. friction: "
+      nb::arg("law"), nb::arg("trajectory"), nb::kw_only(),
+      nb::arg("friction_coefficient") = infinite, nb::arg("max_periods") = 200,
+      "Follows a periodic trajectory until it is steady; exact for its straight steps. "
+      "friction_coefficient: "
       "μ, infinite for full stick.");
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Nearest name by edit distance, for "did you mean" in messages.
 #include <algorithm>
+#include <array>
 #include <salebra/base/suggestion.hpp>
+#include <utility>
 
 namespace salebra {
 namespace {
@@ -24,6 +26,27 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+/// Options of the program and keys of a study file that had another name in version 0.1. Options have "--" and dashes.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> renamed{{
+    {"coupling", "dundurs"},
+    {"force", "overwrite"},
+    {"force_newton", "normal_force"},
+    {"min_realisations", "min_realisations"},
+    {"precision", "target_precision"},
+}};
+
+/// Of an option, the key of the same name.
+std::string key_of(std::string_view name) {
+  std::string key(name.substr(std::min(name.find_first_not_of('-'), name.size())));
+  std::ranges::replace(key, '-', '_');
+  return key;
+}
+
+bool was_called(std::string_view name, std::string_view old) {
+  return std::ranges::find(renamed, std::pair<std::string_view, std::string_view>(old, name)) !=
+         renamed.end();
+}
+
 }  // namespace
 
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
@@ -32,7 +55,9 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
   const std::size_t limit = word.size() / 3;
   std::size_t least = limit + 1;
   std::string nearest;
+  const std::string old = key_of(word);
   for (const std::string& name : names) {
+    if (was_called(key_of(name), old)) return name;
     const bool begun =
         word.size() >= least_beginning && name.size() > word.size() && name.starts_with(word);
     const std::size_t distance = begun ? 1 : edits(word, name);

@@ -34,7 +34,7 @@ FrictionMap friction_map(const ContactLaw& law, double mean_indentation, double 
       for (Index i = begin; i < end; ++i) {
         const double number = friction_numbers[static_cast<std::size_t>(i)];
         const TrajectoryDamping rubbed =
-            trajectory_damping(law, path, {.friction = number * friction_of_one});
+            trajectory_damping(law, path, {.friction_coefficient = number * friction_of_one});
         map.loss(i, j) = rubbed.work_per_cycle / stick;
         map.relaxation(i, j) = rubbed.relaxation_work / stick;
         map.slip(i, j) = rubbed.slip_work / stick;

@@ -60,9 +60,10 @@ class GivenPressures {
                  const Trajectory& trajectory, const FrictionalCycleOptions& options,
                  double motion_scale)
       : pressures_(levels, trajectory, options.steps),
-        contact_(
-            grid, material,
-            {.friction = options.friction, .motion_scale = motion_scale, .stick = options.stick}) {
+        contact_(grid, material,
+                 {.friction_coefficient = options.friction_coefficient,
+                  .motion_scale = motion_scale,
+                  .stick = options.stick}) {
     ContactSet largest = ContactSet::Constant(grid.nx, grid.ny, false);
     for (int k = 0; k <= options.steps; ++k) {
       const Field& pressure = pressures_.at(k).pressure;
@@ -100,7 +101,7 @@ class CoupledPressures {
       : trajectory_(trajectory),
         steps_(options.steps),
         contact_(surface, material,
-                 {.sliding = {.friction = options.friction,
+                 {.sliding = {.friction_coefficient = options.friction_coefficient,
                               .motion_scale = motion_scale,
                               .stick = options.stick},
                   .contact = contact,

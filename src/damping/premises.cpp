@@ -218,12 +218,12 @@ class Springs {
     const double change = opening.tangential_stiffness(high);
     if (closed_levels) {
       contact_.emplace(law, low, high,
-                       TangentialContactOptions{.friction = law.modulus_ratio(),
+                       TangentialContactOptions{.friction_coefficient = law.modulus_ratio(),
                                                 .table_tolerance = tolerance,
                                                 .tangential_range = furthest});
     } else if (change > no_loss * scale_) {
       contact_.emplace(opening, low, high,
-                       TangentialContactOptions{.friction = law.modulus_ratio(),
+                       TangentialContactOptions{.friction_coefficient = law.modulus_ratio(),
                                                 .table_tolerance = above_noise(change),
                                                 .tangential_range = furthest});
     }

@@ -47,7 +47,7 @@ struct TangentialContact::State {
       : table(law, low, high, given.table_tolerance),
         permanent_below(lowest_of_motion),
         permanent_stiffness(law.tangential_stiffness(lowest_of_motion)),
-        slope_limit(given.friction / law.modulus_ratio()),
+        slope_limit(given.friction_coefficient / law.modulus_ratio()),
         merge_tolerance(given.merge_tolerance),
         slack(1e-9 * (high - lowest_of_motion) + 1e-15 * std::abs(high)) {}
 
@@ -213,7 +213,7 @@ TangentialContact::TangentialContact(const ContactLaw& law, double lowest, doubl
                                      const TangentialContactOptions& options) {
   require(std::isfinite(lowest) && std::isfinite(highest) && lowest <= highest, "indentation",
           lowest, "and the highest of the motion must be finite and in this order");
-  require(options.friction >= 0, "friction", options.friction,
+  require(options.friction_coefficient >= 0, "friction_coefficient", options.friction_coefficient,
           "must be >= 0 (infinity: full stick)");
   require(options.merge_tolerance >= 0, "merge_tolerance", options.merge_tolerance, "must be >= 0");
   require(options.table_tolerance >= 1e-14 && options.table_tolerance <= 1e-3, "table_tolerance",
@@ -227,13 +227,14 @@ TangentialContact::TangentialContact(const ContactLaw& law, double lowest, doubl
     require(false, "indentation", lowest, constraint.str());
   }
   double low = lowest;
-  if (std::isfinite(options.friction)) {
+  if (std::isfinite(options.friction_coefficient)) {
     require(std::isfinite(options.tangential_range) && options.tangential_range >= 0,
             "tangential_range", options.tangential_range, "must be finite and >= 0");
     // A level deeper than this is never stretched to its limit.
-    const double reach = options.friction > 0 ? 1.001 * options.tangential_range *
-                                                    law.modulus_ratio() / options.friction
-                                              : std::numeric_limits<double>::infinity();
+    const double reach =
+        options.friction_coefficient > 0
+            ? 1.001 * options.tangential_range * law.modulus_ratio() / options.friction_coefficient
+            : std::numeric_limits<double>::infinity();
     low = std::max(lowest - reach, law_low);
     // Below first touch there is nothing; without friction, or with little, the reach has no other bound.
     if (!(law.force(low) > 0) || !std::isfinite(low)) {

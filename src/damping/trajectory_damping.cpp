@@ -52,7 +52,7 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
   path.validate();
   require(options.max_periods >= 2, "max_periods", options.max_periods, "must be >= 2");
   const auto [low_x, high_x] = std::ranges::minmax(path.displacement);
-  const bool stick = std::isinf(options.friction);
+  const bool stick = std::isinf(options.friction_coefficient);
   // A closed path may end where it began only to round-off.
   const bool drifts = std::abs(path.drift()) > 1e-9 * (high_x - low_x);
   const double drift = drifts ? path.drift() : 0;
@@ -63,7 +63,7 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
   const std::size_t first = static_cast<std::size_t>(bottom - path.indentation.begin()) % count;
   TangentialContact contact(
       law, *bottom, std::ranges::max(path.indentation),
-      {.friction = options.friction,
+      {.friction_coefficient = options.friction_coefficient,
        .tangential_range = (high_x - low_x) + std::abs(drift) * (periods + 1)});
 
   // From the lowest point, where every level that ever opens is open: no history is missing.

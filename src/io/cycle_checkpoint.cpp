@@ -258,7 +258,7 @@ CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
                              const Oscillation& motion, double mean_indentation,
                              const FrictionalCycleOptions& options) {
   CycleSettings settings = settings_of(grid, material, motion, mean_indentation, options);
-  settings.emplace_back("friction", fmt::format("{}", options.friction));
+  settings.emplace_back("friction", fmt::format("{}", options.friction_coefficient));
   settings.emplace_back("max_periods", fmt::format("{}", options.max_periods));
   settings.emplace_back("steady_tolerance", fmt::format("{}", options.steady_tolerance));
   return settings;

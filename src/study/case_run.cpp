@@ -27,8 +27,8 @@ std::size_t enough(const StudyResult& result,
                    const std::vector<std::optional<Realisation>>& realisations,
                    std::size_t finished) {
   const StudyConfiguration& configuration = result.configuration;
-  if (configuration.precision <= 0 || finished < std::size_t(configuration.least_realisations) ||
-      !is_milestone(finished))
+  if (configuration.target_precision <= 0 ||
+      finished < std::size_t(configuration.min_realisations) || !is_milestone(finished))
     return 0;
   std::vector<double> lengths, slopes;
   for (std::size_t i = 0; i < finished; ++i) {
@@ -39,7 +39,8 @@ std::size_t enough(const StudyResult& result,
   const auto precise = [&](const std::vector<double>& values) {
     const EnsembleMean estimate = result.bootstrap.mean(values);
     // No load in the range of the area law: nothing to wait for.
-    return std::isnan(estimate.mean) || estimate.relative_precision() <= configuration.precision;
+    return std::isnan(estimate.mean) ||
+           estimate.relative_precision() <= configuration.target_precision;
   };
   return precise(lengths) && precise(slopes) ? finished : 0;
 }

@@ -98,15 +98,15 @@ ParameterLists read_lists(TomlTable& table) {
 
 void read_ensemble(TomlTable& table, StudyConfiguration& configuration) {
   configuration.ensemble = read_lists(table);
-  if (const auto precision = table.quantity("precision", Dimension::dimensionless)) {
-    table.check(*precision > 0 && *precision < 1, "precision",
+  if (const auto precision = table.quantity("target_precision", Dimension::dimensionless)) {
+    table.check(*precision > 0 && *precision < 1, "target_precision",
                 fmt::format("{} must be between 0 and 1, such as \"2%\"", *precision));
-    configuration.precision = *precision;
+    configuration.target_precision = *precision;
   }
-  if (const auto least = table.integers("least_realisations"); !least.empty()) {
-    table.check(least.size() == 1 && least[0] >= 2 && least[0] <= 100000, "least_realisations",
+  if (const auto least = table.integers("min_realisations"); !least.empty()) {
+    table.check(least.size() == 1 && least[0] >= 2 && least[0] <= 100000, "min_realisations",
                 "must be one whole number from 2 to 100000");
-    configuration.least_realisations = int(least[0]);
+    configuration.min_realisations = int(least[0]);
   }
   table.require_no_other_keys();
 }

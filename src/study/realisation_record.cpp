@@ -162,7 +162,7 @@ std::uint64_t study_key(const std::vector<StudyConfiguration>& points) {
   Writer writer;
   for (const StudyConfiguration& point : points) {
     for (const std::uint64_t seed : seeds_of(point)) writer(realisation_key(point, seed));
-    writer(point.precision, point.least_realisations);
+    writer(point.target_precision, point.min_realisations);
     const ContactFacts& known = point.known;
     writer(known.friction_coefficient, known.hardness, known.density, known.excursion);
   }

@@ -190,20 +190,51 @@ TEST_CASE("Pressures, gaps and materials that cannot be are refused, and nothing
   CHECK(test.files() == std::set<std::string>{"rough.h5"});
 }
 
-TEST_CASE("An existing output is refused before any work, and replaced with --force",
+TEST_CASE("An existing output is refused before any work, and replaced with --overwrite",
           "[bad-input]") {
   const ProgramTest test;
   test.write("rough.h5", "precious");
-  check_refused(test.run(recipe + "-o rough.h5"), "--force");
+  check_refused(test.run(recipe + "-o rough.h5"), "--overwrite");
   CHECK(test.read("rough.h5") == "precious");
   // The input is not even looked at.
   check_refused(test.run("contact absent.h5 --pressure 1MPa --contact-modulus 1GPa -o rough.h5"),
-                "--force");
+                "--overwrite");
   check_refused(test.run(recipe + "-o absent/rough.h5"), "absent");
   check_refused(test.run(recipe + "-o ."), ".");
   CHECK(test.files() == std::set<std::string>{"rough.h5"});
-  CHECK(test.run(recipe + "-o rough.h5 --force").status == 0);
+  CHECK(test.run(recipe + "-o rough.h5 --overwrite").status == 0);
   CHECK(test.run("info rough.h5").status == 0);
+}
+
+TEST_CASE("All missing options are named at once", "[bad-input]") {
+  const ProgramTest test;
+  test.write("scan.txt", "1 2 3 4\n4 5 6 7\n7 8 9 5\n");
+  const auto study = test.run("study --surface scan.txt");
+  for (const char* option :
+       {"--contact-modulus", "--poisson", "--normal-amplitude", "--drag-velocity", "--frequency"})
+    check_refused(study, option);
+  const auto two = test.run(
+      "damping --law exponential --normal-force 1 --decay-length 1um "
+      "--poisson 0.3 --mode two-frequencies --normal-amplitude 1nm");
+  for (const char* option :
+       {"--tangential-amplitude", "--phase", "--tangential-frequency", "--frequency"})
+    check_refused(two, option);
+  const auto none = test.run("generate");
+  for (const char* option : {"--points", "--size-x"}) check_refused(none, option);
+}
+
+TEST_CASE("Options and keys of version 0.1 are answered with their new names", "[bad-input]") {
+  const ProgramTest test;
+  check_refused(test.run(recipe + "-o rough.h5 --force"), "(did you mean --overwrite?)");
+  check_refused(test.run("damping --law exponential --force-newton 1"),
+                "(did you mean --normal-force?)");
+  check_refused(test.run("oscillate --shape cone --coupled --coupling 0.1"),
+                "(did you mean --dundurs?)");
+  check_refused(test.run("study --precision 5%"), "(did you mean --target-precision?)");
+  test.write("old.toml", "[ensemble]\nprecision = 0.1\n");
+  check_refused(test.run("study old.toml"), "(did you mean target_precision?)");
+  test.write("older.toml", "[ensemble]\nleast_realisations = 9\n");
+  check_refused(test.run("study older.toml"), "(did you mean min_realisations?)");
 }
 
 TEST_CASE("On a full disk nothing half-written stays", "[bad-input]") {
@@ -228,7 +259,7 @@ TEST_CASE("Input that is allowed and most likely a slip is computed with a warni
     INFO(result.err);
     CHECK(result.status == 0);
     CHECK_THAT(result.err, Catch::Contains("salebra: warning: " + part));
-    CHECK(test.run(command + " --quiet --force").err.empty());
+    CHECK(test.run(command + " --quiet --overwrite").err.empty());
   };
   warns("contact s.h5 --pressure 1MPa --contact-modulus 1.15e6",
         "a nominal pressure of 1 MPa is 0.87 times E* = 1.15 MPa");

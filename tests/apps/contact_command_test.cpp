@@ -64,7 +64,7 @@ TEST_CASE("The mean gap that a pressure gives leads back to the pressure", "[con
   // Both to a residual of 1e-10; pressure falls by a factor e over a third of the rms height.
   CHECK(by_gap["pressure"].get<double>() == Approx(2e7).epsilon(1e-8));
   const auto by_force =
-      test.run("contact rough.h5 --force-newton 0.32mN --contact-modulus 10GPa --json").json();
+      test.run("contact rough.h5 --normal-force 0.32mN --contact-modulus 10GPa --json").json();
   CHECK(by_force["mean_gap"].get<double>() ==
         Approx(by_pressure["mean_gap"].get<double>()).epsilon(1e-8));
 }

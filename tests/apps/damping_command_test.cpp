@@ -17,7 +17,7 @@ const std::string drag = "--normal-amplitude 5nm --drag-velocity 2mm/s --frequen
 TEST_CASE("Damping of the exponential law at small amplitude is Eq. (16)", "[damping]") {
   const ProgramTest test;
   const auto result =
-      test.run("damping --law exponential --force-newton 1 --decay-length 1e-7 --poisson 0.3 " +
+      test.run("damping --law exponential --normal-force 1 --decay-length 1e-7 --poisson 0.3 " +
                drag + "--amplitude small --json");
   INFO(result.err);
   REQUIRE(result.status == 0);
@@ -40,13 +40,13 @@ TEST_CASE("One quantity may be a range and makes the answers arrays", "[damping]
   const ProgramTest test;
   const std::string law = "damping --law exponential --decay-length 100nm --poisson 0.3 ";
   const auto forces =
-      test.run(law + "--force-newton 0.1:10:3 --amplitude small --json " + drag).json();
+      test.run(law + "--normal-force 0.1:10:3 --amplitude small --json " + drag).json();
   REQUIRE(forces["damping_constant"].size() == 3);
   // Eq. (16) is proportional to the force.
   CHECK(forces["damping_constant"][2].get<double>() / forces["damping_constant"][0].get<double>() ==
         Approx(100).epsilon(1e-12));
   const auto amplitudes = test.run(law +
-                                   "--force-newton 1 --normal-amplitude 1nm,2nm --drag-velocity "
+                                   "--normal-force 1 --normal-amplitude 1nm,2nm --drag-velocity "
                                    "1mm/s --frequency 1kHz --amplitude small --json")
                               .json();
   CHECK(amplitudes["normal_amplitude"] == nlohmann::json({1e-9, 2e-9}));
@@ -56,7 +56,7 @@ TEST_CASE("One quantity may be a range and makes the answers arrays", "[damping]
   check_refused(
       test.run(
           law +
-          "--force-newton 1,2 --normal-amplitude 1nm,2nm --drag-velocity 1mm/s --frequency 1kHz"),
+          "--normal-force 1,2 --normal-amplitude 1nm,2nm --drag-velocity 1mm/s --frequency 1kHz"),
       "range");
 }
 
@@ -64,7 +64,7 @@ TEST_CASE("A damping curve is kept with units where a file is asked for", "[damp
   const ProgramTest test;
   const auto answer = test.run(
                               "damping --law exponential --decay-length 100nm --poisson 0.3 "
-                              "--force-newton 1,2,4 --json -o d.h5 " +
+                              "--normal-force 1,2,4 --json -o d.h5 " +
                               drag)
                           .json();
   const salebra::ResultReader file(test.folder() / "d.h5");
@@ -92,7 +92,7 @@ TEST_CASE("A cone loses what Eqs (12) and (15) say at any amplitude", "[damping]
         Approx(8. / 3. * ratio * curvature * 9e-16 * 5e-8 * 0.75).epsilon(1e-9));
   CHECK(shear["power"].is_null());
   const auto parabola = test.run(
-      "damping --law parabola --radius 1mm --force-newton 1mN --young 2GPa --poisson 0.5 " + drag +
+      "damping --law parabola --radius 1mm --normal-force 1mN --young 2GPa --poisson 0.5 " + drag +
       "--json");
   CHECK(parabola.status == 0);
 }
@@ -101,7 +101,7 @@ TEST_CASE("damping says by how much the small-amplitude form is off", "[damping]
   const ProgramTest test;
   // k = u_z/l = 0.5: J(0.5)/J(0) by docs/theory.md, section 7, Eq. (16) is 20 % too high.
   const auto run = test.run(
-      "damping --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 "
+      "damping --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
       "--normal-amplitude 50nm --drag-velocity 1mm/s --frequency 20kHz --json");
   const auto answer = run.json();
   const double ratio = answer["ratio"].get<double>();
@@ -148,7 +148,7 @@ TEST_CASE("Frequencies in a rational ratio lose their energy over the common per
 TEST_CASE("The mean force or the force itself may be what is given", "[damping]") {
   const ProgramTest test;
   const std::string law =
-      "damping --law exponential --force-newton 2 --decay-length 100nm --poisson 0.3 "
+      "damping --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 "
       "--drag-velocity 1mm/s --frequency 20kHz --json ";
   const auto held = test.run(law + "--hold force --normal-amplitude 100nm").json();
   CHECK(held["mean_force"].get<double>() == Approx(2).epsilon(1e-9));
@@ -182,7 +182,7 @@ TEST_CASE("Any law follows a motion from a file", "[damping]") {
   }
   test.write("path.txt", path);
   const std::string law =
-      "damping --law exponential --force-newton 2 --decay-length 100nm --poisson 0.3 --json ";
+      "damping --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 --json ";
   const auto followed = test.run(law + "--trajectory path.txt -o path.h5 --plot path.svg").json();
   const auto exact = test.run(law +
                               "--mode equal-frequency --normal-amplitude 50nm "
@@ -208,7 +208,7 @@ TEST_CASE("Any law follows a motion from a file", "[damping]") {
 TEST_CASE("Pictures of damping name what they show", "[damping][plot]") {
   const ProgramTest test;
   const std::string law =
-      "damping --law exponential --force-newton 2 --decay-length 100nm --poisson 0.3 "
+      "damping --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 "
       "--drag-velocity 1mm/s --frequency 20kHz --json ";
   REQUIRE(test.run(law + "--normal-amplitude 1:50nm:6 --plot curve.svg").status == 0);
   const std::string curve = test.read("curve.svg");
@@ -216,7 +216,7 @@ TEST_CASE("Pictures of damping name what they show", "[damping][plot]") {
   CHECK_THAT(curve, Catch::Contains("small-amplitude form"));
   CHECK(test.run(law + "--normal-amplitude 50nm --plot cycle.png").status == 0);
   CHECK(test.read("cycle.png").substr(1, 3) == "PNG");
-  check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.png"), "--force");
+  check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.png"), "--overwrite");
   check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.jpg"), ".png, .svg or .pdf");
   // Without gnuplot: one line, status 1, and no answer is lost for a picture that was not asked for.
   const auto without = test.run(law + "--normal-amplitude 50nm --plot new.png", "PATH=/nowhere;");
@@ -236,7 +236,7 @@ TEST_CASE("A picture is drawn where it was asked for, and its name never runs as
   std::filesystem::create_directory(test.folder() / folder);
   const std::string quoted = "\"|touch PWNED;'\\\"\\`touch PWNED\\`/x.png\"";
   const auto drawn = test.run(
-      "damping --law exponential --force-newton 2 --decay-length 100nm "
+      "damping --law exponential --normal-force 2 --decay-length 100nm "
       "--poisson 0.3 --drag-velocity 1mm/s --frequency 20kHz "
       "--normal-amplitude 50nm --plot " +
       quoted);
@@ -249,17 +249,17 @@ TEST_CASE("A picture is drawn where it was asked for, and its name never runs as
 TEST_CASE("Damping without what it needs is refused by name", "[damping]") {
   const ProgramTest test;
   const std::string law = "damping --law exponential --decay-length 100nm ";
-  check_refused(test.run(law + "--force-newton 1 " + drag), "--tangential-modulus");
+  check_refused(test.run(law + "--normal-force 1 " + drag), "--tangential-modulus");
   check_refused(test.run(law + "--poisson 0.3 " + drag), "position");
-  check_refused(test.run(law + "--poisson 0.3 --force-newton -1 " + drag), "--force-newton");
-  check_refused(test.run(law + "--poisson 0.3 --force-newton 1 --mode equal-frequency " + drag),
+  check_refused(test.run(law + "--poisson 0.3 --normal-force -1 " + drag), "--normal-force");
+  check_refused(test.run(law + "--poisson 0.3 --normal-force 1 --mode equal-frequency " + drag),
                 "--tangential-amplitude");
   check_refused(
-      test.run(law + "--poisson 0.3 --force-newton 1 --normal-amplitude 1nm --drag-velocity 1mm/s"),
+      test.run(law + "--poisson 0.3 --normal-force 1 --normal-amplitude 1nm --drag-velocity 1mm/s"),
       "--frequency");
-  check_refused(test.run("damping --poisson 0.3 --force-newton 1 " + drag), "--law");
-  check_refused(test.run(law + "--poisson 0.7 --force-newton 1 " + drag), "poisson");
-  check_refused(test.run(law + "--poisson 0.3 --force-newton 1kg " + drag), "--force-newton");
+  check_refused(test.run("damping --poisson 0.3 --normal-force 1 " + drag), "--law");
+  check_refused(test.run(law + "--poisson 0.7 --normal-force 1 " + drag), "poisson");
+  check_refused(test.run(law + "--poisson 0.3 --normal-force 1kg " + drag), "--normal-force");
 }
 
 TEST_CASE("A loss that does not become steady leaves no file and exits with 1", "[damping]") {
@@ -268,7 +268,7 @@ TEST_CASE("A loss that does not become steady leaves no file and exits with 1", 
   const std::string motion =
       "--poisson 0.3 --normal-amplitude 20nm --drag-velocity 10um/s --frequency 20kHz --steps 50 "
       "--friction 100 ";
-  const auto law = test.run("damping --law exponential --force-newton 1 --decay-length 100nm " +
+  const auto law = test.run("damping --law exponential --normal-force 1 --decay-length 100nm " +
                             motion + "-o loss.h5");
   CHECK(law.status == 1);
   CHECK_THAT(law.err, Catch::Contains("salebra: error: --friction: the losses of the last two of"));

@@ -11,8 +11,8 @@ Drawing::Drawing(const ProgramTest& test, const std::string& arguments) {
   fs::create_directory(bin);
   test.write("bin/gnuplot", "#!/bin/sh\ncat >script.gp\necho '</svg>'\n");
   fs::permissions(bin / "gnuplot", fs::perms::owner_all);
-  result_ =
-      test.run(arguments + " --plot drawn.svg --force", "PATH=\"$PWD/bin:$PATH\"; export PATH;");
+  result_ = test.run(arguments + " --plot drawn.svg --overwrite",
+                     "PATH=\"$PWD/bin:$PATH\"; export PATH;");
   INFO(result_.err);
   REQUIRE(result_.status == 0);
   script_ = test.read("script.gp");

@@ -294,7 +294,7 @@ TEST_CASE("A picture of damping draws how far the small-amplitude form is off", 
   const ProgramTest test;
   const Drawing drawing(
       test,
-      "damping --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 --json "
+      "damping --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 --json "
       "--normal-amplitude 10nm,50nm,90nm --drag-velocity 1mm/s --frequency 20kHz");
   const json answer = drawing.answer();
   const Values work = numbers(answer["work_per_cycle"]), small = numbers(answer["closed_form"]);
@@ -310,7 +310,7 @@ TEST_CASE("A picture of a damper shows its map over frequency, and how it decays
           "[damper][plot]") {
   const ProgramTest test;
   const std::string law =
-      "damper --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 --json ";
+      "damper --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 --json ";
   const Drawing map(test, law + "--normal-amplitude 1:50nm:4 --frequency 1:100kHz:3");
   const json gamma = map.answer()["damping_constant"];  // (amplitude, frequency)
   const auto image = map.image(1);
@@ -344,7 +344,8 @@ TEST_CASE("A picture of a cycle counts the energy lost over one period", "[mdr][
   const Drawing drawing(
       test,
       "mdr --profile cone --angle 0.1 --indentation 1um --contact-modulus 1GPa --poisson 0.3 "
-      "--friction 0.5 --mode equal-frequency --normal-amplitude 500nm --tangential-amplitude "
+      "--friction 0.5 --mode equal-frequency --normal-amplitude 500nm "
+      "--tangential-amplitude "
       "200nm --phase 60deg --frequency 300Hz --json");
   const Values time = drawing.column(3, 0, 0), lost = drawing.column(3, 0, 1);
   CHECK(time.front() == Approx(0).margin(1e-12));

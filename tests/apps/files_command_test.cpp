@@ -36,7 +36,7 @@ TEST_CASE("convert leads from every format to every other and keeps heights, siz
   test.write("scan.txt", scan);
   const auto check = [&](const std::string& file) {
     INFO(file);
-    const auto result = test.run("convert " + file + " seen.txt --force");
+    const auto result = test.run("convert " + file + " seen.txt --overwrite");
     INFO(result.err);
     REQUIRE(result.status == 0);
     std::istringstream text(test.read("seen.txt"));
@@ -64,7 +64,7 @@ TEST_CASE("convert leads from every format to every other and keeps heights, siz
     CHECK(described.json()["nx"] == 4);
     CHECK(described.json()["undefined_points"] == 1);
     for (const std::string& to : formats) {
-      REQUIRE(test.run("convert from" + from + " to" + to + " --force").status == 0);
+      REQUIRE(test.run("convert from" + from + " to" + to + " --overwrite").status == 0);
       check("to" + to);
     }
   }

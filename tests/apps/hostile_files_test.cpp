@@ -157,7 +157,7 @@ TEST_CASE(
   };
   const auto surface = [&](const std::string& name, const std::string& content) {
     tried(name, content, "info " + name);
-    tried(name, content, "convert " + name + " x.npy --force");
+    tried(name, content, "convert " + name + " x.npy --overwrite");
     tried(name, content, "info --size-x 1um --size-y 1um " + name);
   };
   const auto npy = [](const std::string& description) {

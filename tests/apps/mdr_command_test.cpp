@@ -88,7 +88,7 @@ TEST_CASE("mdr writes the maps of Fig. 4 and of finite friction", "[mdr]") {
             .status == 0);
   CHECK(test.files() == std::set<std::string>{"fig4.h5", "fig4.svg"});
   CHECK_THAT(test.read("fig4.svg"), Catch::Contains("tangential stress"));
-  check_refused(test.run(command + "--stress-map fig4.h5"), "--force");
+  check_refused(test.run(command + "--stress-map fig4.h5"), "--overwrite");
   CHECK(test.run(command +
                  "--steps 64 --friction-numbers 0.1:10:3 --friction-map map.h5 --plot map.png")
             .status == 0);
@@ -101,7 +101,7 @@ TEST_CASE("mdr draws the contact at rest and a period of any of its motions", "[
        {"parabola --radius 10mm", "cone --angle 0.1", "sphere --radius 1mm",
         "flat --flat-radius 0.1mm", "rounded --flat-radius 0.1mm --edge-radius 1mm"}) {
     const auto result = test.run("mdr --profile " + shape +
-                                 " --indentation 1um --force --plot rest.svg --json " + body);
+                                 " --indentation 1um --overwrite --plot rest.svg --json " + body);
     INFO(shape << ": " << result.err);
     CHECK(result.status == 0);
     CHECK_THAT(test.read("rest.svg"), Catch::Contains("one-dimensional image"));
@@ -155,7 +155,7 @@ TEST_CASE("The CLI refuses each unusable input of a damped contact with its reas
         "--indentation");
   }
   for (const std::string force : {"0", "-1", "inf"})
-    check_refused(test.run(damping + shear + "--force-newton " + force), "--force-newton");
+    check_refused(test.run(damping + shear + "--normal-force " + force), "--normal-force");
   for (const std::string friction : {"-1", "-1e-9", "nan"}) {
     check_refused(test.run(mdr + shear + "--indentation 1um --friction " + friction), "friction");
     check_refused(test.run(damping + shear + "--indentation 1um --friction " + friction),
@@ -241,14 +241,14 @@ TEST_CASE("mdr refuses what it cannot use by name", "[mdr]") {
 TEST_CASE("damper: γ, the decay it makes and the amplitude that stabilises", "[damper]") {
   const ProgramTest test;
   const std::string law =
-      "damper --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 --json ";
+      "damper --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 --json ";
   const auto one = test.run(law +
                             "--normal-amplitude 20nm --frequency 20kHz --mass 10g "
                             "--spring-stiffness 1kN/m")
                        .json();
   const double gamma = one["damping_constant"].get<double>();
   const auto same = test.run(
-                            "damping --law exponential --force-newton 1 --decay-length 100nm "
+                            "damping --law exponential --normal-force 1 --decay-length 100nm "
                             "--poisson 0.3 --json "
                             "--normal-amplitude 20nm --frequency 20kHz --drag-velocity 1mm/s")
                         .json();

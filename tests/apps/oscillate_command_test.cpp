@@ -251,13 +251,13 @@ TEST_CASE("oscillate couples pressures and tractions by Dundurs' constant", "[os
   // The other sum, without what the eight steps make of gaps.
   CHECK(std::abs(with["balance"].get<double>()) < 1e-4);
   // Without it the coupled contact is the other one.
-  const auto without = change("--poisson 0.3 --coupling 0");
+  const auto without = change("--poisson 0.3 --dundurs 0");
   CHECK(std::abs(without["work_change"].get<double>()) < 1e-4);
   CHECK(without["force_change"].get<double>() < 1e-5);
   CHECK(change("--poisson 0.5")["dundurs"].get<double>() == Approx(0).margin(1e-12));
-  CHECK(change("--poisson 0.3 --coupling 0.1")["dundurs"].get<double>() == Approx(0.1));
+  CHECK(change("--poisson 0.3 --dundurs 0.1")["dundurs"].get<double>() == Approx(0.1));
   // Without coupling it slips as the other one does.
-  const auto slipping = test.run(command + "--poisson 0.3 --coupling 0 --friction 0.3").json();
+  const auto slipping = test.run(command + "--poisson 0.3 --dundurs 0 --friction 0.3").json();
   CHECK(slipping["friction"]["slip_work"].get<double>() >
         0.1 * slipping["friction"]["work_per_cycle"].get<double>());
   CHECK(std::abs(slipping["coupling"]["work_change"].get<double>()) < 1e-3);
@@ -374,9 +374,9 @@ TEST_CASE("oscillate says what it needs", "[oscillate]") {
                   "--coupled");
   check_refused(test.run("oscillate --shape cone --method levels --coupled" + material),
                 "--method");
-  check_refused(test.run("oscillate --shape cone --coupling 0.2" + material), "--coupled");
-  check_refused(test.run("oscillate --shape cone --coupled --coupling 0.7" + material),
-                "--coupling: 0.7");
+  check_refused(test.run("oscillate --shape cone --dundurs 0.2" + material), "--coupled");
+  check_refused(test.run("oscillate --shape cone --coupled --dundurs 0.7" + material),
+                "--dundurs: 0.7");
   check_refused(test.run("oscillate --shape cone --coupled --normal-amplitude 1mm" + material),
                 "--coupled");
   check_refused(test.run("oscillate --shape cone --max-periods 3" + material), "--max-periods");

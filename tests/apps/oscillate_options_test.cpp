@@ -37,7 +37,7 @@ TEST_CASE("oscillate takes a position as depth, force, pressure or gap", "[oscil
   CHECK(test.run(parabola + "--indentation 5um --size-x 1mm --size-y 2mm").json()["ny"] == 64);
   // The force of the levels' fit at this depth, whose four levels leave 1e-3 of F, two thirds of it in the depth.
   const std::string force = std::to_string(number(deep, "force"));
-  CHECK(number(test.run(parabola + "--force-newton " + force).json(), "indentation") ==
+  CHECK(number(test.run(parabola + "--normal-force " + force).json(), "indentation") ==
         Approx(10e-6).epsilon(1e-3));
   REQUIRE(test.run("generate --points 32 --size-x 10um --hurst 0.8 --rolloff 2.5um "
                    "--short-cutoff 2.5um --rms-slope 0.1 --seed 3 -o r.h5 --quiet")
@@ -102,7 +102,8 @@ TEST_CASE("oscillate frees the lateral displacement in all its simulations", "[o
   const ProgramTest test;
   const auto run = [&](const char* lateral) {
     return test
-        .run(std::string("oscillate --shape pyramids --points 32 --steps 16 --levels 8 --friction "
+        .run(std::string("oscillate --shape pyramids --points 32 --steps 16 --levels 8 "
+                         "--friction "
                          "100 --contact-modulus 1GPa --poisson 0.5 --json --lateral ") +
              lateral)
         .json();

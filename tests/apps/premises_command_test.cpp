@@ -112,7 +112,7 @@ TEST_CASE("The limit of slip that a command prints is where mdr with friction fi
 TEST_CASE("Facts of a contact that cannot be are refused by their option", "[premises][input]") {
   const ProgramTest test;
   const std::string damping =
-      "damping --law exponential --force-newton 1 --decay-length 30nm --poisson 0.3 "
+      "damping --law exponential --normal-force 1 --decay-length 30nm --poisson 0.3 "
       "--normal-amplitude 1nm --drag-velocity 1um/s --frequency 20kHz ";
   for (const std::string option :
        {"--friction-coefficient", "--hardness", "--density", "--excursion"})
@@ -132,7 +132,7 @@ TEST_CASE("Facts of a contact that cannot be are refused by their option", "[pre
 TEST_CASE("Broken premises stand above the table, open ones below it", "[premises]") {
   const ProgramTest test;
   const std::string law =
-      "--law exponential --force-newton 1 --decay-length 30nm --poisson 0.3 --frequency 20kHz ";
+      "--law exponential --normal-force 1 --decay-length 30nm --poisson 0.3 --frequency 20kHz ";
   // μ/g · u_z ω = 46 µm/s.
   const auto fast = test.run(
       "damping --normal-amplitude 1nm --drag-velocity 1mm/s "
@@ -163,7 +163,7 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
           "[premises]") {
   const ProgramTest test;
   const std::string body = " --contact-modulus 10GPa --poisson 0.3 ";
-  const std::string law = " --law exponential --force-newton 1 --decay-length 30nm --poisson 0.3 ";
+  const std::string law = " --law exponential --normal-force 1 --decay-length 30nm --poisson 0.3 ";
   const std::string drag = " --normal-amplitude 1nm --frequency 20kHz ";
   test.write("study.toml", study_text("seeds = [3]"));
   // A run of each command of the program; none for those that print no numbers.

@@ -26,7 +26,8 @@ TEST_CASE("Help of every command ends with two examples of that command", "[prog
   CHECK_THAT(examples, Catch::Matches("Examples:\n  salebra " + command + "[^\n]*\n  salebra " +
                                       command + "[^\n]*\n*"));
   CHECK_THAT(help.out, Contains("--json") && Contains("--threads") && Contains("--output") &&
-                           Contains("--force") && Contains("--quiet") && Contains("--progress"));
+                           Contains("--overwrite") && Contains("--quiet") &&
+                           Contains("--progress"));
 }
 
 TEST_CASE("Help is what a bare call, help and --help show", "[program]") {
@@ -46,7 +47,7 @@ TEST_CASE("Quiet, a command leaves nothing on stderr but errors", "[program]") {
   // Too coarse for its spectrum, which generate warns of.
   const std::string coarse =
       "generate --points 32 --size-x 10um --hurst 0.8 --rolloff 10um --short-cutoff 0.625um "
-      "--rms-height 30nm -o rough.h5 --force";
+      "--rms-height 30nm -o rough.h5 --overwrite";
   CHECK_THAT(test.run(coarse).err, Contains("warning"));
   CHECK(test.run(coarse + " --quiet").err.empty());
   CHECK_THAT(test.run("info none.txt --quiet").err, Contains("error"));

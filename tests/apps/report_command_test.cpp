@@ -32,7 +32,7 @@ TEST_CASE("A study leaves a page beside its results unless it is told not to", "
   CHECK(test.files().count("result.html") == 1);
 
   // A page that is there already is found out before the work.
-  check_refused(test.run("study study.toml --no-stick -o result.html --force"), "--no-report");
+  check_refused(test.run("study study.toml --no-stick -o result.html --overwrite"), "--no-report");
   test.write("other.html", "mine");
   check_refused(test.run("study study.toml --no-stick -o other.h5"), "other.html: exists");
   CHECK(test.read("other.html") == "mine");
@@ -49,7 +49,7 @@ TEST_CASE("report makes the same page again, whole or not at all", "[report]") {
   CHECK(again.json()["file"] == "again.html");
   CHECK(test.read("again.html") == test.read("result.html"));
   check_refused(test.run("report result.h5 -o again.html"), "again.html: exists");
-  check_refused(test.run("report result.h5 -o result.h5 --force"), "is the results file");
+  check_refused(test.run("report result.h5 -o result.h5 --overwrite"), "is the results file");
 
   // Past a limit on the size of files a write fails as on a full disk.
   const auto full = test.run("report result.h5 -o full.html", "ulimit -f 64;");

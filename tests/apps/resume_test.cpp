@@ -151,7 +151,7 @@ TEST_CASE("A study killed while it tidied up is complete, and says so", "[resume
   CHECK(fs::last_write_time(test.folder() / "result.h5") == written);
   // Without --resume, or as the result of another study, the file is in the way.
   check_refused(test.run("study study.toml -o result.h5"), "exists");
-  check_refused(test.run("study study.toml -o result.h5 --resume --precision 9%"), "exists");
+  check_refused(test.run("study study.toml -o result.h5 --resume --target-precision 9%"), "exists");
   std::string other = study;
   other.replace(other.find("1e-8"), 4, "1e-9");
   test.write("study.toml", other);
@@ -180,7 +180,7 @@ TEST_CASE("A study killed between its result and its page gets the page when it 
   CHECK(test.read("result.html") == page);
   CHECK(test.files() == all);
 
-  // A page of these results stays as it is, and one of older results is another's until --force.
+  // A page of these results stays as it is, and one of older results is another's until --overwrite.
   const auto made = fs::last_write_time(test.folder() / "result.html");
   const auto whole = test.run("study study.toml -o result.h5 --resume");
   CHECK_THAT(whole.out, Contains("complete already") && Contains("report:  result.html"));
@@ -191,7 +191,7 @@ TEST_CASE("A study killed between its result and its page gets the page when it 
   CHECK(kept.status == 0);
   CHECK(kept.json()["files"]["report"].is_null());
   CHECK_THAT(kept.err, Contains("no report was written") && Contains("result.html: exists"));
-  REQUIRE(test.run("study study.toml -o result.h5 --resume --force").status == 0);
+  REQUIRE(test.run("study study.toml -o result.h5 --resume --overwrite").status == 0);
   CHECK(test.read("result.html") == page);
   CHECK(test.files() == all);
 }

@@ -109,7 +109,7 @@ TEST_CASE("A study file made by init is run by study as it is, and names every k
   CHECK(run.status == 0);
   CHECK(run.json()["realisations"] == 4);
   check_refused(test.run("init my.toml"), "my.toml");
-  CHECK(test.run("init my.toml --force").status == 0);
+  CHECK(test.run("init my.toml --overwrite").status == 0);
 }
 
 TEST_CASE("init for a measured surface names it from where the study file lies", "[init]") {

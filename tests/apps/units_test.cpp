@@ -274,7 +274,7 @@ TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their qu
   REQUIRE(test.run(rough + "-o rough.h5").status == 0);
   REQUIRE(test.run("sweep rough.h5 --pressures 2:60MPa:10 --stiffness --stick -o curve.h5" + body)
               .status == 0);
-  const std::string law = " --law exponential --force-newton 2 --decay-length 100nm --poisson 0.3 ";
+  const std::string law = " --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 ";
   const std::string drag = " --drag-velocity 1mm/s --frequency 20kHz ";
   const std::string shape = "oscillate --shape parabola --points 32 --steps 16 " + body;
   // What --json holds beside the answer in words.
@@ -327,7 +327,7 @@ TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their qu
 TEST_CASE("A damper's map names amplitude and frequency of each constant", "[damper][units]") {
   const ProgramTest test;
   const std::string command =
-      "damper --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 "
+      "damper --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
       "--normal-amplitude 1:50nm:3 --frequency 1:100kHz:3 --falling-slope 5";
   const auto answer = ordered_json::parse(test.run(command + " --json").out);
   const auto text = test.run(command);

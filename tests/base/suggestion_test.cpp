@@ -15,6 +15,16 @@ TEST_CASE("A misspelt name is told from the right one by its nearest neighbour",
   CHECK(nearest_name("rms", keys) == "rms_height");  // begun: the first that goes on so
 }
 
+TEST_CASE("An old name is answered with the new one, of an option as of a key", "[suggestion]") {
+  CHECK(nearest_name("--force", {"--force-amplitude", "--normal-force", "--overwrite"}) ==
+        "--overwrite");
+  CHECK(nearest_name("--force-newton", {"--force-amplitude", "--normal-force"}) ==
+        "--normal-force");
+  CHECK(nearest_name("precision", {"points", "target_precision"}) == "target_precision");
+  CHECK(nearest_name("--precision", {"--points", "--target-precision"}) == "--target-precision");
+  CHECK(nearest_name("coupling", {"points"}).empty());  // the new name is none of this place
+}
+
 TEST_CASE("Where no name is near, none is suggested", "[suggestion]") {
   const std::vector<std::string> keys{"points", "hurst", "seeds"};
   CHECK(nearest_name("temperature", keys).empty());

@@ -25,7 +25,7 @@ PressureLevels levels_of(const Surface& shape) {
 }
 
 FrictionalCycleOptions free_boundary(double friction, int steps) {
-  FrictionalCycleOptions options{.friction = friction, .steps = steps};
+  FrictionalCycleOptions options{.friction_coefficient = friction, .steps = steps};
   options.stick.boundary = Boundary::free;
   return options;
 }
@@ -138,7 +138,8 @@ TEST_CASE("Much friction is the stuck contact, whose losses are released", "[fri
   const auto ratio = [&](int steps) {
     CycleOptions stuck{.steps = steps, .direction = 0.7};
     stuck.stick.boundary = boundary;
-    FrictionalCycleOptions options{.friction = infinite, .steps = steps, .direction = 0.7};
+    FrictionalCycleOptions options{
+        .friction_coefficient = infinite, .steps = steps, .direction = 0.7};
     options.stick.boundary = boundary;
     const FrictionalCycleResult cycle =
         simulate_frictional_cycle(levels, grid, material, motion, options);
@@ -162,7 +163,7 @@ TEST_CASE("Work and friction balance on any surface, and every cell obeys Coulom
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
   const PressureLevels levels = islands(grid, 2e7);
   SECTION("over a cycle") {
-    FrictionalCycleOptions options{.friction = 0.5, .steps = 16, .direction = 0.7};
+    FrictionalCycleOptions options{.friction_coefficient = 0.5, .steps = 16, .direction = 0.7};
     options.stick.boundary = boundary;
     const FrictionalCycleResult cycle = simulate_frictional_cycle(
         levels, grid, material, trajectory_of(EqualFrequency{0.5, 1e-6, 1.1}, 0.5), options);
@@ -177,7 +178,7 @@ TEST_CASE("Work and friction balance on any surface, and every cell obeys Coulom
   }
   SECTION("on a path that turns") {
     const double friction = GENERATE(0.3, infinite);
-    SlidingContactOptions options{.friction = friction, .motion_scale = 1e-6};
+    SlidingContactOptions options{.friction_coefficient = friction, .motion_scale = 1e-6};
     options.stick.boundary = boundary;
     SlidingContact contact(grid, material, options);
     const double path[][3] = {{0.5, 0, 0},       {0.7, 5e-7, 0},     {0.9, 5e-7, 5e-7},
@@ -210,7 +211,8 @@ TEST_CASE("A sphere pressed obliquely slips nowhere below the angle of friction"
     double force, loss;
   };
   const auto errors = [&](int increments) {  // of equal width of the rim
-    SlidingContactOptions options{.friction = 1.2 * pull, .motion_scale = slope * indentation};
+    SlidingContactOptions options{.friction_coefficient = 1.2 * pull,
+                                  .motion_scale = slope * indentation};
     options.stick.boundary = Boundary::free;
     SlidingContact contact(grid, material, options);
     double reached = 0, force = 0;
@@ -243,7 +245,7 @@ TEST_CASE("A drag with friction ends in sliding, period after period", "[frictio
                           [&](double t) { return advance * (t - 0.3); }};
   double before = 0;  // W of the period before
   FrictionalCycleOptions options{
-      .friction = friction, .steps = 4, .max_periods = 60, .direction = 0.7};
+      .friction_coefficient = friction, .steps = 4, .max_periods = 60, .direction = 0.7};
   options.on_state = [&](const FrictionalCycleState& state) { before = state.last_work; };
   const FrictionalCycleResult cycle =
       simulate_frictional_cycle(levels, grid, material, motion, options);
@@ -270,16 +272,17 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 1.1}, 0.5);
   const PressureLevels levels = islands(grid, 2e7);
-  const FrictionalCycleResult smooth =
-      simulate_frictional_cycle(levels, grid, material, motion, {.friction = 0, .steps = 8});
+  const FrictionalCycleResult smooth = simulate_frictional_cycle(
+      levels, grid, material, motion, {.friction_coefficient = 0, .steps = 8});
   CHECK(smooth.converged);
   CHECK(smooth.work_per_cycle == 0);
   CHECK(smooth.contact_area_max > 0);
   CHECK_THROWS_WITH(simulate_frictional_cycle(levels, grid, material, motion, {.steps = 3}),
                     Catch::StartsWith("steps: 3"));
-  CHECK_THROWS_WITH(simulate_frictional_cycle(levels, grid, material, motion, {.friction = -1}),
-                    Catch::StartsWith("friction: -1"));
-  FrictionalCycleOptions hasty{.friction = 0.5, .steps = 8};
+  CHECK_THROWS_WITH(
+      simulate_frictional_cycle(levels, grid, material, motion, {.friction_coefficient = -1}),
+      Catch::StartsWith("friction: -1"));
+  FrictionalCycleOptions hasty{.friction_coefficient = 0.5, .steps = 8};
   hasty.stick.max_iterations = 2;
   CHECK_FALSE(simulate_frictional_cycle(levels, grid, material, motion, hasty).converged);
   const PressureLevels doubtful = [&](double indentation) {
@@ -287,14 +290,14 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
     level.converged = indentation < 0.9;
     return level;
   };
-  CHECK_FALSE(
-      simulate_frictional_cycle(doubtful, grid, material, motion, {.friction = 0.5, .steps = 8})
-          .converged);
+  CHECK_FALSE(simulate_frictional_cycle(doubtful, grid, material, motion,
+                                        {.friction_coefficient = 0.5, .steps = 8})
+                  .converged);
   CHECK(simulate_frictional_cycle(levels, grid, material, motion,
-                                  {.friction = 0.5, .steps = 8, .max_periods = 1})
+                                  {.friction_coefficient = 0.5, .steps = 8, .max_periods = 1})
             .periods == 1);
   // Where the lateral displacement is free there are no tractions along it.
-  FrictionalCycleOptions lateral{.friction = 0.5, .steps = 8, .max_periods = 1};
+  FrictionalCycleOptions lateral{.friction_coefficient = 0.5, .steps = 8, .max_periods = 1};
   lateral.stick.hold_lateral = false;
   lateral.on_state = [](const FrictionalCycleState& state) {
     CHECK((state.contact.traction.y == 0).all());
@@ -312,7 +315,7 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
   REQUIRE(wide.minCoeff(&open_x, &open_y) == 0);
   lone(open_x, open_y) = 1e6;
   CHECK_FALSE(opening.advance(lone, {1e-6, 0}).converged);
-  FrictionalCycleOptions stopped{.friction = 0.5, .steps = 8};
+  FrictionalCycleOptions stopped{.friction_coefficient = 0.5, .steps = 8};
   stopped.on_progress = [](const ProgressReport& report) { return report.step < 3; };
   const FrictionalCycleResult partial =
       simulate_frictional_cycle(levels, grid, material, motion, stopped);

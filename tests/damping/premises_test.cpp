@@ -79,8 +79,8 @@ TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or les
       const double friction = one.friction * limit / opening.value;
       const SampledMotion path = sample(one.motion, one.mean, 2000);
       const double stick = trajectory_damping(*one.law, path).work_per_cycle;
-      const TrajectoryDamping loss =
-          trajectory_damping(*one.law, path, {.friction = friction, .max_periods = 4000});
+      const TrajectoryDamping loss = trajectory_damping(
+          *one.law, path, {.friction_coefficient = friction, .max_periods = 4000});
       return std::abs(
           (std::holds_alternative<Drag>(one.motion) ? loss.relaxation_work : loss.work_per_cycle) /
               stick -
@@ -176,7 +176,7 @@ TEST_CASE("The excursion of a slow motion is limited by slip of the closed level
     drag.drag_velocity = friction / ratio * drag.normal_amplitude * drag.angular_frequency / number;
     const SampledMotion path = there_and_back(drag, 0, cycles);
     const double stick = trajectory_damping(law, path).work_per_cycle;
-    const double slip = trajectory_damping(law, path, {.friction = friction}).slip_work;
+    const double slip = trajectory_damping(law, path, {.friction_coefficient = friction}).slip_work;
     const double excursion = cycles * 2 * pi * drag.drag_velocity / drag.angular_frequency;
     const double mean_slip = loss_with_slip(law, 0, drag, friction, excursion).slip_work;
     // The turning points take part of a cycle each.
@@ -202,7 +202,7 @@ TEST_CASE("The loss with slip is that of the simulated path", "[premises]") {
   for (const Oscillation& motion :
        {Oscillation(EqualFrequency{3e-7, 1e-7, 1.0}), Oscillation(Drag{3e-7, 1e-2, 1e5})}) {
     const TrajectoryDamping path =
-        trajectory_damping(law, sample(motion, 1e-6, 2000), {.friction = 0.3});
+        trajectory_damping(law, sample(motion, 1e-6, 2000), {.friction_coefficient = 0.3});
     REQUIRE(path.converged);
     const LossWithSlip loss = loss_with_slip(law, 1e-6, motion, 0.3);
     // 360 steps in place of 2000, of second order.

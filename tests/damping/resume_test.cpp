@@ -65,7 +65,7 @@ TEST_CASE("A state of another grid or of a finer cycle is refused", "[cycle]") {
 TEST_CASE("A cycle with friction resumed from any of its steps ends in the same bits", "[cycle]") {
   const PressureLevels pressures = island_pressures(grid);
   const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 0.9}, 0.5);
-  FrictionalCycleOptions options{.friction = 0.4, .steps = 8, .direction = 0.4};
+  FrictionalCycleOptions options{.friction_coefficient = 0.4, .steps = 8, .direction = 0.4};
   std::vector<FrictionalCycleState> states;
   options.on_state = [&](const FrictionalCycleState& state) { states.push_back(state); };
   const FrictionalCycleResult whole =
@@ -75,7 +75,7 @@ TEST_CASE("A cycle with friction resumed from any of its steps ends in the same 
   CHECK(whole.slip_work > 0);
   REQUIRE(states.size() == static_cast<std::size_t>(whole.periods) * 9);
   for (const std::size_t k : {0u, 3u, 8u, 9u, 14u}) {
-    FrictionalCycleOptions rest{.friction = 0.4, .steps = 8, .direction = 0.4};
+    FrictionalCycleOptions rest{.friction_coefficient = 0.4, .steps = 8, .direction = 0.4};
     rest.resume = &states[k];
     const FrictionalCycleResult resumed =
         simulate_frictional_cycle(pressures, grid, material, motion, rest);
@@ -94,7 +94,7 @@ TEST_CASE("A cycle with friction resumed from any of its steps ends in the same 
     CHECK(resumed.steady == whole.steady);
     CHECK(resumed.converged);
   }
-  FrictionalCycleOptions coarser{.friction = 0.4, .steps = 4};
+  FrictionalCycleOptions coarser{.friction_coefficient = 0.4, .steps = 4};
   coarser.resume = &states[8];
   CHECK_THROWS_WITH(simulate_frictional_cycle(pressures, grid, material, motion, coarser),
                     Catch::StartsWith("resume: 8"));

@@ -127,7 +127,8 @@ TEST_CASE("What is put in by F_x is stored or lost", "[tangential]") {
   const double low = 1e-7, high = 1e-6;
   const ExponentialLaw law(1, 2e-7, ratio);
   const double friction = GENERATE(0.1, 0.5, 1e9, INFINITY);
-  TangentialContact contact(law, low, high, {.friction = friction, .tangential_range = 6e-7});
+  TangentialContact contact(law, low, high,
+                            {.friction_coefficient = friction, .tangential_range = 6e-7});
   const auto path = wild_path(low, high, 3e-7, 60);
   contact.start(low, 0);
   double work = 0, turnover = 0;
@@ -153,7 +154,8 @@ TEST_CASE("Straight steps may be cut anywhere", "[tangential]") {
   const double low = 1e-7, high = 1e-6;
   const PowerLaw law(1e9, 1.5, ratio);
   const double friction = GENERATE(0.2, 1.5, INFINITY);
-  const TangentialContactOptions options{.friction = friction, .tangential_range = 6e-7};
+  const TangentialContactOptions options{.friction_coefficient = friction,
+                                         .tangential_range = 6e-7};
   TangentialContact whole(law, low, high, options), pieces(law, low, high, options);
   const auto path = wild_path(low, high, 3e-7, 120);
   whole.start(low, 0), pieces.start(low, 0);
@@ -218,7 +220,7 @@ TEST_CASE("Cattaneo–Mindlin: force, stick and the loop of a paraboloid", "[tan
   // Gross sliding begins at x = μE*δ/G*.
   const double sliding = friction / ratio * indentation, limit = friction * law.force(indentation);
   TangentialContact contact(law, indentation, indentation,
-                            {.friction = friction, .tangential_range = 2 * sliding});
+                            {.friction_coefficient = friction, .tangential_range = 2 * sliding});
   auto exact = [&](double x) { return limit * (1 - std::pow(1 - x / sliding, 1.5)); };
   contact.start(indentation, 0);
   for (const double part : {0.1, 0.37, 0.8, 0.99}) {
@@ -251,7 +253,7 @@ TEST_CASE(
   const double sliding = friction / ratio * indentation, limit = friction * law.force(indentation);
   const double edge = law.contact_radius(indentation);
   TangentialContact contact(law, indentation, indentation,
-                            {.friction = friction, .tangential_range = 2 * sliding});
+                            {.friction_coefficient = friction, .tangential_range = 2 * sliding});
   for (const double part : {0.1, 0.5, 0.9}) {
     const double x = part * sliding, step = 1e-4 * sliding;
     const auto force_at = [&](double shift) {
@@ -270,7 +272,8 @@ TEST_CASE("Varying normal force: the friction stack is springs with a limit", "[
   const double low = 2e-7, high = 1e-6, friction = GENERATE(0.1, 0.4, 2.0);
   const PowerLaw law(1e9, 1.5, ratio);
   const auto path = wild_path(low, high, 3e-7, 40);
-  TangentialContact contact(law, low, high, {.friction = friction, .tangential_range = 6e-7});
+  TangentialContact contact(law, low, high,
+                            {.friction_coefficient = friction, .tangential_range = 6e-7});
   contact.start(low, 0);
   for (std::size_t i = 1; i < path.size(); ++i) contact.move_to(path[i].indentation, path[i].x);
   struct Outcome {
@@ -302,7 +305,7 @@ TEST_CASE("A contact refuses motion that it was not made for", "[tangential]") {
   CHECK_THROWS_AS(contact.move_to(1e-8, 0), InvalidInput);
   CHECK_THROWS_AS(contact.move_to(std::nan(""), 0), InvalidInput);
   CHECK_THROWS_AS(contact.move_to(5e-7, INFINITY), InvalidInput);
-  CHECK_THROWS_WITH(TangentialContact(law, 0, 1e-6, {.friction = -0.1}),
+  CHECK_THROWS_WITH(TangentialContact(law, 0, 1e-6, {.friction_coefficient = -0.1}),
                     Catch::Contains("friction"));
   CHECK_THROWS_AS(TangentialContact(law, 1e-6, 0), InvalidInput);
   ForceCurve curve;
@@ -311,7 +314,8 @@ TEST_CASE("A contact refuses motion that it was not made for", "[tangential]") {
   const TabulatedLaw table(curve, ratio);
   CHECK_THROWS_WITH(TangentialContact(table, 1e-6, 3e-6), Catch::Contains("law covers"));
   // Slip below the table's first sample cannot be known.
-  TangentialContact deep(table, 1e-7, 1e-6, {.friction = 0.01, .tangential_range = 2e-6});
+  TangentialContact deep(table, 1e-7, 1e-6,
+                         {.friction_coefficient = 0.01, .tangential_range = 2e-6});
   deep.start(1e-6, 0);
   CHECK_THROWS_WITH(deep.move_to(1e-6, 1e-6), Catch::Contains("extend the curve"));
 }

@@ -89,7 +89,7 @@ TEST_CASE("A trajectory may begin anywhere in its period", "[trajectory]") {
   const TrajectoryDamping whole = trajectory_damping(law, path);
   const double friction = 0.3;
   const TrajectoryDamping rubbed = trajectory_damping(
-      law, sample(equal_frequency(4e-7, 0.5), 1e-6, 360), {.friction = friction});
+      law, sample(equal_frequency(4e-7, 0.5), 1e-6, 360), {.friction_coefficient = friction});
   const std::size_t shift = 100, count = path.time.size() - 1;
   auto rotate = [&](const SampledMotion& from) {
     SampledMotion turned;
@@ -111,8 +111,9 @@ TEST_CASE("A trajectory may begin anywhere in its period", "[trajectory]") {
   CHECK(turned.dissipated[count - 20] ==
         Approx(whole.work_per_cycle + whole.dissipated[shift - 20] - whole.dissipated[shift])
             .epsilon(1e-10));
-  const TrajectoryDamping turned_rubbed = trajectory_damping(
-      law, rotate(sample(equal_frequency(4e-7, 0.5), 1e-6, 360)), {.friction = friction});
+  const TrajectoryDamping turned_rubbed =
+      trajectory_damping(law, rotate(sample(equal_frequency(4e-7, 0.5), 1e-6, 360)),
+                         {.friction_coefficient = friction});
   CHECK(turned_rubbed.work_per_cycle == Approx(rubbed.work_per_cycle).epsilon(1e-10));
 }
 
@@ -184,7 +185,8 @@ TEST_CASE("Finite friction: W(μ)/W(∞) tends to 1 as docs/theory.md, section 8
     motion.tangential_amplitude = 1e-8;
     const SampledMotion path = sample(motion, indentation, 4000);
     const double friction = M * ratio * motion.tangential_amplitude / amplitude;
-    const TrajectoryDamping with = trajectory_damping(law, path, {.friction = friction});
+    const TrajectoryDamping with =
+        trajectory_damping(law, path, {.friction_coefficient = friction});
     CHECK(with.converged);
     return with.work_per_cycle / trajectory_damping(law, path).work_per_cycle;
   };
@@ -200,18 +202,19 @@ TEST_CASE("Slip and relaxation part as friction grows and as the normal motion d
   const double relaxation = trajectory_damping(law, path).work_per_cycle;
   double last_slip = INFINITY;
   for (const double friction : {0.3, 1.0, 3.0, 1000.0}) {
-    const TrajectoryDamping result = trajectory_damping(law, path, {.friction = friction});
+    const TrajectoryDamping result =
+        trajectory_damping(law, path, {.friction_coefficient = friction});
     CHECK(result.work_per_cycle ==
           Approx(result.slip_work + result.relaxation_work).epsilon(1e-14));
     CHECK(result.slip_work <= last_slip);
     last_slip = result.slip_work;
   }
-  const TrajectoryDamping rough = trajectory_damping(law, path, {.friction = 1e5});
+  const TrajectoryDamping rough = trajectory_damping(law, path, {.friction_coefficient = 1e5});
   CHECK(rough.relaxation_work == Approx(relaxation).epsilon(1e-4));
   CHECK(rough.slip_work < 1e-8 * relaxation);
   // Without normal motion all of the loss is Mindlin's slip.
-  const TrajectoryDamping still =
-      trajectory_damping(law, sample(equal_frequency(0, 0), 1e-6, 400), {.friction = 0.2});
+  const TrajectoryDamping still = trajectory_damping(law, sample(equal_frequency(0, 0), 1e-6, 400),
+                                                     {.friction_coefficient = 0.2});
   CHECK(still.relaxation_work == Approx(0).margin(1e-12 * still.work_per_cycle));
   CHECK(still.work_per_cycle > 0);
 }
@@ -222,7 +225,7 @@ TEST_CASE("With friction a drag ends in sliding at μF", "[trajectory]") {
   motion.drag_velocity = 1e-4;
   const double friction = 0.3;
   const TrajectoryDamping result =
-      trajectory_damping(law, sample(motion, 1e-6, 50), {.friction = friction});
+      trajectory_damping(law, sample(motion, 1e-6, 50), {.friction_coefficient = friction});
   CHECK(result.converged);
   CHECK(result.tangential_force[20] == Approx(friction * law.force(1e-6)).epsilon(1e-9));
 }
@@ -241,5 +244,5 @@ TEST_CASE("Trajectories that are not one period are refused with the reason", "[
   refuse([](SampledMotion& t) { t.displacement.pop_back(); }, "as many");
   refuse([](SampledMotion& t) { t = {{0, 1}, {0, 0}, {0, 0}}; }, "too few");
   CHECK_THROWS_AS(sample(equal_frequency(3e-7, 1.0), 1e-6, 2), InvalidInput);
-  CHECK_THROWS_AS(trajectory_damping(law, good, {.friction = -1}), InvalidInput);
+  CHECK_THROWS_AS(trajectory_damping(law, good, {.friction_coefficient = -1}), InvalidInput);
 }

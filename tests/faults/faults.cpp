@@ -49,7 +49,8 @@ const std::string material = " --contact-modulus 1GPa --poisson 0.3";
 const std::string moves = " --normal-amplitude 1nm --drag-velocity 1mm/s --frequency 20kHz";
 const std::string sweep = "sweep IN/s.h5 --pressures 1:30MPa:6 --stiffness" + material;
 const std::string oscillation =
-    "oscillate --shape cylinder --points 16 --steps 8 --levels 4 --friction 0.3 --max-periods 2" +
+    "oscillate --shape cylinder --points 16 --steps 8 --levels 4 --friction 0.3 "
+    "--max-periods 2" +
     material;
 
 const std::string small_study = R"([surface]
@@ -78,9 +79,9 @@ std::vector<Case> all_cases() {
   const std::string study = "study IN/small.toml -o out.h5";
   std::vector<Case> cases{
       {"generate", {}, surface + " -o out.h5"},
-      {"generate_again", {}, surface + " -o out.h5 --force", other + " -o out.h5"},
+      {"generate_again", {}, surface + " -o out.h5 --overwrite", other + " -o out.h5"},
       {"pair", in, "convert IN/s.h5 out.npy"},
-      {"pair_again", in, "convert IN/s.h5 out.npy --force", other + " -o out.npy"},
+      {"pair_again", in, "convert IN/s.h5 out.npy --overwrite", other + " -o out.npy"},
       {"profile",
        {},
        "generate --profile --points 64 --size-x 1um --hurst 0.8 --rolloff 0.5um "
@@ -98,7 +99,7 @@ std::vector<Case> all_cases() {
       {"statistics_tables", in, "statistics IN/s.h5 -o out.csv"},
       {"damping",
        {},
-       "damping --law exponential --decay-length 10nm --force-newton 1N -o out.h5" + moves +
+       "damping --law exponential --decay-length 10nm --normal-force 1N -o out.h5" + moves +
            material},
       {"mdr",
        {},
@@ -112,7 +113,7 @@ std::vector<Case> all_cases() {
        oscillation + " -o out.h5 --checkpoint out.state --checkpoint-every 0"},
       {"damper",
        {},
-       "damper --law exponential --force-newton 1 --decay-length 100nm --poisson 0.3 "
+       "damper --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--normal-amplitude 10nm,20nm --frequency 20kHz,30kHz -o out.h5"},
       {"figure3", {}, "figure3 --points 16 --steps 8 -o out.h5" + material},
       // Resumable from the start: the file holds its command line.
@@ -305,7 +306,7 @@ class CaseRun {
   /// Why the case cannot be run here; empty where it can.
   std::string prepare() {
     for (const std::string& input : case_.inputs)
-      if (const Outcome made = bench_.run(input + " --force", bench_.inputs(), nullptr);
+      if (const Outcome made = bench_.run(input + " --overwrite", bench_.inputs(), nullptr);
           made.status != 0)
         throw std::runtime_error(case_.name + ": " + input + ": " + made.errors);
     put({}, bench_.folder());

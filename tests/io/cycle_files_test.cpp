@@ -31,7 +31,8 @@ std::vector<CycleState> states_of_a_cycle() {
 
 std::vector<FrictionalCycleState> states_with_friction() {
   std::vector<FrictionalCycleState> states;
-  FrictionalCycleOptions options{.friction = 0.3, .steps = 8, .max_periods = 2, .direction = 0.6};
+  FrictionalCycleOptions options{
+      .friction_coefficient = 0.3, .steps = 8, .max_periods = 2, .direction = 0.6};
   options.on_state = [&](const FrictionalCycleState& state) { states.push_back(state); };
   simulate_frictional_cycle(island_pressures(grid), grid, Material::of_contact_modulus(1e9, 0.3),
                             trajectory_of(EqualFrequency{0.4, 1e-6, 0.9}, 0.5), options);
@@ -111,7 +112,7 @@ TEST_CASE("A cycle with friction has checkpoints of its own, of its own settings
   const Grid2D grid{16, 12, 2, 1.5};
   const Material material = Material::of_contact_modulus(1e9, 0.3);
   const Drag drag{1e-6, 1e-3, 1e4};
-  FrictionalCycleOptions options{.friction = 0.3, .steps = 10};
+  FrictionalCycleOptions options{.friction_coefficient = 0.3, .steps = 10};
   const CycleSettings settings = cycle_settings(grid, material, drag, 2e-6, options);
   write_friction_checkpoint(file, state, settings, {});
   const FrictionalCycleState read = read_friction_checkpoint(file, settings);
@@ -134,13 +135,13 @@ TEST_CASE("A cycle with friction has checkpoints of its own, of its own settings
   differs(cycle_settings(grid, material, drag, 3e-6, options), "indentation");
   options.stick.tolerance = 1e-9;
   differs(cycle_settings(grid, material, drag, 2e-6, options), "tolerance");
-  options = {.friction = 0.4, .steps = 10};
+  options = {.friction_coefficient = 0.4, .steps = 10};
   differs(cycle_settings(grid, material, drag, 2e-6, options), "friction");
-  options = {.friction = 0.3, .steps = 12};
+  options = {.friction_coefficient = 0.3, .steps = 12};
   differs(cycle_settings(grid, material, drag, 2e-6, options), "steps");
-  options = {.friction = 0.3, .steps = 10, .max_periods = 7};
+  options = {.friction_coefficient = 0.3, .steps = 10, .max_periods = 7};
   differs(cycle_settings(grid, material, drag, 2e-6, options), "max_periods");
-  options = {.friction = 0.3, .steps = 10};
+  options = {.friction_coefficient = 0.3, .steps = 10};
   const std::string here = arithmetic();
   setenv("SALEBRA_VECTOR_WIDTH", "baseline", 1);  // as another processor would go on
   if (arithmetic() != here)

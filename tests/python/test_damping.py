@@ -171,7 +171,7 @@ def test_a_simulation_with_friction_goes_on_from_its_checkpoint(tmp_path: Path) 
 
     def simulate(progress: Callable[[salebra.ProgressReport], object] | bool = False) -> salebra.FrictionalCycleResult:
         return salebra.simulate_frictional_cycle(
-            surface, material, motion, 2e-5, friction=0.3, steps=32, boundary="free", tolerance=1e-7, checkpoint=file,
+            surface, material, motion, 2e-5, friction_coefficient=0.3, steps=32, boundary="free", tolerance=1e-7, checkpoint=file,
             resume=True, progress=progress,
         )  # fmt: skip
 

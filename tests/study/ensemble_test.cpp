@@ -229,9 +229,9 @@ TEST_CASE("An ensemble table varies what the surface table leaves out", "[ensemb
                     Catch::Contains("surface.hurst: is varied by [ensemble]"));
   text.replace(text.find("hurst = 0.8\n"), 12, "");
   const auto configuration = parse_study_configuration(
-      text + "[ensemble]\nhurst = [0.3, 0.8]\nprecision = \"2%\"\n", "x.toml");
+      text + "[ensemble]\nhurst = [0.3, 0.8]\ntarget_precision = \"2%\"\n", "x.toml");
   CHECK(configuration.ensemble.hurst == std::vector{0.3, 0.8});
-  CHECK(configuration.precision == 0.02);
+  CHECK(configuration.target_precision == 0.02);
   CHECK_THROWS_WITH(parse_study_configuration(text + "[ensemble]\nhurts = 1\n", "x.toml"),
                     Catch::Contains("hurts"));
 }
@@ -239,8 +239,8 @@ TEST_CASE("An ensemble table varies what the surface table leaves out", "[ensemb
 TEST_CASE("A study ends at the surface that makes its mean precise enough, on any threads",
           "[ensemble]") {
   StudyConfiguration configuration = quick_study(40);
-  configuration.precision = 0.2;
-  configuration.least_realisations = 3;
+  configuration.target_precision = 0.2;
+  configuration.min_realisations = 3;
   parallel::set_threads(1);
   const StudyResult one = run_study(configuration);
   parallel::set_threads(3);
@@ -269,7 +269,7 @@ TEST_CASE("A study ends at the surface that makes its mean precise enough, on an
 TEST_CASE("A study goes on until its decay length and its area slope are both precise enough",
           "[ensemble]") {
   StudyConfiguration configuration = quick_study(12);
-  configuration.least_realisations = 3;
+  configuration.min_realisations = 3;
   // One light load gives the area slope, which scatters; l comes from many heavy ones.
   configuration.pressures = {0.0022, 0.06, 0.075, 0.09, 0.11, 0.13, 0.16, 0.2};
   const double scale = contact_scale(configuration);
@@ -291,13 +291,14 @@ TEST_CASE("A study goes on until its decay length and its area slope are both pr
     return count;
   };
   // Between the two precisions after some number of surfaces, one of the quantities suffices there and the other does not.
-  for (std::size_t count = 3; count < 12 && configuration.precision == 0; ++count) {
+  for (std::size_t count = 3; count < 12 && configuration.target_precision == 0; ++count) {
     const double between = std::sqrt(length_precision[count - 1] * slope_precision[count - 1]);
-    if (enough(between, true) != enough(between, false)) configuration.precision = between;
+    if (enough(between, true) != enough(between, false)) configuration.target_precision = between;
   }
   INFO(length_precision[5] << ' ' << slope_precision[5]);
-  REQUIRE(configuration.precision > 0);
-  CHECK(run_study(configuration).realisations.size() == enough(configuration.precision, true));
+  REQUIRE(configuration.target_precision > 0);
+  CHECK(run_study(configuration).realisations.size() ==
+        enough(configuration.target_precision, true));
 }
 
 TEST_CASE("Contacts that did not converge take no part in means and ratios", "[ensemble]") {

@@ -57,7 +57,7 @@ struct FrictionalCycleState {
 
 struct FrictionalCycleOptions {
   /// μ >= 0; infinite: full stick, simulate_cycle's case.
-  double friction = std::numeric_limits<double>::infinity();
+  double friction_coefficient = std::numeric_limits<double>::infinity();
   int steps = 64;       ///< changes of the pressures in a period, >= 4
   int max_periods = 6;  ///< at most, until a period loses the same as the last one
   /// Relative difference of work_per_cycle between two periods that counts as none; > 0.

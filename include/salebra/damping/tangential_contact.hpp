@@ -10,7 +10,7 @@ namespace salebra {
 
 struct TangentialContactOptions {
   /// μ >= 0; infinite: full stick, the case of the paper.
-  double friction = std::numeric_limits<double>::infinity();
+  double friction_coefficient = std::numeric_limits<double>::infinity();
   /// m, >= 0: how far the stored history may deviate from the motion. 0 keeps every turning point and every bend of
   /// the path; a positive value bounds the memory of one rise by (path curvature/tolerance)^{1/2}, whatever the
   /// number of its steps.

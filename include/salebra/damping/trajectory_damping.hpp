@@ -8,7 +8,8 @@
 namespace salebra {
 
 struct TrajectoryDampingOptions {
-  double friction = std::numeric_limits<double>::infinity();  ///< μ; infinite: full stick
+  double friction_coefficient =
+      std::numeric_limits<double>::infinity();  ///< μ; infinite: full stick
   /// Periods after which a motion with friction and drift may still change from one to the next; >= 2. Full stick
   /// needs one period, friction without drift two: a play with periodic bounds repeats after its first period.
   int max_periods = 200;

@@ -65,8 +65,9 @@ struct StudyConfiguration {
   std::optional<PressureWindow>
       window;                  ///< of the exponential fit; empty: 1 … 2.5 h_rms in mean gap
   ParameterLists ensemble;     ///< for generated surfaces only
-  double precision = 0;        ///< relative, at which an ensemble is large enough; 0: use all seeds
-  int least_realisations = 8;  ///< >= 2, before the precision is looked at
+  double target_precision =
+      0;                     ///< relative, at which an ensemble is large enough; 0: use all seeds
+  int min_realisations = 8;  ///< >= 2, before the precision is looked at
   /// The boundary elements, which all others are measured by, must be among them.
   std::vector<ContactModel> models = {ContactModel::bem, ContactModel::gw_moments,
                                       ContactModel::gw_deterministic};

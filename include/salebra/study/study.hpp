@@ -92,7 +92,7 @@ struct StudyRun {
 };
 
 /// The ensembles of every point of the configuration's parameter grid, in the order of parameter_combinations(): every surface through
-/// analyse_realisation(), in parallel over surfaces. With a precision, a point ends at the first M >= least_realisations surfaces (in
+/// analyse_realisation(), in parallel over surfaces. With a precision, a point ends at the first M >= min_realisations surfaces (in
 /// the order of the seeds, M a milestone) for which the 95 % intervals of l/h_rms and of κ of the boundary elements are narrower than ±precision of
 /// their means. The result has the same bits for every thread count. A point that was not begun when the run was stopped is left out.
 /// A measured surface is treated as periodic after its plane is removed; the result carries a warning with

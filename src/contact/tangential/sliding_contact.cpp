@@ -25,7 +25,7 @@ TangentialField moved(const TangentialField& a, const TangentialMove& move, doub
 }
 
 void validate(const SlidingContactOptions& options) {
-  require(options.friction >= 0, "friction", options.friction,
+  require(options.friction_coefficient >= 0, "friction_coefficient", options.friction_coefficient,
           "must be >= 0 (infinity: full stick)");
   require_positive(options.motion_scale, "motion_scale");
 }
@@ -73,7 +73,7 @@ void SlidingContact::restore(SlidingState state) {
     require(field->rows() == contact_.rows() && field->cols() == contact_.cols(), "state",
             field->size(), "cells do not match the grid; resume with the run's own settings");
   state_ = std::move(state);
-  contact_ = limit_of(state_.pressure, options_.friction) > 0;
+  contact_ = limit_of(state_.pressure, options_.friction_coefficient) > 0;
 }
 
 void SlidingContact::reserve(const ContactSet& largest) { solver_.reserve(largest); }
@@ -99,8 +99,8 @@ TangentialField SlidingContact::displacement_halfway(const TangentialMove& move,
   target.x -= contact_.select(halfway.x, 0.0);
   target.y -= contact_.select(halfway.y, 0.0);
   const PartialSlipReport report =
-      solver_.solve(limit_of(state_.pressure, options_.friction), target, options_.motion_scale,
-                    increment.traction_halfway, slip);
+      solver_.solve(limit_of(state_.pressure, options_.friction_coefficient), target,
+                    options_.motion_scale, increment.traction_halfway, slip);
   count(report);
   increment.report.converged = report.converged;
   increment.report.interrupted = report.interrupted;
@@ -115,7 +115,7 @@ SlidingContact::Increment SlidingContact::attempt(const Field& pressure, const T
   require((pressure >= 0).all(), "pressure", pressure.minCoeff(), "must be >= 0 in every cell");
   require(options_.stick.hold_lateral || move.y == 0, "move", move.y,
           "along y must be 0 where the lateral displacement is free; turn the surface instead");
-  const Field limit = limit_of(pressure, options_.friction);
+  const Field limit = limit_of(pressure, options_.friction_coefficient);
   const ContactSet contact = limit > 0, entering = contact && !contact_;
   Increment increment{.pressure = pressure,
                       .shift = shift ? *shift : state_.shift,
@@ -168,7 +168,7 @@ void SlidingContact::accept(Increment increment) {
   state_.converged = state_.converged && increment.report.converged;
   interrupted_ = interrupted_ || increment.report.interrupted;
   state_.slipping = increment.report.slipping;
-  const ContactSet contact = limit_of(increment.pressure, options_.friction) > 0;
+  const ContactSet contact = limit_of(increment.pressure, options_.friction_coefficient) > 0;
   const ContactSet leaving = contact_ && !contact, entering = contact && !contact_;
   const TangentialField middle = mean(state_.traction, increment.traction);
   // The body's motion as the cells feel it, those that enter from their entry on.

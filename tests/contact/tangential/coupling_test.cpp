@@ -32,7 +32,7 @@ Field random_field(const Grid2D& grid, unsigned seed) {
 
 CoupledContactOptions free_boundary(double friction, double scale) {
   CoupledContactOptions options;
-  options.sliding = {.friction = friction, .motion_scale = scale};
+  options.sliding = {.friction_coefficient = friction, .motion_scale = scale};
   options.sliding.stick.tolerance = 1e-7;
   options.sliding.stick.boundary = options.contact.boundary = Boundary::free;
   return options;

@@ -10,7 +10,7 @@ namespace salebra {
 
 struct SlidingContactOptions {
   /// μ >= 0: |τ| <= μp in every cell; infinite: full stick.
-  double friction = std::numeric_limits<double>::infinity();
+  double friction_coefficient = std::numeric_limits<double>::infinity();
   /// m, > 0: the tangential displacement that the tolerance of `stick` refers to, such as the range of the motion.
   double motion_scale = 1;
   StickOptions stick = {.tolerance = 1e-8};
