@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <map>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
@@ -121,42 +122,55 @@ class Levels {
 
   /// The indentation under a pressure.
   double indentation_at(double pressure) {
-    NormalContactState state =
-        press_to_pressure(surface_, contact_modulus_, pressure, with_start(false));
+    NormalContactState state = press_to_pressure(surface_, contact_modulus_, pressure, options_);
     take(state);
+    known_[state.indentation] = contact_of(state);
     return state.indentation;
   }
 
   Contact at(double indentation) {
     if (indentation <= 0) return {};
+    if (const auto found = known_.find(indentation); found != known_.end()) return found->second;
     if (indentation >= limit_) {
       converged_ = false;
       return {};
     }
+    NormalContactOptions options = options_;
+    const Field start = extrapolated(indentation);
+    if (start.size() > 0) options.initial_pressure = &start;
     NormalContactState state =
-        press_to_indentation(surface_, contact_modulus_, indentation, with_start(true));
+        press_to_indentation(surface_, contact_modulus_, indentation, options);
     take(state);
-    return {state.force,
-            std::round(state.contact_area_fraction * static_cast<double>(surface_.grid.points()))};
+    return known_[indentation] = contact_of(state);
   }
 
  private:
-  NormalContactOptions with_start(bool warm) const {
-    NormalContactOptions options = options_;
-    if (warm && last_.size() > 0) options.initial_pressure = &last_;
-    return options;
+  /// Pressures are nearly linear over the short way from two contacts to a third.
+  Field extrapolated(double indentation) const {
+    if (before_.size() == 0) return last_;
+    const double share = (indentation - last_at_) / (last_at_ - before_at_);
+    return std::abs(share) > 3 ? last_ : Field((last_ + share * (last_ - before_)).max(0.0));
+  }
+  Contact contact_of(const NormalContactState& state) const {
+    return {state.force,
+            std::round(state.contact_area_fraction * static_cast<double>(surface_.grid.points()))};
   }
   void take(NormalContactState& state) {
     if (state.interrupted) throw Interrupted("damping: interrupted");
     converged_ = converged_ && state.converged;
+    before_ = std::move(last_);
+    before_at_ = last_at_;
     last_ = std::move(state.pressure);
+    last_at_ = state.indentation;
   }
 
   const Surface& surface_;
   double contact_modulus_;
   NormalContactOptions options_;
   double limit_;
-  Field last_;
+  std::map<double, Contact> known_;
+  Field last_, before_;
+  double last_at_ = 0, before_at_ = 0;
   bool converged_ = true;
 };
 
@@ -169,6 +183,11 @@ struct GridValue {
   Index points = 0;
   bool converged = false;
 };
+
+/// A change of W that two scatters do not explain.
+double beyond_scatter(double change, double one, double other) {
+  return std::sqrt(std::max(0.0, change * change - one * one - other * other));
+}
 
 class Load {
  public:
@@ -215,12 +234,13 @@ class Load {
   /// The second difference of F over the window is about F(KH/F)², and its tenth of a thousandth is lost in nothing else.
   double tolerance() const {
     const double strain = half_ * sample_.normal_stiffness / sample_.force;
-    return std::clamp(1e-4 * strain * strain, 1e-13, 1e-8);
+    return std::clamp(1e-4 * strain * strain, 1e-13, 1e-6);
   }
 
   void widen(Levels& levels, double center) {
     const double widest = widest_window * sample_.force / sample_.normal_stiffness;
-    const double wanted = enough_cells / std::pow(4.0, std::min(options_.refinements, 1));
+    const double wanted =
+        enough_cells / std::pow(4.0, options_.coarsen ? 1 : std::min(options_.refinements, 1));
     while (half_ < widest && levels.usable()) {
       const double cells = levels.at(center + half_).cells - levels.at(center - half_).cells;
       if (cells >= wanted) break;
@@ -246,8 +266,7 @@ class Load {
         std::vector<Levels::Contact> half;
         for (std::size_t k = 0; k < contacts.size(); k += 2) half.push_back(contacts[k]);
         const double change = std::abs(value.work - evaluate(half, n / 2).work);
-        value.level_error =
-            std::sqrt(std::max(0.0, change * change - value.scatter * value.scatter)) / 2;
+        value.level_error = beyond_scatter(change, value.scatter, 0) / 2;
       }
       if (!options_.choose_levels || n >= most_levels || !(value.level_error > value.scatter))
         return value;
@@ -361,12 +380,22 @@ class Load {
   std::vector<GridValue> values_;
 };
 
+void add_up(SurfaceDamping& result) {
+  double sum = 0;
+  for (const double part : {result.cell_error, result.scatter, result.level_error,
+                            result.ratio_error, result.seam_error, result.solver_error})
+    sum += part * part;
+  result.error = std::sqrt(sum);
+}
+
 SurfaceDamping result_of(const Load& load, const Oscillation& motion,
                          const SurfaceDampingOptions& options) {
   SurfaceDamping result;
   const auto& values = load.values();
   if (values.empty() || !load.usable()) return result;
-  const GridValue& value = options.keep_cells ? values.front() : values.back();
+  const std::size_t own = options.coarsen ? 1 : 0;  // place of the cells as they are
+  const std::size_t at = options.keep_cells ? std::min(own, values.size() - 1) : values.size() - 1;
+  const GridValue& value = values[at];
   result.converged = true;
   result.work_per_cycle = value.work;
   result.damping_constant = closed_form::damping_constant(value.work, motion);
@@ -379,24 +408,47 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   result.levels = value.levels;
   result.points = value.points;
   if (values.size() < 2) return result;
-  const GridValue& other = options.keep_cells ? values.back() : values[values.size() - 2];
-  const double change = value.work - other.work;
-  result.cell_error = std::sqrt(std::max(
-      0.0, change * change - value.scatter * value.scatter - other.scatter * other.scatter));
-  result.error =
-      std::sqrt(result.cell_error * result.cell_error + result.scatter * result.scatter +
-                result.level_error * result.level_error + result.ratio_error * result.ratio_error +
-                result.solver_error * result.solver_error);
+  const GridValue& other = values[at > 0 ? at - 1 : values.size() - 1];
+  result.cell_error = beyond_scatter(value.work - other.work, value.scatter, other.scatter);
+  add_up(result);
   return result;
 }
 
-void validate(const ForceCurve& curve, const SurfaceDampingOptions& options) {
+Surface every_second(const Surface& surface) {
+  Surface coarse = surface;
+  coarse.grid.nx /= 2;
+  coarse.grid.ny /= 2;
+  coarse.heights =
+      surface.heights(Eigen::seqN(0, coarse.grid.nx, 2), Eigen::seqN(0, coarse.grid.ny, 2));
+  return coarse;
+}
+
+/// 1 inside, from 0 to 1 over a sixteenth at either end.
+Eigen::ArrayXd taper(Index count) {
+  const double width = static_cast<double>(count) / 16;
+  return Eigen::ArrayXd::NullaryExpr(count, [&](Index k) {
+    const double from_edge = std::min(static_cast<double>(k), static_cast<double>(count - 1 - k));
+    return from_edge >= width ? 1.0 : 0.5 - 0.5 * std::cos(pi * from_edge / width);
+  });
+}
+
+Surface windowed(Surface surface) {
+  const double mean = surface.heights.mean();
+  const Eigen::ArrayXd x = taper(surface.grid.nx), y = taper(surface.grid.ny);
+  surface.heights = mean + (surface.heights - mean) * (x.matrix() * y.matrix().transpose()).array();
+  return surface;
+}
+
+void validate(const Surface& surface, const ForceCurve& curve,
+              const SurfaceDampingOptions& options) {
   require(!curve.samples.empty(), "curve", 0, "loads; compute at least one");
   require(options.levels == 4 || options.levels == 8 || options.levels == 16 ||
               options.levels == most_levels,
           "levels", options.levels, "must be 4, 8, 16 or 32");
   require(options.refinements >= 0 && options.refinements <= 4, "refinements", options.refinements,
           "must lie in 0 … 4");
+  require(!options.coarsen || (surface.grid.nx % 2 == 0 && surface.grid.ny % 2 == 0), "coarsen",
+          surface.grid.nx, "points cannot be halved; use an even number");
   require(options.relative_error >= 0 && options.relative_error < 1, "relative_error",
           options.relative_error, "must lie between 0 and 1");
 }
@@ -407,13 +459,13 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
                                             const Oscillation& motion, const ForceCurve& curve,
                                             const SurfaceDampingOptions& options) {
   surface.require_complete("a contact calculation");
-  validate(curve, options);
+  validate(surface, curve, options);
   std::vector<Load> loads;
   for (std::size_t k = 0; k < curve.samples.size(); ++k)
     loads.emplace_back(material, motion, options, curve, k);
 
   const int halvings = options.relative_error > 0 ? 30 : options.refinements;
-  for (int halving = 0; halving <= halvings; ++halving) {
+  for (int halving = options.coarsen ? -1 : 0; halving <= halvings; ++halving) {
     std::vector<Load*> open;
     for (Load& load : loads) {
       if (!load.usable()) continue;
@@ -422,11 +474,9 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
           !(result.error <= options.relative_error * std::abs(result.work_per_cycle)))
         open.push_back(&load);
     }
-    const Index factor = Index(1) << halving;
-    if (open.empty() || (halving > options.refinements &&
-                         std::max(surface.grid.nx, surface.grid.ny) * factor > options.most_points))
-      break;
-    const Surface fine = refined(surface, factor);
+    const Index factor = halving > 0 ? Index(1) << halving : 1;
+    if (open.empty() || (halving > options.refinements && factor > options.most_refined)) break;
+    const Surface fine = halving < 0 ? every_second(surface) : refined(surface, factor);
     const int wanted = std::min(static_cast<int>(open.size()), parallel::threads());
     require_memory(fine.grid,
                    wanted * detail::contact_memory(fine.grid, {.boundary = options.boundary}),
@@ -460,6 +510,26 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
   }
   std::vector<SurfaceDamping> results;
   for (const Load& load : loads) results.push_back(result_of(load, motion, options));
+  if (!options.seam) return results;
+  SurfaceDampingOptions without = options;
+  without.seam = {};
+  without.refinements = 0;
+  without.relative_error = 0;
+  without.coarsen = false;
+  const bool free = *options.seam == SeamCheck::free;
+  if (free) without.boundary = Boundary::free;
+  const auto unseamed =
+      surface_damping(free ? surface : windowed(surface), material, motion, curve, without);
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    SurfaceDamping& result = results[k];
+    const auto& values = loads[k].values();
+    if (!result.converged || !unseamed[k].converged) continue;
+    const GridValue& own =
+        values[std::min<std::size_t>(options.coarsen ? 1 : 0, values.size() - 1)];
+    result.seam_error =
+        beyond_scatter(unseamed[k].work_per_cycle - own.work, own.scatter, unseamed[k].scatter / 2);
+    add_up(result);
+  }
   return results;
 }
 

@@ -218,7 +218,6 @@ TEST_CASE("A relative error halves the cells of the loads that need it") {
   SurfaceDampingOptions options;
   const auto once = surface_damping(surface, material, motion, curve, options);
   options.relative_error = 0.08;
-  options.most_points = 256;
   const auto refined_on = surface_damping(surface, material, motion, curve, options);
   int finer = 0;
   for (std::size_t k = 0; k < once.size(); ++k) {
@@ -255,6 +254,56 @@ TEST_CASE(
   const auto together = surface_damping(surface, material, motion, curve, options);
   for (std::size_t k = 0; k < alone.size(); ++k)
     CHECK(alone[k].work_per_cycle == together[k].work_per_cycle);
+}
+
+TEST_CASE("Cells of twice the size give an error too, and their value is that of the cells") {
+  const Surface surface = rough(48, 61, 8);
+  const Drag motion = drag(surface, 0.1);
+  const ForceCurve curve = curve_of(surface, loads(4), Boundary::periodic, false);
+  SurfaceDampingOptions options;
+  options.refinements = 0;
+  options.coarsen = true;
+  const auto coarsened = surface_damping(surface, material, motion, curve, options);
+  const auto halved = surface_damping(surface, material, motion, curve);
+  for (std::size_t k = 0; k < halved.size(); ++k) {
+    CHECK(coarsened[k].points == 48);
+    // Both hold the same truth, each within its error, at 90 % each.
+    CHECK(std::abs(coarsened[k].work_per_cycle - halved[k].work_per_cycle) <
+          coarsened[k].error + halved[k].error);
+  }
+  Surface odd = rough(32, 1, 4);
+  odd.grid.nx = 31;
+  odd.heights.conservativeResize(31, 32);
+  CHECK_THROWS_WITH(surface_damping(odd, material, motion, curve, options),
+                    Catch::StartsWith("coarsen: 31 "));
+}
+
+TEST_CASE("A step at the seam has its error, which a surface without a step has not") {
+  Surface periodic = rough(64, 71);
+  periodic.periodic = false;
+  Surface tilted = periodic;
+  const double rms = height_statistics(periodic).rms_height;
+  for (Index i = 0; i < 64; ++i) tilted.heights.row(i) += 4 * rms * (double(i) / 63 - 0.5);
+  SurfaceDampingOptions options;
+  options.refinements = 0;
+  options.coarsen = true;
+  options.seam = SeamCheck::window;
+  const auto pressures = loads(4);
+  const Drag motion = drag(periodic, 0.1);
+  const auto smooth =
+      surface_damping(periodic, material, motion,
+                      curve_of(periodic, pressures, Boundary::periodic, false), options);
+  const auto stepped = surface_damping(
+      tilted, material, motion, curve_of(tilted, pressures, Boundary::periodic, false), options);
+  double of_smooth = 0, of_stepped = 0;
+  for (std::size_t k = 0; k < pressures.size(); ++k) {
+    REQUIRE(smooth[k].converged);
+    CHECK(smooth[k].error >= smooth[k].seam_error);
+    of_smooth += smooth[k].seam_error / smooth[k].work_per_cycle;
+    of_stepped += stepped[k].seam_error / stepped[k].work_per_cycle;
+  }
+  // The step carries the light loads of the tilted surface alone; the window takes a quarter of the area from either.
+  CHECK(of_stepped > 1.5 * of_smooth);
 }
 
 TEST_CASE("Damping of a surface refuses what it cannot use") {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <salebra/base/progress.hpp>
 #include <salebra/contact/half_space/half_space.hpp>
 #include <salebra/contact/half_space/material.hpp>
@@ -11,6 +12,12 @@
 #include <vector>
 
 namespace salebra {
+
+/// What shows the share of the seam, where a surface that is not periodic is continued as if it were.
+enum class SeamCheck {
+  window,  ///< the outermost sixteenth along each edge goes smoothly to the mean height, so that nothing is left to step
+  free  ///< the surface by itself on an infinite half-space: for light loads; at high ones its edges press harder
+};
 
 struct SurfaceDampingOptions {
   Hold hold = Hold::indentation;
@@ -22,11 +29,17 @@ struct SurfaceDampingOptions {
   bool choose_levels = true;
   /// Halvings of the cells (refined(), surface/refine.hpp). 0: the error of the cells is not known, and no error is stated.
   int refinements = 1;
+  /// Compares with cells of twice the size in place of a half: a quarter of the cost, for large grids. The error of the cells is then
+  /// that of the coarser of the two and rather too large. Numbers of points must be even.
+  bool coarsen = false;
   /// W on the cells as they are, to which the refinements only give the error; false: on the finest.
   bool keep_cells = false;
   /// Halves the cells on, beyond `refinements`, for the loads whose error is not yet below this part of W; 0: does not.
   double relative_error = 0;
-  Index most_points = 2048;  ///< along the longer side of a grid that relative_error may ask for
+  /// Solves once more, on the cells as they are, and takes the change of W for the error of the seam.
+  std::optional<SeamCheck> seam = {};
+  Index most_refined =
+      8;  ///< times as many points along each side, at the most, that relative_error may ask for
   Progress on_progress = {};
 };
 
@@ -43,6 +56,7 @@ struct SurfaceDamping {
   double level_error =
       unknown;  ///< half the change of W by the last doubling of the levels, beyond scatter
   double ratio_error = unknown;  ///< of K_t/((G*/E*)K) and its slope between the loads of the curve
+  double seam_error = 0;  ///< change of W without the seam, beyond scatter; 0 where not asked for
   double solver_error = unknown;     ///< tolerance of the forces, as it enters W
   double stiffness_ratio = unknown;  ///< K_t/((G*/E*)K) at the load
   double window = unknown;  ///< half the range of indentations that were solved, m; at least u_z
