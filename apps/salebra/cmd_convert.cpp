@@ -2,6 +2,7 @@
 // `salebra convert`: a surface from one file format to another.
 #include <memory>
 #include <salebra/base/error.hpp>
+#include <salebra/io/surface_formats.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <salebra/surface/fill.hpp>
 
@@ -45,7 +46,9 @@ void add_convert_command(Program& program) {
       [arguments](Session& session) { run(*arguments, session); },
       "heights, power spectral density with the fitted law, distribution of heights");
   arguments->surface.add_to(command);
-  command.add_option("OUT", arguments->to, "new file; its extension decides on the format")
+  command
+      .add_option("OUT", arguments->to,
+                  "new file; its extension decides on the format: " + written_extensions())
       ->required()
       ->type_name("FILE");
   command.add_flag(

@@ -49,9 +49,8 @@ constexpr std::array descriptions{
         "shortest wavelength that the instrument leaves reliable. Nothing but the trend\n"
         "(--detrend) is removed, and holes are filled on request only (--fill)."},
     CommandHelp{"convert", surfaces,
-                "Reads a surface and writes it in the format that the extension of OUT names: .h5 "
-                ".nc .npy\n"
-                ".x3p .gsf .gxyzf .xyz .txt. What each format keeps is told in docs/formats.md."},
+                "Reads a surface and writes it in the format that the extension of OUT names.\n"
+                "docs/formats.md tells what each format keeps."},
     CommandHelp{
         "contact", contact,
         "Presses one surface by boundary elements to a pressure, a mean gap, an indentation or a\n"

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/io/read_surface.hpp>
+#include <salebra/io/surface_formats.hpp>
 
 #include "plausibility.hpp"
 
@@ -120,8 +121,7 @@ double MaterialOptions::modulus_ratio() const {
 }
 
 void SurfaceOptions::add_to(Command& app, bool needed, const std::string& field) {
-  app.add_option(field, file,
-                 "file with heights: HDF5, NetCDF, X3P, NPY, GSF, GXYZF, SUR, text matrix or XYZ")
+  app.add_option(field, file, "file with heights, recognised by its content: " + read_extensions())
       ->required(needed)
       ->type_name("FILE");
   const std::string group = "Surface";

@@ -29,7 +29,7 @@ void bind_files(nb::module_& m) {
       nb::arg("size_y") = nb::none(), nb::arg("periodic") = nb::none(), nb::arg("height_unit") = "",
       R"(Reads the heights of a surface.
 
-What the file is follows from its first bytes, not from its name: HDF5, NPY, NetCDF in SurfaceTopography's layout, X3P, GSF,
+What the file is follows from its first bytes, not from its name: HDF5, NPY, NetCDF in SurfaceTopography's layout, X3P, GWY, GSF,
 GXYZF, SUR, text matrices with the headers of Gwyddion and of instruments, XYZ. Other instrument formats:
 :meth:`Surface.from_topography`. Undefined points become NaN.
 
@@ -63,7 +63,7 @@ InvalidInput
 Parameters
 ----------
 file : str or os.PathLike
-    .h5, .hdf5, .npy (with a sidecar .json), .nc, .x3p, .gsf (float32), .txt, .asc, .gxyzf or .xyz.
+    .h5, .hdf5, .npy (with a sidecar .json), .nc, .x3p, .gwy, .gsf (float32), .txt, .asc, .gxyzf or .xyz.
 surface : Surface
 overwrite : bool
     Replace an existing file. The file appears complete or not at all.

@@ -19,8 +19,6 @@ constexpr std::string_view magic = "Gwyddion Simple Field 1.0\n";
 
 }  // namespace
 
-bool is_gsf(std::string_view content) { return content.starts_with(magic); }
-
 LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view content) {
   LoadedSurface surface;
   Index nx = 0, ny = 0;
@@ -50,7 +48,7 @@ LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view conte
   return surface;
 }
 
-void write_gsf(const std::filesystem::path& file, const Surface& surface,
+void write_gsf(const std::filesystem::path& file, const Surface& surface, const Provenance&,
                const WriteOptions& options) {
   const Grid2D& grid = surface.grid;
   std::string bytes = fmt::format(

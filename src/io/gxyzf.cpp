@@ -23,8 +23,6 @@ constexpr std::size_t item = sizeof(double);
 
 }  // namespace
 
-bool is_gxyzf(std::string_view content) { return content.starts_with(magic); }
-
 LoadedSurface read_gxyzf(const std::filesystem::path& file, std::string_view content) {
   Index channels = 0, points = 0;
   std::string plane_unit, height_unit;
@@ -53,7 +51,7 @@ LoadedSurface read_gxyzf(const std::filesystem::path& file, std::string_view con
   return surface;
 }
 
-void write_gxyzf(const std::filesystem::path& file, const Surface& surface,
+void write_gxyzf(const std::filesystem::path& file, const Surface& surface, const Provenance&,
                  const WriteOptions& options) {
   static_assert(std::endian::native == std::endian::little);
   require_points(file, surface);

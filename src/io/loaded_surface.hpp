@@ -41,18 +41,7 @@ LoadedSurface read_content(const std::filesystem::path& file, std::string_view c
 Surface completed(const std::filesystem::path& file, LoadedSurface loaded,
                   const ReadOptions& options);
 
-/// The readers of formats, each of a content that begins as its format does.
-bool is_gsf(std::string_view content);
-LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view content);
-bool is_gxyzf(std::string_view content);
-LoadedSurface read_gxyzf(const std::filesystem::path& file, std::string_view content);
-LoadedSurface read_netcdf(const std::filesystem::path& file, std::string_view content);
-LoadedSurface read_npy(const std::filesystem::path& file, std::string_view content);
-bool is_sur(std::string_view content);
-LoadedSurface read_sur(const std::filesystem::path& file, std::string_view content);
-bool is_zip(std::string_view content);
-LoadedSurface read_x3p(const std::filesystem::path& file, std::string_view content);
-LoadedSurface read_text(const std::filesystem::path& file, std::string_view content);
+/// The reader of HDF5; those of other formats are in surface_formats.cpp.
 LoadedSurface read_hdf5(const std::filesystem::path& file);
 
 }  // namespace salebra::detail

@@ -6,14 +6,14 @@
 #include <salebra/base/memory.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/io/read_surface.hpp>
+#include <stdexcept>
 
 #include "input_file.hpp"
 #include "loaded_surface.hpp"
+#include "surface_format.hpp"
 
 namespace salebra {
 namespace {
-
-constexpr std::string_view npy_magic("\x93NUMPY", 6);
 
 detail::LoadedSurface load(const std::filesystem::path& file) {
   // HDF5 is read through its own library, which need not hold the whole file.
@@ -77,14 +77,11 @@ bool is_hdf5(const std::filesystem::path& file) { return InputFile(file).is_hdf5
 std::string file_content(const std::filesystem::path& file) { return InputFile(file).content(); }
 
 LoadedSurface read_content(const std::filesystem::path& file, std::string_view content) {
-  if (content.starts_with(npy_magic)) return read_npy(file, content);
-  if (is_gsf(content)) return read_gsf(file, content);
-  if (is_gxyzf(content)) return read_gxyzf(file, content);
-  if (is_sur(content)) return read_sur(file, content);
-  if (is_zip(content)) return read_x3p(file, content);
-  if (content.starts_with("CDF\1") || content.starts_with("CDF\2") || content.starts_with("CDF\5"))
-    return read_netcdf(file, content);
-  return read_text(file, content);
+  const auto begins = [&](std::string_view head) { return content.starts_with(head); };
+  for (const SurfaceFormatEntry& format : surface_format_table())
+    if (format.read && (format.heads.empty() || std::ranges::any_of(format.heads, begins)))
+      return format.read(file, content);
+  throw std::logic_error("text is no row of the table of formats");
 }
 
 double metres_per(const std::filesystem::path& file, const std::string& unit) {

@@ -48,8 +48,6 @@ enum class Inversion : std::int16_t { none, heights, along_x, along_y };
 
 }  // namespace
 
-bool is_sur(std::string_view content) { return content.starts_with("DIGITAL SURF"); }
-
 LoadedSurface read_sur(const std::filesystem::path& file, std::string_view content) {
   if (content.size() < header_size) refuse(file, "ends within its SUR header; it is truncated");
   const Header header(content);

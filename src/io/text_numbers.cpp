@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <salebra/io/surface_formats.hpp>
 
 #include "loaded_surface.hpp"
 
@@ -134,8 +135,9 @@ std::string_view require_text(const std::filesystem::path& file, std::string_vie
     refuse(file, "is UTF-16 text; save it as UTF-8");
   if (content.find('\0') != std::string_view::npos)
     refuse(file,
-           "is neither text (it holds NUL bytes) nor HDF5, NetCDF, NPY or GSF; convert it to one "
-           "of these");
+           "is neither text (it holds NUL bytes) nor of another format that is read; convert it to "
+           "one of " +
+               read_extensions());
   if (content.starts_with("\xef\xbb\xbf")) content.remove_prefix(3);
   return content;
 }

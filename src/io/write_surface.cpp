@@ -2,6 +2,7 @@
 // Writing of a surface: format by extension, and the writers of HDF5, NPY and text.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -17,14 +18,14 @@
 #include "hdf5_output.hpp"
 #include "md5.hpp"
 #include "sidecar.hpp"
+#include "surface_format.hpp"
 #include "surface_writers.hpp"
 
-namespace salebra {
-namespace {
+namespace salebra::detail {
 
 void write_hdf5(const std::filesystem::path& file, const Surface& surface,
                 const Provenance& provenance, const WriteOptions& options) {
-  detail::hdf5::Output output(file, provenance, options);
+  hdf5::Output output(file, provenance, options);
   const Grid2D& grid = surface.grid;
   const std::vector<double> x = positions(grid.nx, grid.dx()), y = positions(grid.ny, grid.dy());
   output.scale(output.root(), "x", x.data(), x.size(), {"m", "position along x"});
@@ -57,11 +58,11 @@ void write_npy(const std::filesystem::path& file, const Surface& surface,
   const std::string_view heights(reinterpret_cast<const char*>(surface.heights.data()),
                                  static_cast<std::size_t>(surface.grid.points()) * sizeof(double));
 
-  detail::AtomicFile array(file, options), sidecar(detail::sidecar_of(file), options);
+  AtomicFile array(file, options), sidecar(sidecar_of(file), options);
   array.write(start);
   array.write(heights);
-  Json description = detail::description_of(surface, provenance);
-  description["md5"] = detail::md5({start, heights});
+  Json description = description_of(surface, provenance);
+  description["md5"] = md5({start, heights});
   sidecar.write(description.dump(2) + "\n");
   array.finish();
   sidecar.finish();
@@ -77,17 +78,17 @@ void write_npy(const std::filesystem::path& file, const Surface& surface,
   }
 }
 
-void write_text(const std::filesystem::path& file, const Surface& surface,
+void write_text(const std::filesystem::path& file, const Surface& surface, const Provenance&,
                 const WriteOptions& options) {
-  detail::AtomicFile output(file, options);
+  AtomicFile output(file, options);
   std::string line = "# Channel: heights\n# Width: ";
-  detail::append_number(line, surface.grid.lx);
+  append_number(line, surface.grid.lx);
   line += " m\n# Height: ";
-  detail::append_number(line, surface.grid.ly);
+  append_number(line, surface.grid.ly);
   line += " m\n# Value units: m\n# Points: " + std::to_string(surface.grid.points()) + "\n";
   for (Index iy = 0; iy < surface.grid.ny; ++iy) {
     for (Index ix = 0; ix < surface.grid.nx; ++ix) {
-      detail::append_number(line, surface.heights(ix, iy));
+      append_number(line, surface.heights(ix, iy));
       line += ix + 1 < surface.grid.nx ? '\t' : '\n';
     }
     output.write(line);
@@ -96,9 +97,7 @@ void write_text(const std::filesystem::path& file, const Surface& surface,
   output.commit();
 }
 
-}  // namespace
-
-void detail::append_number(std::string& text, double value) {
+void append_number(std::string& text, double value) {
   std::array<char, 32> digits;
   const auto end = std::isnan(value)
                        ? std::copy_n("nan", 3, digits.data())
@@ -106,7 +105,7 @@ void detail::append_number(std::string& text, double value) {
   text.append(digits.data(), end);
 }
 
-Json detail::description_of(const Surface& surface, const Provenance& provenance) {
+Json description_of(const Surface& surface, const Provenance& provenance) {
   Json description{{"size_x", surface.grid.lx},
                    {"size_y", surface.grid.ly},
                    {"periodic", surface.periodic},
@@ -122,32 +121,24 @@ Json detail::description_of(const Surface& surface, const Provenance& provenance
   return description;
 }
 
+}  // namespace salebra::detail
+
+namespace salebra {
+
 void write_surface(const std::filesystem::path& file, const Surface& surface,
                    const Provenance& provenance, const WriteOptions& options) {
   surface.grid.validate();
   require(surface.heights.rows() == surface.grid.nx && surface.heights.cols() == surface.grid.ny,
           "heights", surface.heights.size(), "points do not match the grid");
   const std::string extension = file.extension().string();
-  if (extension == ".h5" || extension == ".hdf5")
-    write_hdf5(file, surface, provenance, options);
-  else if (extension == ".npy")
-    write_npy(file, surface, provenance, options);
-  else if (extension == ".txt" || extension == ".asc")
-    write_text(file, surface, options);
-  else if (extension == ".nc")
-    detail::write_netcdf(file, surface, provenance, options);
-  else if (extension == ".x3p")
-    detail::write_x3p(file, surface, provenance, options);
-  else if (extension == ".gsf")
-    detail::write_gsf(file, surface, options);
-  else if (extension == ".gxyzf")
-    detail::write_gxyzf(file, surface, options);
-  else if (extension == ".xyz")
-    detail::write_xyz(file, surface, options);
-  else
-    throw InvalidInput(file.string() + ": has the extension '" + extension +
-                       "', which names no format that is written; use .h5, .nc, .npy, .x3p, .gsf, "
-                       ".gxyzf, .xyz or .txt");
+  for (const detail::SurfaceFormatEntry& format : detail::surface_format_table()) {
+    const auto& extensions = format.facts.extensions;
+    if (format.write && std::ranges::find(extensions, extension) != extensions.end())
+      return format.write(file, surface, provenance, options);
+  }
+  throw InvalidInput(file.string() + ": has the extension '" + extension +
+                     "', which names no format that is written; use one of " +
+                     written_extensions());
 }
 
 }  // namespace salebra

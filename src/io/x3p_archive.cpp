@@ -77,8 +77,6 @@ std::optional<std::string> extracted(const std::filesystem::path& file, zip_t* a
 
 }  // namespace
 
-bool is_zip(std::string_view content) { return content.starts_with("PK\x03\x04"); }
-
 LoadedSurface read_x3p(const std::filesystem::path& file, std::string_view content) {
   const Archive archive = opened(file, content);
   return x3p_surface(file, [&](const std::string& name, std::optional<std::uint64_t> bytes) {

@@ -115,7 +115,7 @@ void require_points(const std::filesystem::path& file, const Surface& surface) {
                        "recognised; write .h5 or .nc");
 }
 
-void write_xyz(const std::filesystem::path& file, const Surface& surface,
+void write_xyz(const std::filesystem::path& file, const Surface& surface, const Provenance&,
                const WriteOptions& options) {
   require_points(file, surface);
   const Grid2D& grid = surface.grid;

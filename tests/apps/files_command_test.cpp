@@ -12,8 +12,8 @@ namespace {
 
 const double undefined = std::numeric_limits<double>::quiet_NaN();
 
-const std::vector<std::string> formats{".h5",  ".nc",  ".npy",   ".x3p",
-                                       ".gsf", ".txt", ".gxyzf", ".xyz"};
+const std::vector<std::string> formats{".h5",  ".nc",    ".npy", ".x3p", ".gsf",
+                                       ".txt", ".gxyzf", ".xyz", ".gwy"};
 
 /// Four by three points on 8 µm by 3 µm without any symmetry, one undefined, with five digits, which float32 keeps.
 const std::string scan =

@@ -168,6 +168,8 @@ TEST_CASE(
           npy("{'descr': '<f8', 'fortran_order': False, 'shape': (4000000000, 4000000000), }"));
   surface("long.npy", std::string("\x93NUMPY\x02\x00\xff\xff\xff\xff", 12));
   surface("huge.gsf", "Gwyddion Simple Field 1.0\nXRes = 2000000000\nYRes = 2000000000\n");
+  surface("huge.gwy",
+          std::string("GWYPGwyContainer\0\xff\xff\xff\xff", 21) + std::string(64, '\xff'));
   surface("huge.gxyzf", "Gwyddion XYZ Field 1.0\nNChannels = 1\nNPoints = 4000000000000000000\n\n" +
                             std::string(32, '\0'));
   surface("huge.sur", "DIGITAL SURF" + std::string(500, '\xff'));

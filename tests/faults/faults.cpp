@@ -131,7 +131,7 @@ std::vector<Case> all_cases() {
       {"init", {}, "init out.toml"},
       {"completion", {}, "completion bash -o out.bash"},
       {"plot", in, "info IN/s.h5 --plot out.svg"}};
-  for (const char* format : {"h5", "nc", "x3p", "gsf", "gxyzf", "xyz", "txt"})
+  for (const char* format : {"h5", "nc", "x3p", "gwy", "gsf", "gxyzf", "xyz", "txt"})
     cases.push_back({std::string("convert_") + format,
                      {surface + " -o s.npy"},
                      std::string("convert IN/s.npy out.") + format});

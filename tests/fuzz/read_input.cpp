@@ -3,16 +3,18 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <salebra/base/error.hpp>
-#include <salebra/results/force_curve_file.hpp>
 #include <salebra/io/number_table.hpp>
+#include <salebra/results/force_curve_file.hpp>
 #include <stdexcept>
 
 #include "../../src/io/loaded_surface.hpp"
+#include "../../src/io/surface_format.hpp"
 #include "../../src/io/x3p.hpp"
 
 namespace salebra::fuzz {
@@ -54,19 +56,12 @@ void require_possible(const Surface& surface) {
     throw std::logic_error("a reader returned a surface that cannot be");
 }
 
-using Reader = detail::LoadedSurface (*)(const std::filesystem::path&, std::string_view);
-
 void complete(const std::string& name, detail::LoadedSurface loaded) {
   // Sizes that a file states are judged; where it states none, they are given.
   ReadOptions options;
   if (!loaded.size_x) options.size_x = 1;
   if (!loaded.size_y) options.size_y = 1;
   require_possible(detail::completed(name, std::move(loaded), options));
-}
-
-template <Reader reader>
-void read_with(const std::string& input) {
-  complete("input", reader("input", input));
 }
 
 /// Members of an X3P archive without the archive: its checksums would leave nothing to a mutation. The input is main.xml and the
@@ -92,46 +87,40 @@ void read_through_file(const std::string& input,
   read(file.path());
 }
 
-/// The fourth byte is the version: 1, 2 or 5.
-void read_netcdf(std::string input) {
-  if (input.size() < 4) input.resize(4);
-  if (input[3] != 1 && input[3] != 5) input[3] = 2;
-  read_with<detail::read_netcdf>(input);
-}
-
 struct Target {
-  std::string_view head;  ///< put in place of the first bytes
+  std::vector<std::string_view> heads;  ///< the first is put in place of other first bytes
   std::function<void(const std::string&)> read;
 };
 
 const std::map<std::string, Target, std::less<>>& targets() {
-  static const std::map<std::string, Target, std::less<>> all{
-      {"text", {"", read_with<detail::read_text>}},
-      {"npy", {std::string_view("\x93NUMPY"), read_with<detail::read_npy>}},
-      {"gsf", {"Gwyddion Simple Field 1.0\n", read_with<detail::read_gsf>}},
-      {"gxyzf", {"Gwyddion XYZ Field 1.0\n", read_with<detail::read_gxyzf>}},
-      {"netcdf", {"CDF", read_netcdf}},
-      {"sur", {"DIGITAL SURF", read_with<detail::read_sur>}},
-      {"x3p", {"PK\x03\x04", read_with<detail::read_x3p>}},
-      {"x3p-parts", {"", read_x3p_parts}},
-      {"any", {"", read_with<detail::read_content>}},
-      {"table",
-       {"",
-        [](const std::string& input) {
-          read_through_file(input, [](const auto& file) { read_number_table(file, 2); });
-        }}},
-      {"curve",
-       {"",
-        [](const std::string& input) {
-          read_through_file(input, [](const auto& file) { read_force_curve(file); });
-        }}},
-      {"hdf5",
-       {std::string_view("\x89HDF\r\n\x1a\n"),
-        [](const std::string& input) {
-          read_through_file(
-              input, [](const auto& file) { complete(file.string(), detail::read_hdf5(file)); });
-        }}},
+  static const auto surface = [](detail::SurfaceFormatEntry::Read* read) {
+    return [read](const std::string& input) { complete("input", read("input", input)); };
   };
+  static const std::map<std::string, Target, std::less<>> all = [] {
+    std::map<std::string, Target, std::less<>> some{
+        {"x3p-parts", {{}, read_x3p_parts}},
+        {"any", {{}, surface(detail::read_content)}},
+        {"table",
+         {{},
+          [](const std::string& input) {
+            read_through_file(input, [](const auto& file) { read_number_table(file, 2); });
+          }}},
+        {"curve",
+         {{},
+          [](const std::string& input) {
+            read_through_file(input, [](const auto& file) { read_force_curve(file); });
+          }}},
+        {"hdf5",
+         {{"\x89HDF\r\n\x1a\n"},
+          [](const std::string& input) {
+            read_through_file(
+                input, [](const auto& file) { complete(file.string(), detail::read_hdf5(file)); });
+          }}},
+    };
+    for (const detail::SurfaceFormatEntry& format : detail::surface_format_table())
+      if (format.read) some[std::string(format.keyword)] = {format.heads, surface(format.read)};
+    return some;
+  }();
   return all;
 }
 
@@ -149,9 +138,12 @@ const std::vector<std::string>& readers() {
 bool read_input(std::string_view reader, std::string input) {
   const auto found = targets().find(reader);
   if (found == targets().end()) throw std::logic_error("no such reader: " + std::string(reader));
-  const std::string_view head = found->second.head;
-  if (input.size() < head.size()) input.resize(head.size());
-  input.replace(0, head.size(), head);
+  const auto& heads = found->second.heads;
+  if (!heads.empty() &&
+      std::ranges::none_of(heads, [&](auto head) { return input.starts_with(head); })) {
+    input.resize(std::max(input.size(), heads.front().size()));
+    input.replace(0, heads.front().size(), heads.front());
+  }
   try {
     found->second.read(input);
     return true;

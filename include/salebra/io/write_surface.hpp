@@ -15,6 +15,7 @@ namespace salebra {
 ///   .nc         NetCDF CDF-2 in SurfaceTopography's layout, with size_x, …, provenance in the attribute json; up to 4 GiB
 ///   .x3p        ISO 25178-72: float64, undefined points also as a mask, checksums; size_x, …, provenance in its comment. Sizes may
 ///               change in their last digit, since it holds steps. Whether it is periodic is lost
+///   .gwy        Gwyddion: one channel, undefined points as its mask, provenance in /0/meta; up to 4 GiB. Whether it is periodic is lost
 ///   .gsf        Gwyddion Simple Field: heights rounded to float32. Whether it is periodic is lost
 ///   .txt .asc   matrix with Gwyddion's header, a row for each y; undefined points as nan; 17 digits, so that reading gives
 ///               the same doubles. Whether it is periodic is lost

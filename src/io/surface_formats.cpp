@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The table of surface formats: how each is recognised, read and written, and what it keeps.
+#include <salebra/io/surface_formats.hpp>
+
+#include "surface_format.hpp"
+
+namespace salebra::detail {
+
+// Readers and writers of single formats. A format is its own source, a declaration and a row here.
+SurfaceFormatEntry::Read read_gsf, read_gwy, read_gxyzf, read_netcdf, read_npy, read_sur, read_text,
+    read_x3p;
+SurfaceFormatEntry::Write write_gsf, write_gwy, write_gxyzf, write_hdf5, write_netcdf, write_npy,
+    write_text, write_x3p, write_xyz;
+
+const std::vector<SurfaceFormatEntry>& surface_format_table() {
+  static const std::vector<SurfaceFormatEntry> table{
+      // Its library reads HDF5 from the file: read_surface.cpp.
+      {"hdf5",
+       {"\x89HDF\r\n\x1a\n"},
+       nullptr,
+       write_hdf5,
+       {"HDF5",
+        {".h5", ".hdf5"},
+        "yes",
+        "yes",
+        "exact",
+        "exact",
+        "NaN",
+        "kept",
+        "attributes of the root"}},
+      {"netcdf",
+       {"CDF\1", "CDF\2", "CDF\5"},
+       read_netcdf,
+       write_netcdf,
+       {"NetCDF, SurfaceTopography's layout",
+        {".nc"},
+        "CDF-1, 2, 5",
+        "CDF-2",
+        "exact",
+        "exact",
+        "NaN and `mask`",
+        "kept",
+        "attribute `json`"}},
+      {"npy",
+       {"\x93NUMPY"},
+       read_npy,
+       write_npy,
+       {"NumPy array with a sidecar",
+        {".npy"},
+        "any real type",
+        "float64",
+        "exact",
+        "exact",
+        "NaN",
+        "kept",
+        "sidecar"}},
+      {"x3p",
+       {"PK\x03\x04"},
+       read_x3p,
+       write_x3p,
+       {"X3P, ISO 25178-72",
+        {".x3p"},
+        "I, L, F, D",
+        "D",
+        "exact",
+        "last digit",
+        "NaN and mask",
+        "lost",
+        "comment"}},
+      {"gwy",
+       {"GWYP"},
+       read_gwy,
+       write_gwy,
+       {"Gwyddion",
+        {".gwy"},
+        "first channel of heights",
+        "yes",
+        "exact",
+        "exact",
+        "mask",
+        "lost",
+        "`/0/meta`"}},
+      {"gsf",
+       {"Gwyddion Simple Field 1.0\n"},
+       read_gsf,
+       write_gsf,
+       {"Gwyddion Simple Field",
+        {".gsf"},
+        "yes",
+        "yes",
+        "7 digits (float32)",
+        "exact",
+        "NaN",
+        "lost",
+        "lost"}},
+      {"gxyzf",
+       {"Gwyddion XYZ Field 1.0\n"},
+       read_gxyzf,
+       write_gxyzf,
+       {"Gwyddion XYZ Field",
+        {".gxyzf"},
+        "one channel",
+        "yes",
+        "exact",
+        "last digits",
+        "no point",
+        "lost",
+        "lost"}},
+      {"sur",
+       {"DIGITAL SURF"},
+       read_sur,
+       nullptr,
+       {"Digital Surf", {".sur"}, "16 and 32 bits", "", "", "", "marked value", "", ""}},
+      {"xyz",
+       {},
+       nullptr,
+       write_xyz,
+       {"XYZ points as text",
+        {".xyz"},
+        "yes",
+        "yes",
+        "exact",
+        "last digits",
+        "`nan`, or no point",
+        "lost",
+        "lost"}},
+      {"text",
+       {},
+       read_text,
+       write_text,
+       {"text matrix", {".txt", ".asc"}, "yes", "yes", "exact", "exact", "`nan`", "lost", "lost"}},
+  };
+  return table;
+}
+
+}  // namespace salebra::detail
+
+namespace salebra {
+namespace {
+
+std::string extensions_with(std::string_view SurfaceFormat::*use) {
+  std::string list;
+  for (const SurfaceFormat& format : surface_formats())
+    if (!(format.*use).empty())
+      list += (list.empty() ? "" : " ") + std::string(format.extensions.front());
+  return list;
+}
+
+}  // namespace
+
+std::string read_extensions() { return extensions_with(&SurfaceFormat::read); }
+std::string written_extensions() { return extensions_with(&SurfaceFormat::written); }
+
+std::vector<SurfaceFormat> surface_formats() {
+  std::vector<SurfaceFormat> all;
+  for (const detail::SurfaceFormatEntry& entry : detail::surface_format_table())
+    all.push_back(entry.facts);
+  return all;
+}
+
+}  // namespace salebra
