@@ -51,6 +51,13 @@ NormalContactState solve(const PositionOptions& position, const Surface& surface
   return press_to_pressure(surface, contact_modulus, pressure, options);
 }
 
+bool reaches_edge(const Field& pressure) {
+  const Index rows = pressure.rows(), columns = pressure.cols();
+  if (rows == 0 || columns == 0) return false;
+  return (pressure.row(0) > 0).any() || (pressure.row(rows - 1) > 0).any() ||
+         (pressure.col(0) > 0).any() || (pressure.col(columns - 1) > 0).any();
+}
+
 void write_contact(const Session& session, const Grid2D& grid, const NormalContactState& state) {
   ResultFile file(session.output(), session.provenance(), session.write_options());
   ResultGroup group = file.group("contact");
@@ -93,6 +100,10 @@ void run(const ContactArguments& arguments, Session& session) {
   const NormalContactState state = solve(arguments.position, surface, contact_modulus, options);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   if (state.interrupted) throw Interrupted("contact: interrupted; nothing was written");
+  if (options.boundary == Boundary::free && reaches_edge(state.pressure))
+    session.warn(
+        "the contact reaches the edge of the surface, beyond which there is nothing; press less, "
+        "or take a larger piece of the surface");
 
   if (state.converged && session.has_output()) {
     write_contact(session, surface.grid, state);

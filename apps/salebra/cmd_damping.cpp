@@ -251,9 +251,9 @@ void add_damping_command(Program& program) {
   Command& command = program.add_command(
       "damping", "relaxation damping of a contact under an oscillation",
       {"salebra damping --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
-       "--normal-amplitude 5nm --drag-velocity 1mm/s --frequency 20kHz --amplitude small",
+       "--normal-amplitude 5nm --drag-velocity 1um/s --frequency 20kHz --amplitude small",
        "salebra damping --curve curve.h5 --pressure 10MPa --poisson 0.3 --normal-amplitude "
-       "1:20nm:8 --drag-velocity 1mm/s --frequency 20kHz --plot damping.png"},
+       "1:20nm:8 --drag-velocity 100nm/s --frequency 20kHz --plot damping.png"},
       [arguments](Session& session) { run(*arguments, session); },
       "the loss over the quantity that is a range, or one period of a single motion");
   arguments->law.add_to(command);

@@ -62,13 +62,14 @@ constexpr std::string_view rest = R"(
 contact_modulus = "115GPa"   # E* of both bodies together: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2; this is steel on steel
 poisson = 0.3                # of one elastic body on a rigid one, for G*
 # tangential_modulus = "95GPa"  # G*, instead of poisson
+# friction_coefficient = 0.3    # to judge slip, and for the loss with it; likewise hardness = "7GPa", density = 7800 (kg/m^3)
 # young = ["210GPa", "70GPa"]   # instead of contact_modulus; then poisson = [0.3, 0.33]
 
 [contact]
 relative_pressures = "5e-4:0.2:16"   # from, to, how many (evenly in the logarithm), in units of E* times the rms slope
 # pressures = "10MPa:1GPa:16"        # instead, nominal pressures
 tolerance = 1e-8                     # of each contact: gap times pressure over mean pressure and rms height
-tangential_stiffness = "stick"       # K_t by a solve on each contact; "proportional": (G*/E*)K, faster, exact at nu = 0
+tangential_stiffness = "stick"       # K_t by a solve on each contact; "proportional": (G*/E*)K, faster, exact at nu = 0 without coupling
 
 # [fit]
 # pressure_window = ["50MPa", "500MPa"]  # of the exponential law; without it mean gaps from 1 to 2.5 rms heights
@@ -79,7 +80,8 @@ tangential_stiffness = "stick"       # K_t by a solve on each contact; "proporti
 [damping]
 mode = "drag"                # slow tangential motion under a normal oscillation, Eqs (13) to (16)
 normal_amplitude = {amplitude}     # small against the decay length l (about half the rms height) for Eq. (16) to hold
-drag_velocity = "1mm/s"
+drag_velocity = "100nm/s"    # of a slow oscillation, far below (mu E*/G*) u_z omega; a drag that goes on slides
+# excursion = "0.1nm"          # of the slow oscillation, from one turning point to the other, to judge its slip
 frequency = "20kHz"
 # angular_frequency = 125664   # rad/s, instead of frequency
 # mode = "equal-frequency"     # both directions oscillate, Eq. (12); then, instead of drag_velocity:

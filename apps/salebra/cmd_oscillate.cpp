@@ -250,7 +250,7 @@ void add_oscillate_command(Program& program) {
        "--json",
        "salebra oscillate --surface rough.h5 --pressure 10MPa --contact-modulus 115GPa --poisson "
        "0.3 "
-       "--mode drag --normal-amplitude 5nm --drag-velocity 1mm/s --frequency 20kHz -o cycle.h5"},
+       "--mode drag --normal-amplitude 5nm --drag-velocity 1um/s --frequency 20kHz -o cycle.h5"},
       [arguments](Session& session) { run(*arguments, session); },
       "contact regions and the work over a cycle; with friction the loop too");
   add_choice(command, "--shape", arguments->shape, shape_names(),

@@ -164,7 +164,7 @@ void add_study_command(Program& program) {
       "study", "from surfaces to damping constants: the whole job",
       {"salebra study data/quickstart.toml -o quickstart.h5",
        "salebra study --surface scan.txt --contact-modulus 115GPa --poisson 0.3 "
-       "--normal-amplitude 1nm --drag-velocity 1mm/s --frequency 20kHz"},
+       "--normal-amplitude 1nm --drag-velocity 100nm/s --frequency 20kHz"},
       [arguments](Session& session) { run(*arguments, session); },
       "force, area, stiffness and damping of all models", study_output);
   arguments->add_to(command);

@@ -94,6 +94,11 @@ std::optional<double> OscillationOutcome::over(double reference) const {
   return work_per_cycle() / reference;
 }
 
+bool OscillationOutcome::bends_down() const {
+  // A flat punch has F'' = 0 but for the noise of its force.
+  return levels.small_amplitude_work < -1e-3 * elastic_energy();
+}
+
 bool OscillationOutcome::converged() const {
   return levels.converged && (!cycle || cycle->converged);
 }
@@ -154,14 +159,15 @@ Json to_json(const OscillationOutcome& outcome) {
     object["routes_agree"] =
         std::abs(levels.work_per_cycle - outcome.cycle->work_per_cycle) <=
         levels.error_estimate + outcome.cycle->step_error + no_loss * outcome.elastic_energy();
-  object["predicted"] = levels.small_amplitude_work;
-  object["ratio"] = or_null(outcome.over(levels.small_amplitude_work));
+  const bool bends_down = outcome.bends_down();
+  object["predicted"] = bends_down ? Json() : Json(levels.small_amplitude_work);
+  object["ratio"] = bends_down ? Json() : or_null(outcome.over(levels.small_amplitude_work));
   object["predicted_finite"] = levels.work_by_force;
   object["ratio_finite"] = or_null(outcome.over(levels.work_by_force));
   object["work_over_elastic_energy"] = outcome.work_per_cycle() / outcome.elastic_energy();
   object["indentation"] = outcome.run.indentation;
   object["force"] = levels.force;
-  object["curvature"] = levels.curvature;
+  object["curvature"] = bends_down ? Json() : Json(levels.curvature);
   object["nx"] = grid.nx;
   object["ny"] = grid.ny;
   // The two ends of the sweep are levels without a tangential solve, but for the last of a drag.

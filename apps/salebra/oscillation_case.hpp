@@ -59,6 +59,9 @@ struct OscillationOutcome {
   double elastic_energy() const;
   /// The loss over a reference; empty where the reference is not larger than its own uncertainty.
   std::optional<double> over(double reference) const;
+  /// Whether F'' is below 0 by more than noise: the interpolated force bends the wrong way there, and neither it nor
+  /// Eqs (12) and (15) mean anything.
+  bool bends_down() const;
   bool converged() const;
 };
 

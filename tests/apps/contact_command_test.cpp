@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <salebra/contact/law/fit.hpp>
-#include <salebra/results/force_curve_file.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/force_curve_file.hpp>
 
 #include "run_program.hpp"
 
@@ -276,4 +276,17 @@ TEST_CASE("Greenwood-Williamson curves come from a surface or from parameters", 
             answer["curve"]["pressure"][0].get<double>() ==
         Approx(std::exp(2.0)).epsilon(1e-12));
   CHECK(answer["curve"]["tangential_stiffness"][0].is_null());
+}
+
+TEST_CASE("A contact that reaches the edge of an isolated surface is warned of", "[contact]") {
+  const ProgramTest test;
+  REQUIRE(
+      test.run("generate --shape sphere --radius 2um --points 32 --size-x 1um -o s.h5").status ==
+      0);
+  const std::string contact =
+      "contact s.h5 --boundary free --contact-modulus 1GPa --poisson 0.3 --indentation ";
+  const auto light = test.run(contact + "5nm"), heavy = test.run(contact + "300nm");
+  INFO(light.err << heavy.err);
+  CHECK_THAT(light.err, !Catch::Contains("reaches the edge"));
+  CHECK_THAT(heavy.err, Catch::Contains("the contact reaches the edge of the surface"));
 }

@@ -233,8 +233,11 @@ TEST_CASE("figure3 moves as it is told", "[oscillate]") {
     CHECK(a["time"].size() == 9);
     CHECK(number(b, "work_per_cycle") == Approx(number(a, "work_per_cycle") / 2).epsilon(1e-6));
     // Eq. (15) over Eq. (12) where v/ω = u_x, with one F'' from 32 levels and one from 16.
-    CHECK(number(c, "predicted") / number(c, "curvature") ==
-          Approx(0.75 * (pi * pi - 4) * number(a, "predicted") / number(a, "curvature")));
+    // On so few cells a force may bend the wrong way, and has no such prediction.
+    if (!c["predicted"].is_null() && !a["predicted"].is_null())
+      CHECK(number(c, "predicted") / number(c, "curvature") ==
+            Approx(0.75 * (pi * pi - 4) * number(a, "predicted") / number(a, "curvature")));
+    CHECK((shape != std::string("parabola") || c["predicted"].is_number()));
     CHECK(a["routes_agree"] == true);
     CHECK(c["routes_agree"] == true);
   }
