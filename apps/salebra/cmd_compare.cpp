@@ -105,7 +105,7 @@ Json comparison_json(const StudyResult& result, const StudyPremises& premises) {
 
 /// At most `count` of the pressures, evenly spread, and only those for which the boundary elements have a damping.
 std::vector<std::size_t> shown_pressures(const StudyResult& result, std::size_t count) {
-  const auto damping = result.damping(&DampingPoint::curve_work_per_cycle);
+  const auto damping = result.damping(&DampingPoint::work_per_cycle);
   std::vector<std::size_t> known, shown;
   for (std::size_t k = 0; k < damping.size(); ++k)
     if (!std::isnan(damping[k].mean)) known.push_back(k);
@@ -176,9 +176,9 @@ std::string damping_table(const StudyResult& result, const StudyPremises& premis
   for (const std::size_t k : shown)
     rows.front().push_back(number(result.pressures[k] / result.contact_scale, 2));
   const std::pair<const char*, double DampingPoint::*> routes[] = {
-      {drag ? "Eq. (16)" : "Eq. (12), l", &DampingPoint::law_work_per_cycle},
+      {drag ? "Eq. (16)" : "Eq. (12), l", &DampingPoint::work_per_cycle_eq16},
       {drag ? "Eq. (15)" : "Eq. (12)", &DampingPoint::small_work_per_cycle},
-      {"theorem", &DampingPoint::curve_work_per_cycle}};
+      {"theorem", &DampingPoint::work_per_cycle}};
   for (const StudyModel& model : result.models()) {
     std::string title = model.title;
     for (const auto& [route, quantity] : routes) {
@@ -189,7 +189,7 @@ std::string damping_table(const StudyResult& result, const StudyPremises& premis
     }
   }
   if (!std::isnan(result.configuration.known.friction_coefficient)) {
-    const auto reference = result.damping(&DampingPoint::curve_work_per_cycle);
+    const auto reference = result.damping(&DampingPoint::work_per_cycle);
     std::vector<std::string> row{"boundary elements with slip", "springs"};
     for (const std::size_t k : shown)
       row.push_back(number(premises.losses[k].work_per_cycle / reference[k].mean));

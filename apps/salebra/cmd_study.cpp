@@ -31,6 +31,9 @@ Json study_json(const StudyResult& result, const StudyPremises& premises, const 
   for (const double pressure : result.pressures) forces.push_back(pressure * result.grid.area());
   damping["pressure"] = result.pressures;
   damping["force"] = forces;
+  damping.erase("damping_constant_error");
+  damping["damping_constant"] = to_json(result.stated_damping());
+  damping["damping_constant_eq16"]["error"] = std::vector<Json>(forces.size());
   Json answer{{"decay_length", to_json(result.decay_length())},
               {"decay_length_over_rms_height", to_json(result.decay_length_over_rms_height())},
               {"damping", damping},
@@ -46,10 +49,10 @@ Json study_json(const StudyResult& result, const StudyPremises& premises, const 
 std::string verdict(const StudyResult& result, const std::string& law) {
   const auto [low, high] = result.deviation_range();
   if (std::isnan(low))
-    return law + " could not be compared with the curve: the oscillation leaves it at every force.";
+    return law + " could not be compared: no damping constant is known at any force.";
   return fmt::format(
-      "{} with the fitted decay length is between {:+.0f} % and {:+.0f} % off the damping of the "
-      "computed force curve.",
+      "{} with the fitted decay length is between {:+.0f} % and {:+.0f} % off the damping constant "
+      "computed.",
       law, 100 * low, 100 * high);
 }
 
@@ -64,6 +67,18 @@ std::vector<std::string> one_surface_row(const std::string& title, const std::st
       range(model.decay_length_closest_over_rms_height(),
             model.decay_length_farthest_over_rms_height()),
       range(model.decay_length_min_over_rms_height(), model.decay_length_max_over_rms_height())};
+}
+
+/// With as many digits as the error leaves.
+std::string damping_text(const StatedMean& estimate) {
+  const double relative = estimate.error / std::abs(estimate.mean);
+  double value = estimate.mean;
+  if (relative > 0 && value != 0) {
+    const double digits = std::clamp(std::ceil(-std::log10(relative)) + 1, 1.0, 4.0);
+    const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) + 1 - digits);
+    value = std::round(value / unit) * unit;
+  }
+  return format_quantity(value, Dimension::damping);
 }
 
 std::string study_text(const StudyResult& result, const StudyPremises& premises,
@@ -98,26 +113,36 @@ std::string study_text(const StudyResult& result, const StudyPremises& premises,
   const std::string law = drag ? "Eq. (16)" : "Eq. (12)";
   text += "Damping constant: " + describe_motion(result.configuration.motion) + "\n";
   const bool slip = !std::isnan(result.configuration.known.friction_coefficient);
-  rows = {{"pressure", "force", law, "computed curve"}};
+  rows = {{"pressure", "force", law, "computed", "error"}};
   if (sample) rows[0].push_back("95 % interval");
   rows[0].push_back(law + " is off by");
   if (slip) rows[0].push_back("with slip");
-  const auto by_law = result.damping(&DampingPoint::law_damping_constant);
-  const auto by_curve = result.damping(&DampingPoint::curve_damping_constant);
+  const auto by_law = result.damping(&DampingPoint::damping_constant_eq16);
+  const auto computed = result.stated_damping();
+  int unstated = 0;
   const auto deviation = result.damping(&DampingPoint::deviation);
   for (std::size_t i = 0; i < result.pressures.size(); ++i) {
+    const double relative = computed[i].error / std::abs(computed[i].mean);
     rows.push_back({format_quantity(result.pressures[i], Dimension::pressure),
                     format_quantity(result.pressures[i] * result.grid.area(), Dimension::force),
                     format_quantity(by_law[i].mean, Dimension::damping),
-                    format_quantity(by_curve[i].mean, Dimension::damping)});
-    if (sample) rows.back().push_back(interval(by_curve[i], Dimension::damping));
+                    damping_text(computed[i]),
+                    std::isfinite(relative) ? fmt::format("{:.2g} %", 100 * relative) : "n/a"});
+    unstated += std::isnan(computed[i].mean) && !std::isnan(computed[i].error);
+    if (sample) rows.back().push_back(interval(computed[i], Dimension::damping));
     rows.back().push_back(
         std::isnan(deviation[i].mean) ? "n/a" : fmt::format("{:+.1f} %", 100 * deviation[i].mean));
     if (slip)
       rows.back().push_back(
           format_quantity(premises.damping_constant_with_slip[i], Dimension::damping));
   }
-  text += to_table(rows) + "\n" + verdict(result, law) + "\n" + judged.open_points();
+  text += to_table(rows) + "\n";
+  if (unstated > 0)
+    text += fmt::format(
+        "n/a at {} of {} pressures: the error is larger than the number, because too few cells "
+        "touch and part in the oscillation; a finer grid or --relative-error may help.\n",
+        unstated, result.pressures.size());
+  text += verdict(result, law) + "\n" + judged.open_points();
   if (const std::string remarks = ensemble_remarks(result); !remarks.empty())
     text += "\n" + remarks;
   if (const std::string where = files.text(); !where.empty()) text += "\n" + where;

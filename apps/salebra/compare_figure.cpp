@@ -67,7 +67,7 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
     add(stiffness, loads, scaled([](const Realisation& r, const ForceSample& sample) {
           return sample.normal_stiffness * r.heights.rms_height / sample.force;
         }));
-    add(damping, forces, result.damping(&DampingPoint::curve_damping_constant, model.id));
+    add(damping, forces, result.damping(&DampingPoint::damping_constant, model.id));
   }
   // The window of the fit, and what the theories of vanishing load say.
   if (!result.configuration.window) gaps.lines = {{.at = 1}, {.at = 2.5}};
@@ -85,7 +85,7 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
   areas.curves.push_back(std::move(edge));
   const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
   PlotCurve law = band(drag ? "Eq. (16), fitted l" : "Eq. (12), fitted l", forces,
-                       result.damping(&DampingPoint::law_damping_constant));
+                       result.damping(&DampingPoint::damping_constant_eq16));
   law.low = law.high = {};
   law.style = PlotStyle::dashed;
   law.color = 7;

@@ -41,6 +41,19 @@ std::string describe(const PointCost& point) {
       point.pressures.front() / point.contact_scale, point.pressures.back() / point.contact_scale);
 }
 
+/// What the damping constants cost beside the sweep.
+std::string describe_levels(const StudyConfiguration& configuration, const StudyCost& cost) {
+  double contacts = 0;
+  for (const PointCost& point : cost.points)
+    contacts += point.levels * double(point.surfaces * point.pressures.size());
+  return fmt::format("contacts inside the oscillation, as dear as {:.0f} solves{}", contacts,
+                     configuration.relative_error > 0
+                         ? fmt::format("; for an error of {:.3g} % the cells of some loads are "
+                                       "halved again, four to five times as dear each time",
+                                       100 * configuration.relative_error)
+                         : "");
+}
+
 Json to_json(const StudyCost& cost, const std::string& file) {
   Json points = Json::array();
   for (const PointCost& point : cost.points)
@@ -48,6 +61,7 @@ Json to_json(const StudyCost& cost, const std::string& file) {
                       {"nx", point.grid.nx},
                       {"ny", point.grid.ny},
                       {"pressure", point.pressures},
+                      {"levels", point.levels},
                       {"seconds_of_one_thread", point.seconds},
                       {"warnings", point.warnings}});
   return {{"dry_run", true},
@@ -84,12 +98,14 @@ void answer_dry_run(const StudyConfiguration& configuration, Session& session) {
   for (const StudyModel& model : models_of(configuration))
     models += (models.empty() ? "" : ", ") + std::string(model.title);
   text += fmt::format(
-      "\ncontacts  {} solves, with K{}\nmodels    {}\ntime      {}about {} with {} threads on an "
+      "\ncontacts  {} solves, with K{}\ndamping   {}\nmodels    {}\ntime      {}about {} with {} "
+      "threads on an "
       "idle "
       "machine, give or take a factor of {}\nmemory    about {}{}\n",
       cost.contacts(),
-      stick_solves(configuration) ? " and K_t by a stick solve" : "; K_t = (G*/E*)K", models,
-      configuration.target_precision > 0 ? "at most " : "", about(cost.seconds), cost.threads,
+      stick_solves(configuration) ? " and K_t by a stick solve" : "; K_t = (G*/E*)K",
+      describe_levels(configuration, cost), models, configuration.target_precision > 0 ? "at most " : "",
+      about(cost.seconds), cost.threads,
       configuration.has(ContactModel::gw_interacting) ? "three" : "two", memory_text(cost.memory),
       cost.available > 0 ? fmt::format(" of {} that are free", memory_text(cost.available)) : "");
   text += file.empty() ? "files     none; add --output FILE to keep the results\n"

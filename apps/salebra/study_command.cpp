@@ -59,6 +59,14 @@ void StudyArguments::add_to(Command& command) {
              "loads of the boundary elements, such as 1MPa:1GPa:16");
   add_quantity(command, "--target-precision", precision, Dimension::dimensionless,
                "stop where the means of l and of the area slope are known so well, such as 2%");
+  add_quantity(command, "--relative-error", relative_error, Dimension::dimensionless,
+               "of each damping constant, such as 5%: halves the cells until it is met");
+  command.add_option("--levels", levels,
+                     "intervals between contacts inside the oscillation, 4, 8, 16 or 32; default "
+                     "8 for one surface, 4 for each of several");
+  add_choice(command, "--seam-error", seam_error, {"window", "free"},
+             "add the error of the seam of a scan that is continued: from its heights with a "
+             "window, or from the scan by itself on a half-space");
   command.add_flag("--no-stick", no_stick,
                    "K_t = (G*/E*)K in place of a stick solve on each contact: faster, exact at nu "
                    "= 0 without coupling");
@@ -150,6 +158,18 @@ StudyConfiguration StudyArguments::study() const {
             "must be between 0 and 1, such as 2%");
     study.target_precision = *precision;
   }
+  if (relative_error) {
+    require(*relative_error > 0 && *relative_error < 1, "--relative-error", *relative_error,
+            "must be between 0 and 1, such as 5%");
+    study.relative_error = *relative_error;
+  }
+  if (levels != 0) {
+    require(levels == 4 || levels == 8 || levels == 16 || levels == 32, "--levels", levels,
+            "must be 4, 8, 16 or 32");
+    study.levels = levels;
+  }
+  if (!seam_error.empty())
+    study.seam = seam_error == "window" ? SeamCheck::window : SeamCheck::free;
   if (no_stick) study.stick = false;
   const ContactFacts facts = premises.facts({});
   for (double ContactFacts::*fact : {&ContactFacts::friction_coefficient, &ContactFacts::hardness,
@@ -232,6 +252,14 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, b
         parts->count(), parts->folder().string()));
   }
   if (finished == 0) throw Interrupted("study: interrupted before the first surface was finished");
+  if (configuration.relative_error > 0) {
+    try {
+      require_relative_error(results);
+    } catch (const NotConverged&) {
+      if (parts) parts->discard();
+      throw;
+    }
+  }
   if (parts) {
     write_ensembles(session.output(), results, session.provenance(), session.write_options());
     parts->discard();
@@ -253,6 +281,38 @@ Json to_json(const std::vector<EnsembleMean>& estimates) {
     high.push_back(estimate.high);
   }
   return {{"mean", mean}, {"low", low}, {"high", high}};
+}
+
+Json to_json(const std::vector<StatedMean>& estimates) {
+  Json json = to_json(std::vector<EnsembleMean>(estimates.begin(), estimates.end()));
+  json["error"] = Json::array();
+  for (const StatedMean& estimate : estimates) json["error"].push_back(estimate.error);
+  return json;
+}
+
+void require_relative_error(const std::vector<StudyResult>& results) {
+  std::string missed;
+  double wanted = 0;
+  for (const StudyResult& result : results) {
+    wanted = result.configuration.relative_error;
+    const auto stated = result.stated_damping();
+    const auto means = result.damping(&DampingPoint::damping_constant);
+    for (std::size_t k = 0; k < stated.size(); ++k) {
+      // Neither value nor error: the contact did not converge, or the oscillation leaves its range.
+      if (std::isnan(stated[k].error)) continue;
+      const double reached = stated[k].error / std::abs(means[k].mean);
+      if (reached <= wanted) continue;
+      missed += fmt::format("{}{} ({})", missed.empty() ? "" : ", ",
+                            format_quantity(result.pressures[k], Dimension::pressure),
+                            std::isfinite(reached) ? fmt::format("{:.2g} %", 100 * reached)
+                                                   : "100 % or more");
+    }
+  }
+  if (!missed.empty())
+    throw NotConverged(fmt::format(
+        "relative_error: {:.3g} % is not met at {} with cells of 1/{} of their size; no "
+        "result is given: ask for less, leave out these loads, or measure finer",
+        100 * wanted, missed, SurfaceDampingOptions().most_refined));
 }
 
 std::string interval(const EnsembleMean& estimate, Dimension dimension, int digits) {

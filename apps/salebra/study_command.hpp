@@ -22,7 +22,9 @@ struct StudyArguments {
   MotionOptions motion;
   PremiseOptions premises;
   std::vector<double> pressures;
-  std::optional<double> precision;
+  std::optional<double> precision, relative_error;
+  int levels = 0;
+  std::string seam_error;
   bool no_stick = false;
   bool resume = false;
   bool dry_run = false;
@@ -85,6 +87,10 @@ Json columns_json(const MeansOf& means) {
   });
   return object;
 }
+/// The same with the numerical error.
+Json to_json(const std::vector<StatedMean>& estimates);
+/// Throws NotConverged where a relative error was requested and is not met: the loads, with what was reached.
+void require_relative_error(const std::vector<StudyResult>& results);
 /// "low … high"; empty where there is no interval.
 std::string interval(const EnsembleMean& estimate, Dimension dimension, int digits = 4);
 std::string describe_motion(const Oscillation& motion);

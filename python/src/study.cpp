@@ -204,8 +204,8 @@ void bind_result(nb::module_& m) {
           [](const StudyResult& self, const std::string& quantity, const std::string& model) {
             return self.damping(number_of<DampingPoint>(quantity, "quantity"), contact_model(model));
           },
-          nb::arg("quantity") = "curve_damping_constant", nb::arg("model") = "bem",
-          "Mean at each pressure of a quantity of :class:`DampingPoint`, such as law_damping_constant (Eq. (16)) or deviation.")
+          nb::arg("quantity") = "damping_constant", nb::arg("model") = "bem",
+          "Mean at each pressure of a quantity of :class:`DampingPoint`, such as damping_constant_eq16 (Eq. (16)) or deviation.")
       .def(
           "deviation_range",
           [](const StudyResult& self, const std::string& model) {

@@ -9,7 +9,7 @@ function routes(point) {
   return {
     law: {label: isDrag(point) ? "Eq. (16), fitted ‹l›" : "Eq. (12), fitted ‹l›", style: {color: "vermilion", symbol: "square", dash: "dash"}},
     small: {label: isDrag(point) ? "Eq. (15), ‹F›″ of the curve" : "Eq. (12), ‹F›″ of the curve", style: {color: "ochre", symbol: "diamond", dash: "dot"}},
-    curve: {label: "computed curve", style: {color: "blue", symbol: "circle", dash: "solid"}},
+    curve: {label: "computed", style: {color: "blue", symbol: "circle", dash: "solid"}},
   };
 }
 
@@ -45,9 +45,9 @@ function dampingFigure(parent, point) {
       select("damping-measure", "Show", Object.entries(MEASURES).map(([key, m]) => [key, m.title]), (key) => { measure = key; })],
     alt: () => {
       const curve = estimate("curve"), i = curve ? curve.mean.findLastIndex(known) : -1;
-      return `${MEASURES[measure].title} against force by three routes for ${model.title}.` + (i >= 0 ? ` At ${quantity(force[i], "N", 3)}: computed curve ${quantity(curve.mean[i], MEASURES[measure].unit, 3)}, ${plainText(routes(point).law.label)} ${quantity(estimate("law")?.mean[i], MEASURES[measure].unit, 3)}.` : "");
+      return `${MEASURES[measure].title} against force by three routes for ${model.title}.` + (i >= 0 ? ` At ${quantity(force[i], "N", 3)}: computed ${quantity(curve.mean[i], MEASURES[measure].unit, 3)}, ${plainText(routes(point).law.label)} ${quantity(estimate("law")?.mean[i], MEASURES[measure].unit, 3)}.` : "");
     },
-    caption: () => `By the paper's closed form with the fitted law, by the same form with the curvature that the computed curve has at each force, and by the theorem ‹W› = ½∮‹s›² d‹K›_{t} on the computed curve itself, which holds at any amplitude. ${damping.interval_method && f.count > 1 ? `Bands: ${damping.interval_method}. ` : ""}Motion: ${describeMotion(damping)}. Near its ends the curve does not cover the whole cycle: no value there.${damping.direct ? " Stars: direct three-dimensional simulation of one surface." : ""}`,
+    caption: () => `By the paper's closed form with the fitted law, by the same form with the curvature that the computed curve has at each force, and by the theorem ‹W› = ½∮‹s›² d‹K›_{t}, which holds at any amplitude: for boundary elements from contacts inside the oscillation, with bars of the numerical error, for other models on their curve. ${damping.interval_method && f.count > 1 ? `Bands: ${damping.interval_method}. ` : ""}Motion: ${describeMotion(damping)}. No value where the curve of a model does not cover the cycle, or where the error is larger than the number.${damping.direct ? " Stars: direct three-dimensional simulation of one surface." : ""}`,
     get axes() { return {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {...MEASURES[measure], log: true}}; },
     columns: () => [{label: "force", key: "force", unit: "N", values: force}, {label: "pressure", key: "pressure", unit: "Pa", values: point.pressure},
       ...Object.entries(routes(point)).flatMap(([key, route]) => (estimate(key) ? estimateColumns(route.label, `${key}_${measure}`, MEASURES[measure].unit, estimate(key)) : []))],
@@ -56,9 +56,12 @@ function dampingFigure(parent, point) {
       const values = estimate(key);
       if (!values) return [];
       const reference = estimate("curve");
-      return band(route.label, force, values, route.style, {text: force.map((value, i) => `${plotText(route.label)}: ${quantity(values.mean[i], MEASURES[measure].unit)}`
+      const drawn = band(route.label, force, values, route.style, {text: force.map((value, i) => `${plotText(route.label)}: ${quantity(values.mean[i], MEASURES[measure].unit)}`
         + (known(values.low?.[i]) ? `<br>95 %: ${interval({low: values.low[i], high: values.high[i]}, MEASURES[measure].unit)}` : "")
-        + (key !== "curve" && known(reference?.mean[i]) ? `<br>${percent(values.mean[i] / reference.mean[i] - 1)} of the computed curve` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>p</i> = ${quantity(point.pressure[i], "Pa", 3)}`)});
+        + (known(values.error?.[i]) && known(values.mean[i]) ? `<br>numerical error ${percent(values.error[i] / values.mean[i])}` : "")
+        + (key !== "curve" && known(reference?.mean[i]) ? `<br>${percent(values.mean[i] / reference.mean[i] - 1)} of the computed` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>p</i> = ${quantity(point.pressure[i], "Pa", 3)}`)});
+      if (values.error?.some(known)) drawn.at(-1).error_y = {type: "data", array: values.error.map((e, i) => (known(e) && known(values.mean[i]) ? e : 0)), color: color(route.style.color), thickness: 1.5};
+      return drawn;
     })].sort((a, b) => Number(b.mode === "none") - Number(a.mode === "none"))}),
   };
   const figure = addFigure(parent, spec);
@@ -68,8 +71,8 @@ function dampingFigure(parent, point) {
   const law = plainText(routes(point).law.label);
   addFigure(parent, {
     id: "damping-deviation", title: `How far ${law.split(",")[0]} is off`, height: 300,
-    alt: () => `Deviation of ${law} from the damping of the computed curve, by force: from ${percent(Math.min(...deviation.mean.filter(known)))} to ${percent(Math.max(...deviation.mean.filter(known)))}.`,
-    caption: `${law} over the computed curve of the same boundary elements, less 1. The curve needs no law and holds at any amplitude; between two loads it is interpolated.`,
+    alt: () => `Deviation of ${law} from the damping computed, by force: from ${percent(Math.min(...deviation.mean.filter(known)))} to ${percent(Math.max(...deviation.mean.filter(known)))}.`,
+    caption: `${law} over the damping constant computed by the same boundary elements, less 1. That needs no law and holds at any amplitude.`,
     axes: {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {label: "deviation", fixed: true, percent: true, layout: {zeroline: true, zerolinecolor: color("line"), zerolinewidth: 1.5}}},
     columns: () => [{label: "force", key: "force", unit: "N", values: force}, ...estimateColumns("deviation", "deviation", "1", deviation)],
     plot: () => ({series: band("deviation", force, deviation, {color: "vermilion", symbol: "square", dash: "solid"},
@@ -79,7 +82,7 @@ function dampingFigure(parent, point) {
 
 /** Every model's own damping curve over that of the boundary elements. */
 function dampingRatioFigure(parent, point) {
-  const ratios = point.over_bem?.curve_work_per_cycle;
+  const ratios = point.over_bem?.work_per_cycle;
   const models = point.models.filter((m) => m.name !== "bem" && ratios?.[m.name]?.mean.some(known));
   if (!models.length) return;
   const force = point.damping.force;

@@ -199,6 +199,7 @@ function estimateColumns(label, key, unit, estimate) {
     columns.push({label: `${label}, low`, key: `${key}_low`, unit, values: estimate.low},
       {label: `${label}, high`, key: `${key}_high`, unit, values: estimate.high});
   }
+  if (estimate.error?.some(known)) columns.push({label: `${label}, error`, key: `${key}_error`, unit, values: estimate.error});
   return columns;
 }
 

@@ -79,7 +79,7 @@ function warningsOf(point) {
   const least = point.damping?.deviation_min, greatest = point.damping?.deviation_max;
   const law = isDrag(point) ? "Eq. (16)" : "Eq. (12)";
   if (Math.max(Math.abs(least), Math.abs(greatest)) > 0.1)
-    warnings.push(`${law} with the fitted decay length is between ${percent(least)} and ${percent(greatest)} off the damping of the computed curve.`);
+    warnings.push(`${law} with the fitted decay length is between ${percent(least)} and ${percent(greatest)} off the damping constant computed.`);
   return warnings;
 }
 

@@ -94,8 +94,8 @@ class Point {
         json["objections"] = *text;
     add(json, "spots", spots());
     add(json, "over_bem",
-        by_model("comparison/", {"mean_gap", "contact_area_fraction", "normal_stiffness",
-                                 "curve_work_per_cycle"}));
+        by_model("comparison/",
+                 {"mean_gap", "contact_area_fraction", "normal_stiffness", "work_per_cycle"}));
     if (const auto surfaces = column("convergence/surfaces")) {
       json["convergence"] =
           estimate("convergence/decay_length_over_rms_height", 0, surfaces->size());
@@ -284,12 +284,18 @@ class Point {
     for (const char* route : {"law", "small", "curve"}) {
       Json found;
       for (const char* name : {"work_per_cycle", "damping_constant"}) {
-        const std::string column = std::string(route) + "_" + name;
+        const std::string column = std::string(route) == "law"     ? std::string(name) + "_eq16"
+                                   : std::string(route) == "curve" ? std::string(name)
+                                                                   : "small_" + std::string(name);
         if (Json means = by_model("damping/ensemble_", {column}); !means.is_null())
           found[name] = std::move(means[column]);
       }
       add(json, route, std::move(found));
     }
+    if (const std::string errors = "damping/ensemble_damping_constant_error_mean";
+        has(errors) && bem() < models_.size() && json.contains("curve"))
+      json["curve"]["damping_constant"]["bem"]["error"] =
+          list(part(errors, bem() * pressures_.size(), pressures_.size()));
     add(json, "deviation", by_model("damping/ensemble_", {"deviation"}));
     for (const char* name : {"deviation_min", "deviation_max"})
       if (has(std::string("damping/") + name) && bem() < models_.size())

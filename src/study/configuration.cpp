@@ -282,6 +282,18 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
   if (const auto hold = table.choice("hold", {"indentation", "force"})) {
     configuration.damping.hold = *hold == 0 ? Hold::indentation : Hold::force;
   }
+  if (const auto levels = table.quantity("levels", Dimension::dimensionless)) {
+    table.check(*levels == 4 || *levels == 8 || *levels == 16 || *levels == 32, "levels",
+                fmt::format("{} must be 4, 8, 16 or 32", *levels));
+    configuration.levels = static_cast<int>(*levels);
+  }
+  if (const auto error = table.quantity("relative_error", Dimension::dimensionless)) {
+    table.check(*error > 0 && *error < 1, "relative_error",
+                fmt::format("{} must lie between 0 and 1, such as \"5%\"", *error));
+    configuration.relative_error = *error;
+  }
+  if (const auto seam = table.choice("seam_error", {"window", "free"}))
+    configuration.seam = *seam == 0 ? SeamCheck::window : SeamCheck::free;
   table.require_no_other_keys();
 }
 

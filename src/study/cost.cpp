@@ -14,17 +14,21 @@
 #include <salebra/study/realisation.hpp>
 #include <vector>
 
+#include "case_run.hpp"
+
 namespace salebra {
 namespace {
 
 // Measured on one thread of a server with AVX-512, 24 loads from 5e-4 to 0.2 E*h', surfaces of 256², 512² and 1024² points.
-constexpr double stick_per_cell = 0.15e-6;         // s
-constexpr double growth = 0.15;                    // iterations grow with this power of the cells
-constexpr double memory_per_cell = 80;             // bytes
-constexpr double memory_per_cell_stick = 155;      // bytes
-constexpr double memory_of_program = 22e6;         // bytes
-constexpr double reference_transform = 0.39e-3;    // s, a pair of 256² in double there
-constexpr double gain_of_a_thread = 0.75;          // where threads share one surface
+constexpr double stick_per_cell = 0.15e-6;       // s
+constexpr double growth = 0.15;                  // iterations grow with this power of the cells
+constexpr double level_per_cell = 0.15e-6;       // s, a contact that starts from its neighbour
+constexpr double memory_per_cell = 80;           // bytes
+constexpr double memory_per_cell_stick = 155;    // bytes
+constexpr double refined_surface_per_cell = 24;  // bytes, with its transforms
+constexpr double memory_of_program = 22e6;       // bytes
+constexpr double reference_transform = 0.39e-3;  // s, a pair of 256² in double there
+constexpr double gain_of_a_thread = 0.75;        // where threads share one surface
 
 /// Shortest of a few: what a busy machine adds is not its speed.
 double transform_seconds() {
@@ -43,6 +47,21 @@ double transform_seconds() {
   return least;
 }
 
+/// Contacts inside the oscillation for each load, those of finer and coarser cells by their size; mean over the surfaces.
+double levels_of(const StudyConfiguration& point, const Grid2D& grid) {
+  const auto of = [&](std::uint64_t seed) {
+    const SurfaceDampingOptions options = surface_damping_options(point, grid, seed);
+    // One to begin with, and about two to choose the range.
+    const double contacts = options.levels + 2 + (options.choose_levels ? 2 : 0);
+    double grids = options.coarsen ? 1.25 : 1;
+    for (int k = 1; k <= options.refinements; ++k) grids += std::pow(4.6, k);
+    return contacts * (grids + (options.seam ? 1 : 0));
+  };
+  const std::vector<std::uint64_t> seeds = detail::seeds_of(point);
+  const auto count = static_cast<double>(seeds.size());
+  return (of(seeds.front()) + (count - 1) * of(seeds.back())) / count;
+}
+
 PointCost cost_of(const StudyConfiguration& point, double speed) {
   PointCost cost;
   cost.configuration = point;
@@ -58,7 +77,8 @@ PointCost cost_of(const StudyConfiguration& point, double speed) {
   cost.pressures = study_pressures(point);
   const bool stick = stick_solves(point);
   const auto cells = static_cast<double>(cost.grid.points());
-  double per_cell = stick ? stick_per_cell : 0;
+  cost.levels = levels_of(point, cost.grid);
+  double per_cell = (stick ? stick_per_cell : 0) + level_per_cell * cost.levels;
   for (const StudyModel& model : models_of(point)) per_cell += model.seconds_per_cell;
   cost.seconds = static_cast<double>(cost.surfaces * cost.pressures.size()) * per_cell * cells *
                  std::pow(cells / (512.0 * 512.0), growth) / speed;
@@ -84,7 +104,16 @@ double study_memory(const StudyConfiguration& point, const Grid2D& grid, int thr
   // As run_ensembles() does: one surface on each thread where there are enough, else all threads on each.
   const double side_by_side = surfaces >= threads ? threads : 1;
   const double per_cell = stick_solves(point) ? memory_per_cell_stick : memory_per_cell;
-  return memory_of_program + side_by_side * per_cell * static_cast<double>(grid.points()) +
+  const auto cells = static_cast<double>(grid.points());
+  // The refined surface with the contacts of its loads: of one surface on all threads, of several the first on its own.
+  const int halvings =
+      surface_damping_options(point, grid, detail::seeds_of(point).front()).refinements;
+  const double refined =
+      halvings == 0
+          ? 0
+          : std::pow(4.0, halvings) * cells *
+                (refined_surface_per_cell + memory_per_cell * (side_by_side > 1 ? 1 : threads));
+  return memory_of_program + std::max(side_by_side * per_cell * cells, refined) +
          surfaces * kept_bytes(point, grid);
 }
 

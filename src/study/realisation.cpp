@@ -14,6 +14,7 @@
 #include <salebra/study/realisation.hpp>
 #include <utility>
 
+#include "case_run.hpp"
 #include "contact_models.hpp"
 
 namespace salebra {
@@ -100,8 +101,8 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
     const AtForce position{sample.force};
     if (fitted_law) {
       const auto by_law = relaxation_damping(*fitted_law, position, configuration.motion, small);
-      point.law_work_per_cycle = by_law.work_per_cycle;
-      point.law_damping_constant = by_law.damping_constant;
+      point.work_per_cycle_eq16 = by_law.work_per_cycle;
+      point.damping_constant_eq16 = by_law.damping_constant;
     }
     if (curve_law) {
       try {
@@ -112,8 +113,8 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
         const auto by_curve =
             relaxation_damping(*curve_law, position, configuration.motion, configuration.damping);
         if (by_curve.converged) {
-          point.curve_work_per_cycle = by_curve.work_per_cycle;
-          point.curve_damping_constant = by_curve.damping_constant;
+          point.work_per_cycle = by_curve.work_per_cycle;
+          point.damping_constant = by_curve.damping_constant;
         }
       } catch (const InvalidInput&) {
         // Near its ends the curve does not cover the whole cycle: no value there.
@@ -122,6 +123,33 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
     points.back() = point;
   }
   return points;
+}
+
+/// Boundary elements: contacts inside the oscillation in place of the curve between its loads.
+void resolve_damping(ModelResult& result, const Surface& surface,
+                     const StudyConfiguration& configuration, std::uint64_t seed,
+                     const Progress& progress) {
+  SurfaceDampingOptions options = surface_damping_options(configuration, surface.grid, seed);
+  options.on_progress = progress;
+  const std::vector<SurfaceDamping> resolved =
+      surface_damping(surface, configuration.material, configuration.motion, result.curve, options);
+  for (std::size_t k = 0; k < resolved.size(); ++k) {
+    const SurfaceDamping& one = resolved[k];
+    DampingPoint& point = result.damping[k];
+    const double per_work = one.damping_constant / one.work_per_cycle;
+    point.work_per_cycle = one.work_per_cycle;
+    point.damping_constant = one.damping_constant;
+    point.damping_constant_error = one.error * per_work;
+    point.cell_error = one.cell_error * per_work;
+    point.scatter_error = one.scatter * per_work;
+    point.level_error = one.level_error * per_work;
+    point.ratio_error = one.ratio_error * per_work;
+    if (options.seam) point.seam_error = one.seam_error * per_work;
+    // One surface has no other number to average with.
+    if (detail::seeds_of(configuration).size() == 1 &&
+        point.damping_constant_error >= std::abs(point.damping_constant))
+      point.work_per_cycle = point.damping_constant = ForceSample::unknown;
+  }
 }
 
 void require_converged(const ForceCurve& curve, const StudyConfiguration& configuration) {
@@ -162,6 +190,27 @@ void analyse(ModelResult& result, const StudyConfiguration& configuration, doubl
 
 bool stick_solves(const StudyConfiguration& configuration) {
   return configuration.stick && std::isfinite(configuration.material.cerruti_isotropic);
+}
+
+SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configuration,
+                                              const Grid2D& grid, std::uint64_t seed) {
+  constexpr Index most_halved = 512;
+  const std::vector<std::uint64_t> seeds = detail::seeds_of(configuration);
+  const bool alone = seeds.size() == 1, to_error = configuration.relative_error > 0;
+  SurfaceDampingOptions options;
+  options.hold = configuration.damping.hold;
+  options.amplitude = configuration.damping.amplitude;
+  options.levels = configuration.levels > 0 ? configuration.levels : alone || to_error ? 8 : 4;
+  options.choose_levels = alone || to_error;
+  options.relative_error = configuration.relative_error;
+  options.seam = configuration.seam;
+  options.keep_cells = !alone && !to_error;
+  options.refinements = 0;
+  if (to_error || (alone && std::max(grid.nx, grid.ny) <= most_halved))
+    options.refinements = 1;
+  else if (seed == seeds.front())
+    options.coarsen = grid.nx % 2 == 0 && grid.ny % 2 == 0;
+  return options;
 }
 
 std::vector<StudyModel> models_of(const StudyConfiguration& configuration) {
@@ -262,6 +311,8 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
     result.model = model.id;
     if (model.id == ContactModel::bem) require_converged(result.curve, configuration);
     analyse(result, configuration, scale);
+    if (model.id == ContactModel::bem)
+      resolve_damping(result, surface, configuration, seed, part);
     realisation.models.push_back(std::move(result));
     spent += model.seconds_per_cell;
   }

@@ -18,7 +18,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view magic = "salebra realisation 4\n";
+constexpr std::string_view magic = "salebra realisation 5\n";
 
 /// Appends the bytes of numbers, and of lists and texts after their lengths.
 class Writer {
@@ -155,6 +155,9 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
          point.window, point.models, point.motion.index());
   std::visit([&](const auto& motion) { writer(motion); }, point.motion);
   writer(point.damping.hold, point.damping.amplitude, point.damping.tolerance);
+  // Of several surfaces the first states the error of all.
+  writer(point.levels, point.relative_error, point.seam, seeds_of(point).size() == 1,
+         seed == seeds_of(point).front());
   return checksum(writer.bytes);
 }
 

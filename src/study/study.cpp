@@ -32,7 +32,7 @@ void warn(StudyResult& result) {
   int lost = 0, unconverged = 0;
   for (const Realisation& realisation : result.realisations) {
     lost += int(std::ranges::count_if(realisation.of(ContactModel::bem).damping, [](const DampingPoint& point) {
-      return std::isnan(point.curve_work_per_cycle);
+      return std::isnan(point.work_per_cycle);
     }));
     unconverged +=
         int(std::ranges::count(realisation.of(ContactModel::bem).curve.samples, false, &ForceSample::converged));
@@ -56,7 +56,7 @@ void warn(StudyResult& result) {
   const auto total = result.realisations.size() * result.pressures.size();
   if (lost > 0 && std::size_t(lost) == total) {
     result.warnings.push_back(
-        "the normal oscillation leaves the computed curve at every force: make normal_amplitude "
+        "the normal oscillation leaves the range of the contact at every force: make normal_amplitude "
         "smaller or widen the pressures");
   }
 }

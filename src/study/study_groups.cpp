@@ -196,8 +196,15 @@ void write_damping(Table table, const StudyResult& result) {
     for (const DampingPoint& point : model->damping) items.push_back(&point);
   table.columns(
       items, {"model", "realisation", "pressure"},
-      [&](const NumberOf<DampingPoint>& number, std::string_view) {
-        return of_models(result, [&](ContactModel model) { return result.damping(number, model); });
+      [&](const NumberOf<DampingPoint>& number, std::string_view name) {
+        return of_models(result, [&](ContactModel model) {
+          const std::vector<StatedMean> stated = result.stated_damping(model);
+          if (name == "damping_constant") return Means(stated.begin(), stated.end());
+          if (name != "damping_constant_error") return result.damping(number, model);
+          Means errors;
+          for (const StatedMean& mean : stated) errors.push_back({.mean = mean.error});
+          return errors;
+        });
       },
       {"model", "pressure"});
   std::vector<double> low, high;

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <salebra/study/study.hpp>
 
 namespace salebra {
@@ -77,7 +78,7 @@ std::vector<EnsembleMean> StudyResult::damping_over_bem(const NumberOf<DampingPo
   return at_pressures([&](const Realisation& r, std::size_t k) {
     const auto& points = r.of(model).damping;
     return k < points.size()
-               ? number(points[k]) / r.of(ContactModel::bem).damping[k].curve_work_per_cycle
+               ? number(points[k]) / r.of(ContactModel::bem).damping[k].work_per_cycle
                : ForceSample::unknown;
   });
 }
@@ -87,9 +88,37 @@ std::vector<std::pair<std::string, std::vector<EnsembleMean>>> StudyResult::comp
   std::vector<std::pair<std::string, std::vector<EnsembleMean>>> ratios;
   for (const char* name : {"mean_gap", "contact_area_fraction", "normal_stiffness"})
     ratios.emplace_back(name, over_bem(number_of<ForceSample>(name, "quantity"), model));
-  for (const char* name : {"law_work_per_cycle", "small_work_per_cycle", "curve_work_per_cycle"})
+  for (const char* name : {"work_per_cycle_eq16", "small_work_per_cycle", "work_per_cycle"})
     ratios.emplace_back(name, damping_over_bem(number_of<DampingPoint>(name, "quantity"), model));
   return ratios;
+}
+
+std::vector<StatedMean> StudyResult::stated_damping(ContactModel model) const {
+  const auto means = damping(&DampingPoint::damping_constant, model);
+  std::vector<StatedMean> stated;
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    StatedMean& mean = stated.emplace_back(StatedMean{means[k]});
+    std::vector<double> relative;
+    for (const Realisation& realisation : realisations) {
+      const auto& points = realisation.of(model).damping;
+      if (k >= points.size() || std::isnan(points[k].damping_constant_error)) continue;
+      const DampingPoint& point = points[k];
+      if (realisations.size() == 1) mean.error = point.damping_constant_error;
+      // The chance at which cells touch is another on each surface.
+      const double scatter = point.scatter_error / std::sqrt(double(realisations.size()));
+      relative.push_back(std::hypot(scatter, point.cell_error, point.level_error) /
+                         std::abs(point.damping_constant));
+      relative.back() = std::hypot(relative.back(), point.ratio_error / point.damping_constant,
+                                   std::isnan(point.seam_error)
+                                       ? 0
+                                       : point.seam_error / point.damping_constant);
+    }
+    if (realisations.size() > 1 && !relative.empty())
+      mean.error = std::accumulate(relative.begin(), relative.end(), 0.0) /
+                   double(relative.size()) * std::abs(mean.mean);
+    if (mean.error >= std::abs(mean.mean)) mean.mean = mean.low = mean.high = ForceSample::unknown;
+  }
+  return stated;
 }
 
 std::pair<double, double> StudyResult::deviation_range(ContactModel model) const {

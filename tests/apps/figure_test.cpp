@@ -104,15 +104,14 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
                 each([&](auto k) { return stiffness[k] * rms_height / force[k]; }));
     check_parallel(drawing.column(4, curve, 0), log_force);
     check_parallel(drawing.column(4, curve, 1),
-                   logarithms(numbers(found["damping"]["curve_damping_constant"]["mean"])));
+                   logarithms(numbers(found["damping"]["damping_constant"]["mean"])));
     ++curve;
   }
   const Values corrected = numbers(answer["spots"]["corrected_area_fraction"]["mean"]);
   check_alike(drawing.column(2, curve, 1),
               each([&](auto k) { return corrected[k] * scale / pressure[k]; }));
-  check_parallel(
-      drawing.column(4, curve, 1),
-      logarithms(numbers(answer["models"]["bem"]["damping"]["law_damping_constant"]["mean"])));
+  check_parallel(drawing.column(4, curve, 1),
+                 logarithms(numbers(answer["models"]["bem"]["damping"]["damping_constant_eq16"]["mean"])));
   // The window of the fit, from one to two and a half rms heights.
   CHECK_THAT(drawing.script(), Contains("graph 0,first 1 to") && Contains("graph 0,first 2.5 to"));
 
@@ -129,7 +128,7 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
       CHECK(mean[k] - low[k] == Approx(high[k] - mean[k]).epsilon(1e-4));  // Student's
     }
   }
-  const json& damping = two["models"]["gw_moments"]["damping"]["curve_damping_constant"];
+  const json& damping = two["models"]["gw_moments"]["damping"]["damping_constant"];
   check_parallel(bands.column(4, 1, 3), logarithms(numbers(damping["high"])));
 }
 
@@ -160,13 +159,16 @@ TEST_CASE("The numbers of a comparison are those of its file, and the theories' 
       check_alike(numbers(found["curve"][name]["mean"]),
                   row_of(file, "curve/ensemble_" + name + "_mean", row, loads), 1e-14);
     }
-    for (const std::string route : {"law_", "small_", "curve_"}) {
-      INFO(route);
-      check_alike(numbers(found["damping"][route + "damping_constant"]["mean"]),
-                  row_of(file, "damping/ensemble_" + route + "damping_constant_mean", row, loads),
-                  1e-14);
-      check_alike(numbers(found["over_bem"][route + "work_per_cycle"]["mean"]),
-                  row_of(file, "comparison/" + route + "work_per_cycle_mean", row, loads), 1e-14);
+    for (const auto& [before, after] :
+         {std::pair{"", "_eq16"}, std::pair{"small_", ""}, std::pair{"", ""}}) {
+      const std::string constant = before + std::string("damping_constant") + after,
+                        work = before + std::string("work_per_cycle") + after;
+      INFO(constant);
+      check_alike(
+          numbers(found["damping"][constant]["mean"]),
+          row_of(file, "damping/ensemble_" + constant + "_mean", row, loads), 1e-14);
+      check_alike(numbers(found["over_bem"][work]["mean"]),
+                  row_of(file, "comparison/" + work + "_mean", row, loads), 1e-14);
     }
     for (const std::string name : {"mean_gap", "contact_area_fraction", "normal_stiffness"})
       check_alike(numbers(found["over_bem"][name]["mean"]),
@@ -242,13 +244,12 @@ TEST_CASE("The numbers of a study's answer are those of its file", "[study]") {
   CHECK(numbers(damping["force"]) == file.numbers("damping/force"));
   for (const std::string limit : {"mean", "low", "high"}) {
     INFO(limit);
-    for (const std::string route : {"law", "curve"})
-      for (const std::string name : {"work_per_cycle", "damping_constant"}) {
-        INFO(route << ' ' << name);
-        check_alike(numbers(damping[route + "_" + name][limit]),
-                    row_of(file, "damping/ensemble_" + route + "_" + name + "_" + limit, 0, 10),
-                    1e-14);
-      }
+    for (const std::string name :
+         {"work_per_cycle", "damping_constant", "work_per_cycle_eq16", "damping_constant_eq16"}) {
+      INFO(name);
+      check_alike(numbers(damping[name][limit]),
+                  row_of(file, "damping/ensemble_" + name + "_" + limit, 0, 10), 1e-14);
+    }
     check_alike(numbers(damping["deviation"][limit]),
                 row_of(file, "damping/ensemble_deviation_" + limit, 0, 10), 1e-14);
     std::size_t row = 0;

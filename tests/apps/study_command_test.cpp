@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 
 #include "run_program.hpp"
@@ -32,7 +33,7 @@ TEST_CASE("A study answers with the agreed keys and one file", "[study]") {
   CHECK(answer["decay_length_over_rms_height"]["mean"] > 0.2);
   CHECK(answer["decay_length_over_rms_height"]["mean"] < 0.8);
   CHECK(answer["damping"]["pressure"].size() == 10);
-  CHECK(answer["damping"]["curve_damping_constant"]["mean"].size() == 10);
+  CHECK(answer["damping"]["damping_constant"]["mean"].size() == 10);
   CHECK(keys(answer["comparison"]) ==
         std::set<std::string>{"bem", "gw_moments", "gw_deterministic"});
   CHECK(answer["files"]["results"] == "result.h5");
@@ -42,17 +43,83 @@ TEST_CASE("A study answers with the agreed keys and one file", "[study]") {
   CHECK(test.files() == files);
 }
 
-TEST_CASE("A study's summary puts Eq. (16) beside the curve's own damping", "[study]") {
+TEST_CASE("A study's summary puts Eq. (16) beside the damping computed", "[study]") {
   const ProgramTest test;
   test.write("study.toml", study);
   const auto result = test.run("study study.toml -o result.h5 --progress always");
   REQUIRE(result.status == 0);
   CHECK_THAT(result.out, Contains("boundary elements") &&
                              Contains("GW, summits from spectral moments") && Contains("l/h_rms") &&
-                             Contains("Eq. (16)") && Contains("computed curve") &&
+                             Contains("Eq. (16)") && Contains("computed  error") &&
                              Contains("% off the damping") && Contains("results: result.h5"));
   CHECK_THAT(result.err, Contains("study"));
   CHECK(test.run("study study.toml -o other.h5 --no-report --quiet --progress never").err.empty());
+}
+
+TEST_CASE("A damping constant of a study has its error, and none is printed that is no larger", "[study]") {
+  const ProgramTest test;
+  test.write("study.toml", study_text("seeds = [2]"));
+  const auto result = test.run("study study.toml --json --quiet");
+  REQUIRE(result.status == 0);
+  const auto damping = result.json()["damping"];
+  CHECK(keys(damping["damping_constant"]) == std::set<std::string>{"mean", "low", "high", "error"});
+  CHECK(keys(damping["damping_constant_eq16"]) ==
+        std::set<std::string>{"mean", "low", "high", "error"});
+  int stated = 0;
+  for (std::size_t k = 0; k < 10; ++k) {
+    const auto mean = damping["damping_constant"]["mean"][k],
+               error = damping["damping_constant"]["error"][k];
+    CHECK(damping["damping_constant"]["low"][k].is_null());
+    if (mean.is_null()) continue;
+    REQUIRE(error.is_number());
+    CHECK(error.get<double>() < mean.get<double>());
+    // The parts make the whole.
+    double sum = 0;
+    for (const char* part : {"cell_error", "scatter_error", "level_error", "ratio_error"})
+      sum += std::pow(damping[part]["mean"][k].get<double>(), 2);
+    CHECK(std::sqrt(sum) == Approx(error.get<double>()).epsilon(0.01));
+    ++stated;
+  }
+  CHECK(stated >= 5);
+
+  test.write("several.toml", study);
+  const auto several = test.run("study several.toml --json --quiet").json()["damping"]["damping_constant"];
+  CHECK(several["low"][6] < several["mean"][6]);
+  CHECK(several["error"][6] > 0);
+}
+
+TEST_CASE("A relative error is met, or the study says what was reached and gives no table", "[study]") {
+  const ProgramTest test;
+  std::string coarse = study_text("seeds = [2]", 4);
+  coarse.replace(coarse.find("points = 64"), 11, "points = 32");
+  test.write("study.toml", coarse);
+  const auto met = test.run("study study.toml --relative-error 60% --pressures 10MPa:40MPa:4 --json --quiet");
+  INFO(met.err);
+  REQUIRE(met.status == 0);
+  const auto constant = met.json()["damping"]["damping_constant"];
+  for (std::size_t k = 0; k < 4; ++k)
+    CHECK(constant["error"][k].get<double>() <= 0.6 * constant["mean"][k].get<double>());
+
+  // No free boundary has anything to do with a periodic surface: the seam's error stays, whatever the cells.
+  const auto missed = test.run(
+      "study study.toml --relative-error 0.1% --seam-error free --pressures 10MPa:40MPa:4 -o result.h5 --quiet");
+  CHECK(missed.status == 1);
+  CHECK(missed.out.empty());
+  CHECK_THAT(missed.err, Contains("relative_error: 0.1 % is not met at 10 MPa ("));
+  CHECK(test.files() == std::set<std::string>{"study.toml"});
+  for (const std::string bad : {"0", "-5%", "1", "nan", "150%"}) {
+    const auto refused = test.run("study study.toml --relative-error " + bad);
+    CHECK(refused.status == 2);
+    CHECK_THAT(refused.err, Contains("--relative-error"));
+  }
+  for (const std::string bad : {"0", "-0.05", "1.0", "nan"}) {
+    test.write("bad.toml", study_text("seeds = [2]", 4) + "relative_error = " + bad + "\n");
+    const auto refused = test.run("study bad.toml");
+    CHECK(refused.status == 2);
+    CHECK_THAT(refused.err, Contains("damping.relative_error"));
+  }
+  CHECK(test.run("study study.toml --levels 7").status == 2);
+  CHECK(test.run("study study.toml --seam-error none").status == 2);
 }
 
 TEST_CASE("A study without a decay length answers with what it has", "[study]") {
@@ -64,7 +131,7 @@ TEST_CASE("A study without a decay length answers with what it has", "[study]") 
   CHECK_THAT(text.err, Contains("no decay length on 2 of 2 surfaces"));
   const auto answer = test.run("study few.toml --json --quiet -o few.h5").json();
   CHECK(answer["decay_length"]["mean"].is_null());
-  CHECK(answer["damping"]["curve_damping_constant"]["mean"][1] > 0);
+  CHECK(answer["damping"]["damping_constant"]["mean"][1] > 0);
   CHECK(test.run("compare few.toml --quiet").status == 0);
 }
 
@@ -161,7 +228,7 @@ TEST_CASE("A comparison has every model, its ratios and the theories", "[study]"
   CHECK(point["models"]["bem"]["area_slope"]["mean"] < 3);
   CHECK(point["spots"]["corrected_area_slope"]["mean"] <
         point["models"]["bem"]["area_slope"]["mean"]);
-  CHECK(point["models"]["gw_moments"]["over_bem"]["curve_work_per_cycle"]["mean"].size() ==
+  CHECK(point["models"]["gw_moments"]["over_bem"]["work_per_cycle"]["mean"].size() ==
         10);
   const auto words = test.run("compare study.toml --no-stick --quiet");
   REQUIRE(words.status == 0);

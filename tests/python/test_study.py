@@ -26,7 +26,7 @@ def test_a_study_from_text_writes_what_it_computed(result: salebra.StudyResult, 
     decay_length = result.decay_length()
     fitted = [realisation.bem.fit.decay_length for realisation in result.realisations]
     assert decay_length.mean == pytest.approx(np.mean(fitted), rel=1e-12)
-    assert len(result.damping("law_damping_constant")) == 10
+    assert len(result.damping("damping_constant_eq16")) == 10
     result.write(tmp_path / "study.h5")
     assert (tmp_path / "study.h5").exists()
 
@@ -89,12 +89,12 @@ def test_a_file_of_results_gives_arrays_with_units_and_attributes(result: salebr
     assert reader.file == str(tmp_path / "study.h5")
     assert {"surface", "curve", "fit", "damping"} <= set(reader.groups())
     assert "damping/pressure" in reader and "damping/absent" not in reader
-    assert "curve_damping_constant" in reader.datasets("damping")
-    assert reader.coordinates("damping/curve_damping_constant") == ["model", "realisation", "pressure"]
-    values = reader["damping/curve_damping_constant"]
+    assert "damping_constant" in reader.datasets("damping")
+    assert reader.coordinates("damping/damping_constant") == ["model", "realisation", "pressure"]
+    values = reader["damping/damping_constant"]
     assert values.shape == (3, 2, 10) and values.dtype == np.float64
-    assert values[0, 1, 4] == result.realisations[1].bem.damping[4].curve_damping_constant
-    assert reader.units("damping/curve_damping_constant") == "N s/m"
+    assert values[0, 1, 4] == result.realisations[1].bem.damping[4].damping_constant
+    assert reader.units("damping/damping_constant") == "N s/m"
     assert list(reader["damping/model"]) == result.models
     assert np.array_equal(reader["damping/pressure"], result.pressures)
     flags = reader["curve/converged"]
@@ -104,7 +104,7 @@ def test_a_file_of_results_gives_arrays_with_units_and_attributes(result: salebr
     assert reader.attributes("damping/pressure")["units"] == "Pa"
     # An array is the reader's no longer.
     values[:] = 0.0
-    assert reader["damping/curve_damping_constant"][0, 1, 4] != 0.0
+    assert reader["damping/damping_constant"][0, 1, 4] != 0.0
     with pytest.raises(salebra.InvalidInput, match="study.h5: has no dataset damping/absent"):
         reader["damping/absent"]
     with pytest.raises(salebra.InvalidInput, match="absent.h5"):
@@ -133,9 +133,9 @@ def test_a_group_of_a_file_becomes_a_dataset(result: salebra.StudyResult, tmp_pa
     for group in ("damping", "/damping"):
         data = reader.to_xarray(group)
         # Fully selected by names, as xarray.open_dataset of the same group would have it.
-        chosen = data.curve_damping_constant.sel(model="bem").isel(realisation=1, pressure=4)
-        assert float(chosen) == result.realisations[1].bem.damping[4].curve_damping_constant
-        assert data.curve_damping_constant.attrs["units"] == "N s/m"
+        chosen = data.damping_constant.sel(model="bem").isel(realisation=1, pressure=4)
+        assert float(chosen) == result.realisations[1].bem.damping[4].damping_constant
+        assert data.damping_constant.attrs["units"] == "N s/m"
         assert data.pressure.attrs["long_name"]
     assert reader.to_xarray().attrs["version"] == salebra.version()
 

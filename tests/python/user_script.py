@@ -79,9 +79,9 @@ def main() -> None:
         file = Path(folder) / "study.h5"
         study_result.write(file)
         reader = salebra.ResultReader(file)
-        constants: npt.NDArray[np.float64] = reader["damping/curve_damping_constant"]
+        constants: npt.NDArray[np.float64] = reader["damping/damping_constant"]
         version: float | str = reader.attributes()["version"]
-        print(constants.shape, reader.units("damping/curve_damping_constant"), version, "damping" in reader)
+        print(constants.shape, reader.units("damping/damping_constant"), version, "damping" in reader)
         if salebra.can_report():
             salebra.write_report(file, Path(folder) / "study.html", title="A study", direct=[])
 

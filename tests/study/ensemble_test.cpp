@@ -501,17 +501,17 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
   // A model over itself is one.
   const auto unity = result.over_bem(&ForceSample::mean_gap, ContactModel::bem);
   CHECK(unity[3].mean == 1);
-  CHECK(result.damping_over_bem(&DampingPoint::curve_work_per_cycle, ContactModel::bem)[5].mean == 1);
+  CHECK(result.damping_over_bem(&DampingPoint::work_per_cycle, ContactModel::bem)[5].mean == 1);
   // And of another model the mean of what each surface says.
   double stiffness = 0, work = 0;
   for (const Realisation& r : result.realisations) {
     stiffness +=
         r.of(ContactModel::persson).curve.samples[3].normal_stiffness / r.of(ContactModel::bem).curve.samples[3].normal_stiffness / 2;
-    work += r.of(ContactModel::gw_deterministic).damping[5].law_work_per_cycle / r.of(ContactModel::bem).damping[5].curve_work_per_cycle / 2;
+    work += r.of(ContactModel::gw_deterministic).damping[5].work_per_cycle_eq16 / r.of(ContactModel::bem).damping[5].work_per_cycle / 2;
   }
   CHECK(result.over_bem(&ForceSample::normal_stiffness, ContactModel::persson)[3].mean ==
         Approx(stiffness).epsilon(1e-14));
-  CHECK(result.damping_over_bem(&DampingPoint::law_work_per_cycle, ContactModel::gw_deterministic)[5].mean ==
+  CHECK(result.damping_over_bem(&DampingPoint::work_per_cycle_eq16, ContactModel::gw_deterministic)[5].mean ==
         Approx(work).epsilon(1e-14));
   // Spots by size are all spots, and their area is the contact area.
   const Realisation& first = result.realisations.front();

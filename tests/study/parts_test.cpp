@@ -370,8 +370,8 @@ TEST_CASE("A study goes on with its parts and ends with the same bits", "[parts]
   CHECK(restored == before);
   REQUIRE(resumed.front().realisations.size() == 3);
   for (std::size_t i = 0; i < 3; ++i)
-    CHECK(resumed.front().realisations[i].of(ContactModel::bem).damping[5].curve_work_per_cycle ==
-          whole.realisations[i].of(ContactModel::bem).damping[5].curve_work_per_cycle);
+    CHECK(resumed.front().realisations[i].of(ContactModel::bem).damping[5].work_per_cycle ==
+          whole.realisations[i].of(ContactModel::bem).damping[5].work_per_cycle);
   // Other settings are other surfaces: nothing here is theirs.
   study.tolerance = 1e-9;
   CHECK_THROWS_WITH(

@@ -204,18 +204,21 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
   const FileCheck file(reader, result);
 
   const std::pair<const char*, double DampingPoint::*> damping[] = {
-      {"law_work_per_cycle", &DampingPoint::law_work_per_cycle},
+      {"work_per_cycle_eq16", &DampingPoint::work_per_cycle_eq16},
       {"small_work_per_cycle", &DampingPoint::small_work_per_cycle},
-      {"curve_work_per_cycle", &DampingPoint::curve_work_per_cycle},
-      {"law_damping_constant", &DampingPoint::law_damping_constant},
+      {"work_per_cycle", &DampingPoint::work_per_cycle},
+      {"damping_constant_eq16", &DampingPoint::damping_constant_eq16},
       {"small_damping_constant", &DampingPoint::small_damping_constant},
-      {"curve_damping_constant", &DampingPoint::curve_damping_constant}};
+      {"damping_constant", &DampingPoint::damping_constant}};
   for (const auto& [name, quantity] : damping) {
     const auto of = quantity;
     file.of_loads(std::string("damping/") + name,
                   [=](const auto& model, std::size_t k) { return model.damping[k].*of; });
-    file.interval_of_loads(std::string("damping/ensemble_") + name,
-                           [&](auto model) { return result.damping(of, model); });
+    file.interval_of_loads(std::string("damping/ensemble_") + name, [&](auto model) {
+      if (of != &DampingPoint::damping_constant) return result.damping(of, model);
+      const auto stated = result.stated_damping(model);
+      return std::vector<EnsembleMean>(stated.begin(), stated.end());
+    });
   }
   file.interval_of_loads("damping/ensemble_deviation",
                          [&](auto model) { return result.damping(&DampingPoint::deviation, model); });
@@ -264,9 +267,9 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
         {"normal_stiffness", &ForceSample::normal_stiffness}})
     file.interval_of_loads(std::string("comparison/") + name,
                            [&, of = quantity](auto model) { return result.over_bem(of, model); });
-  for (const auto& [name, quantity] : {std::pair{"law_work_per_cycle", &DampingPoint::law_work_per_cycle},
+  for (const auto& [name, quantity] : {std::pair{"work_per_cycle_eq16", &DampingPoint::work_per_cycle_eq16},
                                        {"small_work_per_cycle", &DampingPoint::small_work_per_cycle},
-                                       {"curve_work_per_cycle", &DampingPoint::curve_work_per_cycle}})
+                                       {"work_per_cycle", &DampingPoint::work_per_cycle}})
     file.interval_of_loads(std::string("comparison/") + name, [&, of = quantity](auto model) {
       return result.damping_over_bem(of, model);
     });

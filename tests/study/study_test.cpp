@@ -41,12 +41,12 @@ TEST_CASE(
   for (const Realisation& realisation : result.realisations) {
     REQUIRE(realisation.of(ContactModel::bem).damping.size() == 12);
     const DampingPoint& point = realisation.of(ContactModel::bem).damping[5];
-    CHECK(point.law_work_per_cycle == Approx(closed_form::work_per_cycle_rough(
+    CHECK(point.work_per_cycle_eq16 == Approx(closed_form::work_per_cycle_rough(
                                        ratio, point.force, realisation.of(ContactModel::bem).fit.decay_length, drag))
                                 .epsilon(1e-12));
     // γ = P/v².
-    CHECK(point.curve_damping_constant ==
-          Approx(point.curve_work_per_cycle * drag.angular_frequency / (2 * std::numbers::pi) /
+    CHECK(point.damping_constant ==
+          Approx(point.work_per_cycle * drag.angular_frequency / (2 * std::numbers::pi) /
                  (drag.drag_velocity * drag.drag_velocity))
               .epsilon(1e-12));
     CHECK(point.force == Approx(point.pressure * 16e-12).epsilon(1e-12));
@@ -68,8 +68,8 @@ TEST_CASE("A study is the same in every bit for one and two threads and when run
   parallel::set_threads(0);
   CHECK(one.realisations[0].of(ContactModel::bem).fit.decay_length == two.realisations[0].of(ContactModel::bem).fit.decay_length);
   for (std::size_t i = 0; i < one.pressures.size(); ++i) {
-    const double a = one.realisations[0].of(ContactModel::bem).damping[i].curve_work_per_cycle,
-                 b = two.realisations[0].of(ContactModel::bem).damping[i].curve_work_per_cycle;
+    const double a = one.realisations[0].of(ContactModel::bem).damping[i].work_per_cycle,
+                 b = two.realisations[0].of(ContactModel::bem).damping[i].work_per_cycle;
     CHECK((a == b || (std::isnan(a) && std::isnan(b))));
   }
 }
@@ -99,8 +99,8 @@ TEST_CASE("A study's file holds its curves and fits with units", "[study]") {
   CHECK(reader.text_attribute("curve/mean_gap", "units") == "m");
   CHECK(reader.numbers("curve/pressure") == result.pressures);
   CHECK(reader.numbers("fit/decay_length")[1] == result.realisations[1].of(ContactModel::bem).fit.decay_length);
-  CHECK(reader.numbers("damping/curve_work_per_cycle")[12 + 5] ==
-        result.realisations[1].of(ContactModel::bem).damping[5].curve_work_per_cycle);
+  CHECK(reader.numbers("damping/work_per_cycle")[12 + 5] ==
+        result.realisations[1].of(ContactModel::bem).damping[5].work_per_cycle);
   CHECK(reader.text_attribute("/", "configuration") == configuration.text);
   std::filesystem::remove(file);
 }
@@ -126,9 +126,9 @@ TEST_CASE("Curves without a decay length keep their damping, and the study says 
     CHECK(std::isnan(realisation.of(ContactModel::bem).fit.decay_length));
     CHECK(std::isnan(realisation.of(ContactModel::bem).test.decay_length_closest));
     CHECK(realisation.of(ContactModel::bem).damping.size() == 5);
-    for (const DampingPoint& point : realisation.of(ContactModel::bem).damping) CHECK(std::isnan(point.law_work_per_cycle));
+    for (const DampingPoint& point : realisation.of(ContactModel::bem).damping) CHECK(std::isnan(point.work_per_cycle_eq16));
     CHECK(std::ranges::any_of(realisation.of(ContactModel::bem).damping,
-                              [](const DampingPoint& point) { return point.curve_work_per_cycle > 0; }));
+                              [](const DampingPoint& point) { return point.work_per_cycle > 0; }));
   }
   CHECK(std::ranges::any_of(result.warnings, [](const std::string& warning) {
     return warning.starts_with("bem: no decay length on 2 of 2 surfaces");
@@ -146,8 +146,8 @@ TEST_CASE("Damping of a study rests on K_t of stick solves, which at nu = 0 is (
   const StudyResult proportional = run_study(configuration);
   double largest = 0;
   for (std::size_t i = 0; i < stick.pressures.size(); ++i) {
-    const double a = stick.realisations[0].of(ContactModel::bem).damping[i].curve_work_per_cycle,
-                 b = proportional.realisations[0].of(ContactModel::bem).damping[i].curve_work_per_cycle;
+    const double a = stick.realisations[0].of(ContactModel::bem).damping[i].work_per_cycle,
+                 b = proportional.realisations[0].of(ContactModel::bem).damping[i].work_per_cycle;
     REQUIRE(std::isnan(a) == std::isnan(b));
     if (!std::isnan(a)) largest = std::max(largest, std::abs(a / b - 1));
   }

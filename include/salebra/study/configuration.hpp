@@ -10,6 +10,7 @@
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/premises.hpp>
+#include <salebra/damping/surface_damping.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/study/contact_models.hpp>
 #include <salebra/surface/detrend.hpp>
@@ -79,6 +80,11 @@ struct StudyConfiguration {
   DampingOptions damping;
   /// Friction, hardness, density and excursion, for the premises of the damping.
   ContactFacts known;
+  /// Intervals between the contacts inside the oscillation, SurfaceDampingOptions::levels; 0: 8 for one surface, doubled where they do
+  /// not suffice, 4 for each of several.
+  int levels = 0;
+  double relative_error = 0;  ///< of each damping constant, for which the cells are halved; 0: does not
+  std::optional<SeamCheck> seam = {};  ///< adds the error of a continued scan's seam
   std::string text;  ///< the file as it was read, for provenance
 };
 

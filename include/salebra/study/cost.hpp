@@ -14,6 +14,9 @@ struct PointCost {
   double contact_scale = 0;       ///< E*h'_rms, Pa
   std::vector<double> pressures;  ///< Pa
   std::size_t surfaces = 0;
+  /// Contacts inside the oscillation for each load and surface, counted in contacts on the cells as they are; without the halvings that a
+  /// relative error may ask for beyond the first.
+  double levels = 0;
   double seconds = 0;                 ///< of one thread, all surfaces
   double memory = 0;                  ///< of one surface, bytes
   std::vector<std::string> warnings;  ///< of the generator: what the grid does to the spectrum

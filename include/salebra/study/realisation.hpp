@@ -5,9 +5,9 @@
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/base/spectral_moments.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/law/force_curve.hpp>
-#include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/results/contact.hpp>
 #include <salebra/results/surface.hpp>
 #include <salebra/study/configuration.hpp>
@@ -24,16 +24,25 @@ struct DampingPoint {
   double pressure = 0;  ///< Pa
   double force = 0;     ///< F = pA0, N
   /// Eq. (16), or (12) with F'' = F/l², with the l fitted to the curve.
-  double law_work_per_cycle = ForceSample::unknown;    ///< J
-  double law_damping_constant = ForceSample::unknown;  ///< N s/m
+  double work_per_cycle_eq16 = ForceSample::unknown;    ///< J
+  double damping_constant_eq16 = ForceSample::unknown;  ///< N s/m
   /// Eq. (15) or (12) with the F'' that the curve itself has there: small amplitudes, no law.
   double small_work_per_cycle = ForceSample::unknown;    ///< J
   double small_damping_constant = ForceSample::unknown;  ///< N s/m
-  /// The theorem on the curve itself at the amplitude given; NaN where the motion leaves the curve.
-  double curve_work_per_cycle = ForceSample::unknown;    ///< J
-  double curve_damping_constant = ForceSample::unknown;  ///< N s/m
+  /// The theorem at the amplitude given. Boundary elements: from contacts inside the oscillation, surface_damping(). Other models: on
+  /// their curve, whose loads are joined smoothly; NaN where the motion leaves it, and of a single surface where the error is no
+  /// smaller.
+  double work_per_cycle = ForceSample::unknown;    ///< J
+  double damping_constant = ForceSample::unknown;  ///< N s/m
+  /// Numerical error of damping_constant, N s/m, and its parts (SurfaceDamping); NaN where it was not computed.
+  double damping_constant_error = ForceSample::unknown;
+  double cell_error = ForceSample::unknown;
+  double scatter_error = ForceSample::unknown;
+  double level_error = ForceSample::unknown;
+  double ratio_error = ForceSample::unknown;
+  double seam_error = ForceSample::unknown;
 
-  double deviation() const { return law_work_per_cycle / curve_work_per_cycle - 1; }
+  double deviation() const { return work_per_cycle_eq16 / work_per_cycle - 1; }
 };
 
 template <class Visitor>
@@ -42,22 +51,32 @@ constexpr void describe(Visitor&& visit, std::type_identity<DampingPoint>) {
   using S = DampingPoint;
   visit(&S::pressure, Quantity{"pressure", Dimension::pressure, "nominal pressure"});
   visit(&S::force, Quantity{"force", Dimension::force, "normal force"});
-  visit(&S::law_work_per_cycle,
-        Quantity{"law_work_per_cycle", energy,
+  visit(&S::work_per_cycle_eq16,
+        Quantity{"work_per_cycle_eq16", energy,
                  "energy dissipated in a cycle, Eq. (16) or (12) with the fitted law"});
-  visit(&S::law_damping_constant, Quantity{"law_damping_constant", damping,
-                                           "damping constant P/v^2, by the fitted law"});
+  visit(&S::damping_constant_eq16,
+        Quantity{"damping_constant_eq16", damping, "damping constant P/v^2, by the fitted law"});
   visit(&S::small_work_per_cycle,
         Quantity{"small_work_per_cycle", energy,
                  "energy dissipated in a cycle, Eq. (15) or (12) with F'' of the curve"});
-  visit(&S::small_damping_constant, Quantity{"small_damping_constant", damping,
-                                             "damping constant P/v^2, by F'' of the curve"});
-  visit(&S::curve_work_per_cycle, Quantity{"curve_work_per_cycle", energy,
-                                           "energy dissipated in a cycle, theorem on the curve"});
-  visit(&S::curve_damping_constant,
-        Quantity{"curve_damping_constant", damping, "damping constant P/v^2, theorem on the curve"});
+  visit(&S::small_damping_constant,
+        Quantity{"small_damping_constant", damping, "damping constant P/v^2, by F'' of the curve"});
+  visit(&S::work_per_cycle, Quantity{"work_per_cycle", energy, "energy dissipated in a cycle"});
+  visit(&S::damping_constant, Quantity{"damping_constant", damping, "damping constant P/v^2"});
+  visit(&S::damping_constant_error,
+        Quantity{"damping_constant_error", damping, "numerical error of the damping constant"});
+  visit(&S::cell_error,
+        Quantity{"cell_error", damping, "error of the damping constant by the size of the cells"});
+  visit(&S::scatter_error, Quantity{"scatter_error", damping,
+                                    "error of the damping constant by whole cells that touch"});
+  visit(&S::level_error,
+        Quantity{"level_error", damping, "error of the damping constant by the number of levels"});
+  visit(&S::ratio_error, Quantity{"ratio_error", damping,
+                                  "error of the damping constant by the ratio of the stiffnesses"});
+  visit(&S::seam_error,
+        Quantity{"seam_error", damping, "error of the damping constant by the seam of a scan"});
   visit(&S::deviation, Quantity{"deviation", dimensionless,
-                                "damping by the fitted law over that of the curve, less 1"});
+                                "damping by the fitted law over the damping computed, less 1"});
 }
 
 /// What one contact model says about one surface.
@@ -187,8 +206,9 @@ struct Realisation {
   HeightStatistics heights;
   SpectralMoments moments;
   SummitStatistics summits;
-  SummitEnsemble ensemble;          ///< of the Greenwood–Williamson theory, from the moments
-  std::vector<ModelResult> models;  ///< those of the configuration, in the order of contact_models()
+  SummitEnsemble ensemble;  ///< of the Greenwood–Williamson theory, from the moments
+  std::vector<ModelResult>
+      models;  ///< those of the configuration, in the order of contact_models()
   std::vector<SpotStatistics> spots;  ///< for each pressure
   double corrected_area_slope = ForceSample::
       unknown;  ///< κ of the boundary elements with the area corrected by its perimeter
@@ -204,12 +224,12 @@ template <class Visitor>
 constexpr void describe(Visitor&& visit, std::type_identity<Realisation>) {
   using enum Dimension;
   using S = Realisation;
-  visit(&S::seed, Quantity{"seed", dimensionless,
-                           "seed of the generator; 0 for a measured surface"});
+  visit(&S::seed,
+        Quantity{"seed", dimensionless, "seed of the generator; 0 for a measured surface"});
   visit(&S::grid, Kept{"grid", "points and sizes"});
   visit(&S::periodic, Kept{"periodic", "whether the surface is"});
-  visit(&S::seam_step, Quantity{"seam_step", dimensionless,
-                                "rms difference of opposite edges over rms height"});
+  visit(&S::seam_step,
+        Quantity{"seam_step", dimensionless, "rms difference of opposite edges over rms height"});
   visit(&S::heights, Part{"heights", "statistics of heights"});
   visit(&S::moments, Part{"moments", "spectral moments"});
   visit(&S::summits, Part{"summits", "statistics of summits"});
@@ -224,6 +244,12 @@ constexpr void describe(Visitor&& visit, std::type_identity<Realisation>) {
 
 /// Whether K_t of the boundary elements comes from stick solves: where they are wanted, and the moduli are those of a body.
 bool stick_solves(const StudyConfiguration& configuration);
+
+/// How the damping of one surface of the configuration is computed. One surface: with the cells halved once; beyond 512 points it is
+/// compared with cells of twice the size instead. Several: with 4 intervals on the cells as they are, and the error of all from the first
+/// of them, by cells of twice the size. With a relative error: each with cells halved until it is met.
+SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configuration,
+                                              const Grid2D& grid, std::uint64_t seed);
 
 /// Those of the configuration, in the order of contact_models().
 std::vector<StudyModel> models_of(const StudyConfiguration& configuration);

@@ -25,6 +25,11 @@ struct StudyFlag {
 /// with the square of the surfaces.
 bool is_milestone(std::size_t surfaces);
 
+/// A mean with its numerical error, which is no interval: levels, cells, stiffness ratio, seam.
+struct StatedMean : EnsembleMean {
+  double error = ForceSample::unknown;  ///< NaN where it is not known
+};
+
 /// The ensemble at one point of the parameter grid.
 struct StudyResult {
   StudyConfiguration configuration;  ///< of this point: its ensemble lists are empty
@@ -64,6 +69,10 @@ struct StudyResult {
   /// Those ratios of a model that files and answers have, by the names of their quantities.
   std::vector<std::pair<std::string, std::vector<EnsembleMean>>> comparison(
       ContactModel model) const;
+
+  /// DampingPoint::damping_constant at each pressure with its error: that of the surface, or, of n, the relative error of those that have
+  /// one, its scatter over √n, times the mean. The mean is NaN where the error is not smaller.
+  std::vector<StatedMean> stated_damping(ContactModel model = ContactModel::bem) const;
 
   /// Minimum and maximum mean of DampingPoint::deviation over the pressures, NaN without any.
   std::pair<double, double> deviation_range(ContactModel model = ContactModel::bem) const;
