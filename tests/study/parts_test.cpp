@@ -165,7 +165,7 @@ TEST_CASE("The key of a realisation changes with what decides it, and with nothi
   }
   StudyConfiguration other = study;
   other.text += "# a comment";
-  other.precision = 0.01;
+  other.target_precision = 0.01;
   std::get<GeneratedSurfaces>(other.surfaces).seeds.push_back(9);
   CHECK(StudyParts::key(other, 1) == key);
 }
