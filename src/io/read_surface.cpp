@@ -31,7 +31,7 @@ double size_along(const std::filesystem::path& file, const char* field,
     require(usable(*given), field, *given, "must be from 1e-60 to 1e60, m");
     // Sizes are often given rounded.
     constexpr double rounding = 1e-3;
-    if (remarks && stated && !(std::abs(*given / *stated - 1) < rounding))
+    if (remarks && stated && usable(*stated) && !(std::abs(*given / *stated - 1) < rounding))
       remarks->push_back(std::string(field) + ": " + format_quantity(*given, Dimension::length) +
                          " was given, and " + file.string() + " states " +
                          format_quantity(*stated, Dimension::length));

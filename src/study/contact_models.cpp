@@ -61,7 +61,16 @@ ModelResult boundary_elements(ModelWork& work) {
               sweep_pressures(surface, work.configuration.material, work.pressures, sweep)};
 }
 
+/// The curve of a model that the surface has none for.
+ModelResult no_curve(const ModelWork& work) {
+  ModelResult result;
+  for (const double pressure : work.pressures)
+    result.curve.samples.push_back({.pressure = pressure, .converged = false});
+  return result;
+}
+
 ModelResult statistical_summits(ModelWork& work) {
+  if (!work.realisation.has_random_summits()) return no_curve(work);
   const StatisticalSummits summits(work.realisation.ensemble, work.configuration.material,
                                    work.surface.grid.area());
   return {.curve = curve_at_pressures(summits, work.pressures)};
@@ -75,6 +84,7 @@ ModelResult own_summits(ModelWork& work) {
 }
 
 ModelResult drawn_summits(ModelWork& work) {
+  if (!work.realisation.has_random_summits()) return no_curve(work);
   const SummitEnsemble& ensemble = work.realisation.ensemble;
   const double area = work.surface.grid.area();
   const int count = std::max(1, int(std::lround(ensemble.density * area)));
@@ -116,6 +126,7 @@ ModelResult persson_theory(ModelWork& work) {
 
 /// Greenwood and Tripp's two rough sides, equal and independent, whose sum has the moments of the surface.
 ModelResult two_rough_sides(ModelWork& work) {
+  if (!work.realisation.has_random_summits()) return no_curve(work);
   const SpectralMoments& moments = work.realisation.moments;
   const double rms_height = work.realisation.heights.rms_height;
   SummitEnsemble side =

@@ -290,8 +290,10 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
   realisation.summits = summit_statistics(summits);
   const SpectralMoments& moments = realisation.moments;
   const double scale = configuration.material.contact_modulus * moments.rms_slope();
-  realisation.ensemble = summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
-  realisation.ensemble.rms_height = realisation.heights.rms_height;
+  if (realisation.has_random_summits()) {
+    realisation.ensemble = summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
+    realisation.ensemble.rms_height = realisation.heights.rms_height;
+  }
   if (wants_picture(configuration, seed)) realisation.picture = picture_of(surface, configuration);
 
   const std::vector<StudyModel> models = models_of(configuration);

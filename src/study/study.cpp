@@ -41,9 +41,16 @@ void warn(StudyResult& result) {
     result.warnings.push_back(fmt::format("{} contacts did not converge to {} and were left out",
                                           unconverged, result.configuration.tolerance));
   }
+  const auto smooth = std::ranges::count_if(
+      result.realisations, [](const Realisation& r) { return !r.has_random_summits(); });
+  if (smooth > 0)
+    result.warnings.push_back(fmt::format(
+        "Nayak's parameter of {} of {} surfaces is below 1: a smooth shape, which models with "
+        "summits from moments leave out",
+        smooth, result.realisations.size()));
   for (const StudyModel& model : result.models()) {
     const auto without = std::ranges::count_if(result.realisations, [&](const Realisation& r) {
-      return std::isnan(r.of(model.id).fit.decay_length);
+      return r.has_random_summits() && std::isnan(r.of(model.id).fit.decay_length);
     });
     if (without > 0)
       result.warnings.push_back(fmt::format(

@@ -281,7 +281,7 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
                     Catch::StartsWith("steps: 3"));
   CHECK_THROWS_WITH(
       simulate_frictional_cycle(levels, grid, material, motion, {.friction_coefficient = -1}),
-      Catch::StartsWith("friction: -1"));
+      Catch::StartsWith("friction_coefficient: -1"));
   FrictionalCycleOptions hasty{.friction_coefficient = 0.5, .steps = 8};
   hasty.stick.max_iterations = 2;
   CHECK_FALSE(simulate_frictional_cycle(levels, grid, material, motion, hasty).converged);

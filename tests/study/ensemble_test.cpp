@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -15,6 +16,7 @@
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/generators/composite.hpp>
 #include <salebra/generators/filtered_noise.hpp>
+#include <salebra/generators/shapes.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/surface/detrend.hpp>
@@ -447,6 +449,29 @@ TEST_CASE("A measured surface has the seam of its edges, and summits within them
         Approx(62 * 46 * part.grid.cell_area()).epsilon(1e-12));
   CHECK(r.summits.density ==
         Approx(double(summits.summits.size()) / summits.searched_area).epsilon(1e-12));
+}
+
+TEST_CASE("A smooth shape has no summits from moments, and everything else", "[ensemble]") {
+  const Scratch scratch;
+  // Of a paraboloid in a square m0 m4/m2² is below 1: no random surface has such moments.
+  write_surface(scratch / "ball.npy", paraboloid_surface({32, 32, 4e-6, 4e-6}, 100e-6), {});
+  StudyConfiguration configuration = quick_study(1);
+  configuration.surfaces = MeasuredSurface{.file = scratch / "ball.npy"};
+  using enum ContactModel;
+  configuration.models = {bem, gw_moments, gw_monte_carlo, gw_interacting};
+  const StudyResult result = run_study(configuration);
+  const Realisation& r = result.realisations.front();
+  REQUIRE(r.moments.nayak() < 1);
+  CHECK(r.of(bem).curve.samples.back().converged);
+  CHECK(r.of(gw_interacting).curve.samples.back().converged);
+  for (const ContactModel model : {gw_moments, gw_monte_carlo}) {
+    CHECK(r.of(model).curve.samples.size() == result.pressures.size());
+    CHECK(std::ranges::none_of(r.of(model).curve.samples, &ForceSample::converged));
+    CHECK(std::isnan(r.of(model).fit.decay_length));
+  }
+  CHECK(std::ranges::count_if(result.warnings, [](const std::string& text) {
+          return text.find("Nayak") != std::string::npos;
+        }) == 1);
 }
 
 TEST_CASE("An ensemble says what is too small about it", "[ensemble]") {

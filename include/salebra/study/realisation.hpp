@@ -215,6 +215,10 @@ struct Realisation {
   SurfacePicture
       picture;  ///< of one realisation of a study, see wants_picture(); of the others empty
 
+  /// Whether its moments can be those of a random surface. A smooth shape may have a Nayak parameter below 1; the models that take
+  /// their summits from the moments then have no curve.
+  bool has_random_summits() const { return !(moments.nayak() < 1); }
+
   /// Throws InvalidInput for a model that was not asked for.
   const ModelResult& of(ContactModel model) const;
   ModelResult& of(ContactModel model);
