@@ -2,21 +2,11 @@
 // Premises and losses with slip of a study, from the mean curve of the boundary elements.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <salebra/damping/closed_form.hpp>
 #include <salebra/study/study_premises.hpp>
 
 namespace salebra {
 namespace {
-
-// P/⟨ẋ²⟩ with P = Wω/2π.
-double damping_constant(double work, const Oscillation& motion) {
-  if (const auto* drag = std::get_if<Drag>(&motion))
-    return work * drag->angular_frequency /
-           (2 * std::numbers::pi * drag->drag_velocity * drag->drag_velocity);
-  const auto& equal = std::get<EqualFrequency>(motion);
-  return work / (std::numbers::pi * equal.tangential_amplitude * equal.tangential_amplitude *
-                 equal.angular_frequency);
-}
 
 ForceCurve mean_curve(const StudyResult& result) {
   const auto mean_gap = result.curve(&ForceSample::mean_gap);
@@ -64,7 +54,7 @@ StudyPremises premises_of(const StudyResult& result) {
     all.losses[k] = loss_with_slip(law, -sample.mean_gap, configuration.motion,
                                    facts.friction_coefficient, facts.excursion);
     all.damping_constant_with_slip[k] =
-        damping_constant(all.losses[k].work_per_cycle, configuration.motion);
+        closed_form::damping_constant(all.losses[k].work_per_cycle, configuration.motion);
   }
   return all;
 }

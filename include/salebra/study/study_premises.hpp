@@ -13,7 +13,8 @@ struct StudyPremises {
   std::vector<Premises> premises;  ///< for each pressure
   /// For each pressure; unknown without a coefficient of friction.
   std::vector<LossWithSlip> losses;
-  std::vector<double> damping_constant_with_slip;  ///< P/⟨ẋ²⟩ of the losses, N s/m
+  /// P/⟨ẋ²⟩ of the losses, N s/m. The curve is interpolated between the pressures: compare it with no damping constant that is not.
+  std::vector<double> damping_constant_with_slip;
 };
 
 /// Facts: those of the configuration, and of the surfaces their side, mean contact pressure and rms slope. Where no contact converged,
