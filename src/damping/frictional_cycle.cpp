@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/contact/tangential/coupled_contact.hpp>
 #include <salebra/damping/frictional_cycle.hpp>
 #include <utility>
@@ -26,7 +27,11 @@ void validate(const FrictionalCycleOptions& options, const Trajectory& trajector
 // The pressures of each step of a period. Going down, a cycle meets the indentations of its way up again.
 class StepPressures {
  public:
-  StepPressures(const PressureLevels& levels, const Trajectory& trajectory, int steps) {
+  StepPressures(const PressureLevels& levels, const Grid2D& grid, const Trajectory& trajectory,
+                int steps) {
+    // A field for every second step, since the way down meets those of the way up.
+    require_memory(grid, 0.5 * sizeof(double) * steps * static_cast<double>(grid.points()),
+                   "the pressures of its steps (fewer steps need less)");
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
     for (int k = 0; k <= steps; ++k) {
       const double indentation = trajectory.indentation(static_cast<double>(k) / steps);
@@ -59,7 +64,7 @@ class GivenPressures {
   GivenPressures(const PressureLevels& levels, const Grid2D& grid, const Material& material,
                  const Trajectory& trajectory, const FrictionalCycleOptions& options,
                  double motion_scale)
-      : pressures_(levels, trajectory, options.steps),
+      : pressures_(levels, grid, trajectory, options.steps),
         contact_(grid, material,
                  {.friction_coefficient = options.friction_coefficient,
                   .motion_scale = motion_scale,

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <salebra/base/memory.hpp>
 #include <salebra/io/surface_formats.hpp>
 
 #include "loaded_surface.hpp"
@@ -25,6 +26,16 @@ const char* skip_blanks(const char* at, const char* end) {
 [[noreturn]] void refuse_line(const std::filesystem::path& file, int number,
                               const std::string& what) {
   refuse(file, "line " + std::to_string(number) + " " + what);
+}
+
+// A vector that is full moves into one of twice its size, beside it.
+void require_room(const std::filesystem::path& file, std::size_t full) {
+  const double bytes = 2. * sizeof(double) * static_cast<double>(full);
+  if (!fits_into_memory(bytes))
+    refuse(file, "holds more than " + std::to_string(full) + " values, which need " +
+                     memory_text(bytes) + " of memory, and " +
+                     memory_text(static_cast<double>(available_memory())) +
+                     " are available; crop it or use fewer points");
 }
 
 /// What stands at a place of a line, short and printable.
@@ -208,6 +219,7 @@ void append_numbers(const std::filesystem::path& file, std::string_view line, in
                         "the first line");
       at = after;
     }
+    if (values.size() == values.capacity()) require_room(file, values.capacity());
     values.push_back(value);
     if (at != end && format.separator != Separator::blank) at = skip_blanks(at + 1, end);
   }

@@ -66,6 +66,20 @@ TEST_CASE("A file whose heights a limit of memory does not hold is refused in on
                 "big.npy: holds 8000 x 8000 points, which need 512 MB of memory, and ");
 }
 
+TEST_CASE("A text whose values a limit of memory does not hold is refused in one line",
+          "[limits]") {
+  const ProgramTest test;
+  // Two bytes a value in the file and eight in memory, which a growing list needs three times for a moment: 32 MB and up to 400 MB.
+  std::string row;
+  for (int column = 0; column < 4000; ++column) row += column % 2 == 0 ? "1 " : "2 ";
+  row.back() = '\n';
+  std::string text;
+  for (int k = 0; k < 4000; ++k) text += row;
+  test.write("big.txt", text);
+  check_refused(test.run("info big.txt --size-x 1um --threads 1", "ulimit -d 150000;"),
+                "big.txt: holds more than ");
+}
+
 TEST_CASE("A study whose threads do not fit into memory is refused before its first surface",
           "[limits]") {
   const ProgramTest test;

@@ -282,6 +282,11 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
   CHECK_THROWS_WITH(
       simulate_frictional_cycle(levels, grid, material, motion, {.friction_coefficient = -1}),
       Catch::StartsWith("friction_coefficient: -1"));
+  // 8 bytes for each of 2048² cells and half of 10⁵ steps are 1.7 TB, which are asked for before the first contact.
+  const PressureLevels unasked = [](double) -> PressureLevel { throw std::logic_error("asked"); };
+  CHECK_THROWS_WITH(simulate_frictional_cycle(unasked, Grid2D{2048, 2048, 1e-3, 1e-3}, material, motion,
+                                              {.friction_coefficient = 0.5, .steps = 100000}),
+                    Catch::StartsWith("points: 2048 x 2048 need 1.68 TB of memory for the pressures"));
   FrictionalCycleOptions hasty{.friction_coefficient = 0.5, .steps = 8};
   hasty.stick.max_iterations = 2;
   CHECK_FALSE(simulate_frictional_cycle(levels, grid, material, motion, hasty).converged);
