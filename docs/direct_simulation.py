@@ -73,7 +73,7 @@ def shapes(runs, _):
         rows.append([shape, "(b)" if case == "b" else f"(a) {case[:2]}°", f"{points}²", str(poisson),
                      f"{a['ratio']:.4f}" if lost else "no loss", f"{a['ratio_finite']:.4f}" if lost else "no loss",
                      *(routes(a) if lost else [""] * 4),
-                     f"{abs(a['released_energy'] / w - 1):.0e}" if lost else "",
+                     f"{abs(a['dissipated'] / w - 1):.0e}" if lost else "",
                      f"{a['work_over_elastic_energy']:.0e}" if not lost else ""])
     return table(["shape", "case", "cells", "ν", "W over Eq. (12), (15)", "W over finite amplitude", *ROUTES,
                   "released energy off by", "W/(½K_t u²)"], rows)
@@ -158,7 +158,7 @@ def rough(runs, arguments):
                          percent(a["work_by_whole_cells"] / w - 1), *routes(a), percent(a["predicted_finite"] / w - 1), percent(a["predicted"] / w - 1),
                          percent(a["predicted_exponential"] / w - 1),
                          percent(a["predicted_exponential_finite"] / w - 1),
-                         f"{abs(a['released_energy'] / w - 1):.0e}"])
+                         f"{abs(a['dissipated'] / w - 1):.0e}"])
         return table(["surface", "p/(E*h')", "u_z/l", "case", "theorem with K_t", *ROUTES, "levels with (G*/E*)K",
                       "Eqs (12), (15) with F''", "Eq. (16) with l", "exponential law, finite u_z",
                       "released energy"], rows)

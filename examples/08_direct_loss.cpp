@@ -47,7 +47,7 @@ int main(int argc, char** argv) try {
   std::printf("contact area          %.4g … %.4g mm²\n", cycle.contact_area_min * 1e6,
               cycle.contact_area_max * 1e6);
   std::printf("work of F_x           %.5e J\n", cycle.work_per_cycle);
-  std::printf("energy released       %.5e J\n", cycle.released_energy);
+  std::printf("energy dissipated     %.5e J\n", cycle.dissipated);
   std::printf("direct/theorem = %.3f, direct/Eq. (12) = %.3f\n", cycle.work_per_cycle / exact,
               cycle.work_per_cycle / small);
 } catch (const Error& error) {

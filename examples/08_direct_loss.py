@@ -35,5 +35,5 @@ exact = salebra.relaxation_damping(law, motion, indentation=indentation).work_pe
 small = closed_form.work_per_cycle(material.modulus_ratio, law.curvature(indentation), motion)
 print(f"contact area          {cycle.contact_area_min * 1e6:.4g} … {cycle.contact_area_max * 1e6:.4g} mm²")
 print(f"work of F_x           {cycle.work_per_cycle:.5e} J")
-print(f"energy released       {cycle.released_energy:.5e} J")
+print(f"energy dissipated     {cycle.dissipated:.5e} J")
 print(f"direct/theorem = {cycle.work_per_cycle / exact:.3f}, direct/Eq. (12) = {cycle.work_per_cycle / small:.3f}")

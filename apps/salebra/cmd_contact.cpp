@@ -10,7 +10,7 @@
 #include <salebra/io/result_file.hpp>
 
 #include "curve_figure.hpp"
-#include "cycle_columns.hpp"
+#include "grid_axes.hpp"
 #include "options.hpp"
 #include "plausibility.hpp"
 #include "program.hpp"

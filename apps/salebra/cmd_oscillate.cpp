@@ -11,12 +11,12 @@
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 
-#include "cycle_recorder.hpp"
 #include "friction_run.hpp"
 #include "options.hpp"
 #include "oscillation_case.hpp"
 #include "premise_options.hpp"
 #include "program.hpp"
+#include "record_options.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -110,10 +110,6 @@ void check(const OscillateArguments& arguments, const Session& session) {
   friction.check();
   require(simulate || !friction.given(), "--method", arguments.method,
           "steps through no cycle: leave out " + friction.name());
-  require(
-      !friction.coupled || (arguments.record.checkpoint.empty() && arguments.record.fields.empty()),
-      "--coupled", "given",
-      "beside --checkpoint or --fields, which do not know the coupled cycle; leave them out");
   require(!arguments.relative_error || arguments.levels == 0, "--levels", arguments.levels,
           "cannot be combined with --relative-error, which chooses them; give one");
 }
@@ -141,35 +137,30 @@ void add_exponential_law(Json& object, const OscillationOutcome& outcome, double
   object["ratio_exponential_finite"] = over(finite);
 }
 
-void finish(const OscillationOutcome& outcome, const std::optional<FrictionOutcome>& friction,
+void finish(const OscillationOutcome& outcome, const CycleOptions& cycle,
             const OscillateArguments& arguments, Session& session) {
   const PremiseReport premises{
       {premises_of(outcome, arguments.premises.facts(arguments.material,
                                                      arguments.friction.friction_coefficient))}};
+  const bool friction = outcome.frictional.has_value();
   if (session.has_output()) {
     ResultFile file(session.output(), session.provenance(), session.write_options());
     write_outcome(file, "", outcome);
-    if (friction) write_friction(file, *friction, outcome.run.body.surface.grid);
+    if (friction) write_friction(file, cycle, outcome);
     file.commit();
   }
   if (session.has_plot()) {
     Figure figure{.panels = {contact_panel(outcome, "contact"), work_panel(outcome, "work")}};
-    if (friction) figure.panels.push_back(loop_panel(*friction, outcome));
+    if (friction) figure.panels.push_back(loop_panel(arguments.friction, outcome));
     session.plot(figure);
   }
   Json object = to_json(outcome);
   if (arguments.decay_length) add_exponential_law(object, outcome, *arguments.decay_length);
-  const bool converged = outcome.converged() && (!friction || friction->converged());
-  if (friction) {
-    add_friction(object, *friction, outcome);
-    object["converged"] = converged;
-  }
+  if (friction) add_friction(object, arguments.friction, cycle, outcome);
   premises.answer(session, object);
   if (!outcome.converged())
-    throw NotConverged("oscillate: a contact or a stick solve did not reach its tolerance");
-  if (!converged)
-    throw NotConverged("oscillate: a contact or a solve with friction did not reach its tolerance");
-  if (friction) warn_of_friction(*friction, outcome, session);
+    throw NotConverged("oscillate: a contact or a tangential solve did not reach its tolerance");
+  if (friction) warn_of_friction(cycle, outcome, session);
   if (outcome.choice && !outcome.choice->reached)
     session.warn(
         fmt::format("the relative error asked for was not reached: {:.2g} is left at {} x {} cells "
@@ -208,35 +199,39 @@ void run(const OscillateArguments& arguments, Session& session) {
   routes.cycle.on_progress = session.progress();
   routes.simulate = false;
   OscillationOutcome outcome = run_routes(std::move(contact), routes);
-
-  if (arguments.method != "levels") {
-    CycleRecorder recorder(arguments.record, outcome.run, routes.cycle, arguments.friction,
-                           session);
-    const auto require_finished = [&](bool interrupted) {
-      if (interrupted)
-        throw Interrupted(arguments.record.checkpoint.empty()
-                              ? "oscillate: interrupted; nothing was written"
-                              : "oscillate: interrupted; the same command with --resume goes on");
-    };
-    routes.cycle.on_state = [&](const CycleState& state) { recorder(state); };
-    routes.cycle.resume = recorder.state();
-    outcome.cycle = simulate(outcome.run, routes.cycle);
-    require_finished(outcome.cycle->interrupted);
-    std::optional<FrictionOutcome> friction;
-    if (arguments.friction.given()) {
-      const double coupling = arguments.friction.coupling(arguments.material, outcome.run.material);
-      const FrictionRecord record{
-          .on_state = [&](const FrictionalCycleState& state) { recorder(state); },
-          .resume = recorder.friction_state()};
-      friction = run_with_friction(arguments.friction, outcome.run, routes.cycle, coupling, record,
-                                   session);
-      require_finished(friction->interrupted());
-    }
-    finish(outcome, friction, arguments, session);
-    recorder.done();
-  } else {
-    finish(outcome, {}, arguments, session);
+  if (arguments.method == "levels") {
+    finish(outcome, routes.cycle, arguments, session);
+    return;
   }
+
+  const OscillationCase& chosen = outcome.run;
+  const Surface& surface = chosen.body.surface;
+  const double modulus = chosen.material.contact_modulus;
+  arguments.friction.apply(routes.cycle, arguments.material, chosen.material);
+  CycleSettings settings = cycle_settings(surface.grid, chosen.material, chosen.motion,
+                                          chosen.indentation, routes.cycle);
+  settings.emplace_back("surface", fingerprint(surface.heights));
+  const NormalContactOptions normal{.boundary = chosen.body.boundary};
+  CycleRecorder recorder(arguments.record.options(arguments.steps, session), std::move(settings),
+                         session.provenance(),
+                         {surface,
+                          [&](double indentation) {
+                            return press_to_indentation(surface, modulus, indentation, normal);
+                          }},
+                         arguments.friction.cycles());
+  outcome.cycle = recorder.run(
+      routes.cycle, [&](const CycleOptions& options) { return simulate(chosen, options); });
+  if (arguments.friction.given() && !outcome.cycle->interrupted)
+    run_with_friction(arguments.friction, routes.cycle, recorder, outcome);
+  const auto stopped = [](const std::optional<CycleResult>& cycle) {
+    return cycle && cycle->interrupted;
+  };
+  if (stopped(outcome.cycle) || stopped(outcome.frictional) || stopped(outcome.coupled))
+    throw Interrupted(arguments.record.checkpoint.empty()
+                          ? "oscillate: interrupted; nothing was written"
+                          : "oscillate: interrupted; the same command with --resume continues");
+  finish(outcome, routes.cycle, arguments, session);
+  recorder.done();
 }
 
 }  // namespace

@@ -6,13 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/coupling.hpp>
-#include <utility>
-
-#include "cycle_columns.hpp"
+#include <salebra/io/cycle_columns.hpp>
 
 namespace salebra::cli {
 namespace {
@@ -24,8 +21,7 @@ double greatest(const std::vector<double>& values) {
 }
 
 // Largest |a − b| over a cycle over the largest |b|.
-Json change(const FrictionalCycleResult& a, const FrictionalCycleResult& b,
-            double FrictionalSample::*quantity) {
+Json change(const CycleResult& a, const CycleResult& b, double CycleSample::*quantity) {
   std::vector<double> values = column(a, quantity);
   const std::vector<double> reference = column(b, quantity);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] -= reference[i];
@@ -40,13 +36,17 @@ Json over(double value, double reference, double uncertain) {
   return std::abs(reference) > uncertain ? Json(value / reference) : Json(nullptr);
 }
 
+double dundurs_of(const CycleOptions& cycle, const OscillationOutcome& outcome) {
+  return dundurs_constant(outcome.run.material.contact_modulus, *cycle.coupling_constant);
+}
+
 // How far the two sums of the loss are apart, J.
-double unbalanced(const FrictionalCycleResult& cycle) {
+double unbalanced(const CycleResult& cycle) {
   return cycle.dissipated + cycle.gap_work - cycle.work_per_cycle;
 }
 
 // What a cycle with friction says, coupled or not.
-void add_cycle(Json& object, const FrictionalCycleResult& cycle, double uncertain) {
+void add_cycle(Json& object, const CycleResult& cycle, double uncertain) {
   object["work_per_cycle"] = cycle.work_per_cycle;
   object["relaxation_work"] = cycle.relaxation_work;
   object["slip_work"] = cycle.slip_work;
@@ -58,18 +58,7 @@ void add_cycle(Json& object, const FrictionalCycleResult& cycle, double uncertai
   object["converged"] = cycle.converged;
 }
 
-void write_cycle(ResultGroup group, const FrictionalCycleResult& cycle, const Grid2D& grid) {
-  write_axes(group, grid);
-  group.dataset("loss", cycle.loss, "x", "y", "J/m^2", "energy dissipated in a period by unit area");
-  CycleColumns<FrictionalSample, FrictionalCycleResult> columns(group, cycle);
-  columns.add("dissipated", &FrictionalSample::dissipated, "J", "energy dissipated by friction since the start");
-  columns.add("slip_area", &FrictionalSample::slip_area, "m^2", "area of cells at their limit");
-  group.attribute("work_per_cycle", cycle.work_per_cycle);
-  group.attribute("relaxation_work", cycle.relaxation_work);
-  group.attribute("slip_work", cycle.slip_work);
-}
-
-void warn_of_cycle(const char* which, const FrictionalCycleResult& cycle, double uncertain,
+void warn_of_cycle(const char* which, const CycleResult& cycle, double uncertain,
                    Session& session) {
   if (!cycle.converged || std::abs(cycle.work_per_cycle) <= uncertain) return;
   if (!cycle.steady)
@@ -131,110 +120,104 @@ void FrictionOptions::check(const Oscillation& motion, double indentation) const
                       indentation, amplitude));
 }
 
-double FrictionOptions::coupling(const MaterialOptions& bodies, const Material& material) const {
-  if (dundurs) return *dundurs / (std::numbers::pi * material.contact_modulus);
-  if (bodies.young.size() == 2)
-    return coupling_constant(ElasticBody{bodies.young[0], bodies.poisson[0]},
-                             ElasticBody{bodies.young[1], bodies.poisson[1]});
-  return coupling_constant(material);
+void FrictionOptions::apply(CycleOptions& cycle, const MaterialOptions& bodies,
+                            const Material& material) const {
+  if (friction_coefficient) cycle.friction_coefficient = *friction_coefficient;
+  cycle.max_periods = max_periods;
+  if (!coupled) return;
+  if (dundurs)
+    cycle.coupling_constant = *dundurs / (std::numbers::pi * material.contact_modulus);
+  else if (bodies.young.size() == 2)
+    cycle.coupling_constant = coupling_constant(ElasticBody{bodies.young[0], bodies.poisson[0]},
+                                                ElasticBody{bodies.young[1], bodies.poisson[1]});
+  else
+    cycle.coupling_constant = coupling_constant(material);
 }
 
-FrictionOutcome run_with_friction(const FrictionOptions& options, const OscillationCase& run,
-                                  const CycleOptions& steps, double coupling,
-                                  const FrictionRecord& record, Session& session) {
-  FrictionalCycleOptions cycle;
-  cycle.friction_coefficient =
-      options.friction_coefficient.value_or(std::numeric_limits<double>::infinity());
-  cycle.steps = steps.steps;
-  cycle.max_periods = options.max_periods;
-  cycle.direction = steps.direction;
-  cycle.coupling = coupling;
-  cycle.stick.boundary = run.body.boundary;
-  cycle.stick.hold_lateral = steps.stick.hold_lateral;
-  cycle.on_progress = session.progress();
-  const NormalContactOptions contact{.boundary = run.body.boundary};
+std::vector<std::string> FrictionOptions::cycles() const {
+  std::vector<std::string> names{""};
+  if (given()) names.emplace_back("-friction");
+  if (coupled) names.emplace_back("-coupled");
+  return names;
+}
+
+void run_with_friction(const FrictionOptions& options, const CycleOptions& cycle,
+                       CycleRecorder& recorder, OscillationOutcome& outcome) {
+  const OscillationCase& run = outcome.run;
   const Surface& surface = run.body.surface;
+  const NormalContactOptions contact{.boundary = run.body.boundary};
   const Trajectory trajectory = trajectory_of(run.motion, run.indentation);
-  FrictionalCycleOptions recorded = cycle;
-  recorded.on_state = record.on_state;
-  recorded.resume = record.resume;
-  FrictionOutcome outcome;
-  outcome.friction_coefficient = options.friction_coefficient;
-  outcome.cycle = simulate_frictional_cycle(
-      boundary_element_pressures(surface, run.material.contact_modulus, contact), surface.grid,
-      run.material, trajectory, recorded);
-  if (options.coupled && !outcome.cycle.interrupted) {
-    outcome.dundurs = dundurs_constant(run.material.contact_modulus, coupling);
-    outcome.coupled = simulate_coupled_cycle(surface, run.material, trajectory, cycle, contact);
-  }
-  return outcome;
+  const PressureLevels levels =
+      boundary_element_pressures(surface, run.material.contact_modulus, contact);
+  outcome.frictional = recorder.run(cycle, [&](const CycleOptions& recorded) {
+    return simulate_frictional_cycle(levels, surface.grid, run.material, trajectory, recorded);
+  });
+  if (!options.coupled || outcome.frictional->interrupted) return;
+  outcome.coupled = recorder.run(cycle, [&](const CycleOptions& recorded) {
+    return simulate_coupled_cycle(surface, run.material, trajectory, recorded, contact);
+  });
 }
 
-void add_friction(Json& object, const FrictionOutcome& outcome, const OscillationOutcome& stuck) {
-  const FrictionalCycleResult& cycle = outcome.cycle;
-  const double uncertain = no_loss(stuck);
+void add_friction(Json& object, const FrictionOptions& options, const CycleOptions& cycle,
+                  const OscillationOutcome& outcome) {
+  const CycleResult& frictional = *outcome.frictional;
+  const double uncertain = no_loss(outcome);
   Json& friction = object["friction"];
   friction["coefficient"] =
-      outcome.friction_coefficient ? Json(*outcome.friction_coefficient) : Json(nullptr);
-  add_cycle(friction, cycle, uncertain);
-  friction["over_stick"] = over(cycle.work_per_cycle, stuck.work_per_cycle(), uncertain);
-  friction["tangential"] = column(cycle, &FrictionalSample::tangential);
-  friction["tangential_force"] = column(cycle, &FrictionalSample::tangential_force);
+      options.friction_coefficient ? Json(*options.friction_coefficient) : Json(nullptr);
+  add_cycle(friction, frictional, uncertain);
+  friction["over_stick"] = over(frictional.work_per_cycle, outcome.work_per_cycle(), uncertain);
+  friction["tangential"] = column(frictional, &CycleSample::tangential);
+  friction["tangential_force"] = column(frictional, &CycleSample::tangential_force);
   if (!outcome.coupled) return;
-  const FrictionalCycleResult& coupled = *outcome.coupled;
+  const CycleResult& coupled = *outcome.coupled;
   Json& coupling = object["coupling"];
-  coupling["dundurs"] = outcome.dundurs;
+  coupling["dundurs"] = dundurs_of(cycle, outcome);
   add_cycle(coupling, coupled, uncertain);
   coupling["normal_work"] = coupled.normal_work;
   coupling["gap_work"] = coupled.gap_work;
-  coupling["work_change"] =
-      over(coupled.work_per_cycle - cycle.work_per_cycle, cycle.work_per_cycle, uncertain);
-  coupling["force_change"] = change(coupled, cycle, &FrictionalSample::normal_force);
-  coupling["tangential_force_change"] = change(coupled, cycle, &FrictionalSample::tangential_force);
+  coupling["work_change"] = over(coupled.work_per_cycle - frictional.work_per_cycle,
+                                 frictional.work_per_cycle, uncertain);
+  coupling["force_change"] = change(coupled, frictional, &CycleSample::normal_force);
+  coupling["tangential_force_change"] = change(coupled, frictional, &CycleSample::tangential_force);
 }
 
-PlotPanel loop_panel(const FrictionOutcome& outcome, const OscillationOutcome& stuck) {
+PlotPanel loop_panel(const FrictionOptions& options, const OscillationOutcome& outcome) {
   PlotPanel panel;
   panel.title = "loop";
   panel.x = {.label = "x", .unit = "m"};
   panel.y = {.label = "F_x", .unit = "N"};
-  const auto add = [&](const char* name, std::vector<double> x, std::vector<double> force) {
-    panel.curves.push_back({.name = name, .x = std::move(x), .y = std::move(force)});
+  const auto add = [&](const char* name, const CycleResult& cycle) {
+    panel.curves.push_back({.name = name,
+                            .x = column(cycle, &CycleSample::tangential),
+                            .y = column(cycle, &CycleSample::tangential_force)});
   };
-  std::vector<double> x, force;
-  for (const CycleSample& sample : stuck.cycle->samples) {
-    x.push_back(sample.tangential);
-    force.push_back(sample.tangential_force);
-  }
-  add("no slip", std::move(x), std::move(force));
-  const auto add_cycle = [&](const char* name, const FrictionalCycleResult& cycle) {
-    add(name, column(cycle, &FrictionalSample::tangential),
-        column(cycle, &FrictionalSample::tangential_force));
-  };
-  if (outcome.friction_coefficient) add_cycle("friction", outcome.cycle);
-  if (outcome.coupled) add_cycle("coupled", *outcome.coupled);
+  add("no slip", *outcome.cycle);
+  if (options.friction_coefficient) add("friction", *outcome.frictional);
+  if (outcome.coupled) add("coupled", *outcome.coupled);
   panel.legend = PlotLegend::top_left;
   return panel;
 }
 
-void write_friction(ResultFile& file, const FrictionOutcome& outcome, const Grid2D& grid) {
+void write_friction(ResultFile& file, const CycleOptions& cycle,
+                    const OscillationOutcome& outcome) {
+  const Grid2D& grid = outcome.run.body.surface.grid;
   ResultGroup friction = file.group("friction");
-  friction.attribute("coefficient", outcome.friction_coefficient.value_or(
-                                        std::numeric_limits<double>::infinity()));
-  write_cycle(friction, outcome.cycle, grid);
+  friction.attribute("coefficient", cycle.friction_coefficient);
+  write_cycle(friction, *outcome.frictional, grid);
   if (!outcome.coupled) return;
   ResultGroup coupling = file.group("coupling");
-  coupling.attribute("dundurs", outcome.dundurs);
+  coupling.attribute("dundurs", dundurs_of(cycle, outcome));
   coupling.attribute("normal_work", outcome.coupled->normal_work);
   write_cycle(coupling, *outcome.coupled, grid);
 }
 
-void warn_of_friction(const FrictionOutcome& outcome, const OscillationOutcome& stuck,
+void warn_of_friction(const CycleOptions& cycle, const OscillationOutcome& outcome,
                       Session& session) {
-  warn_of_cycle("friction", outcome.cycle, no_loss(stuck), session);
+  warn_of_cycle("friction", *outcome.frictional, no_loss(outcome), session);
   if (!outcome.coupled) return;
-  warn_of_cycle("coupling", *outcome.coupled, no_loss(stuck), session);
-  if (outcome.dundurs == 0) session.note("Dundurs' beta is 0: nothing is coupled");
+  warn_of_cycle("coupling", *outcome.coupled, no_loss(outcome), session);
+  if (dundurs_of(cycle, outcome) == 0) session.note("Dundurs' beta is 0: nothing is coupled");
 }
 
 }  // namespace salebra::cli

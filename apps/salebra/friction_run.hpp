@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <functional>
 #include <optional>
-#include <salebra/damping/frictional_cycle.hpp>
+#include <salebra/io/cycle_recorder.hpp>
 #include <salebra/io/result_file.hpp>
+#include <string>
+#include <vector>
 
 #include "options.hpp"
 #include "oscillation_case.hpp"
@@ -26,40 +27,26 @@ struct FrictionOptions {
   void check() const;
   /// Before the cycles: that a coupled contact stays closed.
   void check(const Oscillation& motion, double indentation) const;
-  /// β/(πE*), 1/Pa: --dundurs, or what the material options say of the two bodies.
-  double coupling(const MaterialOptions& bodies, const Material& material) const;
+  /// The options of the cycles: μ, periods and, with --coupled, β/(πE*) by --dundurs or the material options.
+  void apply(CycleOptions& cycle, const MaterialOptions& bodies, const Material& material) const;
+  /// Names of the recorded cycles in the order of their runs, the one without slip first.
+  std::vector<std::string> cycles() const;
 };
 
-struct FrictionOutcome {
-  std::optional<double> friction_coefficient;  ///< none: infinite
-  double dundurs = 0;
-  FrictionalCycleResult cycle;
-  std::optional<FrictionalCycleResult> coupled;
+/// The cycle of `outcome` once more, from first contact, with friction and, with --coupled, with coupling too. A stopped cycle comes
+/// back as it is.
+void run_with_friction(const FrictionOptions& options, const CycleOptions& cycle,
+                       CycleRecorder& recorder, OscillationOutcome& outcome);
 
-  bool converged() const { return cycle.converged && (!coupled || coupled->converged); }
-  bool interrupted() const { return cycle.interrupted || (coupled && coupled->interrupted); }
-};
-
-/// What to do at each step of the cycle without coupling, and the state that it goes on from.
-struct FrictionRecord {
-  std::function<void(const FrictionalCycleState&)> on_state = {};
-  const FrictionalCycleState* resume = nullptr;
-};
-
-/// The cycle of `run` once more, from first contact; steps, direction, boundary and lateral are those of `steps`. A stopped
-/// cycle comes back as it is.
-FrictionOutcome run_with_friction(const FrictionOptions& options, const OscillationCase& run,
-                                  const CycleOptions& steps, double coupling,
-                                  const FrictionRecord& record, Session& session);
-
-/// The objects "friction" and, of a coupled cycle, "coupling". `stuck` has the cycle without slip.
-void add_friction(Json& object, const FrictionOutcome& outcome, const OscillationOutcome& stuck);
+/// The objects "friction" and, of a coupled cycle, "coupling".
+void add_friction(Json& object, const FrictionOptions& options, const CycleOptions& cycle,
+                  const OscillationOutcome& outcome);
 /// The loops F_x over x of a cycle with friction, of the coupled one, and without slip.
-PlotPanel loop_panel(const FrictionOutcome& outcome, const OscillationOutcome& stuck);
+PlotPanel loop_panel(const FrictionOptions& options, const OscillationOutcome& outcome);
 /// Groups `friction` and `coupling`: the loop and, on x and y, where it is lost.
-void write_friction(ResultFile& file, const FrictionOutcome& outcome, const Grid2D& grid);
-/// What the numbers alone do not tell: that a loss is not steady yet, or that its two sums differ.
-void warn_of_friction(const FrictionOutcome& outcome, const OscillationOutcome& stuck,
+void write_friction(ResultFile& file, const CycleOptions& cycle, const OscillationOutcome& outcome);
+/// Warns of a loss that is not steady yet, and of two sums of it that differ.
+void warn_of_friction(const CycleOptions& cycle, const OscillationOutcome& outcome,
                       Session& session);
 
 }  // namespace salebra::cli

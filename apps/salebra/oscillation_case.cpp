@@ -7,8 +7,9 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/generators/shapes.hpp>
+#include <salebra/io/cycle_columns.hpp>
 
-#include "cycle_columns.hpp"
+#include "grid_axes.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -100,7 +101,8 @@ bool OscillationOutcome::bends_down() const {
 }
 
 bool OscillationOutcome::converged() const {
-  return levels.converged && (!cycle || cycle->converged);
+  const auto done = [](const std::optional<CycleResult>& one) { return !one || one->converged; };
+  return levels.converged && done(cycle) && done(frictional) && done(coupled);
 }
 
 CycleResult simulate(const OscillationCase& run, const CycleOptions& options) {
@@ -184,7 +186,7 @@ Json to_json(const OscillationOutcome& outcome) {
   }
   if (outcome.cycle) {
     const CycleResult& cycle = *outcome.cycle;
-    object["released_energy"] = cycle.released_energy;
+    object["dissipated"] = cycle.dissipated;
     object["contact_area_min"] = cycle.contact_area_min;
     object["contact_area_max"] = cycle.contact_area_max;
     object["fft_count"] = cycle.fft_count + levels.fft_count;
@@ -218,23 +220,32 @@ Premises premises_of(const OscillationOutcome& outcome, ContactFacts facts) {
                      facts);
 }
 
+void write_cycle(ResultGroup& group, const CycleResult& cycle, const Grid2D& grid) {
+  write_axes(group, grid);
+  group.dataset("contact", map_of(cycle), "x", "y", "1",
+                "0 never in contact, 1 during a part of the cycle, 2 always");
+  if (cycle.loss.size() > 0)
+    group.dataset("loss", cycle.loss, "x", "y", "J/m^2",
+                  "energy dissipated in a period by unit area");
+  for (const CycleColumn& of : cycle_columns) {
+    const std::vector<double> values = column(cycle, of.value);
+    if (of.value == &CycleSample::t)
+      group.coordinate(of.name, values, of.units, of.long_name);
+    else
+      group.dataset(of.name, values, {"time"}, of.units, of.long_name);
+  }
+  group.attribute("work_per_cycle", cycle.work_per_cycle);
+  group.attribute("relaxation_work", cycle.relaxation_work);
+  group.attribute("slip_work", cycle.slip_work);
+}
+
 void write_outcome(ResultFile& file, const std::string& prefix, const OscillationOutcome& outcome) {
   if (outcome.cycle) {
-    const CycleResult& cycle = *outcome.cycle;
     ResultGroup group = file.group(prefix + "cycle");
-    const Grid2D& grid = outcome.run.body.surface.grid;
-    write_axes(group, grid);
+    write_cycle(group, *outcome.cycle, outcome.run.body.surface.grid);
     group.dataset("heights", outcome.run.body.surface.heights, "x", "y", "m",
                   "height, positive out of the material");
-    group.dataset("contact", map_of(cycle), "x", "y", "1",
-                  "0 never in contact, 1 during a part of the cycle, 2 always");
-    CycleColumns<CycleSample, CycleResult> columns(group, cycle);
-    columns.add("released_energy", &CycleSample::released_energy, "J",
-                "energy released since the start");
-    columns.add("tangential_stiffness", &CycleSample::tangential_stiffness, "N/m",
-                "tangential stiffness in full stick");
-    group.attribute("work_per_cycle", cycle.work_per_cycle);
-    group.attribute("error_estimate", cycle.step_error);
+    group.attribute("error_estimate", outcome.cycle->step_error);
     group.attribute("predicted", outcome.levels.small_amplitude_work);
     group.attribute("predicted_finite", outcome.levels.work_by_force);
   }
@@ -277,8 +288,7 @@ PlotPanel work_panel(const OscillationOutcome& outcome, const std::string& title
   const CycleResult& cycle = *outcome.cycle;
   const double predicted = outcome.levels.small_amplitude_work;
   const bool lossless = !outcome.over(predicted);
-  std::vector<double> values =
-      column(cycle, drag ? &CycleSample::released_energy : &CycleSample::work);
+  std::vector<double> values = column(cycle, drag ? &CycleSample::dissipated : &CycleSample::work);
   const double reference = lossless ? outcome.elastic_energy() : predicted;
   for (double& value : values) value /= reference;
   PlotPanel panel;

@@ -48,7 +48,8 @@ struct OscillationOutcome {
   OscillationCase run;  ///< on the grid that was chosen
   LevelQuadratureResult levels;
   std::optional<AdaptiveQuadratureResult> choice;
-  std::optional<CycleResult> cycle;
+  std::optional<CycleResult> cycle;  ///< nothing slips
+  std::optional<CycleResult> frictional, coupled;
 
   double work_per_cycle() const;
   /// Of work_per_cycle(), J: of the steps, or of the levels where there are none; of the cells too where those were refined.
@@ -70,6 +71,9 @@ OscillationOutcome run_routes(OscillationCase run, const OscillationRoutes& rout
 
 /// The steps alone.
 CycleResult simulate(const OscillationCase& run, const CycleOptions& options);
+
+/// Axes, columns over time, where the contact is and where energy is lost.
+void write_cycle(ResultGroup& group, const CycleResult& cycle, const Grid2D& grid);
 
 Json to_json(const OscillationOutcome& outcome);
 /// From the force at the contact levels; nothing but what the facts say where fewer than four of them touch.

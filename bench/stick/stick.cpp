@@ -92,10 +92,11 @@ void cycle(Index n, int steps) {
       trajectory_of(EqualFrequency{contact.amplitude, contact.amplitude, 1.0}, contact.indentation),
       options);
   std::printf(
-      "cycle   %4ld^2  %3d steps   %4ld pairs  W %.6e  released/W - 1 %.1e  CPU %.2f s  wall %.2f "
+      "cycle   %4ld^2  %3d steps   %4ld pairs  W %.6e  dissipated/W - 1 %.1e  CPU %.2f s  wall "
+      "%.2f "
       "s\n",
       static_cast<long>(n), steps, result.fft_count, result.work_per_cycle,
-      result.released_energy / result.work_per_cycle - 1, watch.cpu(), watch.wall());
+      result.dissipated / result.work_per_cycle - 1, watch.cpu(), watch.wall());
 }
 
 }  // namespace

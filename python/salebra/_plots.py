@@ -199,7 +199,6 @@ def plot_law(law: _core.ContactLaw, indentation: npt.ArrayLike, ax: Axes | None 
 
 
 @plot.register(_core.CycleResult)
-@plot.register(_core.FrictionalCycleResult)
-def _(result: _core.CycleResult | _core.FrictionalCycleResult, ax: Axes | None = None, **keywords: Any) -> Axes:
+def _(result: _core.CycleResult, ax: Axes | None = None, **keywords: Any) -> Axes:
     force = (result.tangential_force, "tangential force F_x", "N")
     return _line(ax, (result.tangential, "tangential displacement x", "m"), force, "", keywords)

@@ -182,15 +182,11 @@ def _(result: _core.StressMap) -> xarray.Dataset:
 
 @to_xarray.register(_core.CycleResult)
 def _(result: _core.CycleResult) -> xarray.Dataset:
-    names = ("indentation", "tangential", "tangential_force", "normal_force", "work", "contact_area")
-    attributes = {"work_per_cycle": result.work_per_cycle, "released_energy": result.released_energy}
-    return _dataset({name: (("time",), getattr(result, name)) for name in names}, {"time": result.time}, attributes)
-
-
-@to_xarray.register(_core.FrictionalCycleResult)
-def _(result: _core.FrictionalCycleResult) -> xarray.Dataset:
-    names = ("indentation", "tangential", "tangential_force", "normal_force", "work", "contact_area", "slip_area")
-    attributes = {name: getattr(result, name) for name in ("work_per_cycle", "relaxation_work", "slip_work")}
+    names = (
+        "indentation", "tangential", "tangential_force", "normal_force", "work", "contact_area", "slip_area",
+        "tangential_stiffness",
+    )  # fmt: skip
+    attributes = {name: getattr(result, name) for name in ("work_per_cycle", "dissipated", "relaxation_work", "slip_work")}
     return _dataset({name: (("time",), getattr(result, name)) for name in names}, {"time": result.time}, attributes)
 
 

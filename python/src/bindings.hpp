@@ -25,7 +25,6 @@ void bind_trajectories(nanobind::module_& module);
 void bind_damping_maps(nanobind::module_& module);
 void bind_closed_form(nanobind::module_& module);
 void bind_cycle(nanobind::module_& module);
-void bind_frictional_cycle(nanobind::module_& module);
 void bind_study(nanobind::module_& module);
 void bind_results(nanobind::module_& module);
 

@@ -10,12 +10,15 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
+#include <salebra/base/error.hpp>
 #include <salebra/damping/adaptive_quadrature.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/level_quadrature.hpp>
+#include <salebra/io/cycle_columns.hpp>
+#include <salebra/io/cycle_recorder.hpp>
 
 #include "bindings.hpp"
-#include "interop/checkpoint.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/cycle_motion.hpp"
@@ -27,6 +30,8 @@
 namespace salebra::python {
 namespace {
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
 NormalContactOptions contact_options(double tolerance, int max_iterations,
                                      const Choice<Boundary>& boundary) {
   return {.tolerance = tolerance,
@@ -35,11 +40,11 @@ NormalContactOptions contact_options(double tolerance, int max_iterations,
 }
 
 void bind_levels(nb::module_& m) {
-  nb::class_<ContactLevel> level(m, "ContactLevel",
-                                 "The frictionless normal contact at one indentation.");
-  view_property(level, "contact", &ContactLevel::contact, "Cells in contact, (nx, ny).");
-  level.def_ro("force", &ContactLevel::force, "F, N.")
-      .def_ro("converged", &ContactLevel::converged);
+  nb::class_<ContactSetAt> level(
+      m, "ContactSetAt", "The cells of the frictionless normal contact at one indentation.");
+  view_property(level, "contact", &ContactSetAt::contact, "Cells in contact, (nx, ny).");
+  level.def_ro("force", &ContactSetAt::force, "F, N.")
+      .def_ro("converged", &ContactSetAt::converged);
   nb::class_<BoundLevels>(
       m, "ContactLevels",
       R"(The normal contact as a function of the indentation, for the direct simulation.
@@ -73,7 +78,7 @@ boundary_element_levels : the levels of a surface.
                   const auto flags =
                       nb::cast<nb::ndarray<const bool, nb::ndim<2>, nb::c_contig, nb::device::cpu>>(
                           array);
-                  ContactLevel made;
+                  ContactSetAt made;
                   made.contact = Eigen::Map<const ContactSet>(flags.data(), Index(flags.shape(0)),
                                                               Index(flags.shape(1)));
                   made.force = force;
@@ -108,51 +113,77 @@ boundary_element_levels : the levels of a surface.
       "Copies the surface.");
 }
 
-void bind_simulation(nb::module_& m) {
-  nb::class_<CycleResult> result(m, "CycleResult",
-                                 "A simulated period of a stuck contact; columns are views.");
+void bind_result(nb::module_& m) {
+  using Result = CycleResult;
+  nb::class_<Result> result(m, "CycleResult", "A simulated period; columns are views.");
   result
-      .def_ro("work_per_cycle", &CycleResult::work_per_cycle,
-              "∮F_x dx less the change of the stored energy, J.")
-      .def_ro("released_energy", &CycleResult::released_energy,
-              "By cells that leave the contact, an independent sum, J.")
-      .def_ro("step_error", &CycleResult::step_error,
-              "Estimated error of work_per_cycle that the steps leave, J; that of the cells is not "
-              "in it.")
-      .def_ro("stored_energy_change", &CycleResult::stored_energy_change, "J")
-      .def_ro("contact_area_min", &CycleResult::contact_area_min, "m²")
-      .def_ro("contact_area_max", &CycleResult::contact_area_max, "m²")
-      .def_ro("periods", &CycleResult::periods)
-      .def_ro("iterations", &CycleResult::iterations)
-      .def_ro("fft_count", &CycleResult::fft_count)
-      .def_ro("steady", &CycleResult::steady, "The period repeats.")
-      .def_ro("converged", &CycleResult::converged,
-              "Every contact and every stick solve did; otherwise do not use the numbers.")
-      .def_ro("interrupted", &CycleResult::interrupted)
-      .def("__repr__", [](const CycleResult& r) {
-        return describe(
-            "CycleResult",
-            {{"work_per_cycle", r.work_per_cycle}, {"released_energy", r.released_energy}},
-            r.converged ? "converged=True" : "converged=False");
+      .def_ro("work_per_cycle", &Result::work_per_cycle,
+              "∮F_x dx less the change of the stored energy, J; with coupling ∮F dδ too.")
+      .def_ro("dissipated", &Result::dissipated,
+              "The same loss as an independent sum over the cells, J.")
+      .def_ro("relaxation_work", &Result::relaxation_work,
+              "Of dissipated, by cells that open and close, J.")
+      .def_ro("slip_work", &Result::slip_work,
+              "Of dissipated, by slip in cells that are in contact all the time, J.")
+      .def_ro("normal_work", &Result::normal_work, "∮F dδ, J; 0 without coupling.")
+      .def_ro(
+          "gap_work", &Result::gap_work,
+          "Of normal_work, what the steps make of gaps that close and open within one of them, J: "
+          "work_per_cycle = dissipated + gap_work.")
+      .def_ro("step_error", &Result::step_error,
+              "Estimated error of work_per_cycle due to the steps, J, without that of the cells; "
+              "NaN with friction.")
+      .def_ro("stored_energy_change", &Result::stored_energy_change, "J")
+      .def_ro("contact_area_min", &Result::contact_area_min, "m²")
+      .def_ro("contact_area_max", &Result::contact_area_max, "m²")
+      .def_ro("periods", &Result::periods)
+      .def_ro("iterations", &Result::iterations)
+      .def_ro("fft_count", &Result::fft_count)
+      .def_ro("steady", &Result::steady, "The period repeats.")
+      .def_ro("converged", &Result::converged, "Every solve did; otherwise do not use the numbers.")
+      .def_ro("interrupted", &Result::interrupted)
+      .def("__repr__", [](const Result& r) {
+        return describe("CycleResult",
+                        {{"work_per_cycle", r.work_per_cycle}, {"dissipated", r.dissipated}},
+                        r.converged ? "converged=True" : "converged=False");
       });
-  view_property(result, "smallest", &CycleResult::smallest, "Cells that are in contact always.");
-  view_property(result, "largest", &CycleResult::largest,
-                "Cells that are in contact at some time.");
-  column_property(result, "time", &CycleResult::samples, &CycleSample::t, "Over the period.");
-  column_property(result, "indentation", &CycleResult::samples, &CycleSample::indentation, "δ, m.");
-  column_property(result, "tangential", &CycleResult::samples, &CycleSample::tangential,
-                  "x since the start, m.");
-  column_property(result, "tangential_force", &CycleResult::samples, &CycleSample::tangential_force,
-                  "F_x, N.");
-  column_property(result, "normal_force", &CycleResult::samples, &CycleSample::normal_force,
-                  "F, N.");
-  column_property(result, "work", &CycleResult::samples, &CycleSample::work,
-                  "∫F_x dx since the start of the period, J.");
-  column_property(result, "contact_area", &CycleResult::samples, &CycleSample::contact_area, "m²");
-  column_property(result, "tangential_stiffness", &CycleResult::samples,
-                  &CycleSample::tangential_stiffness,
-                  "K_t of the contact set in full stick, along the motion, N/m.");
+  view_property(result, "loss", &Result::loss,
+                "Lost in a period by unit area, (nx, ny), J/m²; empty where nothing slips.");
+  view_property(result, "smallest", &Result::smallest, "Cells that are in contact always.");
+  view_property(result, "largest", &Result::largest, "Cells that are in contact at some time.");
+  for (const CycleColumn& of : cycle_columns)
+    if (of.value != &CycleSample::dissipated)  // the name of the sum
+      column_property(result, of.name, &Result::samples, of.value, of.long_name);
   result_methods(result, true);
+}
+
+// A simulation with its checkpoint: simulate(options, progress).
+template <class Simulate>
+CycleResult simulation(CycleOptions options, const std::optional<std::filesystem::path>& checkpoint,
+                       double checkpoint_every, bool resume, CycleSettings settings,
+                       const ProgressArgument& progress, const Simulate& simulate) {
+  require(checkpoint || !resume, "resume", "True",
+          "without a checkpoint; name the file of the run to go on with");
+  return interruptible(progress, [&](Progress told) {
+    options.on_progress = told;
+    CycleRecorder recorder({.checkpoint = checkpoint.value_or(std::filesystem::path()),
+                            .checkpoint_every = checkpoint_every,
+                            .resume = resume},
+                           std::move(settings), {});
+    CycleResult result =
+        recorder.run(options, [&](const CycleOptions& chosen) { return simulate(chosen, told); });
+    if (!result.interrupted) recorder.done();
+    return result;
+  });
+}
+
+StickOptions stick_options(double tolerance, int max_iterations, const Choice<Boundary>& boundary) {
+  return {.tolerance = tolerance,
+          .max_iterations = max_iterations,
+          .boundary = boundary.value("boundary")};
+}
+
+void bind_simulations(nb::module_& m) {
   m.def(
       "simulate_cycle",
       [](const BoundLevels& levels, const Material& material,
@@ -161,25 +192,21 @@ void bind_simulation(nb::module_& m) {
          const Choice<Boundary>& boundary, const std::optional<std::filesystem::path>& checkpoint,
          double checkpoint_every, bool resume, const ProgressArgument& progress) {
         cite({"popov2015"});
-        CycleOptions options{.steps = steps, .max_periods = max_periods, .direction = direction};
-        options.stick = {.tolerance = tolerance,
-                         .max_iterations = max_iterations,
-                         .boundary = boundary.value("boundary")};
+        const CycleOptions options{.steps = steps,
+                                   .max_periods = max_periods,
+                                   .direction = direction,
+                                   .stick = stick_options(tolerance, max_iterations, boundary)};
         CycleSettings settings =
             cycle_settings(levels.grid, material, oscillation(motion), mean_indentation, options);
         settings.emplace_back("levels", levels.identity);
-        return interruptible(progress, [&](Progress told) {
-          options.on_progress = std::move(told);
-          return with_checkpoint<CycleState>(
-              {checkpoint, checkpoint_every, resume}, std::move(settings), options,
-              [&](const CycleOptions& chosen) {
-                return simulate_cycle(levels.levels, levels.grid, material,
-                                      trajectory(motion, mean_indentation), chosen);
-              });
-        });
+        return simulation(options, checkpoint, checkpoint_every, resume, std::move(settings),
+                          progress, [&](const CycleOptions& chosen, const Progress&) {
+                            return simulate_cycle(levels.levels, levels.grid, material,
+                                                  trajectory(motion, mean_indentation), chosen);
+                          });
       },
       nb::arg("levels"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
-      nb::kw_only(), nb::arg("steps") = 64, nb::arg("max_periods") = 4, nb::arg("direction") = 0.0,
+      nb::kw_only(), nb::arg("steps") = 64, nb::arg("max_periods") = 6, nb::arg("direction") = 0.0,
       nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
       nb::arg("boundary") = "periodic", nb::arg("checkpoint") = nb::none(),
       nb::arg("checkpoint_every") = 60.0, nb::arg("resume") = false, nb::arg("progress") = false,
@@ -217,6 +244,88 @@ Raises
 InvalidInput
     "<file>: <setting> was … in the checkpoint and is … now" for a checkpoint of another run, and for one that exists without resume.
 )");
+  // Both simulations with friction: the same arguments but for the coupling.
+  const auto sliding = [](const BoundSurface& surface, const Material& material,
+                          const std::variant<EqualFrequency, Drag>& motion, double mean_indentation,
+                          const CycleOptions& options, bool coupled,
+                          const std::optional<std::filesystem::path>& checkpoint,
+                          double checkpoint_every, bool resume, const ProgressArgument& progress) {
+    cite({"popov2015", "polonsky_keer1999", "stanley_kato1997"});
+    CycleSettings settings = cycle_settings(surface.surface.grid, material, oscillation(motion),
+                                            mean_indentation, options);
+    if (checkpoint) settings.emplace_back("surface", fingerprint(surface.surface.heights));
+    return simulation(
+        options, checkpoint, checkpoint_every, resume, std::move(settings), progress,
+        [&](const CycleOptions& chosen, const Progress& told) {
+          const NormalContactOptions normal{.boundary = chosen.stick.boundary, .on_progress = told};
+          const Trajectory path = trajectory(motion, mean_indentation);
+          if (coupled)
+            return simulate_coupled_cycle(surface.surface, material, path, chosen, normal);
+          return simulate_frictional_cycle(
+              boundary_element_pressures(Surface(surface.surface), material.contact_modulus,
+                                         normal),
+              surface.surface.grid, material, path, chosen);
+        });
+  };
+  m.def(
+      "simulate_frictional_cycle",
+      [sliding](const BoundSurface& surface, const Material& material,
+                const std::variant<EqualFrequency, Drag>& motion, double mean_indentation,
+                double friction_coefficient, int steps, int max_periods, double steady_tolerance,
+                double direction, double tolerance, int max_iterations,
+                const Choice<Boundary>& boundary,
+                const std::optional<std::filesystem::path>& checkpoint, double checkpoint_every,
+                bool resume, const ProgressArgument& progress) {
+        const CycleOptions options{.friction_coefficient = friction_coefficient,
+                                   .steps = steps,
+                                   .max_periods = max_periods,
+                                   .steady_tolerance = steady_tolerance,
+                                   .direction = direction,
+                                   .stick = stick_options(tolerance, max_iterations, boundary)};
+        return sliding(surface, material, motion, mean_indentation, options, false, checkpoint,
+                       checkpoint_every, resume, progress);
+      },
+      nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
+      nb::kw_only(), nb::arg("friction_coefficient") = infinite, nb::arg("steps") = 64,
+      nb::arg("max_periods") = 6, nb::arg("steady_tolerance") = 1e-5, nb::arg("direction") = 0.0,
+      nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
+      nb::arg("boundary") = "periodic", nb::arg("checkpoint") = nb::none(),
+      nb::arg("checkpoint_every") = 60.0, nb::arg("resume") = false, nb::arg("progress") = false,
+      R"(Direct three-dimensional simulation of a surface with Coulomb friction through one oscillation.
+
+Each step solves ``|τ| <= μp`` in every cell. Without drift the permanent contact settles within two or three periods; a constant drag continues
+until all of it slides: raise max_periods, and look at `steady`. Arguments as :func:`simulate_cycle`, checkpoints included;
+friction_coefficient: μ.
+)");
+  m.def(
+      "simulate_coupled_cycle",
+      [sliding](const BoundSurface& surface, const Material& material,
+                const std::variant<EqualFrequency, Drag>& motion, double mean_indentation,
+                double friction_coefficient, std::optional<double> coupling_constant, int steps,
+                int max_periods, double steady_tolerance, double direction, double tolerance,
+                int max_iterations, const Choice<Boundary>& boundary,
+                const std::optional<std::filesystem::path>& checkpoint, double checkpoint_every,
+                bool resume, const ProgressArgument& progress) {
+        const CycleOptions options{.friction_coefficient = friction_coefficient,
+                                   .steps = steps,
+                                   .max_periods = max_periods,
+                                   .steady_tolerance = steady_tolerance,
+                                   .direction = direction,
+                                   .coupling_constant = coupling_constant,
+                                   .stick = stick_options(tolerance, max_iterations, boundary)};
+        return sliding(surface, material, motion, mean_indentation, options, true, checkpoint,
+                       checkpoint_every, resume, progress);
+      },
+      nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
+      nb::kw_only(), nb::arg("friction_coefficient") = infinite,
+      nb::arg("coupling_constant") = nb::none(), nb::arg("steps") = 64, nb::arg("max_periods") = 6,
+      nb::arg("steady_tolerance") = 1e-5, nb::arg("direction") = 0.0, nb::arg("tolerance") = 1e-8,
+      nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
+      nb::arg("checkpoint") = nb::none(), nb::arg("checkpoint_every") = 60.0,
+      nb::arg("resume") = false, nb::arg("progress") = false,
+      "The same with the coupling of normal and tangential directions (Dundurs' β); "
+      "coupling_constant: β/(πE*), 1/Pa, by default the material's. It shows when neglecting the "
+      "coupling, as the paper does, is safe.");
 }
 
 void bind_quadrature(nb::module_& m) {
@@ -273,7 +382,8 @@ frequencies, 32 for drag.
 
 void bind_cycle(nb::module_& m) {
   bind_levels(m);
-  bind_simulation(m);
+  bind_result(m);
+  bind_simulations(m);
   bind_quadrature(m);
 }
 

@@ -27,7 +27,6 @@ NB_MODULE(_core, m) {
   bind_damping_maps(m);
   bind_closed_form(m);
   bind_cycle(m);
-  bind_frictional_cycle(m);
   bind_study(m);
   bind_results(m);
 }

@@ -134,11 +134,11 @@ tolerance, max_iterations, boundary
   sliding
       .def(
           "__init__",
-          [](SlidingContact* self, const Grid2D& grid, const Material& material, double friction,
-             double motion_scale, double tolerance, int max_iterations,
+          [](SlidingContact* self, const Grid2D& grid, const Material& material,
+             double friction_coefficient, double motion_scale, double tolerance, int max_iterations,
              const Choice<Boundary>& boundary) {
             new (self) SlidingContact(grid, material,
-                                      {friction,
+                                      {friction_coefficient,
                                        motion_scale,
                                        {.tolerance = tolerance,
                                         .max_iterations = max_iterations,

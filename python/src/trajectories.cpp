@@ -40,11 +40,11 @@ tangential_range : float
       .def(
           "__init__",
           [](TangentialContact* self, const ContactLaw& law, double lowest, double highest,
-             double friction, double merge_tolerance, double table_tolerance,
+             double friction_coefficient, double merge_tolerance, double table_tolerance,
              double tangential_range) {
-            new (self)
-                TangentialContact(law, lowest, highest,
-                                  {friction, merge_tolerance, table_tolerance, tangential_range});
+            new (self) TangentialContact(
+                law, lowest, highest,
+                {friction_coefficient, merge_tolerance, table_tolerance, tangential_range});
           },
           nb::arg("law"), nb::arg("lowest"), nb::arg("highest"), nb::kw_only(),
           nb::arg("friction_coefficient") = infinite, nb::arg("merge_tolerance") = 0.0,
@@ -87,17 +87,17 @@ void bind_damping_of_trajectory(nb::module_& m) {
                 "Energy lost since the first sample, J.");
   m.def(
       "trajectory_damping",
-      [](const ContactLaw& law, const SampledMotion& trajectory, double friction, int max_periods) {
+      [](const ContactLaw& law, const SampledMotion& trajectory, double friction_coefficient,
+         int max_periods) {
         cite({"popov2015"});
         return unlocked([&] {
-          return trajectory_damping(law, trajectory, {friction, max_periods});
+          return trajectory_damping(law, trajectory, {friction_coefficient, max_periods});
         });
       },
       nb::arg("law"), nb::arg("trajectory"), nb::kw_only(),
       nb::arg("friction_coefficient") = infinite, nb::arg("max_periods") = 200,
       "Follows a periodic trajectory until it is steady; exact for its straight steps. "
-      "friction_coefficient: "
-      "μ, infinite for full stick.");
+      "friction_coefficient: μ, infinite for full stick.");
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
   const auto at_level = [&](double theta, bool with_stiffness) {
     LevelValues values;
     values.sample.indentation = mean_indentation + amplitude * std::cos(theta);
-    const ContactLevel level = levels(values.sample.indentation);
+    const ContactSetAt level = levels(values.sample.indentation);
     values.sample.force = level.force;
     values.sample.pressure = level.force / grid.area();
     values.sample.contact_area_fraction =

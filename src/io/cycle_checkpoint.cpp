@@ -1,147 +1,179 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checkpoints of simulated cycles in HDF5, with the settings that a resumed run must match.
+// Checkpoints of simulated cycles: states and settings in an HDF5 file (io/cycle_checkpoint.hpp).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <concepts>
 #include <cstdint>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/io/cycle_checkpoint.hpp>
+#include <salebra/io/cycle_columns.hpp>
 #include <salebra/io/result_file.hpp>
 
 namespace salebra {
 namespace {
 
-template <class State>
-struct Number {
-  const char* name;
-  double State::*value;
-  const char* units;
-  const char* text;
-};
-constexpr std::array cycle_numbers{
-    Number<CycleState>{"tangential", &CycleState::tangential, "m", "tangential position"},
-    Number<CycleState>{"period_start", &CycleState::period_start, "m",
-                       "tangential position at the start of the period"},
-    Number<CycleState>{"work", &CycleState::work, "J",
-                       "work of the tangential force in the period"},
-    Number<CycleState>{"released_energy", &CycleState::released_energy, "J",
-                       "energy released in the period"},
-    Number<CycleState>{"energy_at_period_start", &CycleState::energy_at_period_start, "J",
-                       "stored energy at the start of the period"},
-    Number<CycleState>{"last_work", &CycleState::last_work, "J", "loss of the period before"}};
-constexpr std::array friction_numbers{
-    Number<FrictionalCycleState>{"tangential", &FrictionalCycleState::tangential, "m",
-                                 "tangential position"},
-    Number<FrictionalCycleState>{"energy_at_period_start",
-                                 &FrictionalCycleState::energy_at_period_start, "J",
-                                 "stored energy at the start of the period"},
-    Number<FrictionalCycleState>{"work_at_period_start",
-                                 &FrictionalCycleState::work_at_period_start, "J",
-                                 "work of the tangential force before the period"},
-    Number<FrictionalCycleState>{"normal_work_at_period_start",
-                                 &FrictionalCycleState::normal_work_at_period_start, "J",
-                                 "work of the normal force before the period"},
-    Number<FrictionalCycleState>{"last_work", &FrictionalCycleState::last_work, "J",
-                                 "loss of the period before"}};
-constexpr std::array sliding_numbers{
-    Number<SlidingState>{"work", &SlidingState::work, "J", "work of the tangential force"},
-    Number<SlidingState>{"released", &SlidingState::released, "J", "energy dissipated by cells as they opened"}};
-
-template <class Sample>
-struct Column {
-  const char* name;
-  double Sample::*value;
-  const char* units;
-};
-constexpr std::array cycle_columns{
-    Column<CycleSample>{"time", &CycleSample::t, "1"},
-    Column<CycleSample>{"indentation", &CycleSample::indentation, "m"},
-    Column<CycleSample>{"tangential", &CycleSample::tangential, "m"},
-    Column<CycleSample>{"tangential_force", &CycleSample::tangential_force, "N"},
-    Column<CycleSample>{"normal_force", &CycleSample::normal_force, "N"},
-    Column<CycleSample>{"work", &CycleSample::work, "J"},
-    Column<CycleSample>{"released_energy", &CycleSample::released_energy, "J"},
-    Column<CycleSample>{"contact_area", &CycleSample::contact_area, "m^2"},
-    Column<CycleSample>{"tangential_stiffness", &CycleSample::tangential_stiffness, "N/m"}};
-constexpr std::array friction_columns{
-    Column<FrictionalSample>{"time", &FrictionalSample::t, "1"},
-    Column<FrictionalSample>{"indentation", &FrictionalSample::indentation, "m"},
-    Column<FrictionalSample>{"tangential", &FrictionalSample::tangential, "m"},
-    Column<FrictionalSample>{"tangential_force", &FrictionalSample::tangential_force, "N"},
-    Column<FrictionalSample>{"normal_force", &FrictionalSample::normal_force, "N"},
-    Column<FrictionalSample>{"work", &FrictionalSample::work, "J"},
-    Column<FrictionalSample>{"dissipated", &FrictionalSample::dissipated, "J"},
-    Column<FrictionalSample>{"contact_area", &FrictionalSample::contact_area, "m^2"},
-    Column<FrictionalSample>{"slip_area", &FrictionalSample::slip_area, "m^2"}};
-
-template <class State, std::size_t count>
-void write_numbers(ResultGroup& group, const State& state,
-                   const std::array<Number<State>, count>& numbers) {
-  for (const Number<State>& number : numbers)
-    group.scalar(number.name, state.*number.value, number.units, number.text);
+// What a state consists of, for the writer and the reader below.
+template <class State, class Visitor>
+void describe_cycle(State& state, Visitor& visit) {
+  visit("period", state.period);
+  visit("step", state.step);
+  visit("smallest", state.smallest, "1 in contact at every step of the period");
+  visit("largest", state.largest, "1 in contact at any step of the period");
+  visit("tangential", state.tangential, "m", "tangential position");
+  visit("energy_at_period_start", state.energy_at_period_start, "J",
+        "stored energy at the start of the period");
+  visit("work_at_period_start", state.work_at_period_start, "J",
+        "work of the tangential force before the period");
+  visit("normal_work_at_period_start", state.normal_work_at_period_start, "J",
+        "work of the normal force before the period");
+  visit("gap_work_at_period_start", state.gap_work_at_period_start, "J",
+        "work across gaps before the period");
+  visit("loss_at_period_start", state.loss_at_period_start, "J",
+        "energy dissipated in each cell before the period");
+  visit("last_work", state.last_work, "J", "work_per_cycle of the period before");
 }
 
-template <class State, std::size_t count>
-void read_numbers(const ResultReader& reader, const std::string& group, State& state,
-                  const std::array<Number<State>, count>& numbers) {
-  for (const Number<State>& number : numbers)
-    state.*number.value = reader.number(group + "/" + number.name);
-}
-
-template <class Sample, std::size_t count>
-void write_samples(ResultGroup group, const std::vector<Sample>& samples,
-                   const std::array<Column<Sample>, count>& columns) {
-  group.index("sample", samples.size(), "steps of the period so far");
-  for (const Column<Sample>& column : columns) {
-    std::vector<double> values;
-    for (const Sample& sample : samples) values.push_back(sample.*column.value);
-    group.dataset(column.name, values, {"sample"}, column.units, column.name);
+template <class Body, class Visitor>
+void describe_body(Body& body, Visitor& visit) {
+  if constexpr (requires { body.sliding; }) {  // a coupled body
+    describe_body(body.sliding, visit);
+    visit("gap", body.gap, "m", "gap between the deformed surfaces");
+    visit("indentation", body.indentation, "m", "indentation");
+    visit("normal_work", body.normal_work, "J", "work of the normal force");
+    visit("gap_work", body.gap_work, "J", "work across gaps");
+    visit("increments_converged", body.converged);
+  } else {
+    visit("traction", body.traction, "Pa", "shear traction");
+    visit("displacement", body.displacement, "m", "displacement of cells in contact");
+    visit("work", body.work, "J", "work of the tangential force");
+    visit("released", body.released, "J", "energy dissipated by cells as they opened");
+    visit("iterations", body.iterations);
+    visit("fft_count", body.fft_count);
+    visit("converged", body.converged);
+    if constexpr (requires { body.unit_traction; }) {  // a stuck one
+      visit("contact", body.contact, "1 in contact");
+      visit("unit_traction", body.unit_traction, "Pa/m", "shear traction of a unit move");
+    } else {
+      visit("pressure", body.pressure, "Pa", "pressure");
+      visit("shift", body.shift, "m", "displacement by other causes");
+      visit("loss", body.loss, "J", "energy dissipated in each cell since the start");
+      visit("prepared", body.prepared, "1 within the window of the kernels");
+      visit("motion_scale", body.motion_scale, "m", "displacement that the tolerance refers to");
+      visit("slipping", body.slipping);
+    }
   }
 }
 
-template <class Sample, std::size_t count>
-std::vector<Sample> read_samples(const ResultReader& reader, const std::string& group,
-                                 const std::array<Column<Sample>, count>& columns) {
-  std::vector<Sample> samples;
-  for (const Column<Sample>& column : columns) {
-    const std::vector<double> values = reader.numbers(group + "/" + column.name);
-    samples.resize(values.size());
-    for (std::size_t k = 0; k < values.size(); ++k) samples[k].*column.value = values[k];
-  }
-  return samples;
-}
-
-// A group of fields on the cells.
-class FieldGroup {
+class StateWriter {
  public:
-  FieldGroup(ResultGroup& group, const Field& any) : group_(group) {
-    group_.index("x", static_cast<std::size_t>(any.rows()), "cell along x");
-    group_.index("y", static_cast<std::size_t>(any.cols()), "cell along y");
+  explicit StateWriter(ResultGroup group) : group_(std::move(group)) {}
+
+  template <std::integral Count>
+  void operator()(const char* name, Count value) {
+    group_.attribute(name, static_cast<std::int64_t>(value));
   }
-  void write(const char* name, const Field& values, const char* units, const char* text) {
+  void operator()(const char* name, double value, const char* units, const char* text) {
+    group_.scalar(name, value, units, text);
+  }
+  void operator()(const char* name, const Field& values, const char* units, const char* text) {
+    if (values.size() == 0) return;
+    if (!has_axes_) {
+      group_.index("x", static_cast<std::size_t>(values.rows()), "cell along x");
+      group_.index("y", static_cast<std::size_t>(values.cols()), "cell along y");
+      has_axes_ = true;
+    }
     group_.dataset(name, values, "x", "y", units, text);
   }
-  void write(const char* name, const ContactSet& set, const char* text) {
-    write(name, set.cast<double>(), "1", text);
+  void operator()(const char* name, const ContactSet& set, const char* text) {
+    (*this)(name, Field(set.cast<double>()), "1", text);
+  }
+  void operator()(const std::string& name, const TangentialField& field, const char* units,
+                  const std::string& text) {
+    (*this)((name + "_x").c_str(), field.x, units, (text + " along x").c_str());
+    (*this)((name + "_y").c_str(), field.y, units, (text + " along y").c_str());
   }
 
  private:
-  ResultGroup& group_;
+  ResultGroup group_;
+  bool has_axes_ = false;
 };
 
-long whole(const ResultReader& reader, const std::string& group, const char* name) {
-  const std::optional<double> value = reader.number_attribute(group, name);
-  require(value.has_value(), reader.file().string(), name, "is missing; remove the damaged file");
-  return static_cast<long>(*value);
+class StateReader {
+ public:
+  StateReader(const ResultReader& reader, std::string group)
+      : reader_(reader), group_(std::move(group)) {}
+
+  template <std::integral Count>
+  void operator()(const char* name, Count& value) {
+    const std::optional<double> found = reader_.number_attribute(group_, name);
+    require(found.has_value(), reader_.file().string(), name,
+            "is missing; remove the damaged file");
+    value = static_cast<Count>(*found);
+  }
+  void operator()(const char* name, double& value, const char*, const char*) {
+    value = reader_.number(path(name));
+  }
+  void operator()(const char* name, Field& values, const char*, const char*) {
+    if (reader_.has(path(name))) values = reader_.field(path(name));
+  }
+  void operator()(const char* name, ContactSet& set, const char*) {
+    if (reader_.has(path(name))) set = reader_.field(path(name)) > 0.5;
+  }
+  void operator()(const std::string& name, TangentialField& field, const char*, const char*) {
+    field = {reader_.field(path(name + "_x")), reader_.field(path(name + "_y"))};
+  }
+
+ private:
+  std::string path(const std::string& name) const { return group_ + "/" + name; }
+
+  const ResultReader& reader_;
+  std::string group_;
+};
+
+// In the order of CycleState::body.
+constexpr std::array kinds{"stuck", "frictional", "coupled"};
+
+void write_state(ResultFile& output, const CycleState& state) {
+  const std::string kind = kinds[state.body.index()];
+  StateWriter cycle(output.group(kind));
+  describe_cycle(state, cycle);
+  StateWriter body(output.group(kind + "/body"));
+  std::visit([&](const auto& memory) { describe_body(memory, body); }, state.body);
+  ResultGroup samples = output.group(kind + "/samples");
+  samples.index("sample", state.samples.size(), "steps of the period so far");
+  for (const CycleColumn& column : cycle_columns) {
+    std::vector<double> values;
+    for (const CycleSample& sample : state.samples) values.push_back(sample.*column.value);
+    samples.dataset(column.name, values, {"sample"}, column.units, column.long_name);
+  }
 }
 
-ContactSet set_of(const Field& field) { return field > 0.5; }
+template <class Body>
+CycleState read_state(const ResultReader& reader, const std::string& kind) {
+  CycleState state;
+  StateReader cycle(reader, kind);
+  describe_cycle(state, cycle);
+  StateReader memory(reader, kind + "/body");
+  Body body;
+  describe_body(body, memory);
+  state.body = std::move(body);
+  for (const CycleColumn& column : cycle_columns) {
+    const std::vector<double> values = reader.numbers(kind + "/samples/" + column.name);
+    state.samples.resize(values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) state.samples[k].*column.value = values[k];
+  }
+  return state;
+}
 
-template <class Options>
-CycleSettings settings_of(const Grid2D& grid, const Material& material, const Oscillation& motion,
-                          double mean_indentation, const Options& options) {
+}  // namespace
+
+CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
+                             const Oscillation& motion, double mean_indentation,
+                             const CycleOptions& options) {
   CycleSettings settings{{"version", std::string(version())}, {"arithmetic", arithmetic()}};
   const auto add = [&](const char* name, double value) {
     settings.emplace_back(name, fmt::format("{}", value));
@@ -165,102 +197,15 @@ CycleSettings settings_of(const Grid2D& grid, const Material& material, const Os
     add("phase", equal.phase);
   }
   add("direction", options.direction);
+  add("friction_coefficient", options.friction_coefficient);
+  if (options.coupling_constant) add("coupling_constant", *options.coupling_constant);
   add("steps", options.steps);
+  add("max_periods", options.max_periods);
+  add("steady_tolerance", options.steady_tolerance);
   add("tolerance", options.stick.tolerance);
   add("max_iterations", options.stick.max_iterations);
   settings.emplace_back("boundary", options.stick.boundary == Boundary::free ? "free" : "periodic");
   settings.emplace_back("lateral", options.stick.hold_lateral ? "held" : "free");
-  return settings;
-}
-
-void write_settings(ResultFile& output, const CycleSettings& settings) {
-  ResultGroup agreed = output.group("settings");
-  for (const auto& [name, value] : settings) agreed.attribute(name, value);
-}
-
-void require_settings(const ResultReader& reader, const CycleSettings& settings) {
-  for (const auto& [name, value] : settings) {
-    const std::optional<std::string> then = reader.text_attribute("settings", name);
-    if (!then || *then != value)
-      throw InvalidInput(
-          fmt::format("{}: {} was {} in the checkpoint and is {} now; resume with the settings of "
-                      "the first run or remove the file",
-                      reader.file().string(), name, then ? *then : "not there", value));
-  }
-}
-
-void write_friction(ResultFile& output, const FrictionalCycleState& state) {
-  const SlidingState& contact = state.contact;
-  ResultGroup group = output.group("friction");
-  group.attribute("period", state.period);
-  group.attribute("step", state.step);
-  group.attribute("slipping", std::int64_t{contact.slipping});
-  group.attribute("iterations", std::int64_t{contact.iterations});
-  group.attribute("fft_count", std::int64_t{contact.fft_count});
-  group.attribute("converged", contact.converged ? 1 : 0);
-  write_numbers(group, state, friction_numbers);
-  FieldGroup fields(group, contact.pressure);
-  fields.write("smallest", state.smallest, "1 in contact at every step of the period");
-  fields.write("largest", state.largest, "1 in contact at any step of the period");
-  fields.write("pressure", contact.pressure, "Pa", "pressure");
-  fields.write("shift_x", contact.shift.x, "m", "displacement along x by other causes");
-  fields.write("shift_y", contact.shift.y, "m", "displacement along y by other causes");
-  fields.write("traction_x", contact.traction.x, "Pa", "shear traction along x");
-  fields.write("traction_y", contact.traction.y, "Pa", "shear traction along y");
-  fields.write("displacement_x", contact.displacement.x, "m",
-               "displacement of cells in contact along x");
-  fields.write("displacement_y", contact.displacement.y, "m",
-               "displacement of cells in contact along y");
-  fields.write("loss", contact.loss, "J", "energy dissipated by each cell since the start");
-  fields.write("loss_at_period_start", state.loss_at_period_start, "J",
-               "energy dissipated by each cell before the period");
-  ResultGroup sums = output.group("friction/contact");
-  write_numbers(sums, contact, sliding_numbers);
-  write_samples(output.group("friction/samples"), state.samples, friction_columns);
-}
-
-FrictionalCycleState read_friction(const ResultReader& reader) {
-  const auto count = [&](const char* name) { return whole(reader, "friction", name); };
-  const auto field = [&](const char* name) {
-    return reader.field(std::string("friction/") + name);
-  };
-  FrictionalCycleState state;
-  state.period = static_cast<int>(count("period"));
-  state.step = static_cast<int>(count("step"));
-  SlidingState& contact = state.contact;
-  contact.slipping = count("slipping");
-  contact.iterations = count("iterations");
-  contact.fft_count = count("fft_count");
-  contact.converged = count("converged") != 0;
-  read_numbers(reader, "friction", state, friction_numbers);
-  read_numbers(reader, "friction/contact", contact, sliding_numbers);
-  contact.pressure = field("pressure");
-  contact.shift = {field("shift_x"), field("shift_y")};
-  contact.traction = {field("traction_x"), field("traction_y")};
-  contact.displacement = {field("displacement_x"), field("displacement_y")};
-  contact.loss = field("loss");
-  state.loss_at_period_start = field("loss_at_period_start");
-  state.smallest = set_of(field("smallest"));
-  state.largest = set_of(field("largest"));
-  state.samples = read_samples(reader, "friction/samples", friction_columns);
-  return state;
-}
-
-}  // namespace
-
-CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
-                             const Oscillation& motion, double mean_indentation,
-                             const CycleOptions& options) {
-  return settings_of(grid, material, motion, mean_indentation, options);
-}
-
-CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
-                             const Oscillation& motion, double mean_indentation,
-                             const FrictionalCycleOptions& options) {
-  CycleSettings settings = settings_of(grid, material, motion, mean_indentation, options);
-  settings.emplace_back("friction", fmt::format("{}", options.friction_coefficient));
-  settings.emplace_back("max_periods", fmt::format("{}", options.max_periods));
-  settings.emplace_back("steady_tolerance", fmt::format("{}", options.steady_tolerance));
   return settings;
 }
 
@@ -274,80 +219,34 @@ std::string fingerprint(const Field& values) {
   return fmt::format("{:016x}", hash);
 }
 
-void write_cycle_checkpoint(const std::filesystem::path& file, const CycleState& state,
-                            const CycleSettings& settings, const Provenance& provenance,
-                            const FrictionalCycleState* friction) {
+void write_cycle_checkpoint(const std::filesystem::path& file, std::span<const CycleState> states,
+                            const CycleSettings& settings, const Provenance& provenance) {
   ResultFile output(file, provenance, {.overwrite = true});
-  write_settings(output, settings);
-  ResultGroup group = output.group("state");
-  group.attribute("period", state.period);
-  group.attribute("step", state.step);
-  group.attribute("iterations", std::int64_t{state.iterations});
-  group.attribute("fft_count", std::int64_t{state.fft_count});
-  group.attribute("converged", state.converged ? 1 : 0);
-  write_numbers(group, state, cycle_numbers);
-  FieldGroup fields(group, state.traction.x);
-  fields.write("contact", state.contact, "1 in contact");
-  fields.write("smallest", state.smallest, "1 in contact at every step so far");
-  fields.write("largest", state.largest, "1 in contact at any step so far");
-  fields.write("displacement_x", state.displacement.x, "m",
-               "displacement of cells in contact along x");
-  fields.write("displacement_y", state.displacement.y, "m",
-               "displacement of cells in contact along y");
-  fields.write("traction_x", state.traction.x, "Pa", "shear traction along x");
-  fields.write("traction_y", state.traction.y, "Pa", "shear traction along y");
-  fields.write("unit_traction_x", state.unit_traction.x, "Pa/m", "traction along x of a unit move");
-  fields.write("unit_traction_y", state.unit_traction.y, "Pa/m", "traction along y of a unit move");
-  write_samples(output.group("samples"), state.samples, cycle_columns);
-  if (friction) write_friction(output, *friction);
+  ResultGroup agreed = output.group("settings");
+  for (const auto& [name, value] : settings) agreed.attribute(name, value);
+  for (const CycleState& state : states) write_state(output, state);
   output.commit();
 }
 
-CycleState read_cycle_checkpoint(const std::filesystem::path& file, const CycleSettings& settings) {
-  const ResultReader reader(file);
-  require(reader.has("settings") && reader.has("state") && reader.has("samples"), file.string(), "",
-          "is no checkpoint of a cycle; name the file that --checkpoint wrote");
-  require_settings(reader, settings);
-  const auto count = [&](const char* name) { return whole(reader, "state", name); };
-  const auto field = [&](const char* name) { return reader.field(std::string("state/") + name); };
-  CycleState state;
-  state.period = static_cast<int>(count("period"));
-  state.step = static_cast<int>(count("step"));
-  state.iterations = count("iterations");
-  state.fft_count = count("fft_count");
-  state.converged = count("converged") != 0;
-  read_numbers(reader, "state", state, cycle_numbers);
-  state.contact = set_of(field("contact"));
-  state.smallest = set_of(field("smallest"));
-  state.largest = set_of(field("largest"));
-  state.displacement = {field("displacement_x"), field("displacement_y")};
-  state.traction = {field("traction_x"), field("traction_y")};
-  state.unit_traction = {field("unit_traction_x"), field("unit_traction_y")};
-  state.samples = read_samples(reader, "samples", cycle_columns);
-  return state;
-}
-
-std::optional<FrictionalCycleState> read_friction_checkpoint(const std::filesystem::path& file) {
-  const ResultReader reader(file);
-  if (!reader.has("friction")) return {};
-  return read_friction(reader);
-}
-
-void write_friction_checkpoint(const std::filesystem::path& file, const FrictionalCycleState& state,
-                               const CycleSettings& settings, const Provenance& provenance) {
-  ResultFile output(file, provenance, {.overwrite = true});
-  write_settings(output, settings);
-  write_friction(output, state);
-  output.commit();
-}
-
-FrictionalCycleState read_friction_checkpoint(const std::filesystem::path& file,
+std::vector<CycleState> read_cycle_checkpoint(const std::filesystem::path& file,
                                               const CycleSettings& settings) {
   const ResultReader reader(file);
-  require(reader.has("settings") && reader.has("friction"), file.string(), "",
-          "is no checkpoint of a cycle with friction; name one, or remove the file");
-  require_settings(reader, settings);
-  return read_friction(reader);
+  const auto holds = [&](const char* kind) { return reader.has(kind); };
+  require(reader.has("settings") && std::ranges::any_of(kinds, holds), file.string(), "",
+          "is no checkpoint of a cycle; name a file that a simulation left");
+  for (const auto& [name, value] : settings) {
+    const std::optional<std::string> then = reader.text_attribute("settings", name);
+    if (!then || *then != value)
+      throw InvalidInput(
+          fmt::format("{}: {} was {} in the checkpoint and is {} now; resume with the settings of "
+                      "the first run or remove the file",
+                      file.string(), name, then ? *then : "not there", value));
+  }
+  std::vector<CycleState> states;
+  if (holds(kinds[0])) states.push_back(read_state<StuckState>(reader, kinds[0]));
+  if (holds(kinds[1])) states.push_back(read_state<SlidingState>(reader, kinds[1]));
+  if (holds(kinds[2])) states.push_back(read_state<CoupledState>(reader, kinds[2]));
+  return states;
 }
 
 }  // namespace salebra

@@ -60,41 +60,30 @@ std::filesystem::path CycleFields::frame_file(int step) const {
 }
 
 void CycleFields::write(const CycleState& state, double time, const NormalContactState& normal) {
-  const bool pressed = normal.pressure.size() > 0;
-  write_frame(
-      state.step, time,
-      {{"contact", "1", "1 in contact", state.contact.cast<double>()},
-       {"traction_x", "Pa", "shear traction along x", state.traction.x},
-       {"traction_y", "Pa", "shear traction along y", state.traction.y},
-       {"displacement_x", "m", "displacement of cells in contact along x", state.displacement.x},
-       {"displacement_y", "m", "displacement of cells in contact along y", state.displacement.y},
-       {"pressure", "Pa", "pressure",
-        pressed ? normal.pressure : Field(Field::Zero(grid_.nx, grid_.ny))},
-       {"gap", "m", "gap between the deformed surfaces", gap_of(normal)}});
-}
+  const auto* stuck = std::get_if<StuckState>(&state.body);
+  const auto* coupled = std::get_if<CoupledState>(&state.body);
+  const SlidingState* sliding =
+      coupled ? &coupled->sliding : std::get_if<SlidingState>(&state.body);
+  const TangentialField& traction = stuck ? stuck->traction : sliding->traction;
+  const TangentialField& displacement = stuck ? stuck->displacement : sliding->displacement;
+  Field pressure = sliding ? sliding->pressure : normal.pressure;
+  if (pressure.size() == 0) pressure = Field::Zero(grid_.nx, grid_.ny);
+  Field contact =
+      stuck ? Field(stuck->contact.cast<double>()) : Field((sliding->pressure > 0).cast<double>());
+  std::vector<Values> values{
+      {"contact", "1", "1 in contact", std::move(contact)},
+      {"traction_x", "Pa", "shear traction along x", traction.x},
+      {"traction_y", "Pa", "shear traction along y", traction.y},
+      {"displacement_x", "m", "displacement of cells in contact along x", displacement.x},
+      {"displacement_y", "m", "displacement of cells in contact along y", displacement.y},
+      {"pressure", "Pa", "pressure", std::move(pressure)},
+      {"gap", "m", "gap between the deformed surfaces", coupled ? coupled->gap : gap_of(normal)}};
+  if (sliding)
+    values.push_back({"loss", "J/m^2",
+                      "energy dissipated by unit area since the start of the period",
+                      (sliding->loss - state.loss_at_period_start) / grid_.cell_area()});
 
-void CycleFields::write(const FrictionalCycleState& state, double time,
-                        const NormalContactState& normal) {
-  const SlidingState& contact = state.contact;
-  write_frame(
-      state.step, time,
-      {{"contact", "1", "1 in contact", (contact.pressure > 0).cast<double>()},
-       {"traction_x", "Pa", "shear traction along x", contact.traction.x},
-       {"traction_y", "Pa", "shear traction along y", contact.traction.y},
-       {"displacement_x", "m", "displacement of cells in contact along x", contact.displacement.x},
-       {"displacement_y", "m", "displacement of cells in contact along y", contact.displacement.y},
-       {"pressure", "Pa", "pressure", contact.pressure},
-       {"gap", "m", "gap between the deformed surfaces", gap_of(normal)},
-       {"loss", "J/m^2", "energy dissipated by unit area since the start of the period",
-        (contact.loss - state.loss_at_period_start) / grid_.cell_area()}});
-}
-
-Field CycleFields::gap_of(const NormalContactState& normal) const {
-  return normal.gap.size() > 0 ? normal.gap : Field(heights_.maxCoeff() - heights_);
-}
-
-void CycleFields::write_frame(int step, double time, const std::vector<Values>& values) {
-  ResultFile file(frame_file(step), provenance_, {.overwrite = true});
+  ResultFile file(frame_file(state.step), provenance_, {.overwrite = true});
   ResultGroup fields = file.group("fields");
   fields.coordinate("x", x_, "m", "position along x");
   fields.coordinate("y", y_, "m", "position along y");
@@ -103,10 +92,14 @@ void CycleFields::write_frame(int step, double time, const std::vector<Values>& 
     fields.dataset(field.name, field.values, "x", "y", field.units, field.text);
     names.emplace_back(field.name);
   }
-  fields.attribute("step", step);
+  fields.attribute("step", state.step);
   fields.attribute("time", time);
   file.commit();
-  add(step, time, std::move(names));
+  add(state.step, time, std::move(names));
+}
+
+Field CycleFields::gap_of(const NormalContactState& normal) const {
+  return normal.gap.size() > 0 ? normal.gap : Field(heights_.maxCoeff() - heights_);
 }
 
 void CycleFields::keep(int step, double time) {

@@ -170,7 +170,7 @@ TEST_CASE("The file of oscillate holds what its answer says", "[oscillate]") {
   };
   CHECK(file.numbers("cycle/time") == numbers(answer, "time"));
   CHECK(file.numbers("cycle/work") == numbers(answer, "work"));
-  CHECK(file.numbers("cycle/released_energy").back() == number(answer, "released_energy"));
+  CHECK(file.numbers("cycle/dissipated").back() == number(answer, "dissipated"));
   CHECK(attribute("cycle", "work_per_cycle") == number(answer, "work_per_cycle"));
   CHECK(attribute("levels", "work_per_cycle") == number(answer, "work_by_levels"));
   CHECK(attribute("levels", "error_estimate") == number(answer, "work_by_levels_error"));

@@ -89,7 +89,6 @@ Dimension meaning(const std::string& object, const std::string& name) {
       {"predicted_finite", energy},
       {"predicted_exponential", energy},
       {"predicted_exponential_finite", energy},
-      {"released_energy", energy},
       {"work", energy},
       {"closed_form", energy},
       {"relaxation_work", energy},

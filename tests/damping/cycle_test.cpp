@@ -32,7 +32,7 @@ ContactSet disc(const Grid2D& grid, double radius) {
 constexpr double cone_slope = 0.02;
 ContactLevels cone(const Grid2D& grid) {
   return [grid](double indentation) {
-    return ContactLevel{.contact = disc(grid, indentation / cone_slope),
+    return ContactSetAt{.contact = disc(grid, indentation / cone_slope),
                         .force = contact_modulus * indentation * indentation / cone_slope};
   };
 }
@@ -40,7 +40,7 @@ ContactLevels cone(const Grid2D& grid) {
 // Nested sets without any symmetry: islands that appear, grow and merge as δ goes from 0 to 1, and have holes that close.
 ContactLevels islands(const Grid2D& grid) {
   return [grid](double indentation) {
-    ContactLevel level{.contact = ContactSet(grid.nx, grid.ny)};
+    ContactSetAt level{.contact = ContactSet(grid.nx, grid.ny)};
     for (Index ix = 0; ix < grid.nx; ++ix)
       for (Index iy = 0; iy < grid.ny; ++iy) {
         const double x = 2 * pi * static_cast<double>(ix) / static_cast<double>(grid.nx);
@@ -100,7 +100,7 @@ TEST_CASE("The simulated loss is half the integral of s squared over K_t, for an
     // Exact for the discretised problem: what remains is the solvers' 1e-9 of the motion, summed over the steps.
     CHECK(cycle.work_per_cycle ==
           Approx(theorem(levels, grid, material, trajectory, options)).epsilon(1e-7));
-    CHECK(cycle.released_energy == Approx(cycle.work_per_cycle).epsilon(1e-7));
+    CHECK(cycle.dissipated == Approx(cycle.work_per_cycle).epsilon(1e-7));
   }
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("Cells that enter and leave while the body rests release nothing", "[c
   const double core = stiffness_along(cycle.smallest, grid, material, options);
   const double stored = core * 1e-12 / 2;
   // The solvers' 1e-8 of the motion, twenty times.
-  CHECK(std::abs(cycle.released_energy) < 1e-6 * stored);
+  CHECK(std::abs(cycle.dissipated) < 1e-6 * stored);
   CHECK(std::abs(cycle.work_per_cycle) < 1e-6 * stored);
   // All the while the force is that of the core: what enters carries no traction.
   for (const CycleSample& sample : cycle.samples)
@@ -201,7 +201,7 @@ TEST_CASE("The steps' error holds for a motion that turns inside the sweep", "[c
   for (const int steps : {24, 48, 96}) {
     const CycleResult cycle = run(steps);
     REQUIRE(cycle.steady);
-    CHECK(cycle.released_energy == Approx(cycle.work_per_cycle).epsilon(1e-6));
+    CHECK(cycle.dissipated == Approx(cycle.work_per_cycle).epsilon(1e-6));
     CHECK(std::abs(cycle.work_per_cycle - settled) <= cycle.step_error);
     CHECK(cycle.step_error < 0.3 * settled);
     if (steps == 24) first = cycle.step_error;
@@ -215,7 +215,7 @@ TEST_CASE("A contact turned by 90 degrees loses along y what it lost along x", "
   const Grid2D grid{27, 20, 1.3e-3, 1e-3}, turned{20, 27, 1e-3, 1.3e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.4);
   const ContactLevels across = [&](double indentation) {
-    ContactLevel level = islands(grid)(indentation);
+    ContactSetAt level = islands(grid)(indentation);
     level.contact = ContactSet(level.contact.transpose());
     return level;
   };
@@ -276,7 +276,7 @@ TEST_CASE("The loss goes with the squared sine of the phase, even in few steps",
 TEST_CASE("A contact whose cells do not change loses nothing", "[cycle]") {
   const Grid2D grid{40, 40, 1e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
-  const ContactLevels cylinder = [&](double) { return ContactLevel{disc(grid, 0.3e-3)}; };
+  const ContactLevels cylinder = [&](double) { return ContactSetAt{disc(grid, 0.3e-3)}; };
   CycleOptions options{.steps = 16};
   options.stick.boundary = Boundary::free;
   const double amplitude = 2e-6;
@@ -284,7 +284,7 @@ TEST_CASE("A contact whose cells do not change loses nothing", "[cycle]") {
       cylinder, grid, material, trajectory_of(EqualFrequency{1e-7, amplitude, 1.0}, 1e-6), options);
   const double stiffness = stick_stiffness(disc(grid, 0.3e-3), grid, material, options.stick).xx;
   CHECK(std::abs(cycle.work_per_cycle) < 1e-9 * stiffness * amplitude * amplitude / 2);
-  CHECK(cycle.released_energy == 0);
+  CHECK(cycle.dissipated == 0);
   // Half way through the energy is there: the motion does do work.
   CHECK(cycle.samples[8].work > 0.1 * stiffness * amplitude * amplitude);
 }
@@ -332,7 +332,7 @@ TEST_CASE("A cycle that cannot be trusted is not called converged, and bad input
   options.stick.max_iterations = 3;
   CHECK_FALSE(simulate_cycle(islands(grid), grid, material, motion, options).converged);
   const ContactLevels doubtful = [&](double indentation) {
-    ContactLevel level = islands(grid)(indentation);
+    ContactSetAt level = islands(grid)(indentation);
     level.converged = indentation < 0.4 || indentation > 0.6;  // met on the way, not at its ends
     return level;
   };

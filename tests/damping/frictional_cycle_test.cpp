@@ -4,8 +4,8 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
+#include <salebra/damping/cycle.hpp>
 #include <salebra/damping/friction_map.hpp>
-#include <salebra/damping/frictional_cycle.hpp>
 #include <salebra/generators/shapes.hpp>
 
 using namespace salebra;
@@ -24,8 +24,8 @@ PressureLevels levels_of(const Surface& shape) {
           highest](double indentation) { return bem(indentation + highest); };
 }
 
-FrictionalCycleOptions free_boundary(double friction, int steps) {
-  FrictionalCycleOptions options{.friction_coefficient = friction, .steps = steps};
+CycleOptions free_boundary(double friction, int steps) {
+  CycleOptions options{.friction_coefficient = friction, .steps = steps};
   options.stick.boundary = Boundary::free;
   return options;
 }
@@ -33,7 +33,7 @@ FrictionalCycleOptions free_boundary(double friction, int steps) {
 // Nested pressures without any symmetry: islands that appear, grow and merge as δ goes from 0 to 1.
 PressureLevels islands(const Grid2D& grid, double peak) {
   return [grid, peak](double indentation) {
-    PressureLevel level{.pressure = Field(grid.nx, grid.ny)};
+    PressureAt level{.pressure = Field(grid.nx, grid.ny)};
     for (Index ix = 0; ix < grid.nx; ++ix)
       for (Index iy = 0; iy < grid.ny; ++iy) {
         const double x = 2 * pi * static_cast<double>(ix) / static_cast<double>(grid.nx);
@@ -72,7 +72,7 @@ TEST_CASE("A sphere under constant load loses Mindlin's loop", "[friction]") {
         levels_of(paraboloid_surface(grid, radius, off_grid_center(grid)));
     const Trajectory motion{[&](double) { return indentation; },
                             [&](double t) { return amplitude * std::sin(2 * pi * t); }};
-    const FrictionalCycleResult cycle =
+    const CycleResult cycle =
         simulate_frictional_cycle(levels, grid, material, motion, free_boundary(friction, steps));
     REQUIRE(cycle.converged);
     CHECK(cycle.steady);
@@ -114,7 +114,7 @@ TEST_CASE("An oscillating cone loses what the method of dimensionality reduction
   const double stuck = 8.0 / 3 * material.modulus_ratio() * law.curvature(indentation) *
                        std::pow(amplitude, 3) * std::pow(std::sin(phase), 2);
   const FrictionMap map = friction_map(law, indentation, amplitude, amplitude, {number}, {phase});
-  const FrictionalCycleResult cycle = simulate_frictional_cycle(
+  const CycleResult cycle = simulate_frictional_cycle(
       levels, grid, material,
       trajectory_of(EqualFrequency{amplitude, amplitude, phase}, indentation),
       free_boundary(number * material.modulus_ratio(), 64));
@@ -133,16 +133,14 @@ TEST_CASE("Much friction is the stuck contact, whose losses are released", "[fri
   const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 1.1}, 0.5);
   const PressureLevels levels = islands(grid, 1e6);
   const ContactLevels sets = [&](double indentation) {
-    return ContactLevel{levels(indentation).pressure > 0};
+    return ContactSetAt{levels(indentation).pressure > 0};
   };
   const auto ratio = [&](int steps) {
     CycleOptions stuck{.steps = steps, .direction = 0.7};
     stuck.stick.boundary = boundary;
-    FrictionalCycleOptions options{
-        .friction_coefficient = infinite, .steps = steps, .direction = 0.7};
+    CycleOptions options{.friction_coefficient = infinite, .steps = steps, .direction = 0.7};
     options.stick.boundary = boundary;
-    const FrictionalCycleResult cycle =
-        simulate_frictional_cycle(levels, grid, material, motion, options);
+    const CycleResult cycle = simulate_frictional_cycle(levels, grid, material, motion, options);
     REQUIRE(cycle.converged);
     CHECK(cycle.steady);
     CHECK(cycle.dissipated == Approx(cycle.work_per_cycle).epsilon(1e-6));
@@ -163,9 +161,9 @@ TEST_CASE("Work and friction balance on any surface, and every cell obeys Coulom
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
   const PressureLevels levels = islands(grid, 2e7);
   SECTION("over a cycle") {
-    FrictionalCycleOptions options{.friction_coefficient = 0.5, .steps = 16, .direction = 0.7};
+    CycleOptions options{.friction_coefficient = 0.5, .steps = 16, .direction = 0.7};
     options.stick.boundary = boundary;
-    const FrictionalCycleResult cycle = simulate_frictional_cycle(
+    const CycleResult cycle = simulate_frictional_cycle(
         levels, grid, material, trajectory_of(EqualFrequency{0.5, 1e-6, 1.1}, 0.5), options);
     REQUIRE(cycle.converged);
     CHECK(cycle.steady);
@@ -218,7 +216,7 @@ TEST_CASE("A sphere pressed obliquely slips nowhere below the angle of friction"
     double reached = 0, force = 0;
     for (int k = 1; k <= increments; ++k) {
       const double next = indentation * std::pow(static_cast<double>(k) / increments, 2);
-      const PressureLevel level = levels(next);
+      const PressureAt level = levels(next);
       REQUIRE(contact.advance(level.pressure, {slope * (next - reached), 0}).converged);
       reached = next;
       force = level.force;
@@ -239,16 +237,15 @@ TEST_CASE("A drag with friction ends in sliding, period after period", "[frictio
   const Field pressure = islands(grid, 2e7)(0.5).pressure;
   const double friction = 0.3, advance = 7e-7;
   const PressureLevels levels = [&](double) {
-    return PressureLevel{.pressure = pressure, .force = pressure.sum() * grid.cell_area()};
+    return PressureAt{.pressure = pressure, .force = pressure.sum() * grid.cell_area()};
   };
   const Trajectory motion{[](double) { return 0.5; },
                           [&](double t) { return advance * (t - 0.3); }};
   double before = 0;  // W of the period before
-  FrictionalCycleOptions options{
+  CycleOptions options{
       .friction_coefficient = friction, .steps = 4, .max_periods = 60, .direction = 0.7};
-  options.on_state = [&](const FrictionalCycleState& state) { before = state.last_work; };
-  const FrictionalCycleResult cycle =
-      simulate_frictional_cycle(levels, grid, material, motion, options);
+  options.on_state = [&](const CycleState& state) { before = state.last_work; };
+  const CycleResult cycle = simulate_frictional_cycle(levels, grid, material, motion, options);
   REQUIRE(cycle.converged);
   CHECK(cycle.steady);
   CHECK(std::abs(cycle.work_per_cycle - before) <= 1e-5 * cycle.work_per_cycle);
@@ -272,8 +269,8 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 1.1}, 0.5);
   const PressureLevels levels = islands(grid, 2e7);
-  const FrictionalCycleResult smooth = simulate_frictional_cycle(
-      levels, grid, material, motion, {.friction_coefficient = 0, .steps = 8});
+  const CycleResult smooth = simulate_frictional_cycle(levels, grid, material, motion,
+                                                       {.friction_coefficient = 0, .steps = 8});
   CHECK(smooth.converged);
   CHECK(smooth.work_per_cycle == 0);
   CHECK(smooth.contact_area_max > 0);
@@ -283,15 +280,16 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
       simulate_frictional_cycle(levels, grid, material, motion, {.friction_coefficient = -1}),
       Catch::StartsWith("friction_coefficient: -1"));
   // 8 bytes for each of 2048² cells and half of 10⁵ steps are 1.7 TB, which are asked for before the first contact.
-  const PressureLevels unasked = [](double) -> PressureLevel { throw std::logic_error("asked"); };
-  CHECK_THROWS_WITH(simulate_frictional_cycle(unasked, Grid2D{2048, 2048, 1e-3, 1e-3}, material, motion,
-                                              {.friction_coefficient = 0.5, .steps = 100000}),
-                    Catch::StartsWith("points: 2048 x 2048 need 1.68 TB of memory for the pressures"));
-  FrictionalCycleOptions hasty{.friction_coefficient = 0.5, .steps = 8};
+  const PressureLevels unasked = [](double) -> PressureAt { throw std::logic_error("asked"); };
+  CHECK_THROWS_WITH(
+      simulate_frictional_cycle(unasked, Grid2D{2048, 2048, 1e-3, 1e-3}, material, motion,
+                                {.friction_coefficient = 0.5, .steps = 100000}),
+      Catch::StartsWith("points: 2048 x 2048 need 1.68 TB of memory for the pressures"));
+  CycleOptions hasty{.friction_coefficient = 0.5, .steps = 8};
   hasty.stick.max_iterations = 2;
   CHECK_FALSE(simulate_frictional_cycle(levels, grid, material, motion, hasty).converged);
   const PressureLevels doubtful = [&](double indentation) {
-    PressureLevel level = levels(indentation);
+    PressureAt level = levels(indentation);
     level.converged = indentation < 0.9;
     return level;
   };
@@ -302,11 +300,12 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
                                   {.friction_coefficient = 0.5, .steps = 8, .max_periods = 1})
             .periods == 1);
   // Where the lateral displacement is free there are no tractions along it.
-  FrictionalCycleOptions lateral{.friction_coefficient = 0.5, .steps = 8, .max_periods = 1};
+  CycleOptions lateral{.friction_coefficient = 0.5, .steps = 8, .max_periods = 1};
   lateral.stick.hold_lateral = false;
-  lateral.on_state = [](const FrictionalCycleState& state) {
-    CHECK((state.contact.traction.y == 0).all());
-    if (state.step > 0) CHECK((state.contact.traction.x != 0).any());
+  lateral.on_state = [](const CycleState& state) {
+    const TangentialField& traction = std::get<SlidingState>(state.body).traction;
+    CHECK((traction.y == 0).all());
+    if (state.step > 0) CHECK((traction.x != 0).any());
   };
   CHECK(simulate_frictional_cycle(levels, grid, material, motion, lateral).converged);
   // The contact, which is hard to solve, opens but for one cell that enters, which is easy: its way in is not known.
@@ -320,10 +319,9 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
   REQUIRE(wide.minCoeff(&open_x, &open_y) == 0);
   lone(open_x, open_y) = 1e6;
   CHECK_FALSE(opening.advance(lone, {1e-6, 0}).converged);
-  FrictionalCycleOptions stopped{.friction_coefficient = 0.5, .steps = 8};
+  CycleOptions stopped{.friction_coefficient = 0.5, .steps = 8};
   stopped.on_progress = [](const ProgressReport& report) { return report.step < 3; };
-  const FrictionalCycleResult partial =
-      simulate_frictional_cycle(levels, grid, material, motion, stopped);
+  const CycleResult partial = simulate_frictional_cycle(levels, grid, material, motion, stopped);
   CHECK(partial.interrupted);
   CHECK_FALSE(partial.converged);
 }
@@ -336,17 +334,17 @@ TEST_CASE("A coupled cycle at Poisson's ratio 1/2 slips as the other one", "[fri
       trajectory_of(EqualFrequency{amplitude, amplitude, pi / 4}, indentation);
   const Material material = Material::of_contact_modulus(contact_modulus, 0.5);
   const NormalContactOptions contact{.boundary = Boundary::free};
-  FrictionalCycleOptions options = free_boundary(0.2, 8);
+  CycleOptions options = free_boundary(0.2, 8);
   options.max_periods = 3;
   options.direction = 0.7;
-  const FrictionalCycleResult alone =
+  const CycleResult alone =
       simulate_frictional_cycle(boundary_element_pressures(surface, contact_modulus, contact), grid,
                                 material, motion, options);
   const auto coupled = [&](std::optional<double> coupling) {
-    options.coupling = coupling;
+    options.coupling_constant = coupling;
     return simulate_coupled_cycle(surface, material, motion, options, contact);
   };
-  const FrictionalCycleResult same = coupled({});
+  const CycleResult same = coupled({});
   REQUIRE(same.converged);
   CHECK(alone.slip_work > 0.1 * alone.dissipated);
   CHECK(alone.relaxation_work > 0.1 * alone.dissipated);
@@ -365,11 +363,11 @@ TEST_CASE("Coupling changes nothing at Poisson's ratio 1/2, and a few per cent a
   const Trajectory motion =
       trajectory_of(EqualFrequency{amplitude, amplitude, pi / 2}, indentation);
   struct Cycles {
-    FrictionalCycleResult alone, coupled;
+    CycleResult alone, coupled;
   };
   const auto cycles = [&](double poisson) {
     const Material material = Material::of_contact_modulus(contact_modulus, poisson);
-    const FrictionalCycleOptions options = free_boundary(infinite, 16);
+    const CycleOptions options = free_boundary(infinite, 16);
     const NormalContactOptions contact{.boundary = Boundary::free};
     Cycles result{
         simulate_frictional_cycle(boundary_element_pressures(surface, contact_modulus, contact),

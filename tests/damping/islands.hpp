@@ -4,14 +4,13 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/damping/cycle.hpp>
-#include <salebra/damping/frictional_cycle.hpp>
 
 /// Contact of several islands that grow and merge as the indentation rises from 0 to 1, which is its force too.
 inline salebra::ContactLevels island_levels(const salebra::Grid2D& grid) {
   using namespace salebra;
   using std::numbers::pi;
   return [grid](double indentation) {
-    ContactLevel level{.contact = ContactSet(grid.nx, grid.ny), .force = indentation};
+    ContactSetAt level{.contact = ContactSet(grid.nx, grid.ny), .force = indentation};
     for (Index ix = 0; ix < grid.nx; ++ix)
       for (Index iy = 0; iy < grid.ny; ++iy) {
         const double x = 2 * pi * static_cast<double>(ix) / static_cast<double>(grid.nx);
@@ -27,7 +26,7 @@ inline salebra::ContactLevels island_levels(const salebra::Grid2D& grid) {
 inline salebra::PressureLevels island_pressures(const salebra::Grid2D& grid) {
   using namespace salebra;
   return [grid, levels = island_levels(grid)](double indentation) {
-    PressureLevel level{.pressure = Field::Zero(grid.nx, grid.ny), .force = indentation};
+    PressureAt level{.pressure = Field::Zero(grid.nx, grid.ny), .force = indentation};
     const ContactSet contact = levels(indentation).contact;
     for (Index ix = 0; ix < grid.nx; ++ix)
       for (Index iy = 0; iy < grid.ny; ++iy)

@@ -182,7 +182,7 @@ TEST_CASE("Levels and steps agree on a contact of several pieces", "[levels]") {
   const Grid2D cells{36, 30, 1.2e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const ContactLevels caps = [&](double indentation) {
-    ContactLevel level{.contact = ContactSet::Constant(cells.nx, cells.ny, false)};
+    ContactSetAt level{.contact = ContactSet::Constant(cells.nx, cells.ny, false)};
     for (Index ix = 0; ix < cells.nx; ++ix)
       for (Index iy = 0; iy < cells.ny; ++iy) {
         const double x = 2 * pi * (static_cast<double>(ix) + 0.31) / 36;
@@ -214,7 +214,7 @@ TEST_CASE("A level that fails makes the quadrature fail, and bad input is named"
       level_quadrature(paraboloid(), grid, material, motion, mean_indentation, options).converged);
   options.stick.max_iterations = free_boundary().stick.max_iterations;
   const ContactLevels doubtful = [&](double indentation) {
-    ContactLevel level = paraboloid()(indentation);
+    ContactSetAt level = paraboloid()(indentation);
     level.converged = indentation < mean_indentation;
     return level;
   };
@@ -295,7 +295,7 @@ TEST_CASE("Both routes meet on the paper's shapes, and the exact law on the para
     CHECK(by_steps.work_per_cycle == Approx(by_levels.work_per_cycle).epsilon(0.015));
     CHECK(std::abs(by_steps.work_per_cycle - by_levels.work_per_cycle) <=
           by_steps.step_error + by_levels.error_estimate);
-    CHECK(by_steps.released_energy == Approx(by_steps.work_per_cycle).epsilon(1e-6));
+    CHECK(by_steps.dissipated == Approx(by_steps.work_per_cycle).epsilon(1e-6));
     if (surface.origin.find("paraboloid") != std::string::npos) {
       const PowerLaw law(4.0 / 3 * 2, 1.5, material.modulus_ratio());
       CHECK(by_steps.work_per_cycle ==
@@ -336,7 +336,7 @@ TEST_CASE("On rough surfaces levels and steps agree within a per cent", "[levels
     CHECK(by_steps.step_error < 0.03 * by_steps.work_per_cycle);
     CHECK(std::abs(by_steps.work_per_cycle - by_levels.work_per_cycle) <=
           by_steps.step_error + by_levels.error_estimate);
-    CHECK(by_steps.released_energy == Approx(by_steps.work_per_cycle).epsilon(1e-6));
+    CHECK(by_steps.dissipated == Approx(by_steps.work_per_cycle).epsilon(1e-6));
   }
 }
 

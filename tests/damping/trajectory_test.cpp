@@ -176,7 +176,8 @@ TEST_CASE("Frequencies without a common period have the mean power of their neig
             .epsilon(1e-6));
 }
 
-TEST_CASE("Finite friction: W(μ)/W(∞) tends to 1 as docs/theory.md, section 8 says", "[trajectory]") {
+TEST_CASE("Finite friction: W(μ)/W(∞) tends to 1 as docs/theory.md, section 8 says",
+          "[trajectory]") {
   // A cone, small u_z: M = μE*u_z/(G*u_x) is the only parameter.
   const PowerLaw law(1e9, 2, ratio);
   const double indentation = 1e-6, amplitude = 1e-8;

@@ -7,6 +7,7 @@
 #include <salebra/base/version.hpp>
 #include <salebra/io/cycle_checkpoint.hpp>
 #include <salebra/io/cycle_fields.hpp>
+#include <salebra/io/cycle_recorder.hpp>
 #include <salebra/io/result_file.hpp>
 #include <sstream>
 
@@ -23,46 +24,101 @@ const Grid2D grid{12, 9, 1.2e-3, 0.7e-3};
 std::vector<CycleState> states_of_a_cycle() {
   std::vector<CycleState> states;
   CycleOptions options{.steps = 8, .direction = 0.6};
-  options.on_state = [&](const CycleState& state) { states.push_back(state); };
+  options.on_state = [&](CycleState state) { states.push_back(std::move(state)); };
   simulate_cycle(island_levels(grid), grid, Material::of_contact_modulus(1e9, 0.3),
                  trajectory_of(EqualFrequency{0.4, 1e-6, 0.9}, 0.5), options);
   return states;
 }
 
-std::vector<FrictionalCycleState> states_with_friction() {
-  std::vector<FrictionalCycleState> states;
-  FrictionalCycleOptions options{
-      .friction_coefficient = 0.3, .steps = 8, .max_periods = 2, .direction = 0.6};
-  options.on_state = [&](const FrictionalCycleState& state) { states.push_back(state); };
+std::vector<CycleState> states_with_friction() {
+  std::vector<CycleState> states;
+  CycleOptions options{.friction_coefficient = 0.3, .steps = 8, .max_periods = 2, .direction = 0.6};
+  options.on_state = [&](CycleState state) { states.push_back(std::move(state)); };
   simulate_frictional_cycle(island_pressures(grid), grid, Material::of_contact_modulus(1e9, 0.3),
                             trajectory_of(EqualFrequency{0.4, 1e-6, 0.9}, 0.5), options);
   return states;
 }
 
-bool same_bits(const TangentialField& a, const TangentialField& b) {
-  return (a.x == b.x).all() && (a.y == b.y).all();
+// A state of a coupled cycle with a value of its own in every place.
+CycleState coupled_state() {
+  CycleState state = states_with_friction()[12];
+  CoupledState body{.sliding = std::get<SlidingState>(state.body),
+                    .gap = Field::Random(grid.nx, grid.ny),
+                    .indentation = 1.5e-6,
+                    .normal_work = 2.5e-9,
+                    .gap_work = -3.5e-12,
+                    .converged = false};
+  state.normal_work_at_period_start = 4.5e-9;
+  state.gap_work_at_period_start = 5.5e-12;
+  state.body = std::move(body);
+  return state;
 }
 
-// Every column of a period's samples.
-void check_same(const std::vector<CycleSample>& a, const std::vector<CycleSample>& b) {
-  REQUIRE(a.size() == b.size());
-  for (std::size_t k = 0; k < a.size(); ++k)
+void check_same(const Field& a, const Field& b) { CHECK((a == b).all()); }
+void check_same(const ContactSet& a, const ContactSet& b) { CHECK((a == b).all()); }
+void check_same(const TangentialField& a, const TangentialField& b) {
+  check_same(a.x, b.x);
+  check_same(a.y, b.y);
+}
+void check_same(const StuckState& a, const StuckState& b) {
+  check_same(a.contact, b.contact);
+  check_same(a.displacement, b.displacement);
+  check_same(a.traction, b.traction);
+  check_same(a.unit_traction, b.unit_traction);
+  CHECK(a.work == b.work);
+  CHECK(a.released == b.released);
+  CHECK(a.converged == b.converged);
+  CHECK(a.iterations == b.iterations);
+  CHECK(a.fft_count == b.fft_count);
+}
+void check_same(const SlidingState& a, const SlidingState& b) {
+  check_same(a.pressure, b.pressure);
+  check_same(a.shift, b.shift);
+  check_same(a.traction, b.traction);
+  check_same(a.displacement, b.displacement);
+  check_same(a.loss, b.loss);
+  check_same(a.prepared, b.prepared);
+  CHECK(a.motion_scale == b.motion_scale);
+  CHECK(a.slipping == b.slipping);
+  CHECK(a.work == b.work);
+  CHECK(a.released == b.released);
+  CHECK(a.converged == b.converged);
+  CHECK(a.iterations == b.iterations);
+  CHECK(a.fft_count == b.fft_count);
+}
+void check_same(const CoupledState& a, const CoupledState& b) {
+  check_same(a.sliding, b.sliding);
+  check_same(a.gap, b.gap);
+  CHECK(a.indentation == b.indentation);
+  CHECK(a.normal_work == b.normal_work);
+  CHECK(a.gap_work == b.gap_work);
+  CHECK(a.converged == b.converged);
+}
+
+// Every member of a state, with every column of its samples.
+template <class Body>
+void check_same(const CycleState& a, const CycleState& b) {
+  CHECK(a.period == b.period);
+  CHECK(a.step == b.step);
+  check_same(a.smallest, b.smallest);
+  check_same(a.largest, b.largest);
+  CHECK(a.tangential == b.tangential);
+  CHECK(a.energy_at_period_start == b.energy_at_period_start);
+  CHECK(a.work_at_period_start == b.work_at_period_start);
+  CHECK(a.normal_work_at_period_start == b.normal_work_at_period_start);
+  CHECK(a.gap_work_at_period_start == b.gap_work_at_period_start);
+  check_same(a.loss_at_period_start, b.loss_at_period_start);
+  CHECK(a.last_work == b.last_work);
+  REQUIRE(a.samples.size() == b.samples.size());
+  for (std::size_t k = 0; k < a.samples.size(); ++k)
     for (double CycleSample::*value :
          {&CycleSample::t, &CycleSample::indentation, &CycleSample::tangential,
           &CycleSample::tangential_force, &CycleSample::normal_force, &CycleSample::work,
-          &CycleSample::released_energy, &CycleSample::contact_area,
-          &CycleSample::tangential_stiffness})
-      CHECK(a[k].*value == b[k].*value);
-}
-void check_same(const std::vector<FrictionalSample>& a, const std::vector<FrictionalSample>& b) {
-  REQUIRE(a.size() == b.size());
-  for (std::size_t k = 0; k < a.size(); ++k)
-    for (double FrictionalSample::*value :
-         {&FrictionalSample::t, &FrictionalSample::indentation, &FrictionalSample::tangential,
-          &FrictionalSample::tangential_force, &FrictionalSample::normal_force,
-          &FrictionalSample::work, &FrictionalSample::dissipated, &FrictionalSample::contact_area,
-          &FrictionalSample::slip_area})
-      CHECK(a[k].*value == b[k].*value);
+          &CycleSample::dissipated, &CycleSample::contact_area, &CycleSample::slip_area})
+      CHECK(a.samples[k].*value == b.samples[k].*value);
+  REQUIRE(std::holds_alternative<Body>(a.body));
+  REQUIRE(std::holds_alternative<Body>(b.body));
+  check_same(std::get<Body>(a.body), std::get<Body>(b.body));
 }
 
 std::string text_of(const std::filesystem::path& file) {
@@ -73,58 +129,51 @@ std::string text_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("A checkpoint gives a cycle's state back to the last bit", "[io]") {
+TEST_CASE("A checkpoint gives the states of its cycles back to the last bit", "[io]") {
   const Scratch scratch;
-  const CycleState state = states_of_a_cycle()[5];
-  const CycleSettings settings{{"steps", "8"}, {"surface", fingerprint(state.traction.x)}};
-  Field last_changed = state.traction.x;
+  const auto file = scratch / "cycle.h5";
+  const CycleState stuck = states_of_a_cycle()[5];
+  const CycleState slipping = states_with_friction()[12];  // in the second period
+  const CycleState coupled = coupled_state();
+  REQUIRE(std::get<SlidingState>(slipping.body).loss.sum() > 0);
+  REQUIRE(std::get<SlidingState>(slipping.body).slipping > 0);
+  const Field& traction = std::get<StuckState>(stuck.body).traction.x;
+  const CycleSettings settings{{"steps", "8"}, {"surface", fingerprint(traction)}};
+  Field last_changed = traction;
   last_changed(grid.nx - 1, grid.ny - 1) += 1e-9;
   CHECK(fingerprint(last_changed) != settings.back().second);
-  const auto file = scratch / "cycle.h5";
-  write_cycle_checkpoint(file, states_of_a_cycle()[2], settings, {});
-  write_cycle_checkpoint(file, state, settings, {});  // replaces the last one
-  const CycleState read = read_cycle_checkpoint(file, settings);
-  CHECK(read.step == 5);
-  CHECK(read.period == state.period);
-  CHECK(read.iterations == state.iterations);
-  CHECK(read.fft_count == state.fft_count);
-  CHECK(read.converged == state.converged);
-  CHECK(read.tangential == state.tangential);
-  CHECK(read.period_start == state.period_start);
-  CHECK(read.work == state.work);
-  CHECK(read.released_energy == state.released_energy);
-  CHECK(read.energy_at_period_start == state.energy_at_period_start);
-  CHECK(read.last_work == state.last_work);
-  CHECK((read.contact == state.contact).all());
-  CHECK((read.smallest == state.smallest).all());
-  CHECK((read.largest == state.largest).all());
-  CHECK(same_bits(read.displacement, state.displacement));
-  CHECK(same_bits(read.traction, state.traction));
-  CHECK(same_bits(read.unit_traction, state.unit_traction));
-  REQUIRE(read.samples.size() == 6);
-  check_same(read.samples, state.samples);
+
+  write_cycle_checkpoint(file, std::vector{states_of_a_cycle()[2]}, settings, {});
+  write_cycle_checkpoint(file, std::vector{stuck}, settings, {});  // replaces the last one
+  const std::vector<CycleState> one = read_cycle_checkpoint(file, settings);
+  REQUIRE(one.size() == 1);
+  check_same<StuckState>(one[0], stuck);
+  CHECK(one[0].samples.back().tangential_stiffness == stuck.samples.back().tangential_stiffness);
+
+  write_cycle_checkpoint(file, std::vector{stuck, slipping, coupled}, settings, {});
+  const std::vector<CycleState> all = read_cycle_checkpoint(file, settings);
+  REQUIRE(all.size() == 3);
+  check_same<StuckState>(all[0], stuck);
+  CHECK(all[1].step == 3);
+  CHECK(all[1].period == 1);
+  check_same<SlidingState>(all[1], slipping);
+  check_same<CoupledState>(all[2], coupled);
 }
 
-TEST_CASE("A cycle with friction has checkpoints of its own, of its own settings", "[io]") {
+TEST_CASE("Everything that decides a bit of a cycle is a setting of its checkpoint", "[io]") {
   const Scratch scratch;
   const auto file = scratch / "friction.h5";
-  const FrictionalCycleState state = states_with_friction()[12];
   const Grid2D grid{16, 12, 2, 1.5};
   const Material material = Material::of_contact_modulus(1e9, 0.3);
   const Drag drag{1e-6, 1e-3, 1e4};
-  FrictionalCycleOptions options{.friction_coefficient = 0.3, .steps = 10};
-  const CycleSettings settings = cycle_settings(grid, material, drag, 2e-6, options);
-  write_friction_checkpoint(file, state, settings, {});
-  const FrictionalCycleState read = read_friction_checkpoint(file, settings);
-  CHECK(read.step == state.step);
-  CHECK(read.last_work == state.last_work);
-  CHECK(same_bits(read.contact.traction, state.contact.traction));
-  CHECK((read.contact.loss == state.contact.loss).all());
-  CHECK(read.samples.size() == state.samples.size());
+  CycleOptions options{.friction_coefficient = 0.3, .steps = 10};
+  const auto settings_of = [&] { return cycle_settings(grid, material, drag, 2e-6, options); };
+  const CycleSettings settings = settings_of();
+  write_cycle_checkpoint(file, std::vector{states_with_friction()[12]}, settings, {});
+  CHECK(read_cycle_checkpoint(file, settings).size() == 1);
 
-  // Everything that decides a bit is a setting.
   const auto differs = [&](const CycleSettings& other, const std::string& name) {
-    CHECK_THROWS_WITH(read_friction_checkpoint(file, other), Contains("friction.h5: " + name));
+    CHECK_THROWS_WITH(read_cycle_checkpoint(file, other), Contains("friction.h5: " + name));
   };
   differs(cycle_settings({16, 12, 2, 1.6}, material, drag, 2e-6, options), "size_y");
   differs(cycle_settings(grid, Material::of_contact_modulus(1e9, 0.2), drag, 2e-6, options),
@@ -134,67 +183,29 @@ TEST_CASE("A cycle with friction has checkpoints of its own, of its own settings
           "tangential_amplitude");
   differs(cycle_settings(grid, material, drag, 3e-6, options), "indentation");
   options.stick.tolerance = 1e-9;
-  differs(cycle_settings(grid, material, drag, 2e-6, options), "tolerance");
+  differs(settings_of(), "tolerance");
   options = {.friction_coefficient = 0.4, .steps = 10};
-  differs(cycle_settings(grid, material, drag, 2e-6, options), "friction");
+  differs(settings_of(), "friction_coefficient");
   options = {.friction_coefficient = 0.3, .steps = 12};
-  differs(cycle_settings(grid, material, drag, 2e-6, options), "steps");
+  differs(settings_of(), "steps");
   options = {.friction_coefficient = 0.3, .steps = 10, .max_periods = 7};
-  differs(cycle_settings(grid, material, drag, 2e-6, options), "max_periods");
+  differs(settings_of(), "max_periods");
+  options = {.friction_coefficient = 0.3, .steps = 10, .steady_tolerance = 1e-4};
+  differs(settings_of(), "steady_tolerance");
+  options = {.friction_coefficient = 0.3, .steps = 10, .coupling_constant = 1e-10};
+  differs(settings_of(), "coupling_constant");
   options = {.friction_coefficient = 0.3, .steps = 10};
   const std::string here = arithmetic();
   setenv("SALEBRA_VECTOR_WIDTH", "baseline", 1);  // as another processor would go on
-  if (arithmetic() != here)
-    differs(cycle_settings(grid, material, drag, 2e-6, options), "arithmetic");
+  if (arithmetic() != here) differs(settings_of(), "arithmetic");
   unsetenv("SALEBRA_VECTOR_WIDTH");
-  write_cycle_checkpoint(scratch / "stuck.h5", states_of_a_cycle()[2], {}, {});
-  CHECK_THROWS_WITH(read_friction_checkpoint(scratch / "stuck.h5", {}),
-                    Contains("no checkpoint of a cycle with friction"));
-}
-
-TEST_CASE("A checkpoint keeps the cycle with friction beside the one without", "[io]") {
-  const Scratch scratch;
-  const auto file = scratch / "cycle.h5";
-  const CycleState stuck = states_of_a_cycle()[8];
-  write_cycle_checkpoint(file, stuck, {}, {});
-  CHECK_FALSE(read_friction_checkpoint(file).has_value());
-  const FrictionalCycleState state = states_with_friction()[12];  // in the second period
-  REQUIRE(state.contact.loss.sum() > 0);
-  REQUIRE(state.contact.slipping > 0);
-  write_cycle_checkpoint(file, stuck, {}, {}, &state);
-  CHECK(read_cycle_checkpoint(file, {}).work == stuck.work);
-  const std::optional<FrictionalCycleState> read = read_friction_checkpoint(file);
-  REQUIRE(read.has_value());
-  CHECK(read->step == 3);
-  CHECK(read->period == 1);
-  CHECK(read->tangential == state.tangential);
-  CHECK(read->energy_at_period_start == state.energy_at_period_start);
-  CHECK(read->work_at_period_start == state.work_at_period_start);
-  CHECK(read->normal_work_at_period_start == state.normal_work_at_period_start);
-  CHECK(read->last_work == state.last_work);
-  CHECK((read->smallest == state.smallest).all());
-  CHECK((read->largest == state.largest).all());
-  CHECK((read->loss_at_period_start == state.loss_at_period_start).all());
-  const SlidingState &then = state.contact, &now = read->contact;
-  CHECK((now.pressure == then.pressure).all());
-  CHECK((now.loss == then.loss).all());
-  CHECK(same_bits(now.shift, then.shift));
-  CHECK(same_bits(now.traction, then.traction));
-  CHECK(same_bits(now.displacement, then.displacement));
-  CHECK(now.slipping == then.slipping);
-  CHECK(now.work == then.work);
-  CHECK(now.released == then.released);
-  CHECK(now.converged == then.converged);
-  CHECK(now.iterations == then.iterations);
-  CHECK(now.fft_count == then.fft_count);
-  REQUIRE(read->samples.size() == 4);
-  check_same(read->samples, state.samples);
 }
 
 TEST_CASE("A checkpoint of other settings, or what is none, is refused in one line", "[io]") {
   const Scratch scratch;
   const auto file = scratch / "cycle.h5";
-  write_cycle_checkpoint(file, states_of_a_cycle()[2], {{"steps", "64"}, {"nx", "12"}}, {});
+  write_cycle_checkpoint(file, std::vector{states_of_a_cycle()[2]}, {{"steps", "64"}, {"nx", "12"}},
+                         {});
   CHECK_THROWS_WITH(read_cycle_checkpoint(file, {{"nx", "12"}, {"steps", "32"}}),
                     Catch::Contains("steps was 64") && Catch::Contains("is 32 now"));
   CHECK_THROWS_WITH(read_cycle_checkpoint(file, {{"phase", "1"}}),
@@ -248,23 +259,25 @@ TEST_CASE("The XDMF list names datasets that are there, with their sizes, and ev
   const std::vector<double> points = mesh.numbers("mesh/points");
   const ResultReader frame(scratch / "a&b-0004.h5");
   const Field traction = frame.field("fields/traction_x");
+  const StuckState& fourth = std::get<StuckState>(states[4].body);
   for (Index ix = 0; ix < grid.nx; ++ix)
     for (Index iy = 0; iy < grid.ny; ++iy) {
       const auto at = static_cast<std::size_t>(3 * (ix * grid.ny + iy));
       CHECK(points[at] == static_cast<double>(ix) * grid.dx());
       CHECK(points[at + 1] == static_cast<double>(iy) * grid.dy());
-      CHECK(traction(ix, iy) == states[4].traction.x(ix, iy));
+      CHECK(traction(ix, iy) == fourth.traction.x(ix, iy));
     }
-  CHECK((frame.field("fields/traction_y") == states[4].traction.y).all());
-  CHECK((frame.field("fields/displacement_x") == states[4].displacement.x).all());
-  CHECK((frame.field("fields/displacement_y") == states[4].displacement.y).all());
+  check_same(frame.field("fields/traction_y"), fourth.traction.y);
+  check_same(frame.field("fields/displacement_x"), fourth.displacement.x);
+  check_same(frame.field("fields/displacement_y"), fourth.displacement.y);
   // Without pressures to tell, the gap is that of undeformed bodies that just touch.
   CHECK(frame.field("fields/gap").minCoeff() == 0);
   const ResultReader last(scratch / "a&b-0006.h5");
   CHECK((last.field("fields/pressure") == normal.pressure).all());
   CHECK((last.field("fields/gap") == normal.gap).all());
-  CHECK((last.field("fields/contact") == states[6].contact.cast<double>()).all());
-  REQUIRE((states[6].contact != states[6].largest).any());
+  const ContactSet& contact = std::get<StuckState>(states[6].body).contact;
+  check_same(last.field("fields/contact"), contact.cast<double>());
+  REQUIRE((contact != states[6].largest).any());
 }
 
 TEST_CASE("Fields of an interrupted cycle stay in the list of the resumed one", "[io]") {
@@ -291,25 +304,79 @@ TEST_CASE("Fields of an interrupted cycle stay in the list of the resumed one", 
 
 TEST_CASE("Fields of a cycle with friction say where it was lost", "[io]") {
   const Scratch scratch;
-  const std::vector<FrictionalCycleState> states = states_with_friction();
+  const std::vector<CycleState> states = states_with_friction();
   Surface surface;
   surface.grid = grid;
   surface.heights = Field::Random(grid.nx, grid.ny);
-  const FrictionalCycleState& state = states[12];
+  const CycleState& state = states[12];
   CycleFields(scratch / "f-friction", surface, {}).write(state, 0.375, {});
   const ResultReader frame(scratch / "f-friction-0003.h5");
   const Field loss = frame.field("fields/loss");
-  const Field lost = state.contact.loss - state.loss_at_period_start;
+  const SlidingState& body = std::get<SlidingState>(state.body);
+  const Field lost = body.loss - state.loss_at_period_start;
   CHECK(loss.sum() * grid.cell_area() == Approx(lost.sum()));
-  CHECK((frame.field("fields/pressure") == state.contact.pressure).all());
-  CHECK((frame.field("fields/traction_y") == state.contact.traction.y).all());
-  CHECK((frame.field("fields/displacement_x") == state.contact.displacement.x).all());
-  CHECK((frame.field("fields/contact") == (state.contact.pressure > 0).cast<double>()).all());
+  check_same(frame.field("fields/pressure"), body.pressure);
+  check_same(frame.field("fields/traction_y"), body.traction.y);
+  check_same(frame.field("fields/displacement_x"), body.displacement.x);
+  CHECK((frame.field("fields/contact") == (body.pressure > 0).cast<double>()).all());
   CHECK(text_of(scratch / "f-friction.xdmf").find("f-friction-0003.h5:/fields/loss") !=
         std::string::npos);
+  // Of a coupled one the gap is that of the state.
+  const CycleState coupled = coupled_state();
+  CycleFields(scratch / "f-coupled", surface, {}).write(coupled, 0.375, {});
+  const ResultReader with_gap(scratch / "f-coupled-0003.h5");
+  check_same(with_gap.field("fields/gap"), std::get<CoupledState>(coupled.body).gap);
+  check_same(with_gap.field("fields/loss"), loss);
   // A resumed run lists what is there, whatever its fields.
   CycleFields resumed(scratch / "f-friction", surface, {}, {.overwrite = true});
   resumed.keep(3, 0.375);
   CHECK(text_of(scratch / "f-friction.xdmf").find("f-friction-0003.h5:/fields/loss") !=
         std::string::npos);
+}
+
+TEST_CASE("A recorded cycle that fails or is stopped resumes from its last step", "[io]") {
+  const Scratch scratch;
+  const CycleRecordOptions record{
+      .checkpoint = scratch / "cycle.h5", .checkpoint_every = 1e9, .resume = true};
+  const Material material = Material::of_contact_modulus(1e9, 0.3);
+  const Trajectory motion = trajectory_of(EqualFrequency{0.4, 1e-6, 0.9}, 0.5);
+  // Both cycles, the second one stopped by its progress or by its contact, or not at all.
+  struct Runs {
+    CycleResult stuck, frictional;
+    int first_step = 0;  // of the second
+  };
+  const auto run = [&](int stop_at, bool fail) {
+    CycleRecorder recorder(record, {{"steps", "8"}}, {});
+    Runs runs;
+    runs.stuck = recorder.run({.steps = 8}, [&](const CycleOptions& options) {
+      return simulate_cycle(island_levels(grid), grid, material, motion, options);
+    });
+    runs.first_step = -1;
+    CycleOptions options{.friction_coefficient = 0.3, .steps = 8, .max_periods = 2};
+    options.on_progress = [&](const ProgressReport& report) {
+      if (runs.first_step < 0) runs.first_step = report.step;
+      if (fail && report.step == stop_at) throw InvalidInput("broken");
+      return report.step != stop_at;
+    };
+    runs.frictional = recorder.run(options, [&](const CycleOptions& with_states) {
+      return simulate_frictional_cycle(island_pressures(grid), grid, material, motion, with_states);
+    });
+    if (!runs.frictional.interrupted) recorder.done();
+    return runs;
+  };
+  const Runs whole = run(-1, false);
+  CHECK_FALSE(std::filesystem::exists(record.checkpoint));
+  CHECK(run(3, false).frictional.interrupted);
+  REQUIRE(std::filesystem::exists(record.checkpoint));
+  CHECK_THROWS_WITH(CycleRecorder({.checkpoint = record.checkpoint}, {}, {}),
+                    Contains("cycle.h5: exists; resume from it"));
+  CHECK_THROWS_WITH(run(5, true), Contains("broken"));
+  const Runs resumed = run(-1, false);
+  CHECK(resumed.first_step == 5);
+  CHECK(resumed.stuck.work_per_cycle == whole.stuck.work_per_cycle);
+  CHECK(resumed.stuck.fft_count == whole.stuck.fft_count);
+  CHECK(resumed.frictional.work_per_cycle == whole.frictional.work_per_cycle);
+  CHECK(resumed.frictional.fft_count == whole.frictional.fft_count);
+  check_same(resumed.frictional.loss, whole.frictional.loss);
+  CHECK_FALSE(std::filesystem::exists(record.checkpoint));
 }

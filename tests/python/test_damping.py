@@ -84,8 +84,8 @@ def test_direct_simulation_of_a_paraboloid_meets_equation_12() -> None:
     exact = salebra.relaxation_damping(law, motion, indentation=2e-5).work_per_cycle
     # 14 cells in the contact's radius, 24 steps (-0.3 %): a few per cent.
     assert result.work_per_cycle == pytest.approx(exact, rel=0.06)
-    # Work and released energy are independent sums.
-    assert result.released_energy == pytest.approx(result.work_per_cycle, rel=1e-4)
+    # Work and dissipation are independent sums.
+    assert result.dissipated == pytest.approx(result.work_per_cycle, rel=1e-4)
     assert result.tangential_force.shape == (25,) or result.tangential_force.shape == (24,)
 
 
@@ -142,7 +142,7 @@ def test_a_simulation_goes_on_from_its_checkpoint_to_the_same_bits(tmp_path: Pat
     with pytest.raises(LookupError, match="the ninth"):
         simulate()
     assert file.exists()
-    with pytest.raises(salebra.InvalidInput, match="cycle.h5: exists; give resume=True"):
+    with pytest.raises(salebra.InvalidInput, match="cycle.h5: exists; resume from it"):
         simulate(resume=False)
     with pytest.raises(salebra.InvalidInput, match="cycle.h5: steps was 16 in the checkpoint and is 24 now"):
         simulate(steps=24)
@@ -169,7 +169,7 @@ def test_a_simulation_with_friction_goes_on_from_its_checkpoint(tmp_path: Path) 
     motion = salebra.EqualFrequency(normal_amplitude=4e-6, tangential_amplitude=4e-6, phase=1.0)
     file = tmp_path / "cycle.h5"
 
-    def simulate(progress: Callable[[salebra.ProgressReport], object] | bool = False) -> salebra.FrictionalCycleResult:
+    def simulate(progress: Callable[[salebra.ProgressReport], object] | bool = False) -> salebra.CycleResult:
         return salebra.simulate_frictional_cycle(
             surface, material, motion, 2e-5, friction_coefficient=0.3, steps=32, boundary="free", tolerance=1e-7, checkpoint=file,
             resume=True, progress=progress,

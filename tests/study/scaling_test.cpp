@@ -114,11 +114,11 @@ TEST_CASE("The memory of a simulated cycle grows by half a byte a cell and step"
   constexpr Index n = 256;
   const Grid2D grid{n, n, 1e-6, 1e-6};
   const ContactLevels levels = [&](double indentation) {
-    ContactLevel level{ContactSet(n, n), indentation, true};
+    ContactSetAt level{ContactSet(n, n), indentation, true};
     for (Index ix = 0; ix < n; ++ix)
       for (Index iy = 0; iy < n; ++iy)
-        level.contact(ix, iy) = std::hypot(double(ix) - n / 2., double(iy) - n / 2.) <
-                                n / 4. * indentation / 1e-8;
+        level.contact(ix, iy) =
+            std::hypot(double(ix) - n / 2., double(iy) - n / 2.) < n / 4. * indentation / 1e-8;
     return level;
   };
   const auto simulated = [&](int steps) {

@@ -2,27 +2,42 @@
 #pragma once
 
 #include <functional>
-#include <salebra/contact/normal/normal.hpp>
+#include <limits>
+#include <optional>
+#include <salebra/contact/tangential/coupled_contact.hpp>
+#include <salebra/contact/tangential/sliding_contact.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 #include <salebra/damping/oscillation.hpp>
+#include <variant>
 #include <vector>
 
+/// Direct three-dimensional simulation of a contact that moves along a trajectory, period after period. One engine drives three
+/// contacts: a stuck one, one with Coulomb friction, and one whose pressures and tractions are coupled (Dundurs' β).
 namespace salebra {
 
-/// The frictionless normal contact at one indentation.
-struct ContactLevel {
+/// The cells of the frictionless normal contact at one indentation.
+struct ContactSetAt {
   ContactSet contact;
   double force = 0;  ///< F, N
   bool converged = true;
 };
+/// The pressures of the same.
+struct PressureAt {
+  Field pressure;    ///< (nx, ny), Pa
+  double force = 0;  ///< F, N
+  bool converged = true;
+};
 
-/// The normal contact as a function of the indentation δ, m. Deterministic: it is asked once for each δ.
-using ContactLevels = std::function<ContactLevel(double indentation)>;
+/// The normal contact as a function of the indentation δ, m. Deterministic: called once for each δ.
+using ContactLevels = std::function<ContactSetAt(double indentation)>;
+using PressureLevels = std::function<PressureAt(double indentation)>;
 
-/// The levels of a surface by boundary elements; the boundary of `options` must be that of the stick solves.
+/// The normal contact of a surface by boundary elements; the boundary of `options` must be that of the tangential solves.
 /// No contact for δ <= 0. The function keeps a copy of the surface.
 ContactLevels boundary_element_levels(Surface surface, double contact_modulus,
                                       const NormalContactOptions& options = {});
+PressureLevels boundary_element_pressures(Surface surface, double contact_modulus,
+                                          const NormalContactOptions& options = {});
 
 /// A closed motion, or one that is closed up to a constant tangential advance, over t = 0 … 1.
 struct Trajectory {
@@ -30,96 +45,143 @@ struct Trajectory {
   std::function<double(double t)> tangential;   ///< x, m
 };
 
-/// One period of an oscillation about a mean indentation, from one least indentation to the next.
+/// One period of an oscillation about a mean indentation, from one minimum of the indentation to the next.
 Trajectory trajectory_of(const Oscillation& motion, double mean_indentation);
 
-/// The state between two moves.
+/// The state between two moves; work and losses count from the start of the period.
 struct CycleSample {
   double t = 0;
-  double indentation = 0;           ///< δ, m
-  double tangential = 0;            ///< x since the start, m
-  double tangential_force = 0;      ///< F_x, N
-  double normal_force = 0;          ///< F, N
-  double work = 0;                  ///< ∫F_x dx since the start of the period, J
-  double released_energy = 0;       ///< since the start of the period, J
-  double contact_area = 0;          ///< m²
-  double tangential_stiffness = 0;  ///< K_t of the contact set in full stick, along the motion, N/m
+  double indentation = 0;       ///< δ, m
+  double tangential = 0;        ///< x since the start of the period, m
+  double tangential_force = 0;  ///< F_x, N
+  double normal_force = 0;      ///< F, N
+  double work = 0;              ///< ∫F_x dx, J
+  double dissipated = 0;  ///< released by cells that leave the contact; with friction ∫τ·ds, J
+  double contact_area = 0;  ///< m²
+  double slip_area = 0;     ///< of cells at their limit, m²
+  /// K_t of the contact set in full stick, along the motion, N/m; NaN with friction.
+  double tangential_stiffness = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// All that a simulated cycle remembers at one of its steps: from it the simulation goes on to the same bits.
-struct CycleState {
-  int period = 0;                     ///< periods finished
-  int step = 0;                       ///< 0 … steps, of the last sample
-  ContactSet contact;                 ///< now
-  ContactSet smallest, largest;       ///< of the steps so far
-  TangentialField displacement;       ///< of the cells in contact, m; 0 elsewhere
-  TangentialField traction;           ///< Pa
-  TangentialField unit_traction;      ///< stick traction of a unit move, Pa/m
-  double tangential = 0;              ///< x of the trajectory, m
-  double period_start = 0;            ///< x at the start of the period, m
-  double work = 0;                    ///< of the period, J
-  double released_energy = 0;         ///< of the period, J
-  double energy_at_period_start = 0;  ///< stored, J
-  double last_work = 0;               ///< W of the period before, J
-  std::vector<CycleSample> samples;   ///< of the period
+/// What a stuck contact remembers: where each of its cells has been drawn to.
+struct StuckState {
+  ContactSet contact;             ///< now
+  TangentialField displacement;   ///< of the cells in contact, m; 0 elsewhere
+  TangentialField traction;       ///< Pa
+  TangentialField unit_traction;  ///< stick traction of a unit move, Pa/m
+  double work = 0;                ///< of the period, J
+  double released = 0;            ///< of the period, J
+  bool converged = true;
   long iterations = 0;
   long fft_count = 0;
-  bool converged = true;
+};
+
+/// What a cycle remembers at one of its steps: from it the simulation continues to the same bits.
+struct CycleState {
+  int period = 0;                ///< periods finished
+  int step = 0;                  ///< 0 … steps, of the last sample
+  ContactSet smallest, largest;  ///< cells in contact at every, at any step of the period so far
+  double tangential = 0;         ///< x of the trajectory, m
+  double energy_at_period_start = 0;       ///< stored, J
+  double work_at_period_start = 0;         ///< ∫F_x dx, J
+  double normal_work_at_period_start = 0;  ///< ∫F dδ, J
+  double gap_work_at_period_start = 0;     ///< J
+  Field loss_at_period_start;              ///< (nx, ny), J in each cell; empty where nothing slips
+  double last_work = 0;                    ///< work_per_cycle of the period before, J
+  std::vector<CycleSample> samples;        ///< of the period
+  std::variant<StuckState, SlidingState, CoupledState> body;
 };
 
 struct CycleOptions {
-  int steps = 64;  ///< changes of the contact in a period, >= 4
-  int max_periods =
-      4;  ///< at most, until a period repeats the last one; 1 suffices from the least indentation
+  /// μ >= 0 of simulate_frictional_cycle and simulate_coupled_cycle; infinite: full stick.
+  double friction_coefficient = std::numeric_limits<double>::infinity();
+  int steps = 64;       ///< changes of the contact in a period, >= 4
+  int max_periods = 6;  ///< until a period loses the same as the one before it
+  /// Relative difference of work_per_cycle between two periods that counts as none; > 0.
+  double steady_tolerance = 1e-5;
   double direction = 0;  ///< of the tangential motion against x, rad
-  /// Of each solve, on the scale of the tangential motion; work and released energy agree to about its size.
+  /// β/(πE*) of simulate_coupled_cycle, 1/Pa; default: coupling_constant(material).
+  std::optional<double> coupling_constant = {};
+  /// Of each tangential solve, on the scale of the tangential motion; work and dissipation agree to about this tolerance.
   StickOptions stick = {.tolerance = 1e-8};
   Progress on_progress = {};
-  /// Told the state at each step after its sample was taken, for checkpoints and fields; valid during the call.
-  std::function<void(const CycleState&)> on_state = {};
-  /// Goes on from this state instead of the start. It must come from the same levels, grid, material, trajectory and options.
+  /// Receives a copy of the state at each step after its sample was taken.
+  std::function<void(CycleState)> on_state = {};
+  /// Continues from this state, which is read before the first step. It must come from the same function, contact, grid, material,
+  /// trajectory and options.
   const CycleState* resume = nullptr;
 };
 
-/// A simulated period of a stuck contact.
+/// A simulated period.
 struct CycleResult {
-  double work_per_cycle = 0;  ///< ∮F_x dx less the change of the stored energy, J
-  double released_energy =
-      0;  ///< ½∫τ·[u] over the cells that leave the contact, as they leave it; an independent sum, J
-  /// Estimated error of work_per_cycle that the steps leave, J; see simulate_cycle. That of the cells is not in it.
-  double step_error = 0;
-  double stored_energy_change =
-      0;  ///< of ½∫τ·u over the period, J; not 0 where the contact advances
-  double contact_area_min = 0;       ///< m²
-  double contact_area_max = 0;       ///< m²
-  ContactSet smallest, largest;      ///< cells that are in contact at least, at most
+  /// ∮F_x dx less the change of the stored energy, J; with coupling ∮F dδ too. Cells that enter in a step count from their entry.
+  double work_per_cycle = 0;
+  /// The same loss as an independent sum over the cells, J: ½∫τ·[u] of cells as they leave the contact, or with friction ∮∫τ·ds.
+  double dissipated = 0;
+  /// Of `dissipated`, J: by cells that open and close, which becomes the relaxation loss of the paper as μ → ∞, and by slip in cells
+  /// that are in contact all the time, which becomes Mindlin's loss as u_z → 0. friction_map splits by the springs of the method of
+  /// dimensionality reduction, which are not cells: the totals agree, the parts differ. Cone at 90°, M = μE*u_z/(G*u_x) = 0.3:
+  /// relaxation over W(∞) is 0.50 by cells and 0.32 by springs.
+  double relaxation_work = 0;
+  double slip_work = 0;
+  double normal_work = 0;  ///< ∮F dδ, part of work_per_cycle, J; 0 without coupling
+  /// Of normal_work, what the steps make of gaps that close and open within one of them, J (CoupledContact::gap_work); 0 without
+  /// coupling. work_per_cycle = dissipated + gap_work to the solvers' tolerance.
+  double gap_work = 0;
+  /// Estimated error of work_per_cycle due to the steps, J, without that of the cells; see simulate_cycle. NaN with friction.
+  double step_error = std::numeric_limits<double>::quiet_NaN();
+  double stored_energy_change = 0;  ///< over the period, J; not 0 where the contact advances
+  double contact_area_min = 0;      ///< m²
+  double contact_area_max = 0;      ///< m²
+  Field
+      loss;  ///< lost in a period by unit area, (nx, ny), J/m²: where friction wears; empty where nothing slips
+  ContactSet smallest, largest;      ///< cells that are in contact always, at some time
   std::vector<CycleSample> samples;  ///< after each step of the last period
   int periods = 0;
-  long iterations = 0;  ///< of all stick solves
-  long fft_count = 0;   ///< pairs of scalar fields
-  bool steady = false;  ///< the period repeats
-  bool converged =
-      false;  ///< every contact and every stick solve did; otherwise do not use the numbers
+  long iterations = 0;     ///< of all tangential solves
+  long fft_count = 0;      ///< pairs of scalar fields
+  bool steady = false;     ///< the period repeats
+  bool converged = false;  ///< every solve did; otherwise do not use the numbers
   bool interrupted = false;
 };
 
-/// Direct three-dimensional simulation of a contact with infinite friction that moves along a trajectory.
+/// A contact with infinite friction.
 /// A period is divided into steps t_k. The contact set is A(δ(t_k)) while x goes from its value at t_{k−1/2} to that at t_{k+1/2}:
 /// the set changes at the middle time, without which φ0 is shifted by half a step.
 ///     move         the cells of A move with the body: Δτ = Δx · (stick traction of A)
-///     release      cells that leave have τ = 0; the others are solved again with their displacements held
+///     release      cells that leave have τ = 0; the others are solved again with their displacements fixed
 ///     entry        cells enter with the displacement that they have at that time, and keep it relative to the body
-/// From a trajectory that starts, stress-free, at its least indentation the first period is already the steady one.
-/// Levels are asked at indentations rounded to 1e-9 of the sweep, each once: a cycle meets the levels of its way up again going down.
-/// The error of the steps is of second order, −h²/24 of W, h = 2π/steps, for K_t' = const and equal frequencies; beside it stands what
-/// the steps cannot tell, at which time between two of them each cell enters. step_error has both, from W = ½∮s² dK_t with the K_t of the
-/// same contact sets (no further solve): with Δ the change of this W to every second set, and σ its standard deviation if each cell
-/// entered at any time of its step, it is max(|Δ|, |Δ|/3 + 2σ), and how far this W is from the simulated one. It is the error against
-/// infinitely many steps on the same cells; cells that are too large for the contact change both alike.
+/// From a trajectory that starts, stress-free, at its minimum indentation the first period is already the steady one.
+/// Levels are evaluated at indentations rounded to 1e-9 of the sweep, each once: a cycle meets the levels of its way up again on its
+/// way down. The error of the steps is of second order, −h²/24 of W, h = 2π/steps, for K_t' = const and equal frequencies. A second
+/// term accounts for the unknown time within a step at which each cell enters. step_error has both, from W = ½∮s² dK_t with the K_t
+/// of the same contact sets (no further solve): with Δ the change of this W to every second set, and σ its standard deviation if each
+/// cell entered at any time of its step, it is max(|Δ|, |Δ|/3 + 2σ), and how far this W is from the simulated one. It is the error
+/// against infinitely many steps on the same cells; cells that are too large for the contact change both alike.
 /// cost    per step a stick solve, and another where cells leave
 /// memory  that of the stick solves, and half a byte a cell for each step
 CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
                            const Material& material, const Trajectory& trajectory,
                            const CycleOptions& options = {});
+
+/// A contact with Coulomb friction: SlidingContact, from step to step, at second order in them. Started, stress-free, at the minimum
+/// indentation; without drift the permanent contact settles within two or three periods, while a constant drag continues until all of
+/// it slides: raise max_periods, and look at `steady`.
+/// cost  per step a partial-slip solve, and another where cells enter
+CycleResult simulate_frictional_cycle(const PressureLevels& levels, const Grid2D& grid,
+                                      const Material& material, const Trajectory& trajectory,
+                                      const CycleOptions& options = {});
+
+/// The same with the coupling of normal and tangential directions (Dundurs' β): in each step the pressures follow the tractions and
+/// the tractions the pressures, and F does work over a cycle too. Compared with simulate_frictional_cycle it shows when the coupling,
+/// which the paper neglects, may be left out. The contact is made from first touch in steps/4 increments without motion, so that the
+/// radial tractions of the first loading are there.
+/// work_per_cycle = dissipated + gap_work to the sweeps' tolerance; gap_work, which the trapezoidal ∫F dδ makes of cells that enter or
+/// leave with a gap, measures the steps. δ >= 0 counts from the first touch of the undeformed bodies; the boundaries of both solves
+/// must agree.
+/// cost  per step 5 to 10 sweeps of a normal solve and partial-slip solves
+CycleResult simulate_coupled_cycle(const Surface& surface, const Material& material,
+                                   const Trajectory& trajectory, const CycleOptions& options = {},
+                                   const NormalContactOptions& contact = {});
 
 }  // namespace salebra

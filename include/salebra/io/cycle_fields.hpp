@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <salebra/damping/cycle.hpp>
-#include <salebra/damping/frictional_cycle.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/provenance.hpp>
 #include <string>
@@ -15,8 +14,8 @@ namespace salebra {
 ///     PREFIX.xdmf          what to open; lists the steps written so far
 ///     PREFIX-mesh.h5       /mesh/points (nx, ny, 3): where each cell's middle lies, and /mesh/heights
 ///     PREFIX-0016.h5       /fields/… (nx, ny) at step 16: contact, traction_x, traction_y, displacement_x, displacement_y,
-///                          pressure, gap; of a cycle with friction also loss, by unit area since the start of the period
-/// One object is for the states of one kind of cycle. All are (nx, ny) with x first. The points are given one by one, so that no reader has to guess which index is x.
+///                          pressure, gap; with friction also loss, by unit area since the start of the period
+/// One object is for the states of one cycle. All are (nx, ny) with x first. The points are given one by one, so that no reader has to guess which index is x.
 /// Every file is complete as soon as it is there; an interrupted run leaves the steps that it has finished.
 class CycleFields {
  public:
@@ -24,11 +23,9 @@ class CycleFields {
   CycleFields(std::filesystem::path prefix, const Surface& surface, Provenance provenance,
               const WriteOptions& options = {});
 
-  /// Adds the state at a step, or replaces what was written of it. time: in periods. normal: pressure and gap there; a default
-  /// one where nothing is in contact.
+  /// Adds the state at a step, or replaces what was written of it. time: in periods. normal: the pressure, of a stuck contact, and the
+  /// gap, of one without coupling; a default one where nothing is in contact.
   void write(const CycleState& state, double time, const NormalContactState& normal);
-  /// The pressures are those of the state; `normal` has the gap.
-  void write(const FrictionalCycleState& state, double time, const NormalContactState& normal);
 
   /// Steps that an earlier, interrupted run has written, so that the list names them too.
   void keep(int step, double time);
@@ -47,7 +44,6 @@ class CycleFields {
   };
   std::filesystem::path frame_file(int step) const;
   Field gap_of(const NormalContactState& normal) const;
-  void write_frame(int step, double time, const std::vector<Values>& fields);
   void add(int step, double time, std::vector<std::string> fields);
   void write_list() const;
 

@@ -25,9 +25,11 @@ struct CoupledContact::Parts {
         contact_modulus(material.contact_modulus),
         options(wanted),
         highest(given.heights.maxCoeff()),
-        dundurs(dundurs_constant(material.contact_modulus,
-                                 wanted.coupling ? *wanted.coupling : coupling_constant(material))),
-        coupling(given.grid, wanted.coupling ? *wanted.coupling : coupling_constant(material),
+        dundurs(dundurs_constant(material.contact_modulus, wanted.coupling_constant
+                                                               ? *wanted.coupling_constant
+                                                               : coupling_constant(material))),
+        coupling(given.grid,
+                 wanted.coupling_constant ? *wanted.coupling_constant : coupling_constant(material),
                  wanted.contact.boundary),
         sliding(given.grid, material, wanted.sliding),
         gap(highest - given.heights) {}
@@ -124,6 +126,28 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   p.normal_work += (force_before + p.force()) / 2 * (indentation - p.indentation);
   p.indentation = indentation;
   return report;
+}
+
+CoupledState CoupledContact::state() const {
+  const Parts& p = *parts_;
+  return {.sliding = p.sliding.state(),
+          .gap = p.gap,
+          .indentation = p.indentation,
+          .normal_work = p.normal_work,
+          .gap_work = p.gap_work,
+          .converged = p.converged};
+}
+
+void CoupledContact::restore(CoupledState state) {
+  Parts& p = *parts_;
+  require(state.gap.rows() == p.gap.rows() && state.gap.cols() == p.gap.cols(), "state",
+          state.gap.size(), "cells do not match the grid; resume with the run's own settings");
+  p.sliding.restore(std::move(state.sliding));
+  p.gap = std::move(state.gap);
+  p.indentation = state.indentation;
+  p.normal_work = state.normal_work;
+  p.gap_work = state.gap_work;
+  p.converged = state.converged;
 }
 
 const SlidingContact& CoupledContact::sliding() const { return parts_->sliding; }

@@ -77,4 +77,6 @@ void PartialSlipSolver::reserve(const ContactSet& largest) {
   parts_->workspace.system_for(largest);
 }
 
+ContactSet PartialSlipSolver::prepared() const { return parts_->workspace.prepared(); }
+
 }  // namespace salebra

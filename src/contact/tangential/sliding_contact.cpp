@@ -59,11 +59,12 @@ SlidingContact::SlidingContact(const Grid2D& grid, const Material& material,
   state_.pressure = state_.loss = Field::Zero(grid.nx, grid.ny);
   state_.shift = state_.traction = state_.displacement = zero(grid);
   validate(options);
+  state_.motion_scale = options.motion_scale;
 }
 
 void SlidingContact::set_motion_scale(double scale) {
   require_positive(scale, "motion_scale");
-  options_.motion_scale = scale;
+  state_.motion_scale = scale;
 }
 
 void SlidingContact::restore(SlidingState state) {
@@ -72,8 +73,16 @@ void SlidingContact::restore(SlidingState state) {
         &state.traction.y, &state.displacement.x, &state.displacement.y})
     require(field->rows() == contact_.rows() && field->cols() == contact_.cols(), "state",
             field->size(), "cells do not match the grid; resume with the run's own settings");
+  require_positive(state.motion_scale, "motion_scale");
   state_ = std::move(state);
+  if (state_.prepared.size() > 0) reserve(state_.prepared);
   contact_ = limit_of(state_.pressure, options_.friction_coefficient) > 0;
+}
+
+SlidingState SlidingContact::state() const {
+  SlidingState state = state_;
+  state.prepared = solver_.prepared();
+  return state;
 }
 
 void SlidingContact::reserve(const ContactSet& largest) { solver_.reserve(largest); }
@@ -100,7 +109,7 @@ TangentialField SlidingContact::displacement_halfway(const TangentialMove& move,
   target.y -= contact_.select(halfway.y, 0.0);
   const PartialSlipReport report =
       solver_.solve(limit_of(state_.pressure, options_.friction_coefficient), target,
-                    options_.motion_scale, increment.traction_halfway, slip);
+                    state_.motion_scale, increment.traction_halfway, slip);
   count(report);
   increment.report.converged = report.converged;
   increment.report.interrupted = report.interrupted;
@@ -150,7 +159,7 @@ SlidingContact::Increment SlidingContact::attempt(const Field& pressure, const T
                                increment.displacement.y - increment.shift.y};
   const PartialSlipReport halfway = increment.report;
   increment.report =
-      solver_.solve(limit, target, options_.motion_scale, increment.traction, increment.slip);
+      solver_.solve(limit, target, state_.motion_scale, increment.traction, increment.slip);
   count(increment.report);
   increment.report.converged = increment.report.converged && halfway.converged;
   increment.report.interrupted = increment.report.interrupted || halfway.interrupted;

@@ -32,6 +32,14 @@ ContactSystem& TangentialWorkspace::system_for(const ContactSet& contact) {
   return *system_;
 }
 
+ContactSet TangentialWorkspace::prepared() const {
+  if (!system_) return {};
+  ContactSet cells = ContactSet::Constant(grid_.nx, grid_.ny, false);
+  const CellWindow& window = system_->window();
+  cells.block(window.x0, window.y0, window.nx, window.ny) = true;
+  return cells;
+}
+
 std::vector<double> TangentialWorkspace::gather(const TangentialField& field,
                                                 const PointList& points) const {
   std::vector<double> values;

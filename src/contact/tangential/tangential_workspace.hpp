@@ -26,6 +26,8 @@ class TangentialWorkspace {
 
   /// For every set within an earlier one without set-up.
   ContactSystem& system_for(const ContactSet& contact);
+  /// The cells of the window that the last set-up was for; empty where there was none.
+  ContactSet prepared() const;
   std::vector<double> gather(const TangentialField& field, const PointList& points) const;
   void scatter(const std::vector<double>& values, const PointList& points,
                TangentialField& field) const;

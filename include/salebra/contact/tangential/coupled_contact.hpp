@@ -12,8 +12,8 @@ namespace salebra {
 struct CoupledContactOptions {
   SlidingContactOptions sliding = {};
   NormalContactOptions contact = {};  ///< its boundary must be that of sliding.stick
-  /// β/(πE*), 1/Pa, as coupling_constant() of the two bodies tells; not given: that of the material, coupling_constant(material).
-  std::optional<double> coupling = {};
+  /// β/(πE*), 1/Pa, such as coupling_constant() of the two bodies; default: coupling_constant(material).
+  std::optional<double> coupling_constant = {};
   /// Stop the sweeps where (Σ|Δp| + Σ|Δτ|)/Σp < tolerance from one to the next; 1e-12 … 1e-1.
   double tolerance = 1e-6;
   int max_sweeps = 60;  ///< of each increment, >= 1
@@ -25,6 +25,16 @@ struct CoupledReport {
   double change = 0;  ///< (Σ|Δp| + Σ|Δτ|)/Σp of the last sweep
   bool converged = false;
   bool interrupted = false;
+};
+
+/// All that a coupled contact remembers from one increment to the next.
+struct CoupledState {
+  SlidingState sliding;
+  Field gap;               ///< (nx, ny), m
+  double indentation = 0;  ///< m
+  double normal_work = 0;  ///< ∫F dδ since the start, J
+  double gap_work = 0;     ///< of it, J
+  bool converged = true;   ///< every increment did
 };
 
 /// A rough contact with friction and with the coupling of normal and tangential directions (Dundurs' β), which history leads from one
@@ -43,6 +53,10 @@ class CoupledContact {
   /// To a rigid approach, m, counted from the first touch of the undeformed bodies, while the body moves tangentially.
   /// Cost: sweeps × (a warm normal solve and one or two partial-slip solves).
   CoupledReport advance(double indentation, const TangentialMove& move = {});
+
+  CoupledState state() const;
+  /// Continues from the state of a contact with the same surface, material and options. Throws InvalidInput for another grid.
+  void restore(CoupledState state);
 
   /// Pressures, tractions, slip and losses.
   const SlidingContact& sliding() const;

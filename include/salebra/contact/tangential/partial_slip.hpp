@@ -55,6 +55,8 @@ class PartialSlipSolver {
 
   /// Prepares the window for every set within `largest`, so that none of them has to rebuild it.
   void reserve(const ContactSet& largest);
+  /// The window as a set, to be reserved by another solver that has to give the same bits; empty before the first solve.
+  ContactSet prepared() const;
 
  private:
   struct Parts;

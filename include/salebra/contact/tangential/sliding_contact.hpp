@@ -29,10 +29,13 @@ struct SlidingState {
   TangentialField traction;      ///< Pa
   TangentialField displacement;  ///< of the cells in contact, `shift` included, m
   Field loss;                    ///< since the start, J in each cell
-  Index slipping = 0;            ///< cells at their limit after the last increment
-  double work = 0;               ///< ∫F dx since the start, J
-  double released = 0;           ///< of the sum of `loss`, by cells as they opened, J
-  bool converged = true;         ///< every increment did
+  ContactSet
+      prepared;  ///< cells within which no contact rebuilds the kernels, whose rounding depends on it
+  double motion_scale = 1;  ///< that of the increments to come, m
+  Index slipping = 0;       ///< cells at their limit after the last increment
+  double work = 0;          ///< ∫F dx since the start, J
+  double released = 0;      ///< of the sum of `loss`, by cells as they opened, J
+  bool converged = true;    ///< every increment did
   long iterations = 0;
   long fft_count = 0;
 };
@@ -82,7 +85,7 @@ class SlidingContact {
   /// Prepares the kernels for every contact within `largest`, so that none of them has to rebuild them.
   void reserve(const ContactSet& largest);
 
-  const SlidingState& state() const { return state_; }
+  SlidingState state() const;
   /// Goes on from the state of a contact with the same grid, material and options. Throws InvalidInput for another grid.
   void restore(SlidingState state);
 

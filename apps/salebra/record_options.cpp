@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Options of checkpoints, resumption and fields of a simulated cycle.
+#include "record_options.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <salebra/base/error.hpp>
+
+namespace salebra::cli {
+
+void RecordOptions::add_to(Command& app) {
+  app.add_option("--checkpoint", checkpoint,
+                 "file that keeps the state of the cycle while it runs; removed at its end")
+      ->type_name("FILE");
+  add_quantity(app, "--checkpoint-every", checkpoint_every, Dimension::time,
+               "time between checkpoints; default 60 s, 0 for every step");
+  app.add_flag("--resume", resume,
+               "go on from the checkpoint of an interrupted run, to the same result");
+  app.add_option("--fields", fields,
+                 "write PREFIX.xdmf for ParaView with its HDF5 files: contact, tractions, "
+                 "displacements, pressure, gap")
+      ->type_name("PREFIX");
+  add_values(app, "--field-steps", field_steps, Dimension::dimensionless,
+             "steps to write fields of; default nine over the cycle");
+}
+
+void RecordOptions::check(const Session& session) const {
+  require(!resume || !checkpoint.empty(), "--resume", "given",
+          "without --checkpoint; name the checkpoint");
+  require(!checkpoint_every || *checkpoint_every >= 0, "--checkpoint-every",
+          checkpoint_every.value_or(0), "must be >= 0");
+  if (!fields.empty()) {
+    const WriteOptions writing = resume ? WriteOptions{.overwrite = true} : session.write_options();
+    require_output(fields + ".xdmf", writing);
+  }
+  if (checkpoint.empty()) return;
+  require_output(checkpoint, {.overwrite = true});
+  const bool there = std::filesystem::exists(checkpoint);
+  require(there || !resume, "--resume", checkpoint,
+          "is not there; leave out --resume to begin the cycle");
+  require(!there || resume || session.write_options().overwrite, checkpoint, "exists;",
+          "add --resume to go on from it, or --overwrite to begin anew");
+}
+
+CycleRecordOptions RecordOptions::options(int steps, const Session& session) const {
+  CycleRecordOptions options{.checkpoint = checkpoint,
+                             .resume = resume,
+                             .fields = fields,
+                             .writing = session.write_options()};
+  if (checkpoint_every) options.checkpoint_every = *checkpoint_every;
+  if (field_steps.empty())
+    for (int k = 0; k <= 8; ++k) options.field_steps.push_back(k * steps / 8);
+  for (const double step : field_steps) {
+    require(step == std::floor(step) && step >= 0 && step <= steps, "--field-steps", step,
+            "is not one of the steps; give whole numbers from 0 to --steps");
+    options.field_steps.push_back(static_cast<int>(step));
+  }
+  return options;
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <salebra/io/cycle_recorder.hpp>
+#include <string>
+#include <vector>
+
+#include "options.hpp"
+
+namespace salebra::cli {
+
+/// Checkpoints and fields of a long cycle.
+struct RecordOptions {
+  std::string checkpoint, fields;
+  std::optional<double> checkpoint_every;
+  bool resume = false;
+  std::vector<double> field_steps;
+
+  void add_to(Command& app);
+  /// Before any work: that the files suit what is asked for.
+  void check(const Session& session) const;
+  /// For the library. Throws InvalidInput for a step that is none of the cycle's.
+  CycleRecordOptions options(int steps, const Session& session) const;
+};
+
+}  // namespace salebra::cli

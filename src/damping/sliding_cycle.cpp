@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The simulated cycles with Coulomb friction, without and with coupling of pressures and tractions (damping/cycle.hpp).
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
+#include <salebra/contact/tangential/coupled_contact.hpp>
+#include <utility>
+
+#include "cycle_engine.hpp"
+
+namespace salebra {
+namespace {
+
+// The pressures of each step of a period. Going down, a cycle meets the indentations of its way up again.
+class StepPressures {
+ public:
+  StepPressures(const PressureLevels& levels, const Grid2D& grid, const Trajectory& trajectory,
+                int steps, double resolution) {
+    // A field for every second step, since the way down meets those of the way up.
+    require_memory(grid, 0.5 * sizeof(double) * steps * static_cast<double>(grid.points()),
+                   "the pressures of its steps (fewer steps need less)");
+    for (int k = 0; k <= steps; ++k) {
+      const double indentation = trajectory.indentation(static_cast<double>(k) / steps);
+      auto next = stored_.lower_bound(indentation - resolution);
+      if (next == stored_.end() || next->first > indentation + resolution) {
+        next = stored_.emplace(indentation, levels(indentation)).first;
+        converged_ = converged_ && next->second.converged;
+      }
+      steps_.push_back(&next->second);
+    }
+  }
+  const PressureAt& at(int step) const { return *steps_[static_cast<std::size_t>(step)]; }
+  bool converged() const { return converged_; }
+
+ private:
+  std::map<double, PressureAt> stored_;
+  std::vector<const PressureAt*> steps_;
+  bool converged_ = true;
+};
+
+// What both have in common: a contact that slips, driven along a straight line.
+class SlidingBody : public detail::CycleBody {
+ public:
+  SlidingBody(const Trajectory& trajectory, const CycleOptions& options)
+      : trajectory_(trajectory),
+        steps_(options.steps),
+        along_x_(std::cos(options.direction)),
+        along_y_(options.stick.hold_lateral ? std::sin(options.direction) : 0.0) {}
+
+  double advance(int step, double from) final {
+    const double distance = trajectory_.tangential(time(step)) - from;
+    move(step, {distance * along_x_, distance * along_y_});
+    return from + distance;
+  }
+
+ protected:
+  virtual void move(int step, const TangentialMove& by) = 0;
+  double indentation(int step) const { return trajectory_.indentation(time(step)); }
+  int steps() const { return steps_; }
+  detail::CycleReading reading_of(const SlidingContact& contact) const {
+    const TangentialMove force = contact.tangential_force();
+    return {.contact = contact.pressure() > 0,
+            .tangential_force = along_x_ * force.x + along_y_ * force.y,
+            .work = contact.work(),
+            .loss = &contact.loss(),
+            .slipping = contact.slipping(),
+            .iterations = contact.iterations(),
+            .fft_count = contact.fft_count(),
+            .converged = contact.converged()};
+  }
+
+ private:
+  double time(int step) const { return static_cast<double>(step) / steps_; }
+
+  const Trajectory& trajectory_;
+  int steps_;
+  double along_x_, along_y_;
+};
+
+class FrictionalBody final : public SlidingBody {
+ public:
+  FrictionalBody(const PressureLevels& levels, const Grid2D& grid, const Material& material,
+                 const Trajectory& trajectory, const CycleOptions& options,
+                 const detail::TrajectoryRange& range)
+      : SlidingBody(trajectory, options),
+        pressures_(levels, grid, trajectory, options.steps, 1e-9 * range.sweep()),
+        // Without tangential motion nothing is solved for, and any scale will do.
+        contact_(grid, material,
+                 {.friction_coefficient = options.friction_coefficient,
+                  .motion_scale = range.tangential() > 0 ? range.tangential() : 1.0,
+                  .stick = options.stick}) {
+    ContactSet largest = ContactSet::Constant(grid.nx, grid.ny, false);
+    for (int k = 0; k <= options.steps; ++k) {
+      const Field& pressure = pressures_.at(k).pressure;
+      require(pressure.rows() == grid.nx && pressure.cols() == grid.ny, "levels", pressure.size(),
+              "pressures do not match the grid");
+      largest = largest || (pressure > 0);
+    }
+    contact_.reserve(largest);
+    if (const SlidingState* state = detail::resumed<SlidingState>(options, grid))
+      contact_.restore(*state);
+    else
+      contact_.advance(pressures_.at(0).pressure);
+  }
+
+  detail::CycleReading reading() const override {
+    detail::CycleReading now = reading_of(contact_);
+    now.normal_force = normal_force_;
+    now.converged = now.converged && pressures_.converged();
+    return now;
+  }
+  double stored_energy() const override { return contact_.stored_energy(); }
+  bool interrupted() const override { return contact_.interrupted(); }
+  decltype(CycleState::body) state() const override { return contact_.state(); }
+
+ private:
+  void move(int step, const TangentialMove& by) override {
+    contact_.advance(pressures_.at(step).pressure, by);
+    normal_force_ = pressures_.at(step).force;
+  }
+
+  StepPressures pressures_;
+  SlidingContact contact_;
+  double normal_force_ = 0;
+};
+
+class CoupledBody final : public SlidingBody {
+ public:
+  CoupledBody(const Surface& surface, const Material& material, const Trajectory& trajectory,
+              const CycleOptions& options, const NormalContactOptions& contact, double coupling,
+              double motion_scale)
+      : SlidingBody(trajectory, options),
+        contact_(surface, material,
+                 {.sliding = {.friction_coefficient = options.friction_coefficient,
+                              .motion_scale = motion_scale,
+                              .stick = options.stick},
+                  .contact = contact,
+                  .coupling_constant = coupling}) {
+    if (const CoupledState* state = detail::resumed<CoupledState>(options, surface.grid)) {
+      contact_.restore(*state);
+      return;
+    }
+    // What sticks while the contact is made depends on how: from first touch, in rings of about one width.
+    const int approach = std::max(steps() / 4, 4);
+    for (int k = 1; k <= approach; ++k) {
+      const double part = static_cast<double>(k) / approach;
+      contact_.advance(part * part * indentation(0));
+    }
+  }
+
+  detail::CycleReading reading() const override {
+    detail::CycleReading now = reading_of(contact_.sliding());
+    now.normal_force = contact_.normal_force();
+    now.normal_work = contact_.normal_work();
+    now.gap_work = contact_.gap_work();
+    now.converged = contact_.converged();
+    return now;
+  }
+  double stored_energy() const override { return contact_.stored_energy(); }
+  bool interrupted() const override { return contact_.interrupted(); }
+  decltype(CycleState::body) state() const override { return contact_.state(); }
+
+ private:
+  void move(int step, const TangentialMove& by) override {
+    contact_.advance(indentation(step), by);
+  }
+
+  CoupledContact contact_;
+};
+
+}  // namespace
+
+PressureLevels boundary_element_pressures(Surface surface, double contact_modulus,
+                                          const NormalContactOptions& options) {
+  return [surface = std::move(surface), contact_modulus, options](double indentation) {
+    if (indentation <= 0)
+      return PressureAt{.pressure = Field::Zero(surface.grid.nx, surface.grid.ny)};
+    NormalContactState state = press_to_indentation(surface, contact_modulus, indentation, options);
+    return PressureAt{std::move(state.pressure), state.force, state.converged};
+  };
+}
+
+CycleResult simulate_frictional_cycle(const PressureLevels& levels, const Grid2D& grid,
+                                      const Material& material, const Trajectory& trajectory,
+                                      const CycleOptions& options) {
+  grid.validate();
+  const detail::TrajectoryRange range = detail::checked_range(trajectory, options);
+  FrictionalBody body(levels, grid, material, trajectory, options, range);
+  return detail::run_cycle(body, grid, trajectory, options);
+}
+
+CycleResult simulate_coupled_cycle(const Surface& surface, const Material& material,
+                                   const Trajectory& trajectory, const CycleOptions& options,
+                                   const NormalContactOptions& contact) {
+  const detail::TrajectoryRange range = detail::checked_range(trajectory, options);
+  require(range.indentation_min >= 0, "indentation", range.indentation_min,
+          "must be >= 0 throughout a coupled cycle");
+  const double coupling =
+      options.coupling_constant ? *options.coupling_constant : coupling_constant(material);
+  // The coupling itself moves the surface by about β of the sweep.
+  const double scale =
+      std::max(range.tangential(),
+               std::abs(dundurs_constant(material.contact_modulus, coupling)) * range.sweep());
+  CoupledBody body(surface, material, trajectory, options, contact, coupling,
+                   scale > 0 ? scale : 1.0);
+  return detail::run_cycle(body, surface.grid, trajectory, options);
+}
+
+}  // namespace salebra

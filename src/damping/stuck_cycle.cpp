@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The simulated cycle of a stuck contact, with the estimated error of its steps (damping/cycle.hpp).
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
+#include <utility>
+
+#include "cycle_engine.hpp"
+
+namespace salebra {
+namespace {
+
+double dot(const TangentialField& a, const TangentialField& b) {
+  return (a.x * b.x + a.y * b.y).sum();
+}
+
+// Caches levels by rounded indentation, so that a resumed run gets identical levels.
+class LevelStore {
+ public:
+  LevelStore(const ContactLevels& levels, double resolution)
+      : levels_(levels), resolution_(resolution) {}
+
+  const ContactSetAt& at(double indentation) {
+    const long long key = resolution_ > 0 ? std::llround(indentation / resolution_) : 0;
+    const auto found = stored_.find(key);
+    if (found != stored_.end()) return found->second;
+    const double rounded = resolution_ > 0 ? static_cast<double>(key) * resolution_ : indentation;
+    return stored_.emplace(key, levels_(rounded)).first->second;
+  }
+
+ private:
+  const ContactLevels& levels_;
+  double resolution_;
+  std::map<long long, ContactSetAt> stored_;
+};
+
+class StuckBody final : public detail::CycleBody {
+ public:
+  StuckBody(const ContactLevels& levels, const Grid2D& grid, const Material& material,
+            const Trajectory& trajectory, const CycleOptions& options,
+            const detail::TrajectoryRange& range)
+      : trajectory_(trajectory),
+        steps_(options.steps),
+        cell_area_(grid.cell_area()),
+        // Without tangential motion nothing is solved for, and any scale will do.
+        scale_(range.tangential() > 0 ? range.tangential() : 1.0),
+        direction_x_(std::cos(options.direction)),
+        direction_y_(options.stick.hold_lateral ? std::sin(options.direction) : 0.0),
+        levels_(levels, 1e-9 * range.sweep()),
+        solver_(grid, material, options.stick),
+        unit_motion_{Field::Constant(grid.nx, grid.ny, direction_x_),
+                     Field::Constant(grid.nx, grid.ny, direction_y_)} {
+    const ContactSetAt& widest = levels_.at(range.indentation_max);
+    require(widest.contact.rows() == grid.nx && widest.contact.cols() == grid.ny, "levels",
+            widest.contact.size(), "cells do not match the grid");
+    solver_.reserve(widest.contact);
+    if (const StuckState* state = detail::resumed<StuckState>(options, grid)) {
+      state_ = *state;
+      return;
+    }
+    const auto zero = [&] {
+      return TangentialField{Field::Zero(grid.nx, grid.ny), Field::Zero(grid.nx, grid.ny)};
+    };
+    state_.contact = ContactSet::Constant(grid.nx, grid.ny, false);
+    state_.displacement = zero();
+    state_.traction = zero();
+    state_.unit_traction = zero();
+    change_to(levels_.at(trajectory.indentation(0)));
+    state_.converged = state_.converged && widest.converged;
+  }
+
+  void start_period() override { state_.work = state_.released = 0; }
+
+  double advance(int step, double from) override {
+    if (step > 0) from = move(from, (step - 0.5) / steps_);
+    const double t = static_cast<double>(step) / steps_;
+    change_to(levels_.at(trajectory_.indentation(t)));
+    return step > 0 ? move(from, t) : from;
+  }
+
+  detail::CycleReading reading() const override {
+    return {.contact = state_.contact,
+            .tangential_force = along_motion(state_.traction),
+            .normal_force = normal_force_,
+            .work = state_.work,
+            .released = state_.released,
+            .tangential_stiffness = along_motion(state_.unit_traction),
+            .iterations = state_.iterations,
+            .fft_count = state_.fft_count,
+            .converged = state_.converged};
+  }
+  double stored_energy() const override {
+    return cell_area_ / 2 * dot(state_.traction, state_.displacement);
+  }
+  bool interrupted() const override { return interrupted_; }
+  decltype(CycleState::body) state() const override { return state_; }
+
+ private:
+  double along_motion(const TangentialField& traction) const {
+    return cell_area_ * (direction_x_ * traction.x.sum() + direction_y_ * traction.y.sum());
+  }
+
+  // With the body to its place at a time; the force is linear in the move. Returns that place.
+  double move(double from, double t) {
+    const double to = trajectory_.tangential(t), distance = to - from;
+    if (!state_.contact.any()) return to;
+    const double force_before = along_motion(state_.traction);
+    state_.traction.x += distance * state_.unit_traction.x;
+    state_.traction.y += distance * state_.unit_traction.y;
+    state_.displacement.x += state_.contact.select(Field(distance * unit_motion_.x), 0.0);
+    state_.displacement.y += state_.contact.select(Field(distance * unit_motion_.y), 0.0);
+    state_.work += (force_before + along_motion(state_.traction)) / 2 * distance;
+    return to;
+  }
+
+  // Replaces the contact set at rest.
+  void change_to(const ContactSetAt& level) {
+    state_.converged = state_.converged && level.converged;
+    normal_force_ = level.force;
+    const ContactSet& contact = level.contact;
+    if ((contact == state_.contact).all()) return;
+    const ContactSet leaving = state_.contact && !contact, staying = state_.contact && contact;
+    const ContactSet entering = contact && !state_.contact;
+    if (leaving.any()) state_.released += release(leaving, staying);
+    if (entering.any()) {
+      const TangentialField present = solver_.displacement(staying, state_.traction, entering);
+      state_.fft_count += 2;
+      state_.displacement.x = entering.select(present.x, state_.displacement.x);
+      state_.displacement.y = entering.select(present.y, state_.displacement.y);
+    }
+    state_.contact = contact;
+    // The stick traction of the last set is a good guess for this one; solve() reads it on the contact only.
+    count(solver_.solve(contact, unit_motion_, 1.0, state_.unit_traction));
+  }
+
+  void count(const StickReport& report) {
+    state_.iterations += report.iterations;
+    state_.fft_count += report.fft_count;
+    state_.converged = state_.converged && report.converged;
+    interrupted_ = interrupted_ || report.interrupted;
+  }
+
+  double release(const ContactSet& leaving, const ContactSet& staying) {
+    const TangentialField before = state_.traction;
+    count(solver_.solve(staying, state_.displacement, scale_, state_.traction));
+    const TangentialField relaxed = solver_.displacement(staying, state_.traction, leaving);
+    state_.fft_count += 2;
+    double released = 0;
+    for (Index ix = 0; ix < leaving.rows(); ++ix)
+      for (Index iy = 0; iy < leaving.cols(); ++iy)
+        if (leaving(ix, iy)) {
+          double& x = state_.displacement.x(ix, iy);
+          double& y = state_.displacement.y(ix, iy);
+          released += before.x(ix, iy) * (x - relaxed.x(ix, iy)) +
+                      before.y(ix, iy) * (y - relaxed.y(ix, iy));
+          x = y = 0;
+        }
+    return released * cell_area_ / 2;
+  }
+
+  const Trajectory& trajectory_;
+  int steps_;
+  double cell_area_, scale_, direction_x_, direction_y_;
+  LevelStore levels_;
+  StickSolver solver_;
+  TangentialField unit_motion_;  // the body's direction
+  StuckState state_;
+  double normal_force_ = 0;
+  bool interrupted_ = false;
+};
+
+// Loss estimated from every stride-th contact set.
+struct LossInSteps {
+  double lost = 0;
+  double variance = 0;  // from the unknown entry time of each cell within a step
+};
+
+// W = ½∮s² dK_t with the contact sets of every `stride`-th step, as the simulation would find it in steps of that length: what lies
+// between two sets enters and leaves at the middle time. Cells that enter at any time of a step, each by itself, have s² spread evenly
+// between its values at the ends. Of the second of two periods, since the first may begin anywhere.
+LossInSteps loss_in_steps(const std::vector<CycleSample>& samples, const Trajectory& trajectory,
+                          double cell_area, int stride) {
+  struct Band {
+    double top;                  // K_t up to which it reaches
+    double begin, middle, end;   // x while it entered
+    double cells_per_stiffness;  // m/N
+  };
+  const int steps = static_cast<int>(samples.size()) - 1;
+  const double advance = trajectory.tangential(1) - trajectory.tangential(0);
+  const double start = trajectory.tangential(0);
+  std::vector<Band> bands{{samples.front().tangential_stiffness, start, start, start, 1}};
+  LossInSteps loss;
+  for (const double travelled : {0.0, advance}) {
+    loss = {};
+    for (int k = 0, next = 0; k < steps; k = next) {
+      next = std::min(k + stride, steps);
+      const auto at = [&](double step) { return trajectory.tangential(step / steps) + travelled; };
+      const double begin = at(k), middle = at((k + next) / 2.0), end = at(next);
+      const CycleSample &from = samples[static_cast<std::size_t>(k)],
+                        &to = samples[static_cast<std::size_t>(next)];
+      const double stiffness = to.tangential_stiffness;
+      while (!bands.empty() && bands.back().top > stiffness) {
+        Band& band = bands.back();
+        const double below = bands.size() > 1 ? bands[bands.size() - 2].top : 0;
+        const double part = band.top - std::max(below, stiffness);
+        const double spread = std::pow(end - band.begin, 2) - std::pow(begin - band.end, 2);
+        loss.lost += part * std::pow(middle - band.middle, 2) / 2;
+        loss.variance +=
+            std::pow(part * spread / 2, 2) / (12 * std::max(1.0, part * band.cells_per_stiffness));
+        if (below < stiffness) {
+          band.top = stiffness;
+          break;
+        }
+        bands.pop_back();
+      }
+      const double below = bands.empty() ? 0 : bands.back().top;
+      if (below < stiffness) {
+        const double cells = (to.contact_area - from.contact_area) / cell_area;
+        bands.push_back({stiffness, begin, middle, end, cells / (stiffness - below)});
+      }
+    }
+  }
+  return loss;
+}
+
+double step_error_of(const CycleResult& result, const Trajectory& trajectory, double cell_area) {
+  const LossInSteps here = loss_in_steps(result.samples, trajectory, cell_area, 1);
+  const LossInSteps twice = loss_in_steps(result.samples, trajectory, cell_area, 2);
+  // A third of the change is the error of second order; the whole of it leaves room for cells that enter in groups.
+  const double change = std::abs(here.lost - twice.lost);
+  return std::max(change, change / 3 + 2 * std::sqrt(here.variance)) +
+         std::abs(here.lost - result.work_per_cycle);
+}
+
+}  // namespace
+
+ContactLevels boundary_element_levels(Surface surface, double contact_modulus,
+                                      const NormalContactOptions& options) {
+  return [surface = std::move(surface), contact_modulus, options](double indentation) {
+    if (indentation <= 0)
+      return ContactSetAt{ContactSet::Constant(surface.grid.nx, surface.grid.ny, false)};
+    const NormalContactState state =
+        press_to_indentation(surface, contact_modulus, indentation, options);
+    return ContactSetAt{contact_set(state), state.force, state.converged};
+  };
+}
+
+CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
+                           const Material& material, const Trajectory& trajectory,
+                           const CycleOptions& options) {
+  grid.validate();
+  const detail::TrajectoryRange range = detail::checked_range(trajectory, options);
+  // A contact set, of a byte a cell, for every second step, since the way down meets those of the way up.
+  require_memory(grid, 0.5 * options.steps * static_cast<double>(grid.points()),
+                 "the contact sets of its steps (fewer --steps need less)");
+  StuckBody body(levels, grid, material, trajectory, options, range);
+  // Started at the minimum indentation, every other cell has been released and has entered again: the period repeats.
+  const bool from_minimum =
+      trajectory.indentation(0) <= range.indentation_min + 1e-9 * range.sweep();
+  CycleResult result = detail::run_cycle(body, grid, trajectory, options, from_minimum);
+  result.step_error = result.interrupted ? 0 : step_error_of(result, trajectory, grid.cell_area());
+  return result;
+}
+
+}  // namespace salebra
