@@ -23,32 +23,24 @@ MODULES = {
 
 
 def python_reference():
-    """The page of the package: its classes, which autodoc finds, and its functions, which it does not take for any."""
+    """The page of the package, a section for each submodule."""
     import salebra
 
-    def functions(module):
-        names = [name for name in dir(module) if type(getattr(module, name)).__name__ == "nb_func" and not name.startswith("_")]
-        return "\n".join(f".. autofunction:: {module.__name__}.{name}\n" for name in names)
+    modules = sorted(name for name in dir(salebra) if type(getattr(salebra, name)).__name__ == "module")
+    sections = "\n".join(
+        f"""salebra.{name}
+{"-" * len("salebra." + name)}
 
+.. automodule:: salebra.{name}
+   :members:
+   :imported-members:
+""" for name in modules)
     return f"""Python reference
 ================
 
 .. automodule:: salebra
-   :members:
-   :imported-members:
 
-Functions
----------
-
-{functions(salebra)}
-
-Closed forms
-------------
-
-.. automodule:: salebra.closed_form
-   :members:
-
-{functions(salebra.closed_form)}"""
+{sections}"""
 
 
 def put(target, text):

@@ -104,11 +104,173 @@ def _(result: _core.NormalContactState, ax: Axes | None = None, **keywords: Any)
 
 
 @plot.register(_core.ForceCurve)
-def _(result: _core.ForceCurve, ax: Axes | None = None, **keywords: Any) -> Axes:
+def _(
+    result: _core.ForceCurve, ax: Axes | None = None, fit: _core.ExponentialFit | bool = True, **keywords: Any
+) -> Axes:
+    """The curve, and the exponential law that is fitted to it: fit=False leaves it out, an ExponentialFit is drawn in its place."""
     keywords = {"marker": ".", "label": result.model} | keywords
     if np.isnan(result.mean_gap).any():
         return _line(ax, (result.indentation, "indentation δ", "m"), (result.force, "force F", "N"), "y", keywords)
-    return _line(ax, (result.mean_gap, "mean gap ū", "m"), (result.pressure, "pressure p", "Pa"), "y", keywords)
+    drawn = _line(ax, (result.mean_gap, "mean gap ū", "m"), (result.pressure, "pressure p", "Pa"), "y", keywords)
+    if fit is True:
+        try:
+            fit = _core.fit_exponential(result)
+        except _core.Error:  # too few points in the window: there is no line to draw
+            fit = False
+    if isinstance(fit, _core.ExponentialFit):
+        _law_of_fit(drawn, fit, result.mean_gap, result.pressure)
+    return drawn
+
+
+def _law_of_fit(drawn: Axes, fit: _core.ExponentialFit, mean_gap: npt.ArrayLike, pressure: npt.ArrayLike) -> None:
+    gap = np.asarray(mean_gap)
+    x_factor, _ = _scale(gap, "m")
+    y_factor, _ = _scale(pressure, "Pa")
+    law = fit.reference_pressure * np.exp(-gap / fit.decay_length)
+    factor, unit = _scale([fit.decay_length], "m")
+    drawn.plot(gap * x_factor, law * y_factor, "--", label=f"exp(−ū/l), l = {fit.decay_length * factor:.4g} {unit}")
+    drawn.legend()
+
+
+@plot.register(_core.ExponentialFit)
+def _(result: _core.ExponentialFit, ax: Axes | None = None, **keywords: Any) -> Axes:
+    pressure = np.array([result.window.pressure_min, result.window.pressure_max])
+    gap = result.decay_length * np.log(result.reference_pressure / pressure)
+    keywords = {"linestyle": "--", "label": "exp(−ū/l)"} | keywords
+    return _line(ax, (gap, "mean gap ū", "m"), (pressure, "pressure p", "Pa"), "y", keywords)
+
+
+@plot.register(_core.ModelResult)
+def _(result: _core.ModelResult, ax: Axes | None = None, **keywords: Any) -> Axes:
+    return plot(result.curve, ax, **keywords)
+
+
+@plot.register(_core.Realisation)
+def _(result: _core.Realisation, ax: Axes | None = None, **keywords: Any) -> Axes:
+    drawn = _axes(ax)
+    for model in result.models:
+        plot(model.curve, drawn, fit=model.model == "bem", **keywords)
+    return drawn
+
+
+@plot.register(_core.StudyResult)
+def _(result: _core.StudyResult, ax: Axes | None = None, **keywords: Any) -> Axes:
+    """Pressure over mean gap of each model, means over the surfaces."""
+    drawn = _axes(ax)
+    every = [[mean.mean for mean in result.curve("mean_gap", model)] for model in result.models]
+    x_factor, x_shown = _scale(every, "m")
+    y_factor, y_shown = _scale(result.pressures, "Pa")
+    for model, gap in zip(result.models, every):
+        drawn.plot(np.array(gap) * x_factor, result.pressures * y_factor, **({"marker": ".", "label": model} | keywords))
+    drawn.set_xlabel(_label("mean gap ū", x_shown))
+    drawn.set_ylabel(_label("pressure p", y_shown))
+    drawn.set_yscale("log")
+    drawn.legend()
+    return drawn
+
+
+@plot.register(_core.ContactSpots)
+def _(result: _core.ContactSpots, ax: Axes | None = None, **keywords: Any) -> Axes:
+    """The number of patches that are at least as large."""
+    keywords = {"drawstyle": "steps-pre"} | keywords
+    count = np.arange(1, len(result) + 1)
+    return _line(ax, (result.area, "area of a patch", "m²"), (count, "patches at least as large", "1"), "xy", keywords)
+
+
+@plot.register(_core.SpotStatistics)
+def _(result: _core.SpotStatistics, ax: Axes | None = None, **keywords: Any) -> Axes:
+    """The number of patches by their size, in classes that double."""
+    cells = 2.0 ** np.arange(len(result.spots_by_size))
+    keywords = {"drawstyle": "steps-post"} | keywords
+    return _line(ax, (cells, "cells of a patch, at least", "1"), (result.spots_by_size, "patches", "1"), "x", keywords)
+
+
+@plot.register(_core.SummitList)
+def _(result: _core.SummitList, ax: Axes | None = None, **keywords: Any) -> Axes:
+    drawn = _axes(ax)
+    factor, shown = _scale(result.height, "m")
+    drawn.hist(result.height * factor, **({"bins": 40} | keywords))
+    drawn.set_xlabel(_label("height of the summit", shown))
+    drawn.set_ylabel("summits")
+    return drawn
+
+
+@plot.register(_core.PowerSpectrum)
+def _(result: _core.PowerSpectrum, ax: Axes | None = None, **keywords: Any) -> Axes:
+    order = np.argsort(result.wavenumber_x)
+    density = np.log10(np.where(result.density > 0, result.density, np.nan))[order]
+    axes = ((result.wavenumber_x[order], "wave number q_x", "rad/m"), (result.wavenumber_y, "wave number q_y", "rad/m"))
+    return _map(ax, axes, density, "log₁₀ C, C in m⁴", "1", keywords)
+
+
+@plot.register(_core.CorrelationMap)
+def _(result: _core.CorrelationMap, ax: Axes | None = None, **keywords: Any) -> Axes:
+    rows, columns = result.autocorrelation.shape
+    x = (np.arange(rows) - rows // 2) * result.grid.dx
+    axes = ((x, "distance along x", "m"), (np.arange(columns) * result.grid.dy, "distance along y", "m"))
+    return _map(ax, axes, result.autocorrelation, "autocorrelation", "m²", keywords)
+
+
+@plot.register(_core.Profile)
+def _(result: _core.Profile, ax: Axes | None = None, **keywords: Any) -> Axes:
+    x = np.arange(len(result.heights)) * result.dx
+    return _line(ax, (x, "x", "m"), (result.heights, "height", "m"), "", keywords)
+
+
+@plot.register(_core.MonteCarloCurve)
+def _(result: _core.MonteCarloCurve, ax: Axes | None = None, **keywords: Any) -> Axes:
+    return plot(result.mean, ax, **keywords)
+
+
+@plot.register(_core.AsperityDamping)
+def _(result: _core.AsperityDamping, ax: Axes | None = None, **keywords: Any) -> Axes:
+    """What the summits lose, from the one that loses most."""
+    work = np.sort(result.work[result.work > 0])[::-1]
+    return _line(ax, (np.arange(1, len(work) + 1), "summit", "1"), (work, "loss in a cycle", "J"), "xy", keywords)
+
+
+@plot.register(_core.ContactSetAt)
+def _(result: _core.ContactSetAt, ax: Axes | None = None, **keywords: Any) -> Axes:
+    drawn = _axes(ax)
+    drawn.imshow(result.contact.T, **({"origin": "lower", "cmap": "Greys"} | keywords))
+    drawn.set_xlabel("cell along x")
+    drawn.set_ylabel("cell along y")
+    return drawn
+
+
+@plot.register(_core.SurfacePicture)
+def _(result: _core.SurfacePicture, ax: Axes | None = None, **keywords: Any) -> Axes:
+    spectrum = (np.asarray(result.wavenumber), "wave number q", "rad/m"), (np.asarray(result.density), "C(q)", "m⁴")
+    return _line(ax, *spectrum, "xy", keywords)
+
+
+@plot.register(_core.BearingCurve)
+def _(result: _core.BearingCurve, ax: Axes | None = None, **keywords: Any) -> Axes:
+    part = np.linspace(0.0, 1.0, 201)
+    height = np.array([result.height(float(p)) for p in part])
+    return _line(ax, (part, "part of the surface above", "1"), (height, "height", "m"), "", keywords)
+
+
+@plot.register(_core.SampledMotion)
+def _(result: _core.SampledMotion, ax: Axes | None = None, **keywords: Any) -> Axes:
+    return _line(ax, (result.displacement, "displacement x", "m"), (result.indentation, "indentation δ", "m"), "", keywords)
+
+
+@plot.register(_core.TrajectoryDamping)
+def _(result: _core.TrajectoryDamping, ax: Axes | None = None, **keywords: Any) -> Axes:
+    step = np.arange(len(result.tangential_force))
+    return _line(ax, (step, "step of the period", "1"), (result.tangential_force, "tangential force F_x", "N"), "", keywords)
+
+
+@plot.register(_core.NonGaussianSurface)
+def _(result: _core.NonGaussianSurface, ax: Axes | None = None, **keywords: Any) -> Axes:
+    return plot(result.surface, ax, **keywords)
+
+
+@plot.register(_core.ConvertedPsd)
+def _(result: _core.ConvertedPsd, ax: Axes | None = None, **keywords: Any) -> Axes:
+    x, y = (result.wavenumber, "wave number", result.wavenumber_unit), (result.density, "density", result.density_unit)
+    return _line(ax, x, y, "xy", keywords)
 
 
 @plot.register(_core.LocalDecayLength)

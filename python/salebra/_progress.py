@@ -29,6 +29,9 @@ class Bar:
         self._bar.n = min(1.0, max(0.0, report.fraction))
         self._bar.refresh()
 
-    def close(self) -> None:
-        """Leaves the bar as it stands."""
+    def close(self, done: bool) -> None:
+        """Ends the bar: at 100 % where the work was done, else as it stands."""
+        if done:
+            self._bar.n = 1.0
+            self._bar.refresh()
         self._bar.close()

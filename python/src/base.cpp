@@ -178,13 +178,6 @@ lx, ly : float
       .def_prop_ro("points", &Grid2D::points, "nx·ny.")
       .def_prop_ro("area", &Grid2D::area, "Nominal area, m².")
       .def_prop_ro("cell_area", &Grid2D::cell_area, "m².")
-      .def(
-          "__eq__",
-          [](const Grid2D& self, nb::handle other) {
-            Grid2D grid;
-            return nb::try_cast(other, grid) && grid == self;
-          },
-          nb::arg("other").none(), nb::sig("def __eq__(self, other: object, /) -> bool"))
       .def("__hash__",
            [](const Grid2D& grid) {
              return nb::hash(nb::make_tuple(grid.nx, grid.ny, grid.lx, grid.ly));

@@ -27,5 +27,6 @@ void bind_closed_form(nanobind::module_& module);
 void bind_cycle(nanobind::module_& module);
 void bind_study(nanobind::module_& module);
 void bind_results(nanobind::module_& module);
+void bind_values(nanobind::module_& module);
 
 }  // namespace salebra::python

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/sweep.hpp>
 
@@ -184,18 +184,19 @@ void bind_presses(nb::module_& m) {
     kept.push_back(std::make_unique<std::string>(head + options_of_contact));
     m.def(
         name,
-        [function](const BoundSurface& surface, double contact_modulus, double value,
+        [function](const BoundSurface& surface, const MaterialArgument& material, double value,
                    double tolerance, int max_iterations, const Choice<Boundary>& boundary,
                    const Choice<Precision>& precision, double hardness,
                    const std::optional<FieldArgument>& initial_pressure,
                    const ProgressArgument& progress) {
+          const double contact_modulus = material.material().contact_modulus;
           return press(surface, contact_modulus, tolerance, max_iterations, boundary, precision,
                        hardness, initial_pressure, progress,
                        [&](const Surface& heights, const NormalContactOptions& options) {
                          return function(heights, contact_modulus, value, options);
                        });
         },
-        nb::arg("surface"), nb::arg("contact_modulus"), nb::arg(target), nb::kw_only(),
+        nb::arg("surface"), nb::arg("material"), nb::arg(target), nb::kw_only(),
         nb::arg("tolerance") = 1e-10, nb::arg("max_iterations") = 1000,
         nb::arg("boundary") = "periodic", nb::arg("precision") = "mixed",
         nb::arg("hardness") = infinite, nb::arg("initial_pressure") = nb::none(),
@@ -213,8 +214,8 @@ by nested conjugate gradients on the contact set. One transform pair an iteratio
 Parameters
 ----------
 surface : Surface
-contact_modulus : float
-    E* > 0, Pa.
+material : Material or float
+    Or E* > 0 alone, Pa.
 nominal_pressure : float
     > 0, Pa, below the hardness.)",
       [](const Surface& s, double e, double v, const NormalContactOptions& o) {
@@ -227,8 +228,8 @@ nominal_pressure : float
 Parameters
 ----------
 surface : Surface
-contact_modulus : float
-    E* > 0, Pa.
+material : Material or float
+    Or E* > 0 alone, Pa.
 mean_gap : float
     ū in (0, max h − mean h), m.)",
       [](const Surface& s, double e, double v, const NormalContactOptions& o) {
@@ -240,8 +241,8 @@ mean_gap : float
 Parameters
 ----------
 surface : Surface
-contact_modulus : float
-    E* > 0, Pa.
+material : Material or float
+    Or E* > 0 alone, Pa.
 indentation : float
     > 0, m; below max h − mean h for periodic contacts.)",
          [](const Surface& s, double e, double v, const NormalContactOptions& o) {

@@ -15,6 +15,7 @@
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/contact.hpp"
 #include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
@@ -102,11 +103,12 @@ model : str
 void bind_sweep(nb::module_& m) {
   m.def(
       "sweep_pressures",
-      [](const BoundSurface& surface, const Material& material, const Values& pressures,
+      [](const BoundSurface& surface, const MaterialArgument& given, const Values& pressures,
          bool stiffness, bool stick, int concurrent_loads, double tolerance, int max_iterations,
          const Choice<Boundary>& boundary, const Choice<Precision>& precision, double hardness,
          const ProgressArgument& progress) {
         cite({"polonsky_keer1999", "stanley_kato1997"});
+        const Material material = given.material();
         SweepOptions options;
         options.contact = {.tolerance = tolerance,
                            .max_iterations = max_iterations,
@@ -131,7 +133,8 @@ void bind_sweep(nb::module_& m) {
 Parameters
 ----------
 surface : Surface
-material : Material
+material : Material or float
+    Or E* > 0 alone, Pa: without K_t.
 pressures : array_like
     > 0, increasing, Pa.
 stiffness : bool
@@ -217,8 +220,7 @@ The interval holds for independent errors of ln p. With a computed curve it meas
       nb::arg("curve"), nb::arg("window") = nb::none(), nb::arg("weights") = "spacing",
       "Tests the exponential law over the window and with the weights of :func:`fit_exponential`; "
       "four points at least.");
-  described_class<WindowSensitivity>(m, "WindowSensitivity",
-                                     "How much a fit owes to its window.");
+  described_class<WindowSensitivity>(m, "WindowSensitivity", "How much a fit owes to its window.");
   m.def(
       "window_sensitivity",
       [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window,
@@ -228,8 +230,8 @@ The interval holds for independent errors of ln p. With a computed curve it meas
       nb::arg("curve"), nb::arg("window") = nb::none(), nb::arg("weights") = "spacing",
       "The least and largest decay length over every run of samples that holds at least half of "
       "the window, with the weights of :func:`fit_exponential`.");
-  auto local = described_class<LocalDecayLength>(
-      m, "LocalDecayLength", "l(ū) = −dū/d ln p between consecutive samples.");
+  auto local = described_class<LocalDecayLength>(m, "LocalDecayLength",
+                                                 "l(ū) = −dū/d ln p between consecutive samples.");
   result_methods(local, true);
   m.def("local_decay_length", &local_decay_length, nb::arg("curve"),
         "l(ū) at the midpoints between consecutive samples.");

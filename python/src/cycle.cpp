@@ -21,6 +21,7 @@
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/contact.hpp"
 #include "interop/cycle_motion.hpp"
 #include "interop/levels.hpp"
 #include "interop/path.hpp"
@@ -46,7 +47,7 @@ void bind_levels(nb::module_& m) {
   level.def_ro("force", &ContactSetAt::force, "F, N.")
       .def_ro("converged", &ContactSetAt::converged);
   nb::class_<BoundLevels>(
-      m, "ContactLevels",
+      m, "ContactLevels", nb::dynamic_attr(),
       R"(The normal contact as a function of the indentation, for the direct simulation.
 
 Parameters
@@ -96,8 +97,9 @@ boundary_element_levels : the levels of a surface.
       .def_ro("grid", &BoundLevels::grid);
   m.def(
       "boundary_element_levels",
-      [](const BoundSurface& surface, double contact_modulus, double tolerance, int max_iterations,
-         const Choice<Boundary>& boundary) {
+      [](const BoundSurface& surface, const MaterialArgument& material, double tolerance,
+         int max_iterations, const Choice<Boundary>& boundary) {
+        const double contact_modulus = material.material().contact_modulus;
         cite({"polonsky_keer1999", "stanley_kato1997"});
         const NormalContactOptions options = contact_options(tolerance, max_iterations, boundary);
         return BoundLevels{
@@ -107,7 +109,7 @@ boundary_element_levels : the levels of a surface.
                         fingerprint(surface.surface.heights), contact_modulus, boundary.text,
                         tolerance, max_iterations)};
       },
-      nb::arg("surface"), nb::arg("contact_modulus"), nb::kw_only(), nb::arg("tolerance") = 1e-10,
+      nb::arg("surface"), nb::arg("material"), nb::kw_only(), nb::arg("tolerance") = 1e-10,
       nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
       "The levels of a surface by boundary elements; the boundary must be that of the simulation. "
       "Copies the surface.");

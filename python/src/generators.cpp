@@ -26,7 +26,7 @@ namespace salebra::python {
 namespace {
 
 void bind_spectra(nb::module_& m) {
-  nb::class_<Spectrum>(m, "Spectrum",
+  nb::class_<Spectrum>(m, "Spectrum", nb::dynamic_attr(),
                        R"(Power spectral density of a random surface.
 
 .. math:: C(q) = (2\pi)^{-2}\int\langle h(0)h(x)\rangle e^{-iq\cdot x}\,d^2x, \qquad h_{rms}^2 = \int C\,d^2q
@@ -259,7 +259,7 @@ rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for eac
 }
 
 void bind_non_gaussian(nb::module_& m) {
-  nb::class_<HeightDistribution>(m, "HeightDistribution",
+  nb::class_<HeightDistribution>(m, "HeightDistribution", nb::dynamic_attr(),
                                  "A distribution of heights; location and scale do not matter.")
       .def(
           "quantile",
@@ -290,8 +290,10 @@ void bind_non_gaussian(nb::module_& m) {
     NonGaussianSurface result;
     nb::object surface;
   };
-  nb::class_<BoundNonGaussian>(m, "NonGaussianSurface", "A surface and how its iteration ended.")
-      .def_ro("surface", &BoundNonGaussian::surface, nb::sig("def surface(self) -> Surface"))
+  nb::class_<BoundNonGaussian> made(m, "NonGaussianSurface",
+                                    "A surface and how its iteration ended.");
+  plot_method(made);
+  made.def_ro("surface", &BoundNonGaussian::surface, nb::sig("def surface(self) -> Surface"))
       .def_prop_ro("iterations",
                    [](const BoundNonGaussian& self) { return self.result.iterations; })
       .def_prop_ro(
@@ -302,7 +304,34 @@ void bind_non_gaussian(nb::module_& m) {
           "converged", [](const BoundNonGaussian& self) { return self.result.converged; },
           "The mismatch has stopped falling.")
       .def_prop_ro("interrupted",
-                   [](const BoundNonGaussian& self) { return self.result.interrupted; });
+                   [](const BoundNonGaussian& self) { return self.result.interrupted; })
+      .def(
+          "__getstate__",
+          [](const BoundNonGaussian& self) {
+            return nb::make_tuple(self.surface, self.result.iterations,
+                                  self.result.spectrum_mismatch, self.result.converged,
+                                  self.result.interrupted);
+          },
+          nb::sig("def __getstate__(self) -> tuple[Surface, int, float, bool, bool]"))
+      .def(
+          "__setstate__",
+          [](BoundNonGaussian* self, const nb::tuple& state) {
+            new (self) BoundNonGaussian{};
+            self->surface = state[0];
+            self->result.iterations = nb::cast<int>(state[1]);
+            self->result.spectrum_mismatch = nb::cast<double>(state[2]);
+            self->result.converged = nb::cast<bool>(state[3]);
+            self->result.interrupted = nb::cast<bool>(state[4]);
+          },
+          nb::sig(
+              "def __setstate__(self, state: tuple[Surface, int, float, bool, bool], /) -> None"))
+      .def(
+          "__eq__",
+          [](nb::handle self, nb::handle other) {
+            return self.type().is(other.type()) &&
+                   self.attr("__getstate__")().equal(other.attr("__getstate__")());
+          },
+          nb::arg("other").none(), nb::sig("def __eq__(self, other: object, /) -> bool"));
   m.def(
       "non_gaussian",
       [](const Grid2D& grid, const Spectrum& spectrum, const HeightDistribution& distribution,
@@ -345,7 +374,7 @@ void bind_profiles(nb::module_& m) {
       .def_prop_ro("dx", &Profile::dx, "m")
       .def_ro("origin", &Profile::origin);
   view_property(profile, "heights", &Profile::heights, "m");
-  nb::class_<ProfileSpectrum>(m, "ProfileSpectrum",
+  nb::class_<ProfileSpectrum>(m, "ProfileSpectrum", nb::dynamic_attr(),
                               "Power spectral density C₁(q) of a random profile, h_rms² = ∫C₁ dq.")
       .def("density", &ProfileSpectrum::density, nb::arg("q"), "``C₁(|q|)``, m³.")
       .def_prop_ro("moments", &ProfileSpectrum::moments)

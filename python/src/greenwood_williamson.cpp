@@ -109,7 +109,7 @@ void bind_models(nb::module_& m) {
       .def_ro("curvature", &AsperityContact::curvature, "F'', N/m².")
       .def_ro("converged", &AsperityContact::converged, "Only a model that iterates may say no.");
   nb::class_<AsperityModel>(
-      m, "AsperityModel",
+      m, "AsperityModel", nb::dynamic_attr(),
       "A smooth rigid plane at separation s from the plane z = 0 of an ensemble of summits.")
       .def(
           "at",

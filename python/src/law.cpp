@@ -34,7 +34,7 @@ void evaluation(nb::class_<ContactLaw>& law, const char* name, const char* argum
 
 void bind_law(nb::module_& m) {
   nb::class_<ContactLaw> law(
-      m, "ContactLaw",
+      m, "ContactLaw", nb::dynamic_attr(),
       R"(Force–indentation law of a contact: all that the damping problem needs to know of it.
 
 Indentation δ grows with approach. Functions take a number or an array and return the same shape. Evaluation outside

@@ -22,7 +22,7 @@ std::shared_ptr<Profile> shared(std::unique_ptr<Profile> profile) {
 }
 
 void bind_profile(nb::module_& m) {
-  nb::class_<Profile> profile(m, "IndenterProfile",
+  nb::class_<Profile> profile(m, "IndenterProfile", nb::dynamic_attr(),
                               R"(An axisymmetric indenter z = f(r), f(0) = 0, and its image g(x).
 
 .. math:: g(x) = |x|\int_0^{|x|}\frac{f'(r)\,dr}{\sqrt{x^2-r^2}} \quad\text{Eq. (3) of doi:10.1038/srep16189}

@@ -29,4 +29,5 @@ NB_MODULE(_core, m) {
   bind_cycle(m);
   bind_study(m);
   bind_results(m);
+  bind_values(m);
 }

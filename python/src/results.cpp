@@ -41,7 +41,7 @@ nb::dict attributes_in(const ResultReader& reader, const std::string& path) {
 
 void bind_reader(nb::module_& m) {
   nb::class_<ResultReader>(
-      m, "ResultReader",
+      m, "ResultReader", nb::dynamic_attr(),
       R"(Reads a file of results as arrays with units: what the program's ``-o FILE.h5`` and the write functions made.
 
 Groups are the stages of a computation (`surface`, `curve`, `fit`, `damping`, …); datasets lie on coordinates of their group. Paths are

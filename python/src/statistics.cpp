@@ -235,7 +235,7 @@ Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
 }
 
 void bind_bearing(nb::module_& m) {
-  nb::class_<BearingCurve>(m, "BearingCurve",
+  nb::class_<BearingCurve>(m, "BearingCurve", nb::dynamic_attr(),
                            "Abbott and Firestone's bearing curve c(p): the height above which the "
                            "part p of the surface lies.")
       .def(

@@ -87,9 +87,10 @@ InvalidInput
       .def_ro("interrupted", &PunchStiffness::interrupted);
   m.def(
       "punch_stiffness",
-      [](const ContactArgument& contact, const Grid2D& grid, double contact_modulus,
+      [](const ContactArgument& contact, const Grid2D& grid, const MaterialArgument& material,
          double tolerance, int max_iterations, const Choice<Boundary>& boundary,
          const ProgressArgument& progress) {
+        const double contact_modulus = material.material().contact_modulus;
         PunchOptions options{.tolerance = tolerance,
                              .max_iterations = max_iterations,
                              .boundary = boundary.value("boundary")};
@@ -98,7 +99,7 @@ InvalidInput
           return punch_stiffness(contact.set, grid, contact_modulus, options);
         });
       },
-      nb::arg("contact"), nb::arg("grid"), nb::arg("contact_modulus"), nb::kw_only(),
+      nb::arg("contact"), nb::arg("grid"), nb::arg("material"), nb::kw_only(),
       nb::arg("tolerance") = 1e-6, nb::arg("max_iterations") = 1000,
       nb::arg("boundary") = "periodic", nb::arg("progress") = false,
       "Normal stiffness K = dF/dδ of a contact set, N/m. The same of a state: "

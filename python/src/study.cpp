@@ -107,10 +107,10 @@ InvalidInput
 void bind_realisation(nb::module_& m) {
   described_class<DampingPoint>(m, "DampingPoint",
                                 "Damping at one pressure of a curve, by three routes.");
-  described_class<SpotStatistics>(
-      m, "SpotStatistics", "Contact spots of the boundary elements at one pressure.");
-  described_class<SurfacePicture>(m, "SurfacePicture",
-                                  "Heights, first contacts, spectrum and distribution of a surface.");
+  described_class<SpotStatistics>(m, "SpotStatistics",
+                                  "Contact spots of the boundary elements at one pressure.");
+  described_class<SurfacePicture>(
+      m, "SurfacePicture", "Heights, first contacts, spectrum and distribution of a surface.");
   described_class<ModelResult>(m, "ModelResult", "What one contact model says about one surface.");
   nb::class_<Realisation> realisation =
       described_class<Realisation>(m, "Realisation", "Everything computed for one surface.");
@@ -138,8 +138,10 @@ nb::list columns_of() {
 }
 
 void bind_result(nb::module_& m) {
-  m.def("_curve_columns", &columns_of<ForceSample>, nb::sig("def _curve_columns() -> list[typing.Any]"));
-  m.def("_damping_columns", &columns_of<DampingPoint>, nb::sig("def _damping_columns() -> list[typing.Any]"));
+  m.def("_curve_columns", &columns_of<ForceSample>,
+        nb::sig("def _curve_columns() -> list[typing.Any]"));
+  m.def("_damping_columns", &columns_of<DampingPoint>,
+        nb::sig("def _damping_columns() -> list[typing.Any]"));
   nb::class_<EnsembleMean>(m, "EnsembleMean",
                            "A mean with its 95 % interval; NaN limits where there is none.")
       .def_ro("mean", &EnsembleMean::mean)
@@ -202,10 +204,12 @@ void bind_result(nb::module_& m) {
       .def(
           "damping",
           [](const StudyResult& self, const std::string& quantity, const std::string& model) {
-            return self.damping(number_of<DampingPoint>(quantity, "quantity"), contact_model(model));
+            return self.damping(number_of<DampingPoint>(quantity, "quantity"),
+                                contact_model(model));
           },
           nb::arg("quantity") = "damping_constant", nb::arg("model") = "bem",
-          "Mean at each pressure of a quantity of :class:`DampingPoint`, such as damping_constant_eq16 (Eq. (16)) or deviation.")
+          "Mean at each pressure of a quantity of :class:`DampingPoint`, such as "
+          "damping_constant_eq16 (Eq. (16)) or deviation.")
       .def(
           "deviation_range",
           [](const StudyResult& self, const std::string& model) {
@@ -241,15 +245,34 @@ void bind_result(nb::module_& m) {
 void bind_runs(nb::module_& m) {
   m.def(
       "run_study",
-      [](const StudyConfiguration& configuration, const ProgressArgument& progress) {
+      [](const StudyConfiguration& configuration, const std::optional<std::filesystem::path>& parts,
+         bool resume, const ProgressArgument& progress) {
         cite_study();
-        return interruptible(progress,
-                             [&](const Progress& told) { return run_study(configuration, told); });
+        const std::unique_ptr<StudyParts> folder =
+            parts ? std::make_unique<StudyParts>(*parts, resume) : nullptr;
+        return interruptible(progress, [&](const Progress& told) {
+          return run_study(configuration, {.on_progress = told, .parts = folder.get()});
+        });
       },
-      nb::arg("configuration"), nb::kw_only(), nb::arg("progress") = false,
+      nb::arg("configuration"), nb::kw_only(), nb::arg("parts") = nb::none(),
+      nb::arg("resume") = true, nb::arg("progress") = false,
       R"(Surface → statistics → contact models → exponential law → damping, for an ensemble or a measured surface.
 
-Same bits for every thread count. Raises NotConverged where fewer than four contacts of a sweep converged.
+Same bits for every thread count, and for a run that was stopped and continued.
+
+Parameters
+----------
+configuration : StudyConfiguration
+parts : str or os.PathLike, optional
+    Folder in which each finished surface is kept. A second call with the same folder and configuration continues the run.
+resume : bool
+    False: a folder that holds surfaces already is refused.
+progress : bool or callable
+
+Raises
+------
+NotConverged
+    Where fewer than four contacts of a sweep converged.
 )");
   m.def(
       "run_ensembles",

@@ -63,6 +63,18 @@ True
           },
           nb::sig("def heights(self) -> numpy.typing.NDArray[numpy.float64]"),
           "Heights (nx, ny), m: the memory of the surface, not a copy.")
+      .def(
+          "__array__",
+          [](nb::handle self, nb::handle dtype, nb::handle copy) {
+            const nb::object heights = self.attr("heights");
+            if (!copy.is_none() && nb::cast<bool>(copy))
+              return nb::module_::import_("numpy").attr("array")(heights, dtype);
+            return nb::module_::import_("numpy").attr("asarray")(heights, dtype);
+          },
+          nb::arg("dtype") = nb::none(), nb::arg("copy") = nb::none(),
+          nb::sig("def __array__(self, dtype: typing.Any = None, copy: bool | None = None) -> "
+                  "numpy.typing.NDArray[typing.Any]"),
+          "numpy.asarray(surface) is its heights.")
       .def_prop_ro(
           "grid", [](const BoundSurface& self) { return self.surface.grid; }, "Points and size.")
       .def_prop_ro(

@@ -10,6 +10,7 @@
 
 #include "bindings.hpp"
 #include "interop/citations.hpp"
+#include "interop/contact.hpp"
 #include "interop/surface.hpp"
 
 namespace salebra::python {
@@ -28,27 +29,30 @@ void bind_theories(nb::module_& m) {
       "in m.");
   m.def(
       "bgt_area_fraction",
-      [](const Numbers& pressure, double contact_modulus, double rms_slope) {
+      [](const Numbers& pressure, const MaterialArgument& material, double rms_slope) {
+        const double contact_modulus = material.material().contact_modulus;
         cite({"bush_gibson_thomas1975"});
         return for_each_number(
             pressure, [&](double p) { return bgt_area_fraction(p, contact_modulus, rms_slope); });
       },
-      nb::arg("pressure"), nb::arg("contact_modulus"), nb::arg("rms_slope"),
-      nb::sig("def bgt_area_fraction(pressure: numpy.typing.ArrayLike, contact_modulus: float, "
+      nb::arg("pressure"), nb::arg("material"), nb::arg("rms_slope"),
+      nb::sig("def bgt_area_fraction(pressure: numpy.typing.ArrayLike, material: Material | float, "
               "rms_slope: float) -> typing.Any"),
       "Bush, Gibson and Thomas, doi:10.1016/0043-1648(75)90145-3: A/A0 = √(2π) p/(E*h'), the limit "
       "of small pressures (Pa).");
   m.def(
       "persson_area_fraction",
-      [](const Numbers& pressure, double contact_modulus, double rms_slope) {
+      [](const Numbers& pressure, const MaterialArgument& material, double rms_slope) {
+        const double contact_modulus = material.material().contact_modulus;
         cite({"persson2001"});
         return for_each_number(pressure, [&](double p) {
           return persson_area_fraction(p, contact_modulus, rms_slope);
         });
       },
-      nb::arg("pressure"), nb::arg("contact_modulus"), nb::arg("rms_slope"),
-      nb::sig("def persson_area_fraction(pressure: numpy.typing.ArrayLike, contact_modulus: float, "
-              "rms_slope: float) -> typing.Any"),
+      nb::arg("pressure"), nb::arg("material"), nb::arg("rms_slope"),
+      nb::sig(
+          "def persson_area_fraction(pressure: numpy.typing.ArrayLike, material: Material | float, "
+          "rms_slope: float) -> typing.Any"),
       "Persson, doi:10.1063/1.1388626: A/A0 = erf(√2 p/(E*h')), of slope √(8/π) at small pressures "
       "(Pa).");
 
@@ -74,7 +78,8 @@ void bind_theories(nb::module_& m) {
       m, "PerssonAsymptote", "p = factor·E*·exp(−ū/decay_length), the limit of small pressures.")
       .def_ro("decay_length", &PerssonTheory::Asymptote::decay_length, "u0, m; K/A0 = p/u0.")
       .def_ro("factor", &PerssonTheory::Asymptote::factor, "β.");
-  nb::class_<PerssonTheory>(m, "PerssonTheory", R"(Mean gap and stiffness by Persson's theory.
+  nb::class_<PerssonTheory>(m, "PerssonTheory", nb::dynamic_attr(),
+                            R"(Mean gap and stiffness by Persson's theory.
 
 .. math:: \bar u(p) = \sqrt\pi\int q^2Cw\int_p^\infty[\gamma+3(1-\gamma)P^2]\,e^{-(wp'/E^*)^2}\frac{dp'}{p'}\,dq
 
@@ -83,14 +88,20 @@ with P(q) = erf(w p/E*), w⁻² = π∫^q q³C dq: doi:10.1103/PhysRevLett.99.12
 Parameters
 ----------
 shells : list of RoughnessShell
-contact_modulus : float
-    E*, Pa.
+material : Material or float
+    Or E* alone, Pa.
 energy_factor : float
     γ in (0, 1]: 0.4 to 0.5 agrees with simulations.
 )")
-      .def(nb::init<std::vector<RoughnessShell>, double, double>(), nb::arg("shells"),
-           nb::arg("contact_modulus"),
-           nb::arg("energy_factor") = PerssonTheory::usual_energy_factor)
+      .def(
+          "__init__",
+          [](PerssonTheory* self, std::vector<RoughnessShell> shells,
+             const MaterialArgument& material, double energy_factor) {
+            new (self) PerssonTheory(std::move(shells), material.material().contact_modulus,
+                                     energy_factor);
+          },
+          nb::arg("shells"), nb::arg("material"),
+          nb::arg("energy_factor") = PerssonTheory::usual_energy_factor)
       .def(
           "mean_gap",
           [](const PerssonTheory& self, const Numbers& pressure) {

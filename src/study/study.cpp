@@ -31,11 +31,11 @@ void warn(StudyResult& result) {
   }
   int lost = 0, unconverged = 0;
   for (const Realisation& realisation : result.realisations) {
-    lost += int(std::ranges::count_if(realisation.of(ContactModel::bem).damping, [](const DampingPoint& point) {
-      return std::isnan(point.work_per_cycle);
-    }));
-    unconverged +=
-        int(std::ranges::count(realisation.of(ContactModel::bem).curve.samples, false, &ForceSample::converged));
+    lost += int(std::ranges::count_if(
+        realisation.of(ContactModel::bem).damping,
+        [](const DampingPoint& point) { return std::isnan(point.work_per_cycle); }));
+    unconverged += int(std::ranges::count(realisation.of(ContactModel::bem).curve.samples, false,
+                                          &ForceSample::converged));
   }
   if (unconverged > 0) {
     result.warnings.push_back(fmt::format("{} contacts did not converge to {} and were left out",
@@ -63,7 +63,8 @@ void warn(StudyResult& result) {
   const auto total = result.realisations.size() * result.pressures.size();
   if (lost > 0 && std::size_t(lost) == total) {
     result.warnings.push_back(
-        "the normal oscillation leaves the range of the contact at every force: make normal_amplitude "
+        "the normal oscillation leaves the range of the contact at every force: make "
+        "normal_amplitude "
         "smaller or widen the pressures");
   }
 }
@@ -95,7 +96,8 @@ void flag(StudyResult& result) {
   double fewest = std::numeric_limits<double>::infinity();
   for (const Realisation& realisation : result.realisations)
     for (std::size_t k = 0; k < realisation.spots.size(); ++k)
-      if (realisation.of(ContactModel::bem).fit.window.contains(result.pressures[k], PressureWindow::round_off) &&
+      if (realisation.of(ContactModel::bem)
+              .fit.window.contains(result.pressures[k], PressureWindow::round_off) &&
           !std::isnan(realisation.spots[k].spot_count))
         fewest = std::min(fewest, realisation.spots[k].spot_count);
   if (fewest < least_spots)
@@ -161,10 +163,10 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
   return results;
 }
 
-StudyResult run_study(const StudyConfiguration& configuration, const Progress& progress) {
+StudyResult run_study(const StudyConfiguration& configuration, const StudyRun& run) {
   const auto points = parameter_combinations(configuration).size();
   require(points == 1, "ensemble", points, "points; this takes one, run_ensembles all");
-  std::vector<StudyResult> results = run_ensembles(configuration, {.on_progress = progress});
+  std::vector<StudyResult> results = run_ensembles(configuration, run);
   if (!results.empty()) return std::move(results.front());
   StudyResult nothing;
   nothing.configuration = configuration;

@@ -41,9 +41,10 @@ TEST_CASE(
   for (const Realisation& realisation : result.realisations) {
     REQUIRE(realisation.of(ContactModel::bem).damping.size() == 12);
     const DampingPoint& point = realisation.of(ContactModel::bem).damping[5];
-    CHECK(point.work_per_cycle_eq16 == Approx(closed_form::work_per_cycle_rough(
-                                       ratio, point.force, realisation.of(ContactModel::bem).fit.decay_length, drag))
-                                .epsilon(1e-12));
+    CHECK(point.work_per_cycle_eq16 ==
+          Approx(closed_form::work_per_cycle_rough(
+                     ratio, point.force, realisation.of(ContactModel::bem).fit.decay_length, drag))
+              .epsilon(1e-12));
     // γ = P/v².
     CHECK(point.damping_constant ==
           Approx(point.work_per_cycle * drag.angular_frequency / (2 * std::numbers::pi) /
@@ -53,7 +54,8 @@ TEST_CASE(
     // l varies by tens of per cent along the curve; F'' with its square.
     CHECK(std::abs(point.deviation()) < 0.8);
   }
-  CHECK(result.realisations[0].of(ContactModel::bem).fit.decay_length != result.realisations[1].of(ContactModel::bem).fit.decay_length);
+  CHECK(result.realisations[0].of(ContactModel::bem).fit.decay_length !=
+        result.realisations[1].of(ContactModel::bem).fit.decay_length);
   CHECK(result.decay_length(ContactModel::bem).low < result.decay_length(ContactModel::bem).high);
 }
 
@@ -66,7 +68,8 @@ TEST_CASE("A study is the same in every bit for one and two threads and when run
   parallel::set_threads(2);
   const StudyResult two = run_study(configuration);
   parallel::set_threads(0);
-  CHECK(one.realisations[0].of(ContactModel::bem).fit.decay_length == two.realisations[0].of(ContactModel::bem).fit.decay_length);
+  CHECK(one.realisations[0].of(ContactModel::bem).fit.decay_length ==
+        two.realisations[0].of(ContactModel::bem).fit.decay_length);
   for (std::size_t i = 0; i < one.pressures.size(); ++i) {
     const double a = one.realisations[0].of(ContactModel::bem).damping[i].work_per_cycle,
                  b = two.realisations[0].of(ContactModel::bem).damping[i].work_per_cycle;
@@ -76,10 +79,10 @@ TEST_CASE("A study is the same in every bit for one and two threads and when run
 
 TEST_CASE("A stopped study holds the realisations that were finished", "[study]") {
   int calls = 0;
-  const StudyResult result = run_study(small_study(), [&](const ProgressReport& report) {
-    ++calls;
-    return report.fraction < 0.5;
-  });
+  const StudyResult result = run_study(small_study(), {[&](const ProgressReport& report) {
+                                         ++calls;
+                                         return report.fraction < 0.5;
+                                       }});
   CHECK(calls > 1);
   CHECK(result.interrupted);
   CHECK(result.realisations.size() < 3);
@@ -98,7 +101,8 @@ TEST_CASE("A study's file holds its curves and fits with units", "[study]") {
   CHECK(reader.shape("curve/mean_gap") == std::vector<Index>{3, 2, 12});
   CHECK(reader.text_attribute("curve/mean_gap", "units") == "m");
   CHECK(reader.numbers("curve/pressure") == result.pressures);
-  CHECK(reader.numbers("fit/decay_length")[1] == result.realisations[1].of(ContactModel::bem).fit.decay_length);
+  CHECK(reader.numbers("fit/decay_length")[1] ==
+        result.realisations[1].of(ContactModel::bem).fit.decay_length);
   CHECK(reader.numbers("damping/work_per_cycle")[12 + 5] ==
         result.realisations[1].of(ContactModel::bem).damping[5].work_per_cycle);
   CHECK(reader.text_attribute("/", "configuration") == configuration.text);
@@ -126,7 +130,8 @@ TEST_CASE("Curves without a decay length keep their damping, and the study says 
     CHECK(std::isnan(realisation.of(ContactModel::bem).fit.decay_length));
     CHECK(std::isnan(realisation.of(ContactModel::bem).test.decay_length_closest));
     CHECK(realisation.of(ContactModel::bem).damping.size() == 5);
-    for (const DampingPoint& point : realisation.of(ContactModel::bem).damping) CHECK(std::isnan(point.work_per_cycle_eq16));
+    for (const DampingPoint& point : realisation.of(ContactModel::bem).damping)
+      CHECK(std::isnan(point.work_per_cycle_eq16));
     CHECK(std::ranges::any_of(realisation.of(ContactModel::bem).damping,
                               [](const DampingPoint& point) { return point.work_per_cycle > 0; }));
   }

@@ -113,6 +113,6 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
                                        const StudyRun& run = {});
 
 /// run_ensembles() of a configuration with one point. Throws InvalidInput where it has more.
-StudyResult run_study(const StudyConfiguration& configuration, const Progress& progress = {});
+StudyResult run_study(const StudyConfiguration& configuration, const StudyRun& run = {});
 
 }  // namespace salebra

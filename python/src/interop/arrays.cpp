@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 #include <salebra/base/error.hpp>
+#include <string_view>
 
 namespace salebra::python {
 namespace {
@@ -123,8 +124,14 @@ bool as_array(handle source, const char* type, bool contiguous, object& array) n
   const auto convert = [&]() -> PyObject* {  // the type of what is raised, none where all is well
     try {
       const module_ numpy = module_::import_("numpy");
-      array = contiguous ? numpy.attr("asarray")(source, type, "C")
-                         : numpy.attr("asarray")(source, type);
+      object given = borrow(source);
+      // asarray would take what lies under the mask for values.
+      if (isinstance(source, numpy.attr("ma").attr("MaskedArray")))
+        given = std::string_view(type) == "bool"
+                    ? given.attr("filled")(false)
+                    : given.attr("astype")(type).attr("filled")(numpy.attr("nan"));
+      array =
+          contiguous ? numpy.attr("asarray")(given, type, "C") : numpy.attr("asarray")(given, type);
       return nullptr;
     } catch (python_error& error) {
       return error.matches(PyExc_KeyboardInterrupt) ? PyExc_KeyboardInterrupt : PyExc_Exception;

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <salebra/base/grid.hpp>
+#include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/normal/normal.hpp>
 
 #include "interop/arrays.hpp"
@@ -17,4 +18,33 @@ struct BoundContact : NormalContactState {
   Boundary boundary = Boundary::periodic;
 };
 
+/// What Python gave for the material of a normal contact: a Material, or its E* alone.
+struct MaterialArgument {
+  Material given;
+  std::optional<double> contact_modulus;
+
+  /// Throws InvalidInput unless E* > 0.
+  Material material() const {
+    return contact_modulus ? Material::of_contact_modulus(*contact_modulus) : given;
+  }
+};
+
 }  // namespace salebra::python
+
+namespace nanobind::detail {
+
+template <>
+struct type_caster<salebra::python::MaterialArgument> {
+  NB_TYPE_CASTER(salebra::python::MaterialArgument,
+                 const_name<salebra::Material>() + const_name(" | float"))
+  bool from_python(handle source, uint32_t flags, cleanup_list* cleanup) noexcept {
+    make_caster<double> number;
+    if (number.from_python(source, flags, cleanup)) {
+      value.contact_modulus = number.value;
+      return true;
+    }
+    return try_cast(source, value.given);
+  }
+};
+
+}  // namespace nanobind::detail

@@ -60,8 +60,8 @@ Progress signals() {
   };
 }
 
-void ProgressBridge::finish() {
-  if (close_.is_valid()) close_();
+void ProgressBridge::finish(bool done) {
+  if (close_.is_valid()) close_(done && !error_);
 }
 
 void ProgressBridge::rethrow() {

@@ -40,8 +40,8 @@ class ProgressBridge {
   /// To be called without the interpreter's lock.
   Progress progress();
   void rethrow();
-  /// Nothing is left to tell: the bar is closed.
-  void finish();
+  /// Nothing is left to tell: the bar is closed, at its end where the work was done.
+  void finish(bool done);
 
  private:
   bool tell(const ProgressReport& report);
@@ -66,7 +66,7 @@ auto interruptible(const ProgressArgument& argument, Work&& work) {
       failure = std::current_exception();
     }
   }
-  bridge.finish();
+  bridge.finish(!failure);
   bridge.rethrow();
   if (failure) std::rethrow_exception(failure);
   return std::move(*result);

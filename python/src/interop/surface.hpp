@@ -43,6 +43,20 @@ inline nb::object call_python(const char* module, const char* function, nb::hand
   return nb::module_::import_(module).attr(function)(self, *arguments, **keywords);
 }
 
+/// plot(), which salebra._plots does.
+template <class Bound>
+void plot_method(nb::class_<Bound>& bound) {
+  bound.def(
+      "plot",
+      [](nb::handle_t<Bound> self, nb::args arguments, nb::kwargs keywords) {
+        return call_python("salebra._plots", "plot", self, arguments, keywords);
+      },
+      nb::sig("def plot(self, ax: matplotlib.axes.Axes | None = None, **kwargs: typing.Any) -> "
+              "matplotlib.axes.Axes"),
+      "Draws the result with matplotlib, which is imported now, on `ax` or on new axes, and "
+      "returns the axes.");
+}
+
 template <class Bound>
 void result_methods(nb::class_<Bound>& bound, bool plots) {
   bound.def(
@@ -53,16 +67,7 @@ void result_methods(nb::class_<Bound>& bound, bool plots) {
       nb::sig("def to_xarray(self) -> xarray.Dataset"),
       "The result as an xarray.Dataset; every variable has `units` (SI) and `long_name`. Needs "
       "xarray.");
-  if (plots)
-    bound.def(
-        "plot",
-        [](nb::handle_t<Bound> self, nb::args arguments, nb::kwargs keywords) {
-          return call_python("salebra._plots", "plot", self, arguments, keywords);
-        },
-        nb::sig("def plot(self, ax: matplotlib.axes.Axes | None = None, **kwargs: typing.Any) -> "
-                "matplotlib.axes.Axes"),
-        "Draws the result with matplotlib, which is imported now, on `ax` or on new axes, and "
-        "returns the axes.");
+  if (plots) plot_method(bound);
 }
 
 }  // namespace salebra::python

@@ -1,0 +1,425 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What happens around every call of the extension: its signature for `inspect`, texts with units, errors that name the argument,
+warnings of what did not converge, and how objects without columns are pickled.
+
+The extension is called first and as it is. Only where it refuses its arguments does this file look at them: texts with units become
+numbers, old names become new ones, and what is left is explained.
+"""
+
+from __future__ import annotations
+
+import __future__
+import difflib
+import functools
+import inspect
+import os
+import re
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _core
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+class ConvergenceWarning(UserWarning):
+    """A solver ended before it reached its tolerance: the numbers of its result are not an answer."""
+
+
+class MissingFile(_core.InvalidInput, FileNotFoundError):
+    """A file that is to be read, or the folder of one that is to be written, is not there. Also an InvalidInput."""
+
+
+# Arguments whose unit is that of a quantity with another name.
+_LIKE = {
+    "lx": "size_x", "ly": "size_y", "young": "contact_modulus", "pressures": "pressure", "nominal_pressure": "pressure",
+    "window": "pressure", "hardness": "pressure", "initial_pressure": "pressure", "separations": "separation",
+    "mean_indentation": "indentation", "lowest": "indentation", "highest": "indentation", "motion_scale": "indentation",
+    "heights": "height", "radius": "contact_radius", "length": "size_x", "amplitude": "rms_height", "tip_radius": "contact_radius",
+    "duration": "seconds",
+}  # fmt: skip
+# What an argument was called in version 0.1.
+_OLD = {"contact_modulus": "material"}
+# Arrays over the grid; every other array has one dimension.
+_FIELDS = {"heights", "initial_pressure", "contact", "pressure"}
+_KINDS = {
+    "float": "a number", "int": "a whole number", "bool": "True or False", "str": "a text", "None": "None",
+    "numpy.typing.ArrayLike": "an array of numbers", "os.PathLike[str]": "a path",
+}  # fmt: skip
+_HINTS = {
+    "Surface": "make one with salebra.Surface(heights, size_x, size_y)",
+    "Material": "make one with salebra.Material(contact_modulus, poisson=…)",
+    "Grid2D": "make one with salebra.Grid2D(nx, ny, lx, ly)",
+}
+
+
+class _Annotation(str):
+    """An annotation as a text, which inspect shows without quotes."""
+
+    def __repr__(self) -> str:
+        return self.replace("salebra._core.", "")
+
+
+def signatures_of(native: Any) -> list[inspect.Signature]:
+    """The signatures of a function of the extension, one of each overload, their annotations as texts."""
+    return [_signature(*overload) for overload in native.__nb_signature__]
+
+
+def _signature(text: str, _documentation: str | None, *defaults: Any) -> inspect.Signature:
+    source = re.sub(r"\\(\d+)", r"_defaults[\1]", text) + ": ..."
+    names: dict[str, Any] = {"_defaults": defaults[0] if defaults else ()}
+    code = compile(re.sub(r"def \w+\(", "def _(", source), "<signature>", "exec", flags=__future__.annotations.compiler_flag)
+    exec(code, names)  # of the extension's own text
+    bare = inspect.signature(names["_"])
+    parameters = [value.replace(annotation=_Annotation(value.annotation)) for value in bare.parameters.values()]
+    return bare.replace(parameters=parameters, return_annotation=_Annotation(bare.return_annotation))
+
+
+def _without_self(signature: inspect.Signature) -> inspect.Signature:
+    return signature.replace(parameters=list(signature.parameters.values())[1:])
+
+
+def _parts(annotation: str) -> list[str]:
+    """The alternatives of a union."""
+    parts, depth = [""], 0
+    for token in re.split(r"( \| |[\[\]])", annotation):
+        depth += (token == "[") - (token == "]")
+        if token == " | " and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += token
+    return parts
+
+
+def _kind(part: str) -> str:
+    if part in _KINDS:
+        return _KINDS[part]
+    if part.startswith("typing.Literal["):
+        return "one of " + part[len("typing.Literal[") : -1]
+    if part.startswith("collections.abc.Callable"):
+        return "a function"
+    if part.startswith(("collections.abc.Sequence", "list")):
+        return "a list"
+    if part.startswith("tuple"):
+        return "a tuple"
+    name = part.rsplit(".", 1)[-1]
+    return f"{'an' if name[0] in 'AEIOU' else 'a'} {name}"
+
+
+def _wanted(annotation: str) -> str:
+    kinds = [_kind(part) for part in _parts(annotation) if part != "None"]
+    return " or ".join(dict.fromkeys(kinds))
+
+
+def _came(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        return f"an array of shape {value.shape} and type {value.dtype}"
+    if isinstance(value, (str, int, float, bool)) or value is None:
+        return repr(value)
+    return f"{type(value).__module__.split('.')[0]}.{type(value).__name__}" if not _builtin(value) else f"a {type(value).__name__}"
+
+
+def _builtin(value: Any) -> bool:
+    return type(value).__module__ == "builtins"
+
+
+def _fits(part: str, value: Any) -> bool:
+    """Whether a value may be meant by one alternative of an annotation; what cannot be told counts as meant."""
+    if part == "None":
+        return value is None
+    if value is None:
+        return False
+    if part == "float":
+        return isinstance(value, (int, float, np.number)) or (hasattr(value, "__float__") and np.ndim(value) == 0)
+    if part == "int":
+        return hasattr(value, "__index__") and np.ndim(value) == 0
+    if part == "bool":
+        return isinstance(value, (bool, np.bool_))
+    if part == "str" or part.startswith("typing.Literal["):
+        return isinstance(value, str)
+    if part == "os.PathLike[str]":
+        return hasattr(value, "__fspath__")
+    if part.startswith("collections.abc.Callable"):
+        return callable(value)
+    if part.startswith(("collections.abc.Sequence", "list", "tuple")):
+        return hasattr(value, "__len__") and not isinstance(value, str)
+    kind = getattr(_core, part.rsplit(".", 1)[-1], None)
+    return not isinstance(kind, type) or isinstance(value, kind)
+
+
+def _number(text: str, argument: str) -> float:
+    like = _LIKE.get(argument, "contact_modulus" if argument == "material" else argument)
+    if like.endswith("s") and _core.quantity(like)[1] == like:  # a list of what the quantity is
+        like = like[:-1]
+    try:
+        return float(_core.parse_quantity(text, like))
+    except _core.InvalidInput as error:
+        raise _core.InvalidInput(str(error).replace(like, argument, 1)) from None
+
+
+def _from_text(value: Any, argument: str, annotation: str) -> Any:
+    """The numbers of a text with a unit, or of a list of them, where numbers are wanted; else the value itself."""
+    parts = _parts(annotation)
+    if any(part == "str" or part.startswith("typing.Literal[") for part in parts):
+        return value
+    wants_array = "numpy.typing.ArrayLike" in parts or any(part.startswith(("tuple", "collections.abc.Sequence")) for part in parts)
+    if isinstance(value, str):
+        if "float" in parts or wants_array:
+            return _number(value, argument)
+        if any(part.endswith("Material") for part in parts):
+            return _core.Material(_number(value, argument))
+    if wants_array and isinstance(value, (list, tuple)) and any(isinstance(item, str) for item in value):
+        return type(value)(_number(item, argument) if isinstance(item, str) else item for item in value)
+    return value
+
+
+class _Call:
+    """One call whose arguments were refused."""
+
+    def __init__(self, name: str, signature: inspect.Signature, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
+        self.name = name
+        self.parameters = dict(signature.parameters)
+        self.arguments = arguments
+        self.keywords = dict(keywords)
+
+    def error(self, text: str) -> TypeError:
+        return TypeError(f"{self.name}: {text}")
+
+    def bind(self) -> dict[str, Any]:
+        """The arguments by name. Raises TypeError for those that no parameter takes, and for what is missing."""
+        places = [name for name, parameter in self.parameters.items() if parameter.kind is not inspect.Parameter.KEYWORD_ONLY]
+        if len(self.arguments) > len(places):
+            after = [name for name in self.parameters if name not in places]
+            advice = f"; give what follows by name: {', '.join(after)}" if after else ""
+            raise self.error(f"{len(self.arguments)} arguments, at most {len(places)} go by place ({', '.join(places)}){advice}")
+        bound = dict(zip(places, self.arguments))
+        for key, value in self.keywords.items():
+            name = key
+            if name not in self.parameters and _OLD.get(name) in self.parameters:
+                name = _OLD[name]
+                warnings.warn(f"{self.name}: {key} is called {name} now", DeprecationWarning, stacklevel=5)
+            if name not in self.parameters:
+                close = difflib.get_close_matches(name, self.parameters, 1, 0.5)
+                advice = f"did you mean {close[0]}?" if close else f"it takes {', '.join(self.parameters)}"
+                raise self.error(f"no argument {key}; {advice}")
+            if name in bound:
+                raise self.error(f"{name} was given twice, by its place and by its name")
+            bound[name] = value
+        for name, parameter in self.parameters.items():
+            if name not in bound and parameter.default is inspect.Parameter.empty:
+                raise self.error(f"{name} is missing; give {_wanted(parameter.annotation)}")
+        return bound
+
+    def checked(self, name: str, value: Any) -> Any:
+        """The value, made of a text where it is one. Raises TypeError "…: name: wanted …, got …"."""
+        annotation = str(self.parameters[name].annotation)
+        value = _from_text(value, name, annotation)
+        parts = _parts(annotation)
+        if "numpy.typing.ArrayLike" in parts and value is not None:
+            self.check_shape(name, value, len(parts) > 1 and not isinstance(value, str))
+        elif not any(_fits(part, value) for part in parts):
+            hint = next((_HINTS[part.rsplit(".", 1)[-1]] for part in parts if part.rsplit(".", 1)[-1] in _HINTS), "")
+            raise self.error(f"{name}: wanted {_wanted(annotation)}, got {_came(value)}" + (f"; {hint}" if hint else ""))
+        return value
+
+    def check_shape(self, name: str, value: Any, optional: bool) -> None:
+        try:
+            array = np.asarray(value, dtype=float)
+        except (TypeError, ValueError):
+            raise self.error(f"{name}: wanted an array of numbers, got {_came(value)}") from None
+        field = name in _FIELDS and not (name == "pressure" and "material" in self.parameters)
+        if field and array.ndim != 2:
+            raise self.error(f"{name}: wanted two dimensions (nx, ny), got shape {array.shape}")
+        if not field and array.ndim > 1:
+            raise self.error(f"{name}: wanted one dimension, got shape {array.shape}")
+
+    def again(self, native: Callable[..., Any], error: TypeError) -> Any:
+        """The call with what its texts and old names mean."""
+        bound = self.bind()
+        checked = {name: self.checked(name, value) for name, value in bound.items()}
+        if all(checked[name] is bound[name] for name in bound) and self.keywords.keys() <= self.parameters.keys():
+            raise self.error(str(error).split("\n")[0]) from None
+        return native(**checked)
+
+
+def _missing_file(error: Exception, signature: inspect.Signature, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
+    """Raises MissingFile in place of an error about a file that is not there."""
+    for name, value in [*zip(signature.parameters, arguments), *keywords.items()]:
+        parameter = signature.parameters.get(name)
+        if parameter is None or "PathLike" not in str(parameter.annotation) or not isinstance(value, (str, os.PathLike)):
+            continue
+        path = os.fspath(value)
+        if path and not os.path.exists(path) and os.path.basename(path) in str(error):
+            writes = "overwrite" in signature.parameters
+            if not writes or not os.path.isdir(os.path.dirname(path) or "."):
+                missing = MissingFile(str(error))
+                missing.filename = path
+                raise missing from None
+
+
+def _warn(name: str, result: Any) -> None:
+    converged = getattr(result, "converged", True)
+    if converged is True or getattr(result, "interrupted", False) is True:
+        return
+    if isinstance(converged, np.ndarray):
+        failed = int(np.size(converged) - np.count_nonzero(converged))
+        if failed == 0:
+            return
+        what = f"{failed} of {np.size(converged)} samples did not converge; they are marked"
+    elif converged is False:
+        residual = getattr(result, "residual", None)
+        what = "did not converge" + (f", residual {residual:.1e}" if isinstance(residual, float) else "")
+        what += "; its numbers are not an answer"
+    else:
+        return
+    warnings.warn(f"{name}: {what}. Raise max_iterations or tolerance", ConvergenceWarning, stacklevel=3)
+
+
+def _refused(error: TypeError) -> bool:
+    return "incompatible function arguments" in str(error)
+
+
+def _once_more(
+    native: Callable[..., Any], name: str, signatures: list[inspect.Signature], arguments: tuple[Any, ...],
+    keywords: dict[str, Any], error: TypeError,
+) -> Any:
+    """The call by the first overload that can be meant; the error of the first where none can."""
+    refusals = []
+    for signature in signatures:
+        try:
+            return _Call(name, signature, arguments, keywords).again(native, error)
+        except TypeError as refusal:
+            refusals.append(refusal)
+    raise refusals[0] from None
+
+
+def function(native: Any, name: str, method: bool = False) -> Callable[..., Any]:
+    """A Python function of one of the extension."""
+    overloads = signatures_of(native)
+    whole = overloads[0]
+    signatures = [_without_self(overload) for overload in overloads] if method else overloads
+
+    def call(*arguments: Any, **keywords: Any) -> Any:
+        try:
+            result = native(*arguments, **keywords)
+        except TypeError as error:
+            if not _refused(error):
+                raise
+            here = functools.partial(native, arguments[0]) if method and arguments else native
+            result = _once_more(here, name, signatures, arguments[1:] if method else arguments, keywords, error)
+        except (_core.InvalidInput, _core.IoError) as error:
+            _missing_file(error, whole, arguments, keywords)
+            raise
+        _warn(name, result)
+        _remember(result, name, arguments, keywords)
+        return result
+
+    call.__name__ = name.rsplit(".", 1)[-1]
+    call.__qualname__ = name
+    call.__module__ = "salebra"
+    call.__doc__ = native.__doc__.split("\n", 2)[-1].strip() if native.__doc__ else None
+    call.__signature__ = whole  # type: ignore[attr-defined]
+    return call
+
+
+_constructors: dict[str, Callable[..., Any]] = {}
+
+
+def construct(name: str, made: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
+    """Called by the extension where an object is made."""
+    _constructors[name](made, *arguments, **keywords)
+    _remember(made, name, arguments, keywords)
+
+
+# ---- objects that are what a call made of its arguments
+
+def _kept(value: Any) -> Any:
+    return value.copy() if isinstance(value, np.ndarray) else value
+
+
+def _remember(made: Any, name: str, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
+    if type(made).__dictoffset__ and isinstance(made, _REMADE):
+        made.__dict__.setdefault(
+            "_call", (name, tuple(_kept(value) for value in arguments), {key: _kept(value) for key, value in keywords.items()})
+        )
+
+
+def _again(name: str, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> Any:
+    return getattr(_core, name)(*arguments, **keywords)
+
+
+def _reduce(self: Any) -> Any:
+    if "_call" not in self.__dict__:
+        raise TypeError(f"cannot pickle this {type(self).__name__}: it was not made by a call of Python")
+    return _again, self.__dict__["_call"]
+
+
+def _same(one: Any, other: Any) -> bool:
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        return np.array_equal(one, other, equal_nan=True)
+    if isinstance(one, (tuple, list)) and isinstance(other, (tuple, list)):
+        return len(one) == len(other) and all(map(_same, one, other))
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(_same(one[key], other[key]) for key in one)
+    return bool(one == other)
+
+
+def _equal(self: Any, other: object) -> bool:
+    if self is other:
+        return True
+    mine, its = self.__dict__.get("_call"), getattr(other, "__dict__", {}).get("_call")
+    return type(self) is type(other) and mine is not None and its is not None and _same(mine, its)
+
+
+def _hash(self: Any) -> int:
+    return hash(self.__getstate__())
+
+
+_REMADE: tuple[type, ...] = (
+    _core.ContactLaw, _core.AsperityModel, _core.Spectrum, _core.ProfileSpectrum, _core.HeightDistribution, _core.IndenterProfile,
+    _core.PerssonTheory, _core.BearingCurve, _core.ContactLevels, _core.ResultReader,
+)  # fmt: skip
+
+
+def _answer_class(kind: Any) -> None:
+    """Constructor, methods, pickle and repr of a class of the extension."""
+    from . import _show
+
+    own = vars(kind)
+    name = kind.__name__
+    if type(own.get("__init__")).__name__ == "nb_method":
+        whole = signatures_of(own["__init__"])[0]
+        _constructors[name] = function(own["__init__"], name, method=True)
+        _core._answer_constructor(kind, name)
+        kind.__signature__ = _without_self(whole).replace(return_annotation=inspect.Signature.empty)
+    for key, value in list(own.items()):
+        if key.startswith("_"):
+            continue
+        if type(value).__name__ == "nb_method":
+            setattr(kind, key, function(value, f"{name}.{key}", method=True))
+        elif type(value).__name__ == "nb_func":
+            setattr(kind, key, staticmethod(function(value, f"{name}.{key}")))
+    if issubclass(kind, _REMADE):
+        kind.__reduce__ = _reduce
+        kind.__eq__ = _equal
+        kind.__hash__ = object.__hash__
+    elif "__eq__" in own and "__hash__" not in own:
+        kind.__hash__ = None if name in ("Surface", "NonGaussianSurface") else _hash
+    if "__repr__" not in own and not (issubclass(kind, BaseException)):
+        kind.__repr__ = _show.text
+    kind._repr_html_ = _show.html
+
+
+def answer() -> None:
+    """Puts everything of this file around the extension. Called once, when the package is imported."""
+    for module in (_core, _core._closed_form):
+        for name, value in list(vars(module).items()):
+            if name.startswith("_"):
+                continue
+            if type(value).__name__ == "nb_func":
+                setattr(module, name, function(value, name))
+            elif isinstance(value, type) and not issubclass(value, BaseException):
+                _answer_class(value)

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Contact by boundary elements, its force curves and the exponential law."""
+
+from ._core import (
+    ContactSpot as ContactSpot,
+    ContactSpots as ContactSpots,
+    ElasticBody as ElasticBody,
+    ExponentialFit as ExponentialFit,
+    ExponentialTest as ExponentialTest,
+    ForceCurve as ForceCurve,
+    LocalDecayLength as LocalDecayLength,
+    Material as Material,
+    NormalContactState as NormalContactState,
+    PartialSlipReport as PartialSlipReport,
+    PressureWindow as PressureWindow,
+    PunchStiffness as PunchStiffness,
+    SlidingContact as SlidingContact,
+    StickStiffness as StickStiffness,
+    WindowSensitivity as WindowSensitivity,
+    contact_spots as contact_spots,
+    fit_exponential as fit_exponential,
+    local_decay_length as local_decay_length,
+    normal_stiffness as normal_stiffness,
+    press_to_indentation as press_to_indentation,
+    press_to_mean_gap as press_to_mean_gap,
+    press_to_pressure as press_to_pressure,
+    punch_stiffness as punch_stiffness,
+    stick_stiffness as stick_stiffness,
+    sweep_pressures as sweep_pressures,
+    test_exponential as test_exponential,
+    window_sensitivity as window_sensitivity,
+)
