@@ -134,7 +134,8 @@ void add_completion_command(Program& program) {
        "salebra completion zsh"},
       [name, &program](Session& session) {
         answer_text(*name == "bash" ? bash_script(program) : zsh_script(program), session);
-      });
+      },
+      "", OutputCheck::any_name);
   add_choice(command, "SHELL", *name, {"bash", "zsh"}, "the shell")->required();
 }
 

@@ -85,6 +85,9 @@ void run(const ContactArguments& arguments, Session& session) {
     require_positive(*arguments.position.indentation, "--indentation");
   if (arguments.hardness) require_positive(*arguments.hardness, "--hardness");
   const double contact_modulus = arguments.material.material().contact_modulus;
+  if (arguments.material.contact_modulus && !arguments.material.poisson.empty())
+    session.warn(
+        "--poisson: has no effect beside --contact-modulus; a contact is pressed by E* alone");
   NormalContactOptions options = contact_options(arguments, session);
   const Surface surface = arguments.surface.read(session);
   if (arguments.position.pressure)

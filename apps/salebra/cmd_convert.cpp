@@ -44,7 +44,8 @@ void add_convert_command(Program& program) {
       {"salebra convert scan.sur scan.h5 --fill",
        "salebra convert heights.npy rough.h5 --size-x 10um --size-y 10um --detrend plane"},
       [arguments](Session& session) { run(*arguments, session); },
-      "heights, power spectral density with the fitted law, distribution of heights");
+      "heights, power spectral density with the fitted law, distribution of heights",
+      OutputCheck::any_name);
   arguments->surface.add_to(command);
   command
       .add_option("OUT", arguments->to,

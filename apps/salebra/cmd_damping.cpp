@@ -14,6 +14,7 @@
 #include "follow.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
+#include "plausibility.hpp"
 #include "premise_options.hpp"
 #include "program.hpp"
 
@@ -159,6 +160,7 @@ void run(const DampingArguments& arguments, Session& session) {
   const auto [quantity, values] = varied(arguments);
   const std::vector<Motion> motions = motions_of(arguments);
   const LawOptions::Contact contact = arguments.law.contact(arguments.material);
+  for (const std::string& line : contact.doubts) session.warn(line);
   const ContactLaw& law = *contact.law;
   const auto& positions = contact.positions;
   DampingOptions options;
@@ -193,6 +195,16 @@ void run(const DampingArguments& arguments, Session& session) {
   PremiseReport premises{.list = !one};
   for (std::size_t i = 0; i < count; ++i)
     premises.cases.push_back(premises_of_case(contact, cases[i], results[i], facts));
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto* drag = std::get_if<Drag>(&cases[i].motion);
+    const auto doubts =
+        drag ? doubts_of_path(drag->drag_velocity, drag->angular_frequency,
+                              patch_radius(facts, law, contact.curve ? &*contact.curve : nullptr,
+                                           results[i].indentation))
+             : std::vector<std::string>{};
+    for (const std::string& line : doubts) session.warn(line);
+    if (!doubts.empty()) break;  // one line for a range
+  }
   const auto lost = std::ranges::count(results, false, &DampingResult::converged);
 
   const auto column = [&](const auto& value_of) -> Json {

@@ -262,7 +262,8 @@ void add_generate_command(Program& program) {
        "salebra generate --points 256,128 --size-x 1mm --correlation gaussian --correlation-length "
        "50um --stretch-along 3 --rms-height 1um --skewness -1 --kurtosis 5 --seed 7 --json"},
       [arguments](Session& session) { run(*arguments, session); },
-      "heights, power spectral density with the fitted law, distribution of heights");
+      "heights, power spectral density with the fitted law, distribution of heights",
+      OutputCheck::any_name);
   command.add_option("--points", arguments->points, "cells along x and y, NX[,NY]")
       ->required()
       ->type_name("NX[,NY]");

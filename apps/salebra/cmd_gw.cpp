@@ -43,8 +43,11 @@ Json to_json(const SummitEnsemble& ensemble) {
 }
 
 Described of_surface(const GwArguments& arguments, const Material& material, Session& session) {
-  require(!arguments.density && !arguments.radius && !arguments.summit_rms, "--density", "given",
-          "beside a surface, which has its own summits; leave out one of them");
+  for (const auto& [option, given] : {std::pair{"--density", arguments.density.has_value()},
+                                      {"--radius", arguments.radius.has_value()},
+                                      {"--summit-rms", arguments.summit_rms.has_value()}})
+    require(!given, option, "given",
+            "beside a surface, which has its own summits; leave out one of them");
   const Surface surface = arguments.surface.read(session);
   const HeightStatistics heights = height_statistics(surface);
   if (arguments.summits == "deterministic") {
@@ -110,7 +113,7 @@ void add_gw_command(Program& program) {
        "salebra gw --density 10/um2 --radius 100nm --summit-rms 10nm --distribution exponential "
        "--separations 10nm,20nm,40nm --contact-modulus 115GPa"},
       [arguments](Session& session) { run(*arguments, session); },
-      "pressure over gap, area, stiffness");
+      "pressure over gap, area, stiffness", OutputCheck::any_name);
   arguments->surface.add_to(command, false);
   add_choice(command, "--summits", arguments->summits, {"moments", "deterministic"},
              "of a surface; default moments");

@@ -171,8 +171,8 @@ void run(Arguments arguments, Session& session) {
   if (session.has_output()) arguments.file = session.output().string();
   require_output(arguments.file, session.write_options());
   std::string amplitude = toml_string("1nm");
-  const std::string surface =
-      arguments.surface.given() ? measured(arguments, amplitude, session) : std::string(generated_surface);
+  const std::string surface = arguments.surface.given() ? measured(arguments, amplitude, session)
+                                                        : std::string(generated_surface);
   write_text_file(arguments.file,
                   heading(fs::path(arguments.file).filename().string()) + surface +
                       fmt::format(fmt::runtime(rest), fmt::arg("amplitude", amplitude)),
@@ -187,11 +187,11 @@ void run(Arguments arguments, Session& session) {
 
 void add_init_command(Program& program) {
   auto arguments = std::make_shared<Arguments>();
-  Command& command =
-      program.add_command("init", "write a study file in which every key is explained",
-                          {"salebra init study.toml",
-                           "salebra init scan.toml --surface scan.txt --size-x 10um --size-y 10um"},
-                          [arguments](Session& session) { run(*arguments, session); });
+  Command& command = program.add_command(
+      "init", "write a study file in which every key is explained",
+      {"salebra init study.toml",
+       "salebra init scan.toml --surface scan.txt --size-x 10um --size-y 10um"},
+      [arguments](Session& session) { run(*arguments, session); }, "", OutputCheck::any_name);
   command.add_option("FILE", arguments->file, "study file to write, study.toml by default")
       ->type_name("FILE");
   arguments->surface.add_to(command, false, "--surface");

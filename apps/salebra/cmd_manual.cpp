@@ -142,7 +142,8 @@ void add_manual_command(Program& program) {
   Command& command = program.add_command(
       "manual", "a manual page of the program or of one command",
       {"salebra manual study | man -l -", "salebra manual -o salebra.1"},
-      [name, &program](Session& session) { answer_text(page_of(program, *name), session); });
+      [name, &program](Session& session) { answer_text(page_of(program, *name), session); }, "",
+      OutputCheck::any_name);
   command.add_option("COMMAND", *name, "the command; without it the program")->type_name("NAME");
 }
 

@@ -19,6 +19,7 @@
 #include "follow.hpp"
 #include "indenter_options.hpp"
 #include "options.hpp"
+#include "plausibility.hpp"
 #include "premise_options.hpp"
 #include "program.hpp"
 
@@ -154,6 +155,10 @@ void run(const MdrArguments& arguments, Session& session) {
   const ContactFacts known = at_state(facts, law, nullptr, result.indentation);
   const PremiseReport premises{{std::visit(
       [&](const auto& m) { return premises_of(law, result.indentation, m, known); }, motion)}};
+  if (drag)
+    for (const std::string& line : doubts_of_path(drag->drag_velocity, drag->angular_frequency,
+                                                  law.contact_radius(result.indentation)))
+      session.warn(line);
   const bool steady = !followed || loss.converged;
   if (session.has_plot() && !mapped && steady) session.plot(cycle_figure(path, loss));
   if (!arguments.stress_map.empty())

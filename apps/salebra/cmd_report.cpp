@@ -38,7 +38,7 @@ void add_report_command(Program& program) {
       "report", "the results of a study as one HTML page that needs no network",
       {"salebra report quickstart.h5 -o report.html",
        "salebra report scan.h5 --title 'Brake disc, 3 h in service' --overwrite"},
-      [arguments](Session& session) { run(*arguments, session); });
+      [arguments](Session& session) { run(*arguments, session); }, "", OutputCheck::any_name);
   command
       .add_option("RESULTS", arguments->results,
                   "what study or compare wrote; without --output, the page lies beside it")

@@ -201,7 +201,8 @@ void add_statistics_command(Program& program) {
        "salebra statistics scan.sur --detrend quadratic --fill --tip-radius 10nm --convention "
        "surface-topography --json"},
       [arguments](Session& session) { run(*arguments, session); },
-      "heights, power spectral density with the fitted law, distribution of heights");
+      "heights, power spectral density with the fitted law, distribution of heights",
+      OutputCheck::any_name);
   arguments->surface.add_to(command);
   add_choice(command, "--window", arguments->window,
              {"customary", "none", "hann", "blackman", "radial-hann"},

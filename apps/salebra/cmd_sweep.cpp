@@ -39,9 +39,13 @@ void run(const SweepArguments& arguments, Session& session) {
   std::vector<double> pressures = arguments.pressures;
   std::ranges::sort(pressures);
   const Material material = arguments.material.material();
+  if (!arguments.stiffness && arguments.material.contact_modulus &&
+      !arguments.material.poisson.empty())
+    session.warn("--poisson: has no effect without --stiffness, which K_t needs");
   for (const std::string& line : doubts_of_pressures(pressures, material.contact_modulus))
     session.warn(line);
-  const ForceCurve curve = sweep_pressures(arguments.surface.read(session), material, pressures, options);
+  const ForceCurve curve =
+      sweep_pressures(arguments.surface.read(session), material, pressures, options);
   if (interrupted()) throw Interrupted("sweep: interrupted; nothing was written");
   if (session.has_output())
     write_force_curve(session.output(), curve, session.provenance(), session.write_options());
@@ -65,7 +69,7 @@ void add_sweep_command(Program& program) {
        "--stiffness -o curve.h5",
        "salebra sweep scan.txt --pressures 1MPa,5MPa,20MPa --young 70GPa --poisson 0.33 --json"},
       [arguments](Session& session) { run(*arguments, session); },
-      "pressure over gap, area, stiffness");
+      "pressure over gap, area, stiffness", OutputCheck::any_name);
   arguments->surface.add_to(command);
   add_values(command, "--pressures", arguments->pressures, Dimension::pressure, "nominal pressures")
       ->required();

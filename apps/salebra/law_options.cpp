@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/results/force_curve_file.hpp>
@@ -68,8 +69,33 @@ std::shared_ptr<const IndenterProfile> profile_of(const LawOptions& arguments) {
                        required(arguments.exponent, "--exponent", "--law power needs it"));
 }
 
+struct CurveColumn {
+  const char* option;
+  double ForceSample::*column;
+  Dimension dimension;
+};
+
+/// Throws InvalidInput in the quantity that was typed, before it becomes the force or the indentation that the law knows.
+void require_on_curve(const std::string& name, const std::vector<double>& values,
+                      const ForceCurve& curve) {
+  static const std::map<std::string, CurveColumn> columns{
+      {"force", {"--normal-force", &ForceSample::force, Dimension::force}},
+      {"indentation", {"--indentation", &ForceSample::indentation, Dimension::length}},
+      {"pressure", {"--pressure", &ForceSample::pressure, Dimension::pressure}},
+      {"mean_gap", {"--mean-gap", &ForceSample::mean_gap, Dimension::length}}};
+  const CurveColumn& column = columns.at(name);
+  const auto [low, high] = std::ranges::minmax(curve.column(column.column));
+  for (const double value : values)
+    require(!(value < low || value > high), column.option, format_quantity(value, column.dimension),
+            fmt::format("lies outside the curve's range, {} to {}; choose one within it or extend "
+                        "the curve",
+                        format_quantity(low, column.dimension),
+                        format_quantity(high, column.dimension)));
+}
+
 std::vector<Position> positions_on_curve(const LawOptions& arguments, const ForceCurve& curve) {
   auto [name, values] = position_of(arguments, {"force", "indentation", "pressure", "mean_gap"});
+  require_on_curve(name, values, curve);
   if (name == "pressure") {
     require_positive(curve.nominal_area, "nominal_area of " + arguments.curve);
     for (double& value : values) value *= curve.nominal_area;
@@ -85,7 +111,37 @@ std::vector<Position> positions_on_curve(const LawOptions& arguments, const Forc
   return positions_of(name, values);
 }
 
+/// Whether the moduli that were given fit the stiffnesses of the curve. K_t/K of a curve is G*/E* to the last digits, or, where each
+/// K_t is a stick solve of its own, to some per cent and nowhere the same.
+std::vector<std::string> doubts_of_moduli(const ForceCurve& curve, double modulus_ratio) {
+  std::vector<double> ratios;
+  for (const ForceSample& sample : curve.samples) {
+    const double ratio = sample.tangential_stiffness / sample.normal_stiffness;
+    if (std::isfinite(ratio)) ratios.push_back(ratio);
+  }
+  if (ratios.empty()) return {};
+  const auto [low, high] = std::ranges::minmax(ratios);
+  const double tolerance = high - low > 1e-6 * high ? 0.1 : 1e-3;
+  if (modulus_ratio > (1 - tolerance) * low && modulus_ratio < (1 + tolerance) * high) return {};
+  return {
+      fmt::format("G*/E* = {:.4g} of --poisson or --tangential-modulus, and K_t/K = {:.4g} in the "
+                  "curve's file; give the material that the curve was computed with",
+                  modulus_ratio, low)};
+}
+
 }  // namespace
+
+void LawOptions::require_own_parameters() const {
+  const std::string chosen = curve.empty() ? "--law " + law : "--curve";
+  for (const auto& [option, value, owner] :
+       {std::tuple{"--decay-length", &decay_length, "exponential"},
+        {"--angle", &angle, "cone"},
+        {"--radius", &radius, "parabola"},
+        {"--exponent", &exponent, "power"},
+        {"--coefficient", &coefficient, "power"}})
+    require(!*value || (curve.empty() && law == owner), option, "given,",
+            fmt::format("but {} has none; leave it out", chosen));
+}
 
 void LawOptions::add_to(Command& command) {
   const std::string group = "Law";
@@ -120,6 +176,7 @@ void LawOptions::add_to(Command& command) {
 std::unique_ptr<ContactLaw> LawOptions::law_alone(const MaterialOptions& material) const {
   require(law.empty() != curve.empty(), "--law", law.empty() ? "missing;" : "given beside --curve;",
           "give exactly one of --law and --curve");
+  require_own_parameters();
   if (!curve.empty())
     return std::make_unique<TabulatedLaw>(read_force_curve(curve), material.modulus_ratio());
   if (law == "exponential") return exponential(*this, material);
@@ -129,10 +186,12 @@ std::unique_ptr<ContactLaw> LawOptions::law_alone(const MaterialOptions& materia
 
 LawOptions::Contact LawOptions::contact(const MaterialOptions& material) const {
   if (!curve.empty() && law.empty()) {
+    require_own_parameters();
     ForceCurve samples = read_force_curve(curve);
+    std::vector<std::string> doubts = doubts_of_moduli(samples, material.modulus_ratio());
     auto table = std::make_unique<TabulatedLaw>(samples, material.modulus_ratio());
     auto positions = positions_on_curve(*this, samples);
-    return {std::move(table), std::move(positions), std::move(samples)};
+    return {std::move(table), std::move(positions), std::move(samples), std::move(doubts)};
   }
   if (law == "exponential" && curve.empty()) {
     const auto [name, values] = position_of(*this, {"force"});

@@ -23,6 +23,7 @@ struct LawOptions {
     std::unique_ptr<ContactLaw> law;
     std::vector<Position> positions;
     std::optional<ForceCurve> curve = {};  ///< that the law was made from
+    std::vector<std::string> doubts = {};  ///< remarks on the options, for people
   };
 
   void add_to(Command& command);
@@ -30,6 +31,10 @@ struct LawOptions {
   /// The law alone, for a motion that brings its own indentations. The exponential law's --normal-force is F at indentation 0.
   std::unique_ptr<ContactLaw> law_alone(const MaterialOptions& material) const;
   Contact contact(const MaterialOptions& material) const;
+
+ private:
+  /// Throws InvalidInput for a parameter of another law than the one that was chosen.
+  void require_own_parameters() const;
 };
 
 }  // namespace salebra::cli

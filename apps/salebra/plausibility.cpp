@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 #include <salebra/base/units.hpp>
 
 namespace salebra::cli {
@@ -37,6 +38,17 @@ std::vector<std::string> doubts_of_pressures(std::span<const double> nominal_pre
       "a bare number is in Pa",
       format_quantity(largest, Dimension::pressure), ratio_text(largest / contact_modulus),
       format_quantity(contact_modulus, Dimension::pressure))};
+}
+
+std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
+                                        double patch_radius) {
+  const double path = 2 * std::numbers::pi * drag_velocity / angular_frequency;
+  if (!(path > 2 * patch_radius)) return {};
+  return {fmt::format(
+      "the slow motion moves on by 2 pi v/w = {} in one normal cycle, beyond a contact patch of {} "
+      "across; take a lower --drag-velocity or a higher --frequency",
+      format_quantity(path, Dimension::length),
+      format_quantity(2 * patch_radius, Dimension::length))};
 }
 
 }  // namespace salebra::cli

@@ -34,6 +34,12 @@ const std::vector<LargestMotion>& any_largest(const std::vector<Premises>& cases
   return judged == cases.end() ? cases.front().largest : judged->largest;
 }
 
+const ForceSample& nearest_load(const ForceCurve& curve, double force) {
+  return *std::ranges::min_element(curve.samples, {}, [&](const ForceSample& sample) {
+    return std::abs(std::log(sample.force / force));
+  });
+}
+
 }  // namespace
 
 void PremiseOptions::add_to(Command& command) {
@@ -94,13 +100,20 @@ ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurv
   facts.loaded_size = std::sqrt(curve->nominal_area);
   facts.nominal_pressure = force / curve->nominal_area;
   // Area and force grow almost in proportion: that of the nearest load will do.
-  const auto distance = [&](const ForceSample& sample) {
-    return std::abs(std::log(sample.force / force));
-  };
-  const auto nearest = std::ranges::min_element(curve->samples, {}, distance);
+  const ForceSample& nearest = nearest_load(*curve, force);
   facts.mean_contact_pressure =
-      nearest->force / (nearest->contact_area_fraction * curve->nominal_area);
+      nearest.force / (nearest.contact_area_fraction * curve->nominal_area);
   return facts;
+}
+
+double patch_radius(const ContactFacts& facts, const ContactLaw& law, const ForceCurve* curve,
+                    double indentation) {
+  if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law))
+    return indenter->contact_radius(indentation);
+  if (curve == nullptr) return ContactFacts::unknown;
+  const ForceSample& nearest = nearest_load(*curve, law.force(indentation));
+  return 2 * facts.contact_modulus * nearest.contact_area_fraction * curve->nominal_area /
+         (std::numbers::pi * nearest.normal_stiffness);
 }
 
 void PremiseReport::add_to(Json& answer) const {

@@ -26,6 +26,11 @@ struct PremiseOptions {
 ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
                       double indentation);
 
+/// Radius of a typical contact patch, m: of an indenter's one contact; of a curve 2E*A/(πK), since patches of radius a have K = 2E*Σa
+/// and A = πΣa². NaN where E* or K is not known.
+double patch_radius(const ContactFacts& facts, const ContactLaw& law, const ForceCurve* curve,
+                    double indentation);
+
 /// The premises of an answer: of one case, or of a list of them.
 struct PremiseReport {
   std::vector<Premises> cases = {};

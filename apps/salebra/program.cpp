@@ -223,7 +223,7 @@ void run(int argc, char** argv) {
   } catch (const CLI::Success& request) {
     std::ostringstream text;
     app.exit(request, text, text);
-    print_answer(text.str());
+    print_answer(wrapped(text.str(), text_width()));
   } catch (const CLI::ParseError& error) {
     throw InvalidInput(fmt::format("{}; {}", describe(app, error), help_hint(app)));
   }

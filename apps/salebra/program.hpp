@@ -26,7 +26,7 @@ class Program {
   /// picture: what Session::plot() is given, for the help of --plot; a command without pictures has no such option.
   Command& add_command(const std::string& name, const std::string& what,
                        const std::array<std::string, 2>& examples, Action action,
-                       const std::string& picture = "", OutputCheck check = OutputCheck::at_start);
+                       const std::string& picture = "", OutputCheck check = OutputCheck::results);
 
   /// In the order of the help; one stays where it is.
   const std::deque<Command>& commands() const { return commands_; }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <salebra/base/error.hpp>
 #include <salebra/base/printable.hpp>
 
 #include "terminal.hpp"
@@ -39,8 +40,16 @@ Session::Session(CommonOptions options, std::string command_line, OutputCheck ch
       command_line_(std::move(command_line)),
       bar_(options_.progress == "always" ||
            (options_.progress == "auto" && !options_.quiet && isatty(STDERR_FILENO) != 0)) {
-  if (check == OutputCheck::at_start) require_free_output();
+  if (check != OutputCheck::any_name) require_result_name();
+  if (check != OutputCheck::by_command) require_free_output();
   if (has_plot()) require_plot(options_.plot, write_options());
+}
+
+void Session::require_result_name() const {
+  const std::string extension = output().extension().string();
+  require(!has_output() || extension == ".h5" || extension == ".hdf5", "--output",
+          output().string(),
+          "is no name for results in HDF5; name it .h5, or print them: --json > result.json");
 }
 
 void Session::require_free_output() const {

@@ -25,15 +25,19 @@ struct CommonOptions {
   std::string progress = "auto";
 };
 
-/// Whether a file that is in the way is an error before the command begins, or a matter for the command itself.
-enum class OutputCheck { at_start, by_command };
+/// What --output may name.
+enum class OutputCheck {
+  results,     ///< an HDF5 file that is not there yet
+  by_command,  ///< an HDF5 file; one that is in the way is a matter for the command itself
+  any_name     ///< a file that is not there yet; the command knows formats of its own
+};
 
 /// One run of a command: where its answer, its remarks and its progress go.
 class Session {
  public:
   /// Throws InvalidInput where the output may not be written, so that no work is done unnecessarily.
   Session(CommonOptions options, std::string command_line,
-          OutputCheck check = OutputCheck::at_start);
+          OutputCheck check = OutputCheck::results);
 
   bool has_output() const { return !options_.output.empty(); }
   std::filesystem::path output() const { return options_.output; }
@@ -60,6 +64,8 @@ class Session {
   void answer(const Json& object);
 
  private:
+  void require_result_name() const;
+
   CommonOptions options_;
   std::string command_line_;
   ProgressBar bar_;

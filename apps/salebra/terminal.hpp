@@ -16,6 +16,16 @@ bool in_colour(int descriptor);
 /// The text in the colour of its kind where the descriptor may have colours; elsewhere as it is.
 std::string emphasised(std::string_view text, Emphasis emphasis, int descriptor);
 
+/// Columns of standard output: COLUMNS of the environment, the width of the terminal, or 80; at least 40.
+std::size_t text_width();
+
+/// The text with no line beyond the width: what does not fit goes on below the place where a line's description begins, and command
+/// lines, "  salebra …", with a backslash.
+std::string wrapped(std::string_view text, std::size_t width);
+
+/// Characters, not bytes: "µ" takes two bytes and one column.
+std::size_t columns_of(std::string_view text);
+
 /// Prints an answer on standard output. Throws IoError where it does not arrive there.
 void print_answer(std::string_view text);
 

@@ -8,14 +8,10 @@
 #include <cstdint>
 
 #include "answer_file.hpp"
+#include "terminal.hpp"
 
 namespace salebra::cli {
 namespace {
-
-/// Characters, not bytes: "µ" takes two bytes and one column.
-std::size_t width_of(std::string_view text) {
-  return std::size_t(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-}
 
 std::string cell(const Json& value, Dimension dimension) {
   if (value.is_null()) return "n/a";
@@ -83,6 +79,23 @@ void append(std::string& text, const Json& object, const std::string& name, int 
   for (const Columns& table : tables) text += columns_to_table(table, indent);
 }
 
+/// The columns of a table in parts that fit the width of the text, each beginning with the first column.
+std::vector<std::vector<std::size_t>> parts_of(const std::vector<std::size_t>& widths,
+                                               std::size_t indent) {
+  const std::size_t room = text_width();
+  std::vector<std::vector<std::size_t>> parts(1);
+  std::size_t used = indent;
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    if (parts.back().size() > (parts.size() > 1 ? 1 : 0) && used + 2 + widths[i] > room) {
+      parts.push_back({0});
+      used = indent + widths[0];
+    }
+    used += widths[i] + (parts.back().empty() ? 0 : 2);
+    parts.back().push_back(i);
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::string to_table(const std::vector<std::vector<std::string>>& rows, int indent,
@@ -90,18 +103,23 @@ std::string to_table(const std::vector<std::vector<std::string>>& rows, int inde
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {
     widths.resize(std::max(widths.size(), row.size()), 0);
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
+    for (std::size_t i = 0; i < row.size(); ++i)
+      widths[i] = std::max(widths[i], columns_of(row[i]));
   }
   std::string text;
-  for (const auto& row : rows) {
-    std::string line(std::size_t(indent), ' ');
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(widths[i] - width_of(row[i]), ' ');
-      // Names on the left, numbers on the right.
-      line += i == 0 && names_first ? row[i] + padding : padding + row[i];
-      if (i + 1 < row.size()) line += "  ";
+  for (const std::vector<std::size_t>& part : parts_of(widths, std::size_t(indent))) {
+    if (!text.empty()) text += "\n";
+    for (const auto& row : rows) {
+      std::string line(std::size_t(indent), ' ');
+      for (const std::size_t i : part) {
+        if (i >= row.size()) break;
+        const std::string padding(widths[i] - columns_of(row[i]), ' ');
+        // Names on the left, numbers on the right.
+        line += i == 0 && names_first ? row[i] + padding : padding + row[i];
+        if (i != part.back()) line += "  ";
+      }
+      text += line + "\n";
     }
-    text += line + "\n";
   }
   return text;
 }

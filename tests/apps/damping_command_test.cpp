@@ -279,3 +279,72 @@ TEST_CASE("A loss that does not become steady leaves no file and exits with 1", 
   CHECK_THAT(indenter.err, Catch::Contains("still differ"));
   CHECK(test.files().empty());
 }
+
+TEST_CASE("What contradicts a curve is said in the quantity that was typed", "[damping]") {
+  const ProgramTest test;
+  REQUIRE(test.run("generate --points 32 --size-x 1mm --hurst 0.8 --rolloff 0.5mm --short-cutoff "
+                   "0.25mm --rms-height 1um -o rough.h5")
+              .status == 0);
+  const std::string sweep =
+      "sweep rough.h5 --contact-modulus 1GPa --poisson 0.3 --stiffness --pressures 10kPa:10MPa:8 ";
+  REQUIRE(test.run(sweep + "-o curve.h5").status == 0);
+  REQUIRE(test.run(sweep + "--stick -o stick.h5").status == 0);
+  const std::string damping = "damping --poisson 0.3 " + drag + "--curve curve.h5 ";
+  check_refused(test.run(damping + "--pressure 200"),
+                "--pressure: 200 Pa lies outside the curve's");
+  check_refused(test.run(damping + "--mean-gap 1m"), "--mean-gap: 1 m lies outside the curve's");
+  check_refused(test.run(damping + "--normal-force 1kN"), "--normal-force: 1 kN lies outside");
+  check_refused(test.run(damping + "--indentation 1m"), "--indentation: 1 m lies outside");
+  // Parameters of another law have no effect, and are refused.
+  check_refused(test.run(damping + "--pressure 1MPa --decay-length 3nm"),
+                "--decay-length: given, but --curve has none");
+  check_refused(test.run("damping --law cone --angle 3deg --radius 1mm --normal-force 1 --poisson "
+                         "0.3 --contact-modulus 1GPa " +
+                         drag),
+                "--radius: given, but --law cone has none");
+  // Poisson's ratio against the stiffnesses of the file; a stick solve's differ from G*/E* by some per cent on their own.
+  const std::string at =
+      "--pressure 1MPa --normal-amplitude 1nm --drag-velocity 1um/s --frequency 20kHz --curve ";
+  CHECK(test.run("damping --poisson 0.3 " + at + "curve.h5").err.empty());
+  CHECK(test.run("damping --poisson 0.3 " + at + "stick.h5").err.empty());
+  for (const char* file : {"curve.h5", "stick.h5"}) {
+    const auto told = test.run("damping --poisson 0 " + at + file);
+    CHECK(told.status == 0);
+    CHECK_THAT(told.err, Catch::Contains("warning: G*/E* = 1 of --poisson"));
+  }
+  CHECK_THAT(test.run("damper --poisson 0 --pressure 1MPa --normal-amplitude 1nm --frequency 20kHz "
+                      "--falling-slope 1 --curve curve.h5")
+                 .err,
+             Catch::Contains("warning: G*/E* = 1"));
+  CHECK_THAT(
+      test.run("sweep rough.h5 --contact-modulus 1GPa --poisson 0.3 --pressures 1:2MPa:4").err,
+      Catch::Contains("--poisson: has no effect without --stiffness"));
+  CHECK_THAT(test.run("contact rough.h5 --contact-modulus 1GPa --poisson 0.3 --pressure 1MPa").err,
+             Catch::Contains("--poisson: has no effect beside --contact-modulus"));
+}
+
+TEST_CASE("A slow motion that passes a contact patch in one normal cycle is told", "[damping]") {
+  const ProgramTest test;
+  const std::string sphere =
+      "--indentation 10nm --contact-modulus 1GPa --poisson 0.3 --normal-amplitude 1nm --frequency "
+      "20kHz ";
+  // a = sqrt(R d) = 3.162 um; 2 pi v/w = 50 um at 1 m/s, 5 um at 0.1 m/s.
+  for (const std::string command :
+       {"mdr --profile parabola --radius 1mm ", "damping --law parabola --radius 1mm "}) {
+    CHECK_THAT(test.run(command + sphere + "--drag-velocity 1m/s").err,
+               Catch::Contains("2 pi v/w = 50 µm") && Catch::Contains("6.325 µm across"));
+    CHECK(test.run(command + sphere + "--drag-velocity 0.1m/s").err.empty());
+  }
+  // Of a curve 2a = 4E*A/(pi K), where E* is given.
+  REQUIRE(test.run("generate --points 32 --size-x 1mm --hurst 0.8 --rolloff 0.5mm --short-cutoff "
+                   "0.25mm --rms-height 1um -o rough.h5")
+              .status == 0);
+  REQUIRE(test.run("sweep rough.h5 --contact-modulus 1GPa --poisson 0.3 --stiffness --pressures "
+                   "100kPa:1MPa:6 -o curve.h5")
+              .status == 0);
+  const std::string curve =
+      "damping --curve curve.h5 --pressure 300kPa --poisson 0.3 --contact-modulus 1GPa "
+      "--normal-amplitude 1nm --frequency 1kHz ";
+  CHECK_THAT(test.run(curve + "--drag-velocity 1m/s").err, Catch::Contains("2 pi v/w = 1 mm"));
+  CHECK(test.run(curve + "--drag-velocity 1mm/s").err.empty());
+}

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <salebra/base/version.hpp>
+#include <sstream>
 
 #include "run_program.hpp"
 
@@ -40,6 +42,80 @@ TEST_CASE("Help is what a bare call, help and --help show", "[program]") {
     CHECK(test.run(words).out == help.out);
   }
   CHECK(test.run("help info").out == test.run("info --help").out);
+}
+
+namespace {
+
+// Characters of the longest line, a byte that continues one not counted.
+std::size_t longest_line(const std::string& text) {
+  std::size_t longest = 0, length = 0;
+  for (const char c : text) {
+    length = c == '\n' ? 0 : length + ((c & 0xC0) != 0x80 ? 1 : 0);
+    longest = std::max(longest, length);
+  }
+  return longest;
+}
+
+// One line, runs of blanks and backslashes as one blank.
+std::string in_a_line(const std::string& text) {
+  std::istringstream words(text);
+  std::string line, word;
+  while (words >> word)
+    if (word != "\\") line += word + " ";
+  return line;
+}
+
+}  // namespace
+
+TEST_CASE("Help fits the width that it is given and loses no word", "[program]") {
+  const ProgramTest test;
+  for (const std::string command : {"", "damping", "mdr", "generate", "statistics"}) {
+    const auto wide = test.run("help " + command, "export COLUMNS=1000;");
+    for (const int columns : {60, 80, 120}) {
+      INFO(command << " in " << columns);
+      const auto help =
+          test.run("help " + command, "export COLUMNS=" + std::to_string(columns) + ";");
+      CHECK(longest_line(help.out) <= std::size_t(columns));
+      CHECK(in_a_line(help.out) == in_a_line(wide.out));
+    }
+  }
+  // Without a terminal and COLUMNS: 80.
+  CHECK(longest_line(test.run("help mdr", "unset COLUMNS;").out) <= 80);
+}
+
+TEST_CASE("A table that is wider than the text comes in parts with its first column", "[program]") {
+  const ProgramTest test;
+  test.run(
+      "generate --points 32 --size-x 1mm --hurst 0.8 --rolloff 0.5mm --short-cutoff 0.25mm "
+      "--rms-height 1um -o rough.h5");
+  const std::string sweep =
+      "sweep rough.h5 --contact-modulus 1GPa --poisson 0.3 --stiffness --pressures 1:10MPa:4";
+  const auto wide = test.run(sweep, "export COLUMNS=300;"),
+             narrow = test.run(sweep, "unset COLUMNS;");
+  CHECK(longest_line(wide.out) > 80);
+  CHECK(longest_line(narrow.out) <= 80);
+  const auto count = [](const std::string& text, const std::string& part) {
+    std::size_t found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+  };
+  CHECK(count(wide.out, "indentation") == 1);
+  CHECK(count(narrow.out, "indentation") >= 2);
+  for (const char* column : {"mean_gap", "pressure", "normal_stiffness", "converged"})
+    CHECK(count(narrow.out, column) == 1);
+}
+
+TEST_CASE("Results are not written into a file with the name of a text", "[program]") {
+  const ProgramTest test;
+  test.run(
+      "generate --points 32 --size-x 1mm --hurst 0.8 --rolloff 0.5mm --short-cutoff 0.25mm "
+      "--rms-height 1um -o rough.h5");
+  for (const char* command :
+       {"info rough.h5", "contact rough.h5 --contact-modulus 1GPa --pressure 1MPa",
+        "damping --law exponential --normal-force 1", "study study.toml"}) {
+    check_refused(test.run(std::string(command) + " -o result.txt"), "--output: result.txt");
+    CHECK(test.files().count("result.txt") == 0);
+  }
 }
 
 TEST_CASE("Quiet, a command leaves nothing on stderr but errors", "[program]") {

@@ -43,8 +43,8 @@ ProgramTest::Result ProgramTest::run(const std::string& arguments,
   const fs::path streams = folder_.string() + ".streams";
   fs::create_directory(streams);
   const std::string command =
-      fmt::format("exec >'{0}/out' 2>'{0}/err'; cd '{1}'; {2} exec '{3}' {4}", streams.string(),
-                  folder_.string(), before, SALEBRA_PROGRAM, arguments);
+      fmt::format("exec >'{0}/out' 2>'{0}/err'; cd '{1}'; export COLUMNS=1000; {2} exec '{3}' {4}",
+                  streams.string(), folder_.string(), before, SALEBRA_PROGRAM, arguments);
   const int raw = std::system(command.c_str());
   Result result;
   result.status = WIFEXITED(raw) ? WEXITSTATUS(raw) : -WTERMSIG(raw);
