@@ -43,8 +43,8 @@ function forceGapFigure(parent, point) {
       + (fitted ? ` The fitted line has the decay length ${quantity(f.length, "m", 3)}; within its window the force is at most ${number(100 * worst, 2)} % off it.` : " No law was fitted."),
     caption: () => "‹F›(‹ū›) by boundary elements" + (f.count > 1 ? `: mean of ${f.count} surfaces with the 95 % band of the mean gap, and ${point.samples?.length < f.count ? `the first ${point.samples.length} surfaces` : "each surface"} as a thin line` : "")
       + (fitted ? `. The line is ‹F› = ‹F›_{0} exp(−‹ū›/‹l›) with ‹l› = ${quantity(f.length, "m", 3)}, fitted in the shaded window and drawn on beyond it. Below: how far the force is from the line, at most ${number(100 * worst, 2)}${NARROW}% within the window. A straight row of points would be an exponential law; a bow is its failure.` : "."),
-    axes: {x: {label: "mean gap ‹ū›", short: "‹ū›", unit: "m", log: false}, y: {label: "force ‹F›", short: "‹F›", unit: "N", log: true, values: () => f.force, layout: {domain: fitted ? [0.34, 1] : [0, 1]}},
-      ...(fitted ? {y2: {label: "off the fit", fixed: true, percent: true, layout: {domain: [0, 0.24], zeroline: true, zerolinecolor: color("line")}}} : {})},
+    axes: {x: {label: "mean gap ‹ū›", short: "‹ū›", unit: "m", log: false}, y: {label: "force ‹F›", short: "‹F›", unit: "N", log: true, values: () => f.force, layout: {domain: fitted ? [0.4, 1] : [0, 1]}},
+      ...(fitted ? {y2: {label: "‹F› over fit, less 1", fixed: true, percent: true, layout: {domain: [0, 0.32], zeroline: true, zerolinecolor: color("vermilion"), zerolinewidth: 2}}} : {})},
     columns: () => [{label: "pressure", key: "pressure", unit: "Pa", values: point.pressure}, {label: "force", key: "force", unit: "N", values: f.force},
       ...estimateColumns("mean gap", "mean_gap", "m", gap),
       ...(fitted ? [{label: "force of the fit", key: "fit_force", unit: "N", values: gap.mean.map((g) => (known(g) ? f.pressureOf(g) * f.area : null))}, {label: "off the fit", key: "off_the_fit", unit: "1", values: residual, digits: 3}] : [])],
@@ -68,11 +68,11 @@ function forceGapFigure(parent, point) {
         // Far from its window the line leaves the picture.
         const shown = line.map((g) => [g, f.pressureOf(g) * f.area]).filter(([, y]) => y < 3 * f.force.at(-1));
         series.push({label: "‹F›_{0} exp(−‹ū›/‹l›)", x: shown.map(([g]) => g), y: shown.map(([, y]) => y), mode: "lines", line: {color: color("vermilion"), width: 2, dash: "dash"}, hoverinfo: "skip"});
-        series.push({label: "off the fit", quiet: true, group: "boundary elements", x: gap.mean, y: residual, yaxis: "y2", mode: "lines+markers", line: {color: color("blue"), width: 1}, marker: {size: 5, color: color("blue")}, text});
+        series.push({label: "off the fit", quiet: true, group: "boundary elements", x: gap.mean, y: residual, yaxis: "y2", mode: "lines+markers", line: {color: color("blue"), width: 1.5}, marker: {size: 7, color: color("blue")}, text});
       }
       series.push({label: f.count > 1 ? "boundary elements, mean" : "boundary elements", group: "boundary elements", x: gap.mean, y: f.force, mode: "lines+markers", line: {color: color("blue"), width: 2}, marker: {size: 6, color: color("blue")}, text});
-      // The residuals beyond the window grow without bound and must not flatten those within.
-      const limit = Math.max(2.2 * worst, 0.02);
+      // All of them where that leaves those within the window readable; beyond it they may grow without bound.
+      const limit = Math.max(Math.min(1.15 * Math.max(...residual.filter(known).map(Math.abs), 0), 4 * worst), 0.02);
       return {series, shapes, annotations, ...(fitted ? {axes: {yaxis2: {range: [-limit, limit], nticks: 4}, xaxis: {anchor: "y2"}}} : {})};
     },
   });

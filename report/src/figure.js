@@ -37,7 +37,7 @@ const axisFont = () => ({family: getComputedStyle(document.body).fontFamily, siz
 function addFigure(parent, spec) {
   const state = {hidden: new Set()};
   for (const [name, axis] of Object.entries(spec.axes)) state[name] = axis.log ? "log" : "linear";
-  const plot = h("div", {class: "plot", id: `${spec.id}-plot`, role: "img", "aria-label": plainText(spec.alt()), style: `height:${spec.height ?? 380}px`});
+  const plot = h("div", {class: spec.height > 500 ? "plot tall" : "plot", id: `${spec.id}-plot`, role: "img", "aria-label": plainText(spec.alt()), style: `height:${spec.height ?? 380}px`});
   const legend = h("div", {class: "legend", role: "group", "aria-label": `Curves of ${plainText(spec.title)}: show or hide`});
   const details = h("details", {}, h("summary", {}, "Numbers as a table"));
   const switches = Object.entries(spec.axes).filter(([, axis]) => !axis.fixed).map(([name, axis]) =>
@@ -53,8 +53,9 @@ function addFigure(parent, spec) {
           onclick: () => {
             download(`${spec.id}.csv`, "text/csv", csv((spec.csv ?? spec.columns)()));
             document.getElementById("live").textContent = `${spec.id}.csv is downloaded`;
-          }}, "CSV")),
-      plot, legend, h("figcaption", {}, rich(typeof spec.caption === "function" ? spec.caption() : spec.caption)), details),
+          }}, "CSV"),
+        h("button", {type: "button", class: "svg", "aria-label": `Download the picture of ${plainText(spec.title)} as SVG`, onclick: () => pictureOf(spec.id, plot)}, "SVG")),
+      plot, legend, h("figcaption", {}, rich(typeof spec.caption === "function" ? spec.caption() : spec.caption, true)), details),
     redraw() {
       draw(spec, state, plot, legend, figure);
       plot.setAttribute("aria-label", plainText(spec.alt()));
@@ -67,6 +68,13 @@ function addFigure(parent, spec) {
   parent.append(figure.element);
   drawn.push(figure);
   return figure;
+}
+
+/** The picture as it stands, as SVG: for a paper or a slide. */
+async function pictureOf(id, plot) {
+  const address = await Plotly.toImage(plot, {format: "svg", width: plot.clientWidth, height: plot.clientHeight});
+  download(`${id}.svg`, "image/svg+xml", decodeURIComponent(address.slice(address.indexOf(",") + 1)));
+  document.getElementById("live").textContent = `${id}.svg is downloaded`;
 }
 
 const scaled = (values, factor) => values.map((v) => (known(v) ? v * factor : null));
@@ -137,6 +145,13 @@ function draw(spec, state, plot, legend, figure) {
   drawLegend(content.series, state, legend, figure);
 }
 
+// The marks of the curves, as plotly draws them.
+const LEGEND_MARKS = {
+  circle: `<circle cx="14" cy="5" r="3.2"/>`, "circle-open": `<circle class="open" cx="14" cy="5" r="3"/>`, square: `<rect x="11" y="2" width="6" height="6"/>`,
+  diamond: `<path class="solid" d="M14 1L18 5L14 9L10 5Z"/>`, "triangle-up": `<path class="solid" d="M14 1.2L18 8.2H10Z"/>`, star: `<path class="solid" d="M14 0.5L15.3 3.6L18.7 3.9L16.1 6.1L16.9 9.4L14 7.6L11.1 9.4L11.9 6.1L9.3 3.9L12.7 3.6Z"/>`,
+  cross: `<path class="solid" d="M12.7 1.5H15.3V3.7H17.5V6.3H15.3V8.5H12.7V6.3H10.5V3.7H12.7Z"/>`, x: `<path class="open" d="M11 2L17 8M17 2L11 8"/>`,
+};
+
 /** Buttons, so that curves can be hidden by keyboard too; a curve's sample is drawn as the curve is. */
 function drawLegend(series, state, legend, figure) {
   const entries = new Map();
@@ -153,7 +168,7 @@ function drawLegend(series, state, legend, figure) {
     sample.setAttribute("viewBox", "0 0 28 10");
     sample.setAttribute("aria-hidden", "true");
     sample.innerHTML = s.mode === "none" ? `<rect x="0" y="0" width="28" height="10" rx="2"/>`
-      : (s.mode === "markers" ? "" : `<path d="M0 5H28" stroke-dasharray="${dash}"/>`) + (s.mode?.includes("markers") ? `<circle cx="14" cy="5" r="3.2"/>` : "");
+      : (s.mode === "markers" ? "" : `<path d="M0 5H28" stroke-dasharray="${dash}"/>`) + (s.mode?.includes("markers") ? LEGEND_MARKS[s.marker?.symbol ?? "circle"] ?? LEGEND_MARKS.circle : "");
     sample.style.color = paint;
     const button = h("button", {type: "button", "data-key": key, "aria-pressed": String(!state.hidden.has(key)),
       onclick: () => {

@@ -67,14 +67,26 @@ function percent(value, digits = 2) {
 // Text of the page knows three marks, which stand for the same in HTML and in plotly: ‹italic›, _{sub}, ^{sup}.
 const MARKS = /‹([^›]+)›|_\{([^}]*)\}|\^\{([^}]*)\}/g;
 
-/** As nodes. What comes out of a file goes past this, into text nodes. */
-function rich(text) {
+// Symbols of the page: what each means, its unit, and the page of the documentation that defines it.
+const SYMBOLS = {
+  p: ["nominal pressure, force over nominal area", "Pa", "docs/theory.md"], F: ["normal force", "N", "docs/theory.md"],
+  "ū": ["mean gap of the deformed surfaces", "m", "docs/conventions.md"], l: ["decay length of the force with the mean gap", "m", "docs/theory.md"],
+  h: ["height; h_rms root mean square height, h′ root mean square slope", "m, 1", "docs/statistics.md"], A: ["contact area; A₀ nominal area", "m²", "docs/statistics.md"],
+  K: ["normal stiffness dF/dδ; K_t tangential stiffness", "N/m", "docs/theory.md"], E: ["E*, contact modulus", "Pa", "docs/theory.md"], G: ["G*, tangential modulus", "Pa", "docs/theory.md"],
+  W: ["energy lost in a cycle", "J", "docs/theory.md"], "γ": ["damping constant, power over mean square velocity", "N s/m", "docs/theory.md"],
+  C: ["power spectral density of the heights", "m⁴", "docs/conventions.md"], q: ["wave number, 2π over the wavelength", "rad/m", "docs/conventions.md"], H: ["Hurst exponent", "1", "docs/statistics.md"],
+};
+
+/** As nodes. What comes out of a file goes past this, into text nodes. linked: symbols lead to their line in the table of symbols. */
+function rich(text, linked = false) {
   const nodes = [];
   let end = 0;
   for (const match of text.matchAll(MARKS)) {
     nodes.push(text.slice(end, match.index));
     const tag = match[1] !== undefined ? "i" : match[2] !== undefined ? "sub" : "sup";
-    nodes.push(h(tag, {}, match[1] ?? match[2] ?? match[3]));
+    const marked = h(tag, {}, match[1] ?? match[2] ?? match[3]);
+    const known = linked && tag === "i" && match[1] in SYMBOLS;
+    nodes.push(known ? h("a", {class: "symbol", href: `#symbol-${match[1]}`, title: SYMBOLS[match[1]][0]}, marked) : marked);
     end = match.index + match[0].length;
   }
   nodes.push(text.slice(end));

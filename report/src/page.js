@@ -101,10 +101,24 @@ function settings(main, point) {
     body.className = "";
     const provenance = data.provenance ?? {}, surface = point.surface ?? {};
     const seeds = (surface.seed ?? []).filter((s) => s !== 0);
-    const entries = [["Results file", data.results], ["Command", provenance.command_line, "code"], ["Made", provenance.created?.replace("T", " ").replace("Z", " UTC")], ["Program", provenance.version ? `${provenance.program ?? "salebra"} ${provenance.version}; report by salebra ${data.report_version}` : null],
+    const entries = [["Results file", data.results], ["Command", provenance.command_line, "code"], ["Made", provenance.created?.replace("T", " ").replace("Z", " UTC")], ["Run time", known(provenance.run_time) ? quantity(provenance.run_time, "s", 3) : null],
+      ["Program", provenance.version ? `${provenance.program ?? "salebra"} ${provenance.version}${provenance.revision ? `, revision ${provenance.revision}` : ""}; report by salebra ${data.report_version}` : null],
       ["Libraries", provenance.libraries], ["Surface", point.picture?.origin], ["Seeds", seeds.length ? seedText(seeds) : null], ["Tangential stiffness", point.damping?.tangential_stiffness], ["E*, G*/E*", point.damping ? `${quantity(point.damping.contact_modulus, "Pa")}, ${number(point.damping.modulus_ratio)}` : null]];
     body.append(h("dl", {}, entries.filter(([, text]) => text).map(([name, text, tag]) => h("div", {}, h("dt", {}, name), h("dd", {}, tag ? h(tag, {}, text) : text)))));
     if (provenance.configuration?.trim()) body.append(h("details", {open: true}, h("summary", {}, "Configuration, as it was read"), h("pre", {tabindex: "0", role: "region", "aria-label": "Configuration"}, provenance.configuration)));
+  });
+}
+
+/** What the letters mean, and what to cite. */
+function symbolsAndCitation(main) {
+  section(main, "symbols", "Symbols and citation", null, (body) => {
+    body.className = "";
+    body.append(h("div", {class: "scroll card", tabindex: "0", role: "region", "aria-label": "Symbols"}, h("table", {}, h("caption", {}, "Symbols, and the page of salebra's documentation that defines each"),
+      h("thead", {}, h("tr", {}, ["symbol", "meaning", "unit", "page"].map((text) => h("th", {scope: "col"}, text)))),
+      h("tbody", {}, Object.entries(SYMBOLS).map(([letter, [meaning, unit, page]]) => h("tr", {id: `symbol-${letter}`}, h("th", {scope: "row"}, h("i", {}, letter)), h("td", {}, meaning), h("td", {}, unit), h("td", {}, h("code", {}, page))))))));
+    const version = data.provenance?.version ?? data.report_version;
+    body.append(h("details", {open: true}, h("summary", {}, "How to cite"), h("pre", {tabindex: "0", role: "region", "aria-label": "Citation in BibTeX"},
+      `@article{popov2015relaxation,\n  author  = {Popov, M. and Popov, V. L. and Pohrt, R.},\n  title   = {Relaxation damping in oscillating contacts},\n  journal = {Scientific Reports}, volume = {5}, pages = {16189}, year = {2015},\n  doi     = {10.1038/srep16189}\n}\n@software{salebra,\n  title   = {salebra: statistics of rough-surface contact and its relaxation damping},\n  version = {${version}}\n}`)));
   });
 }
 
@@ -121,7 +135,7 @@ function heading(point) {
   const title = data.title || (file ? `Contact and damping of ${file}` : "") || (count > 1 ? `Contact and damping of ${count} rough surfaces` : "Contact and damping of a rough surface");
   const size = surface.nx ? `${count > 1 ? `${count} surfaces` : "1 surface"}, ${surface.nx} × ${surface.ny} points on ${quantity(surface.size_x, "m")} × ${quantity(surface.size_y, "m")}` : "";
   document.getElementById("head").replaceChildren(h("p", {class: "brand"}, "salebra report"), h("h1", {}, title), h("p", {class: "subtitle"}, [size, data.results, data.provenance?.created?.slice(0, 10)].filter(Boolean).join(" · ")),
-    h("nav", {"aria-label": "Sections"}, h("ul", {}, [["conclusion", "Conclusion"], ["surface", "Surface"], ["law", "Force law"], ["contact", "Contact"], ["models", "Models"], ["damping", "Damping"], ["settings", "Settings"]].map(([id, text]) => h("li", {}, h("a", {href: `#${id}`}, text))))));
+    h("nav", {"aria-label": "Sections"}, h("ul", {}, [["conclusion", "Conclusion"], ["surface", "Surface"], ["law", "Force law"], ["contact", "Contact"], ["models", "Models"], ["damping", "Damping"], ["symbols", "Symbols"], ["settings", "Settings"]].map(([id, text]) => h("li", {}, h("a", {href: `#${id}`}, text))))));
 }
 
 function show(index) {
@@ -140,6 +154,7 @@ function show(index) {
   section(main, "surface", "The surface", null, (body) => {
     if (point.picture) {
       heightMap(body, point);
+      profileFigure(body, point);
       spectrumFigure(body, point);
       distributionFigure(body, point);
     } else {
@@ -168,6 +183,7 @@ function show(index) {
     dampingRatioFigure(body, point);
   });
   if (point.convergence) section(main, "ensemble", "How many surfaces", null, (body) => convergenceFigure(body, point));
+  symbolsAndCitation(main);
   settings(main, point);
   redrawAll();
 }

@@ -95,6 +95,25 @@ function distributionFigure(parent, point) {
   });
 }
 
+/** Heights along the line through the middle, and where that line touches at the greatest load. */
+function profileFigure(parent, point) {
+  const picture = point.picture, place = mapAxes(picture), row = Math.floor(picture.ny / 2);
+  const heights = decoded(picture.heights, Float32Array);
+  const line = place.x.map((_, ix) => Number(heights[ix * picture.ny + row].toPrecision(7)));
+  const loads = picture.first_load ? decoded(picture.first_load, Int16Array) : null;
+  const touching = line.map((z, ix) => (loads && loads[ix * picture.ny + row] >= 0 ? z : null));
+  const most = point.pressure.at(-1), low = Math.min(...line), high = Math.max(...line);
+  addFigure(parent, {
+    id: "profile", title: "Profile",
+    alt: () => `Heights along x at y = ${quantity(place.y[row], "m", 3)}: from ${quantity(low, "m", 3)} to ${quantity(high, "m", 3)} about the mean; ${touching.filter(known).length} of ${line.length} points touch at ${quantity(most, "Pa", 3)}.`,
+    caption: `Heights along the line ‹y› = ${quantity(place.y[row], "m", 3)} through the middle, stretched: one unit of height is ${number(((place.x.at(-1) - place.x[0]) / 2) / (high - low), 2)} units of length. Marks are points that touch at ${quantity(most, "Pa", 3)}.`,
+    axes: {x: {label: "‹x›", unit: "m", fixed: true}, y: {label: "height above the mean", unit: "m", fixed: true}},
+    columns: () => [{label: "‹x›", key: "x", unit: "m", values: place.x.map((v) => Number(v.toPrecision(7)))}, {label: "height", key: "height", unit: "m", values: line}],
+    plot: () => ({series: [{label: "surface", x: place.x, y: line, mode: "lines", line: {color: color("blue"), width: 1.5}, text: line.map((z, i) => `height ${quantity(z, "m", 3)}<br>at <i>x</i> = ${quantity(place.x[i], "m", 3)}`)},
+      ...(touching.some(known) ? [{label: `in contact at ${quantity(most, "Pa", 3)}`, x: place.x, y: touching, mode: "markers", marker: {symbol: "circle", size: 5, color: color("vermilion")}, hoverinfo: "skip"}] : [])]}),
+  });
+}
+
 /** Which points touch, load by load: contacts of growing load are nested, so that one map holds them all. */
 function contactMap(parent, point) {
   const picture = point.picture, place = mapAxes(picture), pressures = point.pressure;

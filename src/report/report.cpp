@@ -8,6 +8,7 @@
 
 #include "assets.hpp"
 #include "payload.hpp"
+#include "summary.hpp"
 
 namespace salebra {
 namespace {
@@ -89,11 +90,12 @@ void write_report(const std::filesystem::path& results, const std::filesystem::p
   payload["title"] = options.title;
   payload["report_version"] = version();
   const std::string title = escaped(options.title.empty() ? name : options.title);
-  const std::string data = script_text(payload);
+  const std::string data = script_text(payload), summary = detail::summary_of(payload);
   write_text_file(html,
                   filled(detail::assets::html(), {{"title", title},
                                                   {"style", detail::assets::css()},
                                                   {"plotly", detail::assets::plotly()},
+                                                  {"summary", summary},
                                                   {"data", data},
                                                   {"script", detail::assets::javascript()}}),
                   options.write);

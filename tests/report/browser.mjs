@@ -92,7 +92,7 @@ function parsed(text) {
   return rows.map((row) => row.map((cell) => cell.replace(/,$/, "").replace(/^"|"$/g, "")));
 }
 
-const everyFigure = ["height-map", "spectrum", "distribution", "force-gap", "local-length", "contact-map", "spots", "area-load", "gap-load", "stiffness-load", "stiffness-ratio",
+const everyFigure = ["height-map", "profile", "spectrum", "distribution", "force-gap", "local-length", "contact-map", "spots", "area-load", "gap-load", "stiffness-load", "stiffness-ratio",
   "damping-curve", "damping-deviation", "damping-models", "convergence"];
 
 const full = await open("full.html", {viewport: {width: 1280, height: 900}, colorScheme: "light"});
@@ -161,12 +161,40 @@ for (const [i, id] of everyFigure.entries()) {
   check(rows[0].every((head) => /^[a-z0-9_A-Z]+$/.test(head)), `full.html: the CSV of ${id} has the header ${rows[0]}`);
   check(rows.slice(1).every((row) => row.every((cell) => cell === "" || Number.isFinite(Number(cell)))), `full.html: the CSV of ${id} has cells that are no numbers`);
 }
+// A picture for a paper, marks in the legend as on the curves, and symbols that lead to their meaning.
+await full.evaluate(() => { window.caught = null; });
+await full.locator("#stiffness-load button.svg").click();
+await full.waitForFunction(() => window.caught);
+const vector = await full.evaluate(() => window.caught);
+check(vector[0] === "stiffness-load.svg" && vector[1].startsWith("<svg") && vector[1].includes("trace"), `full.html: the picture of stiffness-load is ${vector[0]}, ${vector[1].slice(0, 40)}`);
+const marks = await full.evaluate(() => [...document.querySelectorAll("#area-load .legend svg")].map((sample) => sample.innerHTML.replace(/stroke-dasharray="[^"]*"/, "")));
+check(new Set(marks).size >= 6, `full.html: the legend of area-load has ${new Set(marks).size} different marks`);
+const symbols = await full.evaluate(() => [...document.querySelectorAll("a.symbol")].filter((link) => !document.getElementById(decodeURIComponent(link.hash.slice(1)))).length);
+check(symbols === 0 && (await full.locator("a.symbol").count()) > 10, `full.html: ${symbols} symbols lead nowhere`);
+check(/run time/i.test(await full.locator("#settings").innerText()) && /@article/.test(await full.locator("#symbols").innerText()), "full.html: has no run time or no citation");
+// Residuals: those within the window take more than a third of their panel.
+const used = await full.evaluate(() => { const {data, layout} = document.getElementById("force-gap-plot"); const trace = data.find((t) => t.yaxis === "y2"), [x0, x1] = [layout.shapes[0].x0, layout.shapes[0].x1].sort((a, b) => a - b);
+  const inside = trace.y.filter((y, i) => y !== null && trace.x[i] >= x0 && trace.x[i] <= x1); return {share: (Math.max(...inside) - Math.min(...inside)) / (layout.yaxis2.range[1] - layout.yaxis2.range[0]), panel: layout.yaxis2.domain[1]}; });
+check(used.share > 0.12 && used.panel >= 0.3, `full.html: residuals take ${used.share} of their panel, which is ${used.panel} of the figure`);
+// Without JavaScript: the numbers and the verdict.
+const bare = await (await browser.newContext({javaScriptEnabled: false})).newPage();
+await bare.goto(`file://${join(folder, "full.html")}`, {waitUntil: "load"});
+const said = await bare.locator("main").innerText();
+check(/Decay length l of F ∝ exp\(−ū\/l\): [\d.]+ [nµ]m/.test(said) && /The law is a (fair|poor) description/.test(said), `full.html without JavaScript says ${said.slice(0, 200)}`);
+check((await bare.locator("main table tbody tr").count()) === 12, "full.html without JavaScript: has no table of damping constants");
+const drawnVerdict = await full.locator("#conclusion .verdict strong").first().textContent();
+check(said.includes(drawnVerdict.trim()), `full.html: the verdicts with and without JavaScript differ: ${drawnVerdict}`);
+await bare.context().close();
+
 // On paper: light, and no wider than the sheet.
 const sheet = await open("full.html", {viewport: {width: 794, height: 900}, colorScheme: "dark"});
 await checkContrast(sheet, "full.html, dark");
 await sheet.screenshot({path: join(folder, "full-794-dark.png"), fullPage: true});
 await sheet.pdf({path: join(folder, "full.pdf"), format: "A4"});
 check(statSync(join(folder, "full.pdf")).size > 50000, "full.html: prints next to nothing");
+// Seventeen figures and six tables take eight sheets, and took thirteen when each figure had the whole width.
+const sheets = readFileSync(join(folder, "full.pdf"), "latin1").match(/\/Type\s*\/Page\b/g).length;
+check(sheets <= 9, `full.html: prints on ${sheets} sheets`);
 await sheet.emulateMedia({media: "print"});
 check((await sheet.evaluate(() => getComputedStyle(document.body).backgroundColor)) === "rgb(255, 255, 255)", "full.html: prints on dark paper");
 await sheet.screenshot({path: join(folder, "full-print.png"), fullPage: true});

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers and verdict of a report as plain HTML, for readers without JavaScript.
+#include "summary.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <salebra/base/units.hpp>
+#include <vector>
+
+namespace salebra::detail {
+namespace {
+
+/// The member at the end of a path of names; null where the payload does not go so far.
+const Json* find(const Json& object, const std::vector<std::string>& path) {
+  const Json* place = &object;
+  for (const std::string& name : path) {
+    if (!place->is_object() || !place->contains(name)) return nullptr;
+    place = &(*place)[name];
+  }
+  return place;
+}
+
+double number(const Json* value) {
+  return value && value->is_number() ? value->number() : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string shown(const Json* value, Dimension dimension) {
+  return format_quantity(number(value), dimension, 3);
+}
+
+std::string row(const std::vector<std::string>& cells, const char* tag) {
+  std::string text = "<tr>";
+  for (const std::string& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, cell);
+  return text + "</tr>";
+}
+
+/// "4.2 nm (95 %: 4.1 nm … 4.3 nm)".
+std::string with_interval(const Json* estimate, Dimension dimension) {
+  if (estimate == nullptr) return "n/a";
+  std::string text = shown(find(*estimate, {"mean"}), dimension);
+  const Json *low = find(*estimate, {"low"}), *high = find(*estimate, {"high"});
+  if (!std::isnan(number(low)) && !std::isnan(number(high)))
+    text += fmt::format(" (95 %: {} … {})", shown(low, dimension), shown(high, dimension));
+  return text;
+}
+
+std::string law(const Json& point) {
+  const Json* fit = find(point, {"fit", "models", "bem"});
+  if (fit == nullptr) return "";
+  std::string text = fmt::format(
+      "<p>Decay length l of F ∝ exp(−ū/l): {}, {} times the rms height.</p>",
+      with_interval(find(*fit, {"decay_length"}), Dimension::length),
+      with_interval(find(*fit, {"decay_length_over_rms_height"}), Dimension::dimensionless));
+  const double whole = number(find(*fit, {"decay_length_over_rms_height", "mean"}));
+  const double closest = number(find(*fit, {"decay_length_closest_over_rms_height", "mean"}));
+  const double farthest = number(find(*fit, {"decay_length_farthest_over_rms_height", "mean"}));
+  if (!(closest > 0)) return text;
+  // F/l² has to be within a factor of two of F″ at both ends, as in the page's script and on the terminal.
+  const auto fair = [&](double local) {
+    const double ratio = local / whole * local / whole;
+    return local > 0 && ratio > 0.5 && ratio < 2;
+  };
+  return text + (fair(closest) && fair(farthest)
+                     ? "<p><strong>The law is a fair description.</strong></p>"
+                     : "<p><strong>The law is a poor description.</strong> Do not use Eq. (16) "
+                       "here; use the computed curve.</p>");
+}
+
+std::string damping(const Json& point) {
+  const Json* forces = find(point, {"damping", "force"});
+  const Json* pressures = find(point, {"pressure"});
+  if (forces == nullptr || pressures == nullptr) return "";
+  const auto column = [&](const char* route) {
+    return find(point, {"damping", route, "damping_constant", "bem", "mean"});
+  };
+  const auto at = [](const Json* list, std::size_t i) {
+    return list && i < list->size() ? &(*list)[i] : nullptr;
+  };
+  std::string text = "<table><caption>Damping constant by boundary elements</caption><thead>" +
+                     row({"pressure", "force", "closed form, fitted l", "computed"}, "th") +
+                     "</thead><tbody>";
+  for (std::size_t i = 0; i < forces->size(); ++i)
+    text +=
+        row({shown(at(pressures, i), Dimension::pressure), shown(at(forces, i), Dimension::force),
+             shown(at(column("law"), i), Dimension::damping),
+             shown(at(column("curve"), i), Dimension::damping)},
+            "td");
+  return text + "</tbody></table>";
+}
+
+}  // namespace
+
+std::string summary_of(const Json& payload) {
+  std::string text;
+  std::size_t i = 0;
+  for (const Json& point : payload["points"].elements()) {
+    const bool several = payload["points"].size() > 1;
+    text += fmt::format("<section><h2>What came out{}</h2>",
+                        several ? fmt::format(", point {}", ++i) : "");
+    text += law(point) + damping(point) + "</section>";
+  }
+  return text;
+}
+
+}  // namespace salebra::detail
