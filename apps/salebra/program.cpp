@@ -22,6 +22,7 @@
 
 #include "confinement/confinement.hpp"
 #include "help_text.hpp"
+#include "option_words.hpp"
 #include "scarce_memory.hpp"
 #include "terminal.hpp"
 
@@ -29,7 +30,7 @@ namespace salebra::cli {
 namespace {
 
 int fail(int status, std::string_view message) {
-  std::string line = printable(message);
+  std::string line = printable(in_options(message));
   std::ranges::replace_if(
       line, [](char symbol) { return symbol == '\n' || symbol == '\t'; }, ' ');
   print_remark(
@@ -217,6 +218,8 @@ void run(int argc, char** argv) {
     throw InvalidInput(
         fmt::format("{}: is not a command{}; see salebra --help", word, did_you_mean(word, names)));
   }
+  const auto chosen = std::ranges::find(program.commands(), word, &Command::name);
+  if (chosen != program.commands().end()) name_options(*chosen);
   try {
     std::ranges::reverse(words);  // as CLI11 takes them
     app.parse(words);
@@ -261,7 +264,7 @@ int run_program(int argc, char** argv) {
   } catch (const UndefinedPoints& error) {
     return fail(2, std::string(error.what()) + " (salebra convert --fill)");
   } catch (const InvalidInput& error) {
-    return fail(2, error.what());
+    return fail(2, with_option(error));
   } catch (const Interrupted& error) {
     return fail(130, error.what());
   } catch (const std::bad_alloc&) {

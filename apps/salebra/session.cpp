@@ -10,6 +10,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/printable.hpp>
 
+#include "option_words.hpp"
 #include "terminal.hpp"
 #include "text.hpp"
 
@@ -84,7 +85,7 @@ void Session::warn(std::string_view text) {
   bar_.clear();
   print_remark(fmt::format("salebra: {} {}\n",
                            emphasised("warning:", Emphasis::warning, STDERR_FILENO),
-                           printable(text)));
+                           printable(in_options(text))));
 }
 
 void Session::answer(const Json& object, const std::string& text) {

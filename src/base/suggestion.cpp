@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Nearest name by edit distance, for "did you mean" in messages.
 #include <algorithm>
-#include <array>
 #include <salebra/base/suggestion.hpp>
 #include <utility>
 
@@ -26,14 +25,12 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-/// Options of the program and keys of a study file that had another name in version 0.1. Options have "--" and dashes.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 5> renamed{{
-    {"coupling", "dundurs"},
-    {"force", "overwrite"},
-    {"force_newton", "normal_force"},
-    {"min_realisations", "min_realisations"},
+/// Options and keys of a study file that had another name in version 0.1. Options have "--" and dashes.
+constexpr std::pair<std::string_view, std::string_view> renamed[]{
+    {"coupling", "dundurs"},           {"force", "overwrite"},
+    {"force_newton", "normal_force"},  {"least_realisations", "min_realisations"},
     {"precision", "target_precision"},
-}};
+};
 
 /// Of an option, the key of the same name.
 std::string key_of(std::string_view name) {
@@ -43,8 +40,7 @@ std::string key_of(std::string_view name) {
 }
 
 bool was_called(std::string_view name, std::string_view old) {
-  return std::ranges::find(renamed, std::pair<std::string_view, std::string_view>(old, name)) !=
-         renamed.end();
+  return std::ranges::find(renamed, std::pair(old, name)) != std::end(renamed);
 }
 
 }  // namespace

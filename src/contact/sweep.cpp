@@ -10,8 +10,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/contact/tangential/stick.hpp>
 #include <salebra/contact/sweep.hpp>
+#include <salebra/contact/tangential/stick.hpp>
 
 #include "normal/contact_memory.hpp"
 
@@ -77,9 +77,9 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
   // A stick solve follows a contact whose fields are still there.
   const double each = detail::contact_memory(surface.grid, options.contact) +
                       (options.stiffness && options.stick ? detail::stick_memory(surface.grid) : 0);
-  require_memory(surface.grid, concurrent * each,
-                 concurrent > 1 ? "contacts on all threads (fewer --threads need less)"
-                                : "a contact");
+  require_memory(
+      surface.grid, concurrent * each,
+      concurrent > 1 ? "contacts on all threads (fewer `threads` need less)" : "a contact");
   std::vector<std::optional<ForceSample>> samples(pressures.size());
   std::atomic<bool> stop = false;
   std::atomic<int> finished = 0;

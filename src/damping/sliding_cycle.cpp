@@ -20,7 +20,7 @@ class StepPressures {
                 int steps, double resolution) {
     // A field for every second step, since the way down meets those of the way up.
     require_memory(grid, 0.5 * sizeof(double) * steps * static_cast<double>(grid.points()),
-                   "the pressures of its steps (fewer steps need less)");
+                   "the pressures of its steps (fewer `steps` need less)");
     for (int k = 0; k <= steps; ++k) {
       const double indentation = trajectory.indentation(static_cast<double>(k) / steps);
       auto next = stored_.lower_bound(indentation - resolution);

@@ -254,7 +254,7 @@ CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
   const detail::TrajectoryRange range = detail::checked_range(trajectory, options);
   // A contact set, of a byte a cell, for every second step, since the way down meets those of the way up.
   require_memory(grid, 0.5 * options.steps * static_cast<double>(grid.points()),
-                 "the contact sets of its steps (fewer --steps need less)");
+                 "the contact sets of its steps (fewer `steps` need less)");
   StuckBody body(levels, grid, material, trajectory, options, range);
   // Started at the minimum indentation, every other cell has been released and has entered again: the period repeats.
   const bool from_minimum =

@@ -480,7 +480,7 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
     const int wanted = std::min(static_cast<int>(open.size()), parallel::threads());
     require_memory(fine.grid,
                    wanted * detail::contact_memory(fine.grid, {.boundary = options.boundary}),
-                   "contacts on all threads (fewer --threads need less)");
+                   "contacts on all threads (fewer `threads` need less)");
     std::atomic<bool> stop = false;
     std::atomic<int> finished = 0;
     std::exception_ptr failure;

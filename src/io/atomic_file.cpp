@@ -37,14 +37,13 @@ void require_free_name(const std::filesystem::path& file, const WriteOptions& op
   if (!std::filesystem::exists(status)) {
     if (!options.overwrite && std::filesystem::is_symlink(file, ignored))
       throw InvalidInput(file.string() +
-                         ": exists as a symbolic link to nothing; remove it, or overwrite it "
-                         "(--overwrite)");
+                         ": exists as a symbolic link to nothing; remove it or set `overwrite`");
     return;
   }
   if (!std::filesystem::is_regular_file(status))
     throw InvalidInput(file.string() + ": exists and is not a regular file; name another one");
   if (!options.overwrite)
-    throw InvalidInput(file.string() + ": exists; name another file or overwrite it (--overwrite)");
+    throw InvalidInput(file.string() + ": exists; name another file or set `overwrite`");
 }
 
 /// As the call would be repeated by hand where a signal came in between.

@@ -38,15 +38,14 @@ double size_along(const std::filesystem::path& file, const char* field,
     return *given;
   }
   if (!stated)
-    detail::refuse(file, "does not state its " + std::string(field) +
-                             "; give size_x and size_y (--size-x, --size-y)");
+    detail::refuse(file,
+                   "does not state its " + std::string(field) + "; give `size_x` and `size_y`");
   if (!std::isfinite(*stated) || *stated <= 0)
     detail::refuse(file, "states a " + std::string(field) + " of " + std::to_string(*stated) +
-                             " m, which is not > 0; give size_x and size_y (--size-x, --size-y)");
+                             " m, which is not > 0; give `size_x` and `size_y`");
   if (!usable(*stated))
     detail::refuse(file, "states a " + std::string(field) +
-                             " that is not from 1e-60 to 1e60 m; give size_x and size_y (--size-x, "
-                             "--size-y)");
+                             " that is not from 1e-60 to 1e60 m; give `size_x` and `size_y`");
   return *stated;
 }
 

@@ -361,7 +361,7 @@ Json report_payload(const ResultReader& results) {
   }
   if (where.empty())
     throw InvalidInput(results.file().string() +
-                       ": contains no study; give the result file of salebra study or compare");
+                       ": contains no study; give the result file of a study or comparison");
   Json json;
   for (const char* name :
        {"program", "version", "libraries", "created", "command_line", "configuration"})
@@ -397,7 +397,7 @@ void add_direct(Json& payload, const ResultReader& oscillation) {
   const std::string group = stepped ? "cycle" : "levels";
   if (!oscillation.has(group + "/indentation") || !oscillation.has(group + "/force") ||
       !oscillation.number_attribute(group, "work_per_cycle"))
-    throw InvalidInput(file + ": holds no oscillation; give the result file of salebra oscillate");
+    throw InvalidInput(file + ": holds no oscillation; give the result file of a simulated cycle");
   const std::vector<double> indentation = oscillation.numbers(group + "/indentation"),
                             force = oscillation.numbers(group + "/force");
   if (indentation.size() != force.size() || indentation.size() < 2)

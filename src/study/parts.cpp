@@ -66,7 +66,7 @@ StudyParts::StudyParts(const std::filesystem::path& folder, bool resume)
     remove_abandoned(parent.empty() ? "." : parent, "." + file.string() + ".");
   if (!resume && count() > 0) {
     throw InvalidInput(fmt::format(
-        "{}: holds {} finished surfaces of an earlier run; go on with them (--resume), or "
+        "{}: holds {} finished surfaces of an earlier run; go on with them by `resume`, or "
         "remove the folder to begin anew",
         folder.string(), count()));
   }
@@ -122,7 +122,7 @@ void StudyParts::write(std::uint64_t key, const Realisation& realisation) {
   } catch (const IoError& error) {
     throw IoError(
         fmt::format("{}; the surfaces finished before are kept: make room and go on with "
-                    "--resume",
+                    "`resume`",
                     error.what()));
   }
 }

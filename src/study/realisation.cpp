@@ -29,7 +29,7 @@ Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Prog
 
 Surface read(const MeasuredSurface& recipe) {
   require(!recipe.file.empty(), "surface", "none",
-          "is given; name a file by --surface, or add a table [surface]");
+          "is given; name a file, or describe surfaces to generate");
   ReadOptions options;
   options.size_x = recipe.size_x;
   options.size_y = recipe.size_y;
@@ -313,8 +313,7 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
     result.model = model.id;
     if (model.id == ContactModel::bem) require_converged(result.curve, configuration);
     analyse(result, configuration, scale);
-    if (model.id == ContactModel::bem)
-      resolve_damping(result, surface, configuration, seed, part);
+    if (model.id == ContactModel::bem) resolve_damping(result, surface, configuration, seed, part);
     realisation.models.push_back(std::move(result));
     spent += model.seconds_per_cell;
   }

@@ -20,7 +20,7 @@ void warn(StudyResult& result) {
   if (result.configuration.stick && !stick_solves(result.configuration)) {
     result.warnings.push_back(
         "G*/E* is not that of any elastic body: K_t = (G*/E*)K instead of stick solves; give "
-        "Poisson's ratio, or --no-stick to say that it is meant");
+        "`poisson`, or leave out the stick solves");
   }
   const Realisation& first = result.realisations.front();
   if (!first.periodic) {
@@ -145,7 +145,7 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
       result.grid = recipe->grid;
     if (result.grid.nx > 0)
       require_memory(result.grid, study_memory(point, result.grid, parallel::threads()),
-                     "the surfaces of all threads (fewer --threads need less)");
+                     "the surfaces of all threads (fewer `threads` need less)");
     result.contact_scale = contact_scale(point);
     result.pressures = study_pressures(point);
     report.point = results.size();

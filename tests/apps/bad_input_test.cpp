@@ -141,7 +141,7 @@ TEST_CASE("Grids and spectra that cannot be are refused, and nothing is written"
        "1nm",
        "--points"},
       {"--points 64 --size-x 0 --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um --rms-height 1nm",
-       "size_x"},
+       "--size-x: 0"},
       {"--points 64 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.03um --rms-height "
        "1nm",
        "short_cutoff"},
@@ -149,12 +149,12 @@ TEST_CASE("Grids and spectra that cannot be are refused, and nothing is written"
        "hurst"},
       {"--points 64 --size-x 1um --hurst nan --rolloff 0.5um --short-cutoff 0.2um --rms-height 1nm",
        "--hurst"},
-      {"--points 64 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um", "rms_height"},
+      {"--points 64 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um", "--rms-height"},
       {"--points 64 --size-x 1um --hurst 0.8 --rolloff 0.1um --short-cutoff 0.2um --rms-height 1nm",
        "rolloff"},
       {"--points 64 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um --rms-height "
        "-1nm",
-       "rms_height"},
+       "--rms-height"},
       {"--points 64 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 0.2um --rms-height 1nm "
        "--seed -1",
        "--seed"},
@@ -171,11 +171,11 @@ TEST_CASE("Pressures, gaps and materials that cannot be are refused, and nothing
   const auto [options, expected] = GENERATE(table<std::string, std::string>({
       {"contact rough.h5 --pressure 0 --contact-modulus 1GPa", "--pressure"},
       {"contact rough.h5 --pressure -1MPa --contact-modulus 1GPa", "--pressure"},
-      {"contact rough.h5 --mean-gap 1m --contact-modulus 1GPa", "mean_gap"},
+      {"contact rough.h5 --mean-gap 1m --contact-modulus 1GPa", "--mean-gap"},
       {"contact rough.h5 --contact-modulus 1GPa", "--pressure"},
       {"contact rough.h5 --pressure 1MPa --mean-gap 1nm --contact-modulus 1GPa", "--pressure"},
       {"contact rough.h5 --pressure 1MPa", "--contact-modulus"},
-      {"contact rough.h5 --pressure 1MPa --contact-modulus 0", "contact_modulus"},
+      {"contact rough.h5 --pressure 1MPa --contact-modulus 0", "--contact-modulus: 0"},
       {"contact rough.h5 --pressure 1MPa --young 1GPa", "--poisson"},
       {"contact rough.h5 --pressure 1MPa --contact-modulus 1GPa --tolerance 2", "tolerance"},
       {"sweep rough.h5 --pressures 1MPa,0 --contact-modulus 1GPa", "--pressures"},
@@ -183,7 +183,7 @@ TEST_CASE("Pressures, gaps and materials that cannot be are refused, and nothing
       {"gw rough.h5 --pressures -1 --contact-modulus 1GPa", "--pressures"},
       {"gw --pressures 1MPa --contact-modulus 1GPa", "--density"},
       {"gw --density 0 --radius 1um --summit-rms 1nm --pressures 1MPa --contact-modulus 1GPa",
-       "density"},
+       "--density: 0 must"},
   }));
   INFO(options);
   check_refused(test.run(options + " -o result.h5"), expected);

@@ -168,7 +168,7 @@ TEST_CASE("The mean force or the force itself may be what is given", "[damping]"
               .epsilon(1e-8));
   }
   CHECK(controlled["force_amplitude"] == nlohmann::json({0.5, 2.0}));
-  check_refused(test.run(law + "--force-amplitude 3"), "force_amplitude");
+  check_refused(test.run(law + "--force-amplitude 3"), "--force-amplitude");
   check_refused(test.run(law + "--force-amplitude 1 --normal-amplitude 1nm"), "--force-amplitude");
 }
 

@@ -182,7 +182,7 @@ TEST_CASE("The CLI refuses each unusable input of a damped contact with its reas
   check_refused(
       test.run(cone +
                "--indentation 1um --normal-amplitude -1nm --drag-velocity 1mm/s --frequency 1kHz"),
-      "normal_amplitude");
+      "--normal-amplitude");
   // Trajectories that are no period: open, standing still in time, too short, not numbers.
   const auto refused_path = [&](const std::string& rows, const std::string& reason) {
     test.write("path.txt", rows);

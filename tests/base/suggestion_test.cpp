@@ -22,6 +22,8 @@ TEST_CASE("An old name is answered with the new one, of an option as of a key", 
         "--normal-force");
   CHECK(nearest_name("precision", {"points", "target_precision"}) == "target_precision");
   CHECK(nearest_name("--precision", {"--points", "--target-precision"}) == "--target-precision");
+  CHECK(nearest_name("least_realisations", {"realisations", "min_realisations"}) ==
+        "min_realisations");
   CHECK(nearest_name("coupling", {"points"}).empty());  // the new name is none of this place
 }
 

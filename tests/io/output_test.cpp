@@ -58,7 +58,7 @@ TEST_CASE("An existing file is replaced only when that is asked for", "[output]"
   const std::string name = GENERATE("surface.h5", "surface.npy", "surface.txt");
   const auto file = scratch.file(name, "precious");
   CHECK_THROWS_WITH(write_surface(file, flat(4)),
-                    Contains(name) && Contains("exists") && Contains("--overwrite"));
+                    Contains(name) && Contains("exists") && Contains("`overwrite`"));
   CHECK(std::filesystem::file_size(file) == 8);
   CHECK(files_in(scratch.folder()) == 1);
   write_surface(file, flat(4), {}, {.overwrite = true});

@@ -251,7 +251,7 @@ TEST_CASE("Parts of a study are not begun anew by accident, nor shared by two", 
     CHECK_THROWS_WITH(StudyParts(scratch.folder, true), Contains("in use by process"));
     parts.write(1, some_realisation());
   }
-  CHECK_THROWS_WITH(StudyParts(scratch.folder, false), Contains("--resume"));
+  CHECK_THROWS_WITH(StudyParts(scratch.folder, false), Contains("`resume`"));
   CHECK(StudyParts(scratch.folder, true).count() == 1);
   StudyParts(scratch.folder, true).discard();
   CHECK_FALSE(fs::exists(scratch.folder));

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Arguments that messages of the library name, as options of the command that runs.
+#include "option_words.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace salebra::cli {
+namespace {
+
+std::set<std::string>& options() {
+  static std::set<std::string> names;
+  return names;
+}
+
+/// "--size-x" of "size_x"; empty if the command has no such option.
+std::string option_of(std::string_view argument) {
+  std::string option = "--" + std::string(argument);
+  std::ranges::replace(option, '_', '-');
+  return options().contains(option) ? option : "";
+}
+
+}  // namespace
+
+void name_options(const Command& command) {
+  options().clear();
+  for (const Option& option : command.options())
+    options().insert(option.names().begin(), option.names().end());
+}
+
+std::string in_options(std::string_view message) {
+  std::string text;
+  for (;;) {
+    const std::size_t begin = message.find('`');
+    const std::size_t end = begin == message.npos ? message.npos : message.find('`', begin + 1);
+    if (end == message.npos) return text + std::string(message);
+    const std::string_view argument = message.substr(begin + 1, end - begin - 1);
+    const std::string option = option_of(argument);
+    text +=
+        std::string(message.substr(0, begin)) + (option.empty() ? std::string(argument) : option);
+    message.remove_prefix(end + 1);
+  }
+}
+
+std::string with_option(const InvalidInput& refusal) {
+  // "<field>: <value> <constraint>; <what to do>"
+  const std::string message = refusal.what();
+  const std::size_t end = std::min(message.find(": "), message.size());
+  const std::string option = option_of(message.substr(0, end));
+  return option.empty() ? message : option + message.substr(end);
+}
+
+}  // namespace salebra::cli
