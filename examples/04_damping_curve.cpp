@@ -39,13 +39,13 @@ int main(int argc, char** argv) try {
   const ExponentialLaw exponential(force, decay_length, material.modulus_ratio());
   const TabulatedLaw tabulated(curve, material.modulus_ratio());
 
-  // 3. Drawn at 1 mm/s while it is shaken normally at 20 kHz: the damping constant P/v² over the amplitude.
+  // 3. Drawn at 1 µm/s while it is shaken normally at 20 kHz: the damping constant P/v² over the amplitude.
   std::printf("F = %.4g N, l = %.4g nm\n", force, decay_length * 1e9);
   std::printf("%8s %16s %16s %16s (N s/m) %12s %12s\n", "u_z/l", "Eq. (16)", "exponential law",
               "curve", "(16)/law", "(16)/curve");
   for (const double k : {0.02, 0.05, 0.1, 0.2, 0.4}) {
     const Drag motion{.normal_amplitude = k * decay_length,
-                      .drag_velocity = 1e-3,
+                      .drag_velocity = 1e-6,
                       .angular_frequency = 2 * std::numbers::pi * 20e3};
     const double small = closed_form::damping_constant(
         closed_form::work_per_cycle_rough(material.modulus_ratio(), force, decay_length, motion),

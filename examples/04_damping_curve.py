@@ -31,11 +31,11 @@ ratio = material.modulus_ratio
 exponential = salebra.ExponentialLaw(force, decay_length, ratio)
 tabulated = salebra.TabulatedLaw(curve, ratio)
 
-# 3. Drawn at 1 mm/s while it is shaken normally at 20 kHz: the damping constant P/v² over the amplitude.
+# 3. Drawn at 1 µm/s while it is shaken normally at 20 kHz: the damping constant P/v² over the amplitude.
 print(f"F = {force:.4g} N, l = {decay_length * 1e9:.4g} nm")
 print(f"{'u_z/l':>8} {'Eq. (16)':>16} {'exponential law':>16} {'curve':>16} (N s/m) {'(16)/law':>12} {'(16)/curve':>12}")
 for k in (0.02, 0.05, 0.1, 0.2, 0.4):
-    motion = salebra.Drag(normal_amplitude=k * decay_length, drag_velocity=1e-3, angular_frequency=2 * math.pi * 20e3)
+    motion = salebra.Drag(normal_amplitude=k * decay_length, drag_velocity=1e-6, angular_frequency=2 * math.pi * 20e3)
     small = closed_form.damping_constant(closed_form.work_per_cycle_rough(ratio, force, decay_length, motion), motion)
     law = salebra.relaxation_damping(exponential, motion, force=force)
     measured = salebra.relaxation_damping(tabulated, motion, force=force)

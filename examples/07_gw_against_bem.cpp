@@ -43,7 +43,7 @@ int main(int argc, char** argv) try {
   const TabulatedLaw element_law(elements, material.modulus_ratio());
   const TabulatedLaw summit_law(summits, material.modulus_ratio());
   const Drag motion{.normal_amplitude = 0.02 * moments.rms_height(),
-                    .drag_velocity = 1e-3,
+                    .drag_velocity = 1e-6,
                     .angular_frequency = 2 * std::numbers::pi * 20e3};
   std::printf("summits over boundary elements\n%12s %9s %8s %8s %8s\n", "p/(E*h')", "gap/h_rms",
               "area", "K", "damping");

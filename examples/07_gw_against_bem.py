@@ -35,7 +35,7 @@ summits = salebra.curve_at_pressures(own_summits, pressures)
 element_law = salebra.TabulatedLaw(elements, material.modulus_ratio)
 summit_law = salebra.TabulatedLaw(summits, material.modulus_ratio)
 motion = salebra.Drag(
-    normal_amplitude=0.02 * moments.rms_height, drag_velocity=1e-3, angular_frequency=2 * math.pi * 20e3
+    normal_amplitude=0.02 * moments.rms_height, drag_velocity=1e-6, angular_frequency=2 * math.pi * 20e3
 )
 print(f"summits over boundary elements\n{'p/(E*h)':>12} {'gap/h_rms':>9} {'area':>8} {'K':>8} {'damping':>8}")
 stiffness = summits.normal_stiffness / elements.normal_stiffness

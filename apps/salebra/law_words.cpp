@@ -30,7 +30,7 @@ std::string in_words(const LawDescription& law, const std::string& what) {
                        what, range);
   return fmt::format(
       "F ~ exp(-gap/l) is a poor description of {}: {} at the ends of the window. Do not use Eq. "
-      "(16) here; use the computed curve.",
+      "(16) here.",
       what, range);
 }
 

@@ -38,7 +38,7 @@ function lawVerdict(point) {
   const run = `Across its window the local ‹l› runs from ${number(closest, 2)} to ${number(farthest, 2)} ‹h›_{rms}`;
   const size = bend ? `, a change of ${percent(bend.mean)}` + (known(bend.low) ? ` (95 %: ${percent(bend.low)} … ${percent(bend.high)})` : "") : "";
   const ends = `‹F›/‹l›² is off ‹F›″ by ${percent(offs[0])} (closest) and ${percent(offs[1])} (farthest) at the ends of the window.`;
-  return {poor, text: `${run}${size}. ${ends}` + (poor ? " Do not use Eq. (16) here; use the computed curve." : "")};
+  return {poor, text: `${run}${size}. ${ends}` + (poor ? " Do not use Eq. (16) here." : "")};
 }
 
 function conclusion(main, point) {

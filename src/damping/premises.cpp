@@ -575,13 +575,15 @@ LossWithSlip loss_with_slip(const ContactLaw& given, double mean_indentation,
   require_positive(friction_coefficient, "friction_coefficient");
   if (!std::isnan(excursion)) require_positive(excursion, "excursion");
   const ContinuedLaw law(given);
-  const Case one = case_of(given, mean_indentation, motion);
+  const Case one = case_of(law, mean_indentation, motion);
   require_positive(one.amplitude, "normal_amplitude");
+  const double full_stick = one.loss(one.amplitude) * one.displacement * one.displacement;
   const double limit = friction_coefficient / law.modulus_ratio(), unit = limit * limit;
   const double displacement = std::abs(one.displacement) / limit;
   if (!one.drag) {
     const Loss loss = Springs(law, *one.path, true, 2 * displacement).at(displacement);
-    return {unit * loss.total, unit * (loss.total - loss.permanent), unit * loss.permanent};
+    return {unit * loss.total, unit * (loss.total - loss.permanent), unit * loss.permanent,
+            full_stick};
   }
   const double bottom = mean_indentation - one.amplitude, way = 2 * pi * displacement;
   const double relaxation = Springs(law, *one.path, false, way).at(displacement).total;
@@ -593,7 +595,7 @@ LossWithSlip loss_with_slip(const ContactLaw& given, double mean_indentation,
     const double ahead = 40 * law.force(bottom) / law.normal_stiffness(bottom) + way;
     slip = Springs(law, *one.path, true, ahead + way).at(displacement, ahead).permanent;
   }
-  return {unit * (relaxation + slip), unit * relaxation, unit * slip};
+  return {unit * (relaxation + slip), unit * relaxation, unit * slip, full_stick};
 }
 
 }  // namespace salebra

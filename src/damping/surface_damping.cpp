@@ -11,6 +11,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/surface_damping.hpp>
@@ -31,6 +32,8 @@ constexpr int most_levels = 32;
 // Of the finest grid at the least: the scatter of W is then a tenth.
 constexpr double enough_cells = 100;
 constexpr double widest_window = 0.25;  // of F/K
+// Of standard deviations, for 90 %: Student's with 30 degrees of freedom, since they are themselves known to about an eighth.
+constexpr double coverage = 1.70;
 
 /// ρ = K_t/((G*/E*)K) about one load of the curve, linear in ln F.
 struct StiffnessRatio {
@@ -102,6 +105,12 @@ double slope_of(const VectorXd& coefficients, double x) {
   return sum;
 }
 
+/// Of all χ² of `freedom` degrees over their mean, 95 % are below this (Wilson and Hilferty).
+double usual_residual(double freedom) {
+  const double variance = 2 / (9 * freedom);
+  return std::pow(1 - variance + 1.645 * std::sqrt(variance), 3);
+}
+
 /// The contacts of one load on one grid.
 class Levels {
  public:
@@ -115,7 +124,7 @@ class Levels {
 
   struct Contact {
     double force = 0;
-    double cells = 0;
+    double cells = 0, perimeter = 0, spots = 0;  // perimeter in widths of a cell
   };
 
   bool usable() const { return converged_; }
@@ -123,9 +132,8 @@ class Levels {
   /// The indentation under a pressure.
   double indentation_at(double pressure) {
     NormalContactState state = press_to_pressure(surface_, contact_modulus_, pressure, options_);
-    take(state);
     known_[state.indentation] = contact_of(state);
-    return state.indentation;
+    return take(state);
   }
 
   Contact at(double indentation) {
@@ -140,8 +148,9 @@ class Levels {
     if (start.size() > 0) options.initial_pressure = &start;
     NormalContactState state =
         press_to_indentation(surface_, contact_modulus_, indentation, options);
+    known_[indentation] = contact_of(state);
     take(state);
-    return known_[indentation] = contact_of(state);
+    return known_[indentation];
   }
 
  private:
@@ -152,16 +161,23 @@ class Levels {
     return std::abs(share) > 3 ? last_ : Field((last_ + share * (last_ - before_)).max(0.0));
   }
   Contact contact_of(const NormalContactState& state) const {
-    return {state.force,
-            std::round(state.contact_area_fraction * static_cast<double>(surface_.grid.points()))};
+    const ContactSpots spots = contact_spots(state.pressure, surface_.grid, options_.boundary);
+    return {
+        .force = state.force,
+        .cells =
+            std::round(state.contact_area_fraction * static_cast<double>(surface_.grid.points())),
+        // Along the sides of cells a curve is longer by 4/π in the mean over its directions (Cauchy and Crofton).
+        .perimeter = pi / 4 * spots.perimeter / std::sqrt(surface_.grid.cell_area()),
+        .spots = static_cast<double>(spots.spots.size())};
   }
-  void take(NormalContactState& state) {
+  /// The state becomes the start of the next; its pressure is moved away.
+  double take(NormalContactState& state) {
     if (state.interrupted) throw Interrupted("damping: interrupted");
     converged_ = converged_ && state.converged;
     before_ = std::move(last_);
     before_at_ = last_at_;
     last_ = std::move(state.pressure);
-    last_at_ = state.indentation;
+    return last_at_ = state.indentation;
   }
 
   const Surface& surface_;
@@ -205,12 +221,20 @@ class Load {
       // The weight sinks back by u_z²F''/(4K), about u_z²K/(4F).
       half_ += std::min(amplitude_,
                         amplitude_ * amplitude_ * sample_.normal_stiffness / sample_.force / 2);
-    half_ = std::min(half_, 2 * amplitude_);
+    half_ = moved_ = std::min(half_, 2 * amplitude_);
   }
 
   const std::vector<GridValue>& values() const { return values_; }
   const StiffnessRatio& ratio() const { return ratio_; }
   double window() const { return half_; }
+  /// Relative standard deviation of W by the chance at which spots touch within the window and outside the oscillation. With n spots of
+  /// an exponential law, F'' is a sum of their δᵢ^{−1/2}; the Poisson variance of what a polynomial of degree d makes of it is I/(πn),
+  /// I = ½ ln(1 + 1.6((H/u_z)² − 1)/d²) to a tenth, by quadrature over the place of a spot for H/u_z of 1.5 to 40.
+  double spot_chance() const {
+    const double wider = half_ / moved_, degree = Rule(levels_).inverse.rows() - 1.0;
+    const double missed = std::log1p(1.6 * (wider * wider - 1) / (degree * degree)) / 2;
+    return std::sqrt(missed / (pi * spots_));
+  }
   bool usable() const {
     return sample_.converged && sample_.force > 0 && std::isfinite(ratio_.value) &&
            (values_.empty() || values_.back().converged);
@@ -225,6 +249,7 @@ class Load {
     Levels levels(surface, material_.contact_modulus, contact);
     const double center = levels.indentation_at(sample_.pressure);
     if (first) widen(levels, center);
+    spots_ = levels.at(center).spots;
     values_.push_back(integrate(levels, center));
     values_.back().points = surface.grid.nx;
     values_.back().converged = values_.back().converged && levels.usable();
@@ -330,44 +355,51 @@ class Load {
     });
   }
 
-  /// Standard deviation of W: N cells enter at chance indentations, as many in each interval as were counted, and each adds the same to K.
+  /// Standard deviation of W from the chance at which whole cells enter, each of which raises K alike.
   double scatter(const std::vector<Levels::Contact>& contacts, const Rule& rule,
                  const VectorXd& force, const VectorXd& series, const VectorXd& weights) const {
     const double curvature = 4 * (Rule(rule.points.size() - 1, 2).inverse.row(2).dot(force));
     const Index intervals = rule.points.size() - 1;
-    constexpr int parts = 8;
-    double cells = 0, work_variance = 0;
-    MatrixXd steps(rule.points.size(),
-                   intervals * parts);  // F of a step of K, and how many there are
-    VectorXd numbers(intervals * parts);
+    constexpr Index parts = 8;
+    // After each part: how many entered, and what a step of K there adds to the forces.
+    VectorXd entered = VectorXd::Zero(intervals * parts + 1);
+    MatrixXd excess = MatrixXd::Zero(rule.points.size(), entered.size());
+    double edge = contacts.back().perimeter;
     for (Index j = 0; j < intervals; ++j) {
       const auto at = static_cast<std::size_t>(j);
-      const double entered = std::max(0.0, contacts[at].cells - contacts[at + 1].cells);
-      cells += entered;
-      for (int part = 0; part < parts; ++part) {
+      edge += contacts[at].perimeter;
+      for (Index part = 0; part < parts; ++part) {
+        const Index k = j * parts + part;
         const double x =
-            rule.points(j) + (rule.points(j + 1) - rule.points(j)) * (part + 0.5) / parts;
-        steps.col(j * parts + part) = (rule.points.array() - x).max(0.0).matrix();
-        numbers(j * parts + part) = entered / parts;
+            rule.points(j) + (rule.points(j + 1) - rule.points(j)) * (double(part) + 0.5) / parts;
+        entered(k + 1) =
+            entered(k) + std::max(0.0, contacts[at].cells - contacts[at + 1].cells) / parts;
+        const VectorXd step = (rule.points.array() - x).max(0.0).matrix();
+        excess.col(k) -= step;
+        excess.col(k + 1) += step;
       }
     }
+    const double cells = entered(intervals * parts);
     if (!(cells > 0) || !(curvature > 0)) return std::numeric_limits<double>::infinity();
+    const double variance = lattice_variance * edge / static_cast<double>(contacts.size());
+    const MatrixXd covariance =
+        MatrixXd::NullaryExpr(entered.size(), entered.size(), [&](Index i, Index k) {
+          return variance * std::exp(-std::abs(entered(i) - entered(k)) / (2 * variance));
+        });
     const double step = 2 * curvature / cells;  // F'' has the same over the window in the mean
-    const VectorXd responses = steps.transpose() * weights;
-    work_variance = step * step * numbers.dot(responses.cwiseAbs2());
+    const MatrixXd of_forces = step * step * excess * covariance * excess.transpose();
     const MatrixXd residual_of =
         MatrixXd::Identity(force.size(), force.size()) - rule.basis * rule.inverse;
-    double expected = 0;
-    for (Index j = 0; j < steps.cols(); ++j)
-      expected += numbers(j) * (residual_of * steps.col(j)).squaredNorm();
+    const double expected = (residual_of * of_forces * residual_of.transpose()).trace();
     const double found = (force - rule.basis * series).squaredNorm();
-    const double ratio = found / (step * step * expected);
-    return std::sqrt(work_variance * std::max(1.0, ratio / usual_ratio));
+    const auto freedom = static_cast<double>(force.size() - series.size());
+    const double more = std::max(1.0, found / expected / usual_residual(freedom));
+    return std::sqrt(more * weights.dot(of_forces * weights));
   }
 
-  // Residuals have this much more than the scatter makes of them, in the mean over generated surfaces: F of a surface is no polynomial
-  // even where its cells are infinitely small.
-  static constexpr double usual_ratio = 3;
+  // Of the number of lattice points inside a smooth curve at a random place, for each unit of its length:
+  // Σ|k|⁻³/(4π³) over the reciprocal lattice (D. G. Kendall, Quart. J. Math. 19 (1948) 1, for ovals).
+  static constexpr double lattice_variance = 0.0728;
 
   const Material& material_;
   const Oscillation& motion_;
@@ -375,7 +407,8 @@ class Load {
   const ForceSample sample_;
   const StiffnessRatio ratio_;
   const double amplitude_;
-  double half_ = 0;
+  double half_ = 0, moved_ = 0;  // the window, and what the oscillation needs of it
+  double spots_ = 0;
   int levels_ = 8;
   std::vector<GridValue> values_;
 };
@@ -401,7 +434,7 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   result.damping_constant = closed_form::damping_constant(value.work, motion);
   result.level_error = value.level_error;
   result.solver_error = value.solver_error;
-  result.scatter = 2 * value.scatter;
+  result.scatter = coverage * std::hypot(value.scatter, value.work * load.spot_chance());
   result.ratio_error = std::abs(value.work) * load.ratio().error;
   result.stiffness_ratio = load.ratio().value;
   result.window = load.window();
@@ -409,7 +442,9 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   result.points = value.points;
   if (values.size() < 2) return result;
   const GridValue& other = values[at > 0 ? at - 1 : values.size() - 1];
-  result.cell_error = beyond_scatter(value.work - other.work, value.scatter, other.scatter);
+  // Forces converge at second order: of a halving a third remains on the finer cells.
+  const double change = beyond_scatter(value.work - other.work, value.scatter, other.scatter);
+  result.cell_error = value.points < other.points ? 4 * change / 3 : change / 3;
   add_up(result);
   return result;
 }
@@ -527,7 +562,7 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
     const GridValue& own =
         values[std::min<std::size_t>(options.coarsen ? 1 : 0, values.size() - 1)];
     result.seam_error =
-        beyond_scatter(unseamed[k].work_per_cycle - own.work, own.scatter, unseamed[k].scatter / 2);
+        beyond_scatter(unseamed[k].work_per_cycle - own.work, own.scatter, own.scatter);
     add_up(result);
   }
   return results;

@@ -39,6 +39,7 @@ StudyPremises premises_of(const StudyResult& result) {
                     std::vector<double>(count, ContactFacts::unknown)};
   const ForceCurve curve = mean_curve(result);
   if (std::ranges::count(curve.samples, true, &ForceSample::converged) < 4) return all;
+  const std::vector<StatedMean> damping = result.stated_damping();
   const TabulatedLaw law(curve, configuration.material.modulus_ratio());
   ContactFacts facts = configuration.known;
   facts.contact_modulus = configuration.material.contact_modulus;
@@ -51,10 +52,17 @@ StudyPremises premises_of(const StudyResult& result) {
     facts.mean_contact_pressure = sample.pressure / sample.contact_area_fraction;
     all.premises[k] = premises_of(law, -sample.mean_gap, configuration.motion, facts);
     if (std::isnan(facts.friction_coefficient)) continue;
-    all.losses[k] = loss_with_slip(law, -sample.mean_gap, configuration.motion,
-                                   facts.friction_coefficient, facts.excursion);
+    LossWithSlip& loss = all.losses[k];
+    loss = loss_with_slip(law, -sample.mean_gap, configuration.motion, facts.friction_coefficient,
+                          facts.excursion);
+    const double scale =
+        damping[k].mean / closed_form::damping_constant(loss.full_stick_work, configuration.motion);
+    for (double LossWithSlip::*work :
+         {&LossWithSlip::work_per_cycle, &LossWithSlip::relaxation_work, &LossWithSlip::slip_work,
+          &LossWithSlip::full_stick_work})
+      loss.*work *= scale;
     all.damping_constant_with_slip[k] =
-        closed_form::damping_constant(all.losses[k].work_per_cycle, configuration.motion);
+        closed_form::damping_constant(loss.work_per_cycle, configuration.motion);
   }
   return all;
 }

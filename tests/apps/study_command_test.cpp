@@ -21,9 +21,9 @@ TEST_CASE("A study answers with the agreed keys and one file", "[study]") {
   INFO(result.err);
   REQUIRE(result.status == 0);
   const auto answer = result.json();
-  CHECK(keys(answer) == std::set<std::string>{"premises", "largest_motion", "decay_length", "decay_length_over_rms_height",
-                                              "damping", "comparison", "realisations", "flags",
-                                              "files"});
+  CHECK(keys(answer) == std::set<std::string>{"premises", "largest_motion", "decay_length",
+                                              "decay_length_over_rms_height", "damping",
+                                              "comparison", "realisations", "flags", "files"});
   CHECK(answer["realisations"] == 3);
   CHECK(keys(answer["flags"]) == std::set<std::string>{"finite_size", "few_spots"});
   CHECK(keys(answer["decay_length"]) == std::set<std::string>{"mean", "low", "high"});
@@ -56,7 +56,8 @@ TEST_CASE("A study's summary puts Eq. (16) beside the damping computed", "[study
   CHECK(test.run("study study.toml -o other.h5 --no-report --quiet --progress never").err.empty());
 }
 
-TEST_CASE("A damping constant of a study has its error, and none is printed that is no larger", "[study]") {
+TEST_CASE("A damping constant of a study has its error, and none is printed that is no larger",
+          "[study]") {
   const ProgramTest test;
   test.write("study.toml", study_text("seeds = [2]"));
   const auto result = test.run("study study.toml --json --quiet");
@@ -83,17 +84,53 @@ TEST_CASE("A damping constant of a study has its error, and none is printed that
   CHECK(stated >= 5);
 
   test.write("several.toml", study);
-  const auto several = test.run("study several.toml --json --quiet").json()["damping"]["damping_constant"];
+  const auto several =
+      test.run("study several.toml --json --quiet").json()["damping"]["damping_constant"];
   CHECK(several["low"][6] < several["mean"][6]);
   CHECK(several["error"][6] > 0);
 }
 
-TEST_CASE("A relative error is met, or the study says what was reached and gives no table", "[study]") {
+TEST_CASE("More loads change no stated interval by more than its error", "[study]") {
+  // Every load of the short list is in the long one. One surface, whose damping has an error, and several, which have intervals too.
+  const ProgramTest test;
+  for (const char* seeds : {"seeds = [2]", "seeds = [1, 2, 3]"}) {
+    test.write("study.toml", study_text(seeds));
+    const auto answer = [&](const char* pressures) {
+      return test.run(std::string("study study.toml --json --quiet --pressures ") + pressures)
+          .json();
+    };
+    const auto few = answer("10MPa:160MPa:9"), many = answer("10MPa:160MPa:17");
+    const auto &before = few["damping"]["damping_constant"],
+               &after = many["damping"]["damping_constant"];
+    int stated = 0;
+    for (std::size_t k = 0; k < 9; ++k) {
+      if (before["mean"][k].is_null()) continue;
+      for (const char* end : {"mean", "low", "high"}) {
+        INFO(seeds << ", load " << k << ", " << end);
+        CHECK(before[end][k].is_null() == after[end][2 * k].is_null());
+        if (before[end][k].is_null()) continue;
+        ++stated;
+        CHECK(std::abs(after[end][2 * k].get<double>() - before[end][k].get<double>()) <=
+              before["error"][k].get<double>());
+      }
+    }
+    CHECK(stated >= 8);
+    const auto &l = few["decay_length"], &longer = many["decay_length"];
+    if (l["low"].is_null()) continue;
+    const double half = (l["high"].get<double>() - l["low"].get<double>()) / 2;
+    for (const char* end : {"mean", "low", "high"})
+      CHECK(std::abs(longer[end].get<double>() - l[end].get<double>()) <= half);
+  }
+}
+
+TEST_CASE("A relative error is met, or the study says what was reached and gives no table",
+          "[study]") {
   const ProgramTest test;
   std::string coarse = study_text("seeds = [2]", 4);
   coarse.replace(coarse.find("points = 64"), 11, "points = 32");
   test.write("study.toml", coarse);
-  const auto met = test.run("study study.toml --relative-error 60% --pressures 10MPa:40MPa:4 --json --quiet");
+  const auto met =
+      test.run("study study.toml --relative-error 60% --pressures 10MPa:40MPa:4 --json --quiet");
   INFO(met.err);
   REQUIRE(met.status == 0);
   const auto constant = met.json()["damping"]["damping_constant"];
@@ -102,7 +139,8 @@ TEST_CASE("A relative error is met, or the study says what was reached and gives
 
   // No free boundary has anything to do with a periodic surface: the seam's error stays, whatever the cells.
   const auto missed = test.run(
-      "study study.toml --relative-error 0.1% --seam-error free --pressures 10MPa:40MPa:4 -o result.h5 --quiet");
+      "study study.toml --relative-error 0.1% --seam-error free --pressures 10MPa:40MPa:4 -o "
+      "result.h5 --quiet");
   CHECK(missed.status == 1);
   CHECK(missed.out.empty());
   CHECK_THAT(missed.err, Contains("relative_error: 0.1 % is not met at 10 MPa ("));
@@ -228,8 +266,7 @@ TEST_CASE("A comparison has every model, its ratios and the theories", "[study]"
   CHECK(point["models"]["bem"]["area_slope"]["mean"] < 3);
   CHECK(point["spots"]["corrected_area_slope"]["mean"] <
         point["models"]["bem"]["area_slope"]["mean"]);
-  CHECK(point["models"]["gw_moments"]["over_bem"]["work_per_cycle"]["mean"].size() ==
-        10);
+  CHECK(point["models"]["gw_moments"]["over_bem"]["work_per_cycle"]["mean"].size() == 10);
   const auto words = test.run("compare study.toml --no-stick --quiet");
   REQUIRE(words.status == 0);
   CHECK_THAT(words.out, Contains("== H = 0.5 ==") && Contains("Bush, Gibson, Thomas") &&

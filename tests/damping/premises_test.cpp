@@ -209,6 +209,8 @@ TEST_CASE("The loss with slip is that of the simulated path", "[premises]") {
     CHECK(loss.work_per_cycle == Approx(path.work_per_cycle).epsilon(2e-4));
     CHECK(loss.relaxation_work == Approx(path.relaxation_work).epsilon(1e-3));
     CHECK(loss.slip_work == Approx(path.slip_work).epsilon(1e-3));
+    const double stuck = relaxation_damping(law, AtIndentation{1e-6}, motion).work_per_cycle;
+    CHECK(loss.full_stick_work == Approx(stuck).epsilon(1e-6));
   }
 }
 

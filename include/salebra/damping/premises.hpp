@@ -121,6 +121,7 @@ struct LossWithSlip {
   double work_per_cycle = ContactFacts::unknown;
   double relaxation_work = ContactFacts::unknown;  ///< of it, by levels that open and close
   double slip_work = ContactFacts::unknown;        ///< of it, by levels that stay closed
+  double full_stick_work = ContactFacts::unknown;  ///< of the same springs without slip
 };
 
 /// The same springs with friction. Case (b) without an excursion: sliding that goes on, all levels slip; with one: mean of a cycle on

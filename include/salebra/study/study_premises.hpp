@@ -7,14 +7,14 @@
 
 namespace salebra {
 
-/// Whether the damping of a study may be used, at each of its pressures, and what friction makes of it. Of the mean curve of the
+/// Whether the damping of a study may be used, at each of its pressures, and what friction makes of it. By the mean curve of the
 /// boundary elements: gap, area and stiffnesses averaged over the surfaces at each pressure.
 struct StudyPremises {
   std::vector<Premises> premises;  ///< for each pressure
-  /// For each pressure; unknown without a coefficient of friction.
+  /// For each pressure; unknown without a coefficient of friction. The curve is interpolated between pressures and gives only the ratio of
+  /// the losses with slip and without: they are times what makes full_stick_work the W of StudyResult::stated_damping().
   std::vector<LossWithSlip> losses;
-  /// P/⟨ẋ²⟩ of the losses, N s/m. The curve is interpolated between the pressures: compare it with no damping constant that is not.
-  std::vector<double> damping_constant_with_slip;
+  std::vector<double> damping_constant_with_slip;  ///< P/⟨ẋ²⟩ of the losses, N s/m
 };
 
 /// Facts: those of the configuration, and of the surfaces their side, mean contact pressure and rms slope. Where no contact converged,
