@@ -32,8 +32,8 @@ constexpr int most_levels = 32;
 // Of the finest grid at the least: the scatter of W is then a tenth.
 constexpr double enough_cells = 100;
 constexpr double widest_window = 0.25;  // of F/K
-// Of standard deviations, for 90 %: Student's with 30 degrees of freedom, since they are themselves known to about an eighth.
-constexpr double coverage = 1.70;
+// Of standard deviations: 90 % of normal deviates are smaller.
+constexpr double coverage = 1.645;
 
 /// ρ = K_t/((G*/E*)K) about one load of the curve, linear in ln F.
 struct StiffnessRatio {
@@ -287,13 +287,14 @@ class Load {
       if (!levels.usable()) return value;
       value = evaluate(contacts, n);
       levels_ = n;
+      double change = 0;
       if (n > 4) {
         std::vector<Levels::Contact> half;
         for (std::size_t k = 0; k < contacts.size(); k += 2) half.push_back(contacts[k]);
-        const double change = std::abs(value.work - evaluate(half, n / 2).work);
-        value.level_error = beyond_scatter(change, value.scatter, 0) / 2;
+        change = beyond_scatter(value.work - evaluate(half, n / 2).work, value.scatter, 0);
+        value.level_error = change / 3;  // of second order at the least
       }
-      if (!options_.choose_levels || n >= most_levels || !(value.level_error > value.scatter))
+      if (!options_.choose_levels || n >= most_levels || !(change > 2 * value.scatter))
         return value;
     }
   }

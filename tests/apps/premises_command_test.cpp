@@ -246,7 +246,7 @@ TEST_CASE("A study prints the loss with slip, and refuses a hardness below its p
   CHECK(reader.numbers("premises/work_per_cycle")[1] ==
         answer["with_slip"]["work_per_cycle"][1].get<double>());
   // With much friction and a short way nothing slips: the column is the damping constant itself, although the curve that gives the
-  // ratio of losses is interpolated between pressures. 360 steps leave less than 1e-3.
+  // ratio of losses is interpolated between pressures, by up to 20 %. The 360 straight steps of the springs lose 1 %.
   const json stuck = test.run(study + "--friction-coefficient 1e4 --excursion 1fm --json").json();
   const json& constants = stuck["damping"]["damping_constant"]["mean"];
   int stated = 0;
@@ -255,7 +255,7 @@ TEST_CASE("A study prints the loss with slip, and refuses a hardness below its p
     CHECK(with_slip.is_null() == constants[k].is_null());
     if (constants[k].is_null()) continue;
     ++stated;
-    CHECK(with_slip.get<double>() == Approx(constants[k].get<double>()).epsilon(1e-3));
+    CHECK(with_slip.get<double>() == Approx(constants[k].get<double>()).epsilon(0.015));
   }
   CHECK(stated > 1);
   check_refused(test.run(study + "--hardness 1kPa -o t.h5"),

@@ -55,7 +55,7 @@ struct SurfaceDamping {
   double scatter =
       unknown;  ///< of the chance at which whole cells, and spots, touch; holds in 90 % of cases
   double level_error =
-      unknown;  ///< half the change of W by the last doubling of the levels, beyond scatter
+      unknown;  ///< a third of the change of W by the last doubling of the levels, beyond scatter
   double ratio_error = unknown;  ///< of K_t/((G*/E*)K) and its slope between the loads of the curve
   double seam_error = 0;  ///< change of W without the seam, beyond scatter; 0 where not asked for
   double solver_error = unknown;     ///< tolerance of the forces, as it enters W
@@ -83,7 +83,7 @@ struct SurfaceDamping {
 /// 2 × 0.0728 times the perimeter, in cells, where the perimeter moves by more than a fifth of a cell: that of lattice points inside a smooth
 /// curve at a random place. This makes a covariance of the forces, and W is linear in them. Where the residuals of the polynomial
 /// are larger than in 95 % of cases by this covariance (rows of cells that touch together), it is multiplied. A window wider than the
-/// oscillation adds the chance of the spots that touch in between, about ln(H/(3u_z))/(πn) of n spots. 1.7 standard deviations are stated, for 90 %. Bias: the surface is interpolated
+/// oscillation adds the chance of the spots that touch in between, about ln(H/(3u_z))/(πn) of n spots. 1.645 standard deviations are stated, for 90 %. Bias: the surface is interpolated
 /// on cells of half the size, at the same pressure. Forces converge at second order, so that a third of what W changes by, beyond the
 /// scatter of both, is the error of the finer grid, and four thirds that of the coarser.
 ///
