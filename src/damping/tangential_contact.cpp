@@ -228,8 +228,8 @@ TangentialContact::TangentialContact(const ContactLaw& law, double lowest, doubl
   }
   double low = lowest;
   if (std::isfinite(options.friction_coefficient)) {
-    require(std::isfinite(options.tangential_range) && options.tangential_range >= 0,
-            "tangential_range", options.tangential_range, "must be finite and >= 0");
+    require(options.tangential_range >= 0, "tangential_range", options.tangential_range,
+            "must be >= 0");
     // A level deeper than this is never stretched to its limit.
     const double reach =
         options.friction_coefficient > 0

@@ -17,8 +17,8 @@ struct TangentialContactOptions {
   double merge_tolerance = 0;
   /// Relative, of the table of K_t that the law is replaced by; 1e-14 … 1e-3.
   double table_tolerance = 1e-12;
-  /// m, largest |x − x'| between two positions of the motion. Needed where friction is finite, not used otherwise: it
-  /// says how deep below the edge slip may reach.
+  /// m, largest |x − x'| between two positions of the motion, or infinity for slide(). Needed where friction is finite, not used
+  /// otherwise: it says how deep below the edge slip may reach.
   double tangential_range = 0;
 };
 
@@ -42,6 +42,10 @@ class TangentialContact {
 
   /// Puts the indenter down at (indentation, x), all springs free of stress; sets the energies to 0.
   void start(double indentation, double x);
+  /// The state after endless sliding towards +x (direction 1) or −x (−1) at this indentation: every level at the limit of its stretch. Sets
+  /// the energies to 0, that of the state included. Levels below the law's range are carried along as one as long as they slip
+  /// in that direction. Throws InvalidInput where friction is infinite.
+  void slide(double indentation, double x, int direction);
   /// Moves on a straight line in (δ, x). Throws InvalidInput outside the range, and where slip would reach levels
   /// below the law's own range.
   void move_to(double indentation, double x);

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <salebra/damping/dissipation.hpp>
+
+namespace salebra {
+
+/// A contact that slides steadily at constant velocity while it oscillates in the normal direction.
+struct SteadySliding {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double mean_tangential_force = unknown;  ///< T̄, N
+  double mean_force = unknown;             ///< F̄, mean normal force of the cycle, N
+  double friction_coefficient = unknown;   ///< T̄/F̄: what a slow observer measures
+  /// μF(δ_min)/F̄: limit of the former as v → 0, the friction to be overcome to start.
+  double static_friction_coefficient = unknown;
+  double critical_velocity = unknown;   ///< v_c = μK/K_t·u_z ω, m/s; T̄ = μF̄ from it on
+  double low_speed_damping = unknown;   ///< Γ, N s/m: T̄ = μF(δ_min) + Γv + O(v^{3/2}); NaN for u_z = 0
+  double relaxation_damping = unknown;  ///< γ of case (b) without slip, N s/m
+  double relaxation_work = unknown;     ///< lost per period by levels that open and close, J
+  double slip_work = unknown;           ///< lost per period by levels that stay closed, J
+  double error_estimate = unknown;      ///< of mean_tangential_force, N: quadrature, not the law's
+  bool converged = false;               ///< whether the quadratures reached the tolerance
+};
+
+/// Mean tangential force of steady sliding with Coulomb's friction under a normal oscillation δ = δ0 − u_z cosφ.
+/// A level ζ of indentation sticks or slips at the stretch limit (μK/K_t)(δ − ζ). While v > 0 every closed level is at its limit when δ is
+/// least, so that one period from there is the steady state (docs/theory.md, section 8). With r = v/v_c < 1, φ_a = arcsin r, and
+/// φ_e(φ) > π − φ_a where −cosφ_e − rφ_e = −cosφ − rφ,
+///     T̄ = μF(δ_min) + (1/2π) ∫_0^π [μ u_z K (2π − φ − φ_e) sinφ + (v/ω) K_t (φ_e − φ)] dφ,
+/// φ_e = 2π − φ and no second term outside φ_a < φ < π − φ_a. Γ = γ + πK_t(δ_min)/ω. Where K_t has values of its own, K_t/K is taken at δ0.
+/// friction_coefficient  μ >= 0, finite
+/// motion                drag_velocity is v > 0
+/// throws  InvalidInput as relaxation_damping()
+/// cost    some hundred to thousand evaluations of the law
+SteadySliding steady_sliding(const ContactLaw& law, const Position& position, const Drag& motion,
+                             double friction_coefficient, const DampingOptions& options = {});
+
+}  // namespace salebra
