@@ -130,12 +130,9 @@ void follow_motion(const DampingArguments& arguments, const LawOptions::Contact&
   const PremiseReport premises{{premises_of_case(
       contact, one, full_stick,
       arguments.premises.facts(arguments.material, arguments.follow.friction_coefficient))}};
-  if (loss.converged) {
-    session.plot(cycle_figure(path, loss));
-    write_answer(session, "damping", object);
-  }
+  session.plot(cycle_figure(path, loss));
+  write_answer(session, "damping", object);
   premises.answer(session, object);
-  require_steady(loss);
 }
 
 // One period of a single case that a picture can show; nothing for a motion that never repeats.

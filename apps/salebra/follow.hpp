@@ -35,11 +35,7 @@ TrajectoryDamping follow(const ContactLaw& law, const Motion& motion, const Samp
 /// Adds the JSON keys of a loss that was followed.
 void add_losses(Json& object, const TrajectoryDamping& loss);
 
-/// Throws NotConverged where the last two periods differ. To be called after the answer, of which no file may be left then.
-void require_steady(const TrajectoryDamping& loss);
-
 /// --trajectory: reads one period of (time, indentation, displacement), answers, writes --output and --plot.
-/// Throws NotConverged where the last periods differ, and leaves no file.
 void follow_file(const FollowOptions& options, const ContactLaw& law, const ContactFacts& facts,
                  Session& session);
 

@@ -92,6 +92,11 @@ constexpr std::array descriptions{
         "The contact as a damper that one tunes by its amplitude: decay of an oscillator, and\n"
         "sliding that it keeps from stick-slip."},
     CommandHelp{
+        "friction", damping,
+        "A contact that slides at constant velocity while it oscillates in the normal direction:\n"
+        "mean friction over velocity, the velocity from which nothing sticks, and the damping\n"
+        "constant of slow sliding beside that of relaxation without slip."},
+    CommandHelp{
         "oscillate", damping,
         "The direct experiment in three dimensions: a contact is moved through its cycle and the\n"
         "work is counted, by time steps or by contact levels; with finite friction and with\n"
@@ -133,6 +138,7 @@ std::string_view first_steps() {
          "  a sphere, cone, punch    force, stresses, losses, slip        mdr\n"
          "                           the same in three dimensions         oscillate, figure3\n"
          "  a slider or oscillator   the amplitude that steadies it       damper\n"
+         "                           its friction under vibration         friction\n"
          "  several contact models   which one holds for your surface     compare, gw\n"
          "  results of a study       a page to read and send              report\n\n"
          "First steps:\n"

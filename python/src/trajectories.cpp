@@ -78,25 +78,20 @@ void bind_damping_of_trajectory(nb::module_& m) {
       .def_ro("storage_stiffness", &TrajectoryDamping::storage_stiffness,
               "Part of F_x in phase with x, N/m.")
       .def_ro("loss_factor", &TrajectoryDamping::loss_factor, "W/(2πU) of a harmonic motion.")
-      .def_ro("memory", &TrajectoryDamping::memory, "Most pieces of history held at a time.")
-      .def_ro("periods", &TrajectoryDamping::periods, "Periods computed.")
-      .def_ro("converged", &TrajectoryDamping::converged);
+      .def_ro("memory", &TrajectoryDamping::memory, "Most pieces of history held at a time.");
   view_property(damping, "tangential_force", &TrajectoryDamping::tangential_force,
                 "F_x at the samples, N.");
   view_property(damping, "dissipated", &TrajectoryDamping::dissipated,
                 "Energy lost since the first sample, J.");
   m.def(
       "trajectory_damping",
-      [](const ContactLaw& law, const SampledMotion& trajectory, double friction_coefficient,
-         int max_periods) {
+      [](const ContactLaw& law, const SampledMotion& trajectory, double friction_coefficient) {
         cite({"popov2015"});
-        return unlocked([&] {
-          return trajectory_damping(law, trajectory, {friction_coefficient, max_periods});
-        });
+        return unlocked([&] { return trajectory_damping(law, trajectory, {friction_coefficient}); });
       },
       nb::arg("law"), nb::arg("trajectory"), nb::kw_only(),
-      nb::arg("friction_coefficient") = infinite, nb::arg("max_periods") = 200,
-      "Follows a periodic trajectory until it is steady; exact for its straight steps. "
+      nb::arg("friction_coefficient") = infinite,
+      "Steady state of a periodic trajectory; exact for its straight steps. "
       "friction_coefficient: μ, infinite for full stick.");
 }
 

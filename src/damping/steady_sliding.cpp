@@ -50,8 +50,8 @@ class Period {
     if (ratio_ >= 1) return 1;
     const double end = slips_at(sticks_from_), stuck = end - sticks_from_;
     const double slides = 2 * pi - stuck - (std::sin(sticks_from_) - std::sin(end));
-    const double sticks = 2 * std::pow(std::sin(0.5 * sticks_from_), 2) * stuck +
-                          0.5 * ratio_ * stuck * stuck;
+    const double sticks =
+        2 * std::pow(std::sin(0.5 * sticks_from_), 2) * stuck + 0.5 * ratio_ * stuck * stuck;
     return (slides + sticks) / (2 * pi);
   }
 
@@ -86,7 +86,8 @@ SteadySliding steady_sliding(const ContactLaw& law, const Position& position, co
   const double least_friction = friction_coefficient * law.force(low);
   result.static_friction_coefficient = least_friction / result.mean_force;
   if (amplitude > 0)
-    result.low_speed_damping = result.relaxation_damping + pi * law.tangential_stiffness(low) / omega;
+    result.low_speed_damping =
+        result.relaxation_damping + pi * law.tangential_stiffness(low) / omega;
 
   if (velocity >= result.critical_velocity) {
     result.mean_tangential_force = friction_coefficient * result.mean_force;
@@ -103,8 +104,8 @@ SteadySliding steady_sliding(const ContactLaw& law, const Position& position, co
     const auto share = [&](double phase) {
       const double level = low + 2 * amplitude * std::pow(std::sin(0.5 * phase), 2);
       const bool sticks = phase > period.sticks_from() && phase < period.sticks_to();
-      const double limit = friction_coefficient * amplitude * law.normal_stiffness(level) *
-                           std::sin(phase);
+      const double limit =
+          friction_coefficient * amplitude * law.normal_stiffness(level) * std::sin(phase);
       if (!sticks) return limit * 2 * (pi - phase);
       const double end = period.slips_at(phase);
       return limit * (2 * pi - phase - end) +
@@ -116,8 +117,10 @@ SteadySliding steady_sliding(const ContactLaw& law, const Position& position, co
     result.converged = integral.converged && stuck.converged;
   }
   const double travel = 2 * pi * velocity / omega;
-  const double rise = amplitude > 0 ? amplitude * Period(velocity / result.critical_velocity).mean_rise() : 0;
-  result.slip_work = travel * (least_friction + friction_coefficient * law.normal_stiffness(low) * rise);
+  const double rise =
+      amplitude > 0 ? amplitude * Period(velocity / result.critical_velocity).mean_rise() : 0;
+  result.slip_work =
+      travel * (least_friction + friction_coefficient * law.normal_stiffness(low) * rise);
   result.relaxation_work = travel * result.mean_tangential_force - result.slip_work;
   result.friction_coefficient = result.mean_tangential_force / result.mean_force;
   return result;

@@ -49,7 +49,11 @@ struct TangentialContact::State {
         permanent_stiffness(law.tangential_stiffness(lowest_of_motion)),
         slope_limit(given.friction_coefficient / law.modulus_ratio()),
         merge_tolerance(given.merge_tolerance),
-        slack(1e-9 * (high - lowest_of_motion) + 1e-15 * std::abs(high)) {}
+        slack(1e-9 * (high - lowest_of_motion) + 1e-15 * std::abs(high)) {
+    // One spring in place of those below the table: it carries their normal force.
+    core_level = low;
+    if (table.core() > 0) core_level -= law.modulus_ratio() * law.force(low) / table.core();
+  }
 
   double within_range(double level) const {
     require(level >= permanent_below - slack && level <= table.highest() + slack, "indentation",
@@ -195,18 +199,52 @@ struct TangentialContact::State {
       cut(low, moments, removed);
       if (partial) break;
     }
-    if (reach <= table.lowest() && table.core() > negligible * table.at(table.highest()))
+    if (reach <= table.lowest())
+      slip_core(side, new_indentation, side * bound(core_level), climb, advance);
+    push(new_indentation, {side * reach_bound, new_x});
+  }
+
+  // What lies below the law's range slips as one where all of it slides the same way.
+  void slip_core(double side, double new_indentation, double new_anchor, double climb,
+                 double advance) {
+    if (!(table.core() > negligible * table.at(table.highest()))) return;
+    if (side != carried)
       throw InvalidInput(
           "friction: slip reaches indentation levels below the range of the law; extend the curve "
           "to lower forces, raise the friction or reduce the motion");
-    push(new_indentation, {side * reach_bound, new_x});
+    const double slipped = side * (new_anchor - core_anchor);
+    if (!(slipped > 0)) return;
+    const double stretch = slope_limit * (new_indentation - core_level);
+    const double loss =
+        table.core() * (stretch - 0.5 * slope_limit * climb / advance * slipped) * slipped;
+    dissipated += loss;
+    permanent += loss;
+    core_anchor = new_anchor;
+  }
+
+  // Up to a constant: the stretches of what core_anchor stands for differ.
+  double energy() const {
+    const double first =
+        (pieces.empty() ? 0 : pieces.back().first_integral) + table.core() * core_anchor;
+    const double second = (pieces.empty() ? 0 : pieces.back().second_integral) +
+                          table.core() * core_anchor * core_anchor;
+    return 0.5 * ((table.core() + table.at(indentation)) * x * x - 2 * x * first + second);
+  }
+
+  void begin(double new_indentation, double new_x) {
+    pieces.clear();
+    origin = new_x;
+    indentation = within_range(new_indentation), x = 0;
+    dissipated = permanent = core_anchor = carried = 0;
   }
 
   detail::StiffnessTable table;
   double permanent_below, permanent_stiffness, slope_limit, merge_tolerance, slack;
   std::vector<Piece> pieces;
   double indentation = 0, x = 0, origin = 0;  // x counts from the origin
-  double dissipated = 0, permanent = 0;
+  double dissipated = 0, permanent = 0, energy_at_start = 0;
+  double core_level = 0, core_anchor = 0;
+  double carried = 0;  // the direction in which the core slides, ±1; 0: it does not
 };
 
 TangentialContact::TangentialContact(const ContactLaw& law, double lowest, double highest,
@@ -263,11 +301,25 @@ TangentialContact::~TangentialContact() = default;
 void TangentialContact::start(double indentation, double x) {
   State& s = *state_;
   require(std::isfinite(x), "displacement", x, "must be finite");
-  s.pieces.clear();
-  s.origin = x;
-  s.indentation = s.within_range(indentation), s.x = 0;
-  s.dissipated = s.permanent = 0;
+  s.begin(indentation, x);
   s.push(s.indentation, {0, 0});
+  s.energy_at_start = 0;
+}
+
+void TangentialContact::slide(double indentation, double x, int direction) {
+  State& s = *state_;
+  require(std::isfinite(x), "displacement", x, "must be finite");
+  require(direction == 1 || direction == -1, "direction", direction, "must be 1 or -1");
+  require(std::isfinite(s.slope_limit), "friction_coefficient", s.slope_limit,
+          "must be finite for sliding");
+  s.begin(indentation, x);
+  const auto anchor = [&](double level) {
+    return -direction * s.slope_limit * (s.indentation - level);
+  };
+  s.push(s.indentation, {anchor(s.table.lowest()), 0});
+  s.core_anchor = anchor(s.core_level);
+  s.carried = direction;
+  s.energy_at_start = s.energy();
 }
 
 void TangentialContact::move_to(double indentation, double x) {
@@ -287,23 +339,18 @@ void TangentialContact::move_to(double indentation, double x) {
 double TangentialContact::tangential_force() const {
   const State& s = *state_;
   const double anchored = s.pieces.empty() ? 0 : s.pieces.back().first_integral;
-  return (s.table.core() + s.table.at(s.indentation)) * s.x - anchored;
+  return s.table.core() * (s.x - s.core_anchor) + s.table.at(s.indentation) * s.x - anchored;
 }
 
-double TangentialContact::stored_energy() const {
-  const State& s = *state_;
-  const bool empty = s.pieces.empty();
-  const double first = empty ? 0 : s.pieces.back().first_integral;
-  const double second = empty ? 0 : s.pieces.back().second_integral;
-  return 0.5 *
-         ((s.table.core() + s.table.at(s.indentation)) * s.x * s.x - 2 * s.x * first + second);
-}
+double TangentialContact::stored_energy() const { return state_->energy(); }
 
 double TangentialContact::dissipated() const { return state_->dissipated; }
 
 double TangentialContact::dissipated_in_permanent_contact() const { return state_->permanent; }
 
-double TangentialContact::external_work() const { return stored_energy() + dissipated(); }
+double TangentialContact::external_work() const {
+  return stored_energy() - state_->energy_at_start + dissipated();
+}
 
 double TangentialContact::permanent_stiffness() const { return state_->permanent_stiffness; }
 

@@ -50,13 +50,15 @@ void set_means(TrajectoryDamping& result, const SampledMotion& path, bool drifts
 TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& path,
                                      const TrajectoryDampingOptions& options) {
   path.validate();
-  require(options.max_periods >= 2, "max_periods", options.max_periods, "must be >= 2");
   const auto [low_x, high_x] = std::ranges::minmax(path.displacement);
   const bool stick = std::isinf(options.friction_coefficient);
   // A closed path may end where it began only to round-off.
   const bool drifts = std::abs(path.drift()) > 1e-9 * (high_x - low_x);
   const double drift = drifts ? path.drift() : 0;
-  const int periods = stick ? 1 : drifts ? options.max_periods : 2;
+  // A spring between two limits follows a periodic motion from its second period on. With drift it has to be at the limit of its
+  // stretch somewhere in each period: one that begins at that limit is never behind the periodic state and joins it there.
+  const bool slides = drifts && !stick;
+  const int periods = stick ? 1 : 2;
 
   const std::size_t count = path.time.size() - 1;
   const auto bottom = std::ranges::min_element(path.indentation);
@@ -64,16 +66,18 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
   TangentialContact contact(
       law, *bottom, std::ranges::max(path.indentation),
       {.friction_coefficient = options.friction_coefficient,
-       .tangential_range = (high_x - low_x) + std::abs(drift) * (periods + 1)});
+       .tangential_range = slides ? std::numeric_limits<double>::infinity() : high_x - low_x});
 
   // From the lowest point, where every level that ever opens is open: no history is missing.
   TrajectoryDamping result;
   result.tangential_force.resize(count + 1);
   result.dissipated.resize(count + 1);
-  contact.start(path.indentation[first], path.displacement[first]);
+  if (slides)
+    contact.slide(path.indentation[first], path.displacement[first], drift > 0 ? 1 : -1);
+  else
+    contact.start(path.indentation[first], path.displacement[first]);
   const double origin = path.displacement[first];
   std::vector<double> force(count), lost(count);
-  double previous = unknown;
   for (int period = 0; period < periods; ++period) {
     const double lost_before = contact.dissipated();
     const double slip_before = contact.dissipated_in_permanent_contact();
@@ -91,15 +95,7 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
     }
     result.work_per_cycle = contact.dissipated() - lost_before;
     result.slip_work = contact.dissipated_in_permanent_contact() - slip_before;
-    result.periods = period + 1;
-    const double change = std::abs(result.work_per_cycle - previous);
-    result.converged = stick || change <= 1e-10 * std::abs(result.work_per_cycle);
-    previous = result.work_per_cycle;
-    if (drifts && result.converged) break;
   }
-  // Friction without drift is steady from its second period, which is the last; where the first already lost the same
-  // or not is no matter.
-  if (!drifts) result.converged = true;
   result.relaxation_work = result.work_per_cycle - result.slip_work;
 
   for (std::size_t i = 0; i < count; ++i) {

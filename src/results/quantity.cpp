@@ -103,6 +103,13 @@ const Quantity others[] = {
     Quantity{"stabilising_amplitude", length, "least normal amplitude that stabilises the slider"},
     Quantity{"friction_number", dimensionless, "M = mu E* u_z/(G* u_x)"},
     Quantity{"tangential_force", force, "tangential force"},
+    Quantity{"velocity", velocity, "sliding velocity"},
+    Quantity{"mean_tangential_force", force, "tangential force, mean over a cycle"},
+    Quantity{"friction_coefficient", dimensionless, "mean tangential over mean normal force"},
+    Quantity{"static_friction_coefficient", dimensionless, "friction coefficient as v -> 0"},
+    Quantity{"critical_velocity", velocity, "velocity from which nothing sticks"},
+    Quantity{"low_speed_damping", damping, "damping constant of slow sliding, Eq. (S2)"},
+    Quantity{"relaxation_damping", damping, "damping constant without slip, case (b)"},
     Quantity{"shear", pressure, "tangential stress"},
 };
 

@@ -28,7 +28,7 @@ bool has_loss(const json& answer) {
   if (answer.is_array()) return std::ranges::any_of(answer, has_loss);
   if (!answer.is_object()) return false;
   for (const auto& [key, value] : answer.items())
-    if (key.find("damping_constant") != std::string::npos ||
+    if (key.find("damping_constant") != std::string::npos || key == "relaxation_damping" ||
         key.find("work_per_cycle") != std::string::npos || has_loss(value))
       return true;
   return false;
@@ -182,6 +182,7 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
       {"mdr",
        "--profile parabola --radius 1mm --indentation 100nm --drag-velocity 1um/s" + body + drag},
       {"damper", law + drag},
+      {"friction", law + drag + "--friction-coefficient 0.3 --velocities 1um/s"},
       {"oscillate", "--shape parabola --points 32 --method levels" + body},
       {"figure3", "--points 32 --steps 16" + body},
       {"study", "study.toml --no-stick --no-report -o study.h5"},
@@ -195,7 +196,7 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
   int with_loss = 0;
   for (const std::string name :
        {"generate", "info", "convert", "statistics", "contact", "sweep", "gw", "fit", "damping",
-        "mdr", "damper", "oscillate", "figure3", "study", "compare", "verify"}) {
+        "mdr", "damper", "friction", "oscillate", "figure3", "study", "compare", "verify"}) {
     INFO(name);
     const auto run = test.run(name + " " + commands.at(name) + " --json");
     INFO(run.err);
@@ -208,7 +209,7 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
     else
       check_premises(answer);
   }
-  CHECK(with_loss == 7);
+  CHECK(with_loss == 8);
   // A command that is new has to be listed above.
   std::istringstream lines(help);
   for (std::string line; std::getline(lines, line);) {

@@ -79,8 +79,7 @@ TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or les
       const double friction = one.friction * limit / opening.value;
       const SampledMotion path = sample(one.motion, one.mean, 2000);
       const double stick = trajectory_damping(*one.law, path).work_per_cycle;
-      const TrajectoryDamping loss = trajectory_damping(
-          *one.law, path, {.friction_coefficient = friction, .max_periods = 4000});
+      const TrajectoryDamping loss = trajectory_damping(*one.law, path, {.friction_coefficient = friction});
       return std::abs(
           (std::holds_alternative<Drag>(one.motion) ? loss.relaxation_work : loss.work_per_cycle) /
               stick -
@@ -203,7 +202,6 @@ TEST_CASE("The loss with slip is that of the simulated path", "[premises]") {
        {Oscillation(EqualFrequency{3e-7, 1e-7, 1.0}), Oscillation(Drag{3e-7, 1e-2, 1e5})}) {
     const TrajectoryDamping path =
         trajectory_damping(law, sample(motion, 1e-6, 2000), {.friction_coefficient = 0.3});
-    REQUIRE(path.converged);
     const LossWithSlip loss = loss_with_slip(law, 1e-6, motion, 0.3);
     // 360 steps in place of 2000, of second order.
     CHECK(loss.work_per_cycle == Approx(path.work_per_cycle).epsilon(2e-4));

@@ -14,8 +14,9 @@ struct SteadySliding {
   double friction_coefficient = unknown;   ///< T̄/F̄: what a slow observer measures
   /// μF(δ_min)/F̄: limit of the former as v → 0, the friction to be overcome to start.
   double static_friction_coefficient = unknown;
-  double critical_velocity = unknown;   ///< v_c = μK/K_t·u_z ω, m/s; T̄ = μF̄ from it on
-  double low_speed_damping = unknown;   ///< Γ, N s/m: T̄ = μF(δ_min) + Γv + O(v^{3/2}); NaN for u_z = 0
+  double critical_velocity = unknown;  ///< v_c = μK/K_t·u_z ω, m/s; T̄ = μF̄ from it on
+  double low_speed_damping =
+      unknown;  ///< Γ, N s/m: T̄ = μF(δ_min) + Γv + O(v^{3/2}); NaN for u_z = 0
   double relaxation_damping = unknown;  ///< γ of case (b) without slip, N s/m
   double relaxation_work = unknown;     ///< lost per period by levels that open and close, J
   double slip_work = unknown;           ///< lost per period by levels that stay closed, J

@@ -43,8 +43,8 @@ class TangentialContact {
   /// Puts the indenter down at (indentation, x), all springs free of stress; sets the energies to 0.
   void start(double indentation, double x);
   /// The state after endless sliding towards +x (direction 1) or −x (−1) at this indentation: every level at the limit of its stretch. Sets
-  /// the energies to 0, that of the state included. Levels below the law's range are carried along as one as long as they slip
-  /// in that direction. Throws InvalidInput where friction is infinite.
+  /// the losses and the external work to 0. Levels below the law's range are carried along as one spring, as long as they slip
+  /// in that direction; stored_energy() is then known up to a constant. Throws InvalidInput where friction is infinite.
   void slide(double indentation, double x, int direction);
   /// Moves on a straight line in (δ, x). Throws InvalidInput outside the range, and where slip would reach levels
   /// below the law's own range.
@@ -52,12 +52,12 @@ class TangentialContact {
 
   double tangential_force() const;  ///< F_x, N
   double stored_energy() const;     ///< ½∫K_t'(x − x0)²dζ, J
-  double dissipated() const;        ///< lost since start(), J: by levels let go and by slip
+  double dissipated() const;  ///< lost since start() or slide(), J: by levels let go and by slip
   /// Of dissipated(), what levels below `lowest` lost, which never leave contact: slip as of Cattaneo and Mindlin.
   /// The rest is what levels lost that open and close; it becomes the relaxation loss for μ → ∞.
   double dissipated_in_permanent_contact() const;
   double external_work()
-      const;  ///< ∫F_x dx since start(), J: stored_energy() and dissipated() together
+      const;  ///< ∫F_x dx since start() or slide(), J: what is dissipated and added to stored_energy()
   double permanent_stiffness() const;  ///< K_t at `lowest`: what is never let go, N/m
   std::size_t memory() const;          ///< pieces of x0(ζ) now held
 

@@ -10,9 +10,6 @@ namespace salebra {
 struct TrajectoryDampingOptions {
   double friction_coefficient =
       std::numeric_limits<double>::infinity();  ///< μ; infinite: full stick
-  /// Periods after which a motion with friction and drift may still change from one to the next; >= 2. Full stick
-  /// needs one period, friction without drift two: a play with periodic bounds repeats after its first period.
-  int max_periods = 200;
 };
 
 /// Steady state of a contact under a periodic motion.
@@ -34,14 +31,12 @@ struct TrajectoryDamping {
                          ///< ever in full stick
   std::vector<double> dissipated;  ///< energy lost since the first sample, J
   std::size_t memory = 0;          ///< most pieces of history held at a time
-  int periods = 0;                 ///< periods computed
-  bool converged =
-      false;  ///< whether the last two periods lost the same to 1e-10; in full stick always
 };
 
-/// Follows a periodic trajectory with a TangentialContact until it is steady. Exact for the straight steps of the
-/// trajectory; a sampled harmonic motion is met at second order in its step. Throws InvalidInput for a trajectory
-/// that is not valid or leaves the law's range, and for friction < 0. Cost: O(samples · periods).
+/// Steady state of a periodic trajectory, by a TangentialContact. Without drift it is reached in the second period. With drift and friction
+/// the contact slides: a period that begins with every level at the limit of its stretch where δ is least makes the next one steady (docs/theory.md,
+/// section 8). Exact for the straight steps of the trajectory; a sampled harmonic motion is met at second order in its step. Throws InvalidInput for a trajectory
+/// that is not valid or leaves the law's range, and for friction < 0. Cost: O(samples).
 TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& trajectory,
                                      const TrajectoryDampingOptions& options = {});
 
