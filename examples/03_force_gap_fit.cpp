@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/surface/moments.hpp>

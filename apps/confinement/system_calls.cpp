@@ -63,8 +63,8 @@ class Filter {
   void end(std::uint32_t answer) { program_.push_back(BPF_STMT(BPF_RET | BPF_K, answer)); }
   /// Leaves out so many instructions, depending on the test of what was loaded.
   void jump(unsigned test, std::uint32_t value, unsigned if_true, unsigned if_false) {
-    program_.push_back(BPF_JUMP(std::uint16_t(BPF_JMP | test | BPF_K), value,
-                                std::uint8_t(if_true), std::uint8_t(if_false)));
+    program_.push_back(BPF_JUMP(std::uint16_t(BPF_JMP | test | BPF_K), value, std::uint8_t(if_true),
+                                std::uint8_t(if_false)));
   }
   void call_if(long number, unsigned argument, unsigned test, std::uint32_t value, bool wanted) {
     // The low half of an argument is its first.

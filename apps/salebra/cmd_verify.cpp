@@ -19,11 +19,8 @@ void run(Session& session) {
   Json list = Json::array();
   std::vector<std::vector<std::string>> rows{{"check", "value", "expected", "tolerance", "result"}};
   for (const Check& check : checks) {
-    list.push_back({{"name", check.name},
-                    {"value", check.value},
-                    {"expected", check.expected},
-                    {"tolerance", check.tolerance},
-                    {"passed", check.passed()}});
+    list.push_back(Json::of("name", check.name, "value", check.value, "expected", check.expected,
+                            "tolerance", check.tolerance, "passed", check.passed()));
     rows.push_back({check.name, fmt::format("{:.12g}", check.value),
                     fmt::format("{:.12g}", check.expected), fmt::format("{:.0e}", check.tolerance),
                     check.passed() ? "passed" : "FAILED"});

@@ -57,22 +57,13 @@ std::string describe_levels(const StudyConfiguration& configuration, const Study
 Json to_json(const StudyCost& cost, const std::string& file) {
   Json points = Json::array();
   for (const PointCost& point : cost.points)
-    points.push_back({{"surfaces", point.surfaces},
-                      {"nx", point.grid.nx},
-                      {"ny", point.grid.ny},
-                      {"pressure", point.pressures},
-                      {"levels", point.levels},
-                      {"seconds_of_one_thread", point.seconds},
-                      {"warnings", point.warnings}});
-  return {{"dry_run", true},
-          {"points", points},
-          {"surfaces", cost.surfaces()},
-          {"contacts", cost.contacts()},
-          {"threads", cost.threads},
-          {"seconds", cost.seconds},
-          {"memory_bytes", cost.memory},
-          {"available_memory_bytes", cost.available},
-          {"files", {{"results", file.empty() ? Json() : Json(file)}}}};
+    points.push_back(Json::of("surfaces", point.surfaces, "nx", point.grid.nx, "ny", point.grid.ny,
+                              "pressure", point.pressures, "levels", point.levels,
+                              "seconds_of_one_thread", point.seconds, "warnings", point.warnings));
+  return Json::of("dry_run", true, "points", points, "surfaces", cost.surfaces(), "contacts",
+                  cost.contacts(), "threads", cost.threads, "seconds", cost.seconds, "memory_bytes",
+                  cost.memory, "available_memory_bytes", cost.available, "files",
+                  Json::of("results", file.empty() ? Json() : Json(file)));
 }
 
 }  // namespace
@@ -104,8 +95,8 @@ void answer_dry_run(const StudyConfiguration& configuration, Session& session) {
       "machine, give or take a factor of {}\nmemory    about {}{}\n",
       cost.contacts(),
       stick_solves(configuration) ? " and K_t by a stick solve" : "; K_t = (G*/E*)K",
-      describe_levels(configuration, cost), models, configuration.target_precision > 0 ? "at most " : "",
-      about(cost.seconds), cost.threads,
+      describe_levels(configuration, cost), models,
+      configuration.target_precision > 0 ? "at most " : "", about(cost.seconds), cost.threads,
       configuration.has(ContactModel::gw_interacting) ? "three" : "two", memory_text(cost.memory),
       cost.available > 0 ? fmt::format(" of {} that are free", memory_text(cost.available)) : "");
   text += file.empty() ? "files     none; add --output FILE to keep the results\n"

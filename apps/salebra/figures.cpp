@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <salebra/results/quantity.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/results/quantity.hpp>
 
 namespace salebra::cli {
 namespace {

@@ -109,7 +109,7 @@ void profile(const Surface& surface, double load, double bandwidth) {
   Share coarse, fine;
   double start = now();
   const auto levels = detail::multigrid_levels(grid, {surface.heights.data(), highest},
-                                             Boundary::periodic, std::numeric_limits<int>::max());
+                                               Boundary::periodic, std::numeric_limits<int>::max());
   coarse.setup += now() - start;
   Field pressure, gap;
   detail::ActiveSetOutcome outcome;

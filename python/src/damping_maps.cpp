@@ -69,8 +69,8 @@ void bind_stress_map(nb::module_& m) {
 }
 
 void bind_asperities(nb::module_& m) {
-  nb::class_<AsperityDamping> asperity(
-      m, "AsperityDamping", "The relaxation damping of every summit of a surface.");
+  nb::class_<AsperityDamping> asperity(m, "AsperityDamping",
+                                       "The relaxation damping of every summit of a surface.");
   view_property(asperity, "work", &AsperityDamping::work, "W_i of each summit, J.");
   asperity.def_ro("work_per_cycle", &AsperityDamping::work_per_cycle, "Σ W_i, J.")
       .def_ro("intermittent_work", &AsperityDamping::intermittent_work,

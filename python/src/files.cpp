@@ -4,9 +4,9 @@
 #include <nanobind/stl/string.h>
 
 #include <filesystem>
-#include <salebra/results/force_curve_file.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/io/write_surface.hpp>
+#include <salebra/results/force_curve_file.hpp>
 
 #include "bindings.hpp"
 #include "interop/path.hpp"

@@ -87,7 +87,8 @@ void bind_damping_of_trajectory(nb::module_& m) {
       "trajectory_damping",
       [](const ContactLaw& law, const SampledMotion& trajectory, double friction_coefficient) {
         cite({"popov2015"});
-        return unlocked([&] { return trajectory_damping(law, trajectory, {friction_coefficient}); });
+        return unlocked(
+            [&] { return trajectory_damping(law, trajectory, {friction_coefficient}); });
       },
       nb::arg("law"), nb::arg("trajectory"), nb::kw_only(),
       nb::arg("friction_coefficient") = infinite,

@@ -130,8 +130,7 @@ void take_process_limits(const fs::path& proc, std::vector<std::uint64_t>& left)
   for (const auto& [limit, used] :
        {std::pair{"Max address space", "VmSize:"}, {"Max data size", "VmData:"}})
     if (const Bytes bytes = value_of(proc / "self/limits", limit))
-      left.push_back(
-          difference(*bytes, 1024 * value_of(proc / "self/status", used).value_or(0)));
+      left.push_back(difference(*bytes, 1024 * value_of(proc / "self/status", used).value_or(0)));
 }
 
 }  // namespace

@@ -17,8 +17,7 @@ std::atomic<Hdf5Runner> runner = nullptr;
 void run(const Hdf5Reading& reading) {
   if (const Hdf5Runner installed = runner) return installed(reading);
   reading.read([&](std::span<const std::byte> bytes) {
-    if (!bytes.empty())
-      std::memcpy(reading.place(bytes.size()).data(), bytes.data(), bytes.size());
+    if (!bytes.empty()) std::memcpy(reading.place(bytes.size()).data(), bytes.data(), bytes.size());
   });
 }
 

@@ -49,16 +49,6 @@ nlohmann::ordered_json converted(const Value& value) {
 
 }  // namespace
 
-Json::Json(std::initializer_list<Json> values) {
-  const bool object = std::ranges::all_of(values, [](const Json& value) {
-    return value.is_array() && value.size() == 2 && value[0].is_string();
-  });
-  if (object)
-    for (const Json& pair : values) (*this)[pair[0].text()] = pair[1];
-  else
-    value_ = Array(values);
-}
-
 Json Json::array() {
   Json value;
   value.value_ = Array();

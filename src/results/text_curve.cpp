@@ -13,7 +13,6 @@
 #include "io/loaded_surface.hpp"
 #include "io/text_numbers.hpp"
 
-
 namespace salebra::detail {
 namespace {
 
@@ -174,9 +173,8 @@ std::string text_of(const ForceCurve& curve, const Provenance& provenance) {
   if (!std::isnan(curve.rms_height)) text += fmt::format("# rms_height: {} m\n", curve.rms_height);
   std::vector<CurveQuantity> known = curve_quantities();
   std::erase_if(known, [&](const CurveQuantity& item) {
-    return std::ranges::all_of(curve.samples, [&](const ForceSample& sample) {
-      return std::isnan(sample.*item.member);
-    });
+    return std::ranges::all_of(
+        curve.samples, [&](const ForceSample& sample) { return std::isnan(sample.*item.member); });
   });
   for (const auto& [quantity, member] : known)
     text += fmt::format("{} [{}],", quantity.name, si_unit(quantity.dimension));

@@ -33,7 +33,8 @@ std::size_t enough(const StudyResult& result,
   std::vector<double> lengths, slopes;
   for (std::size_t i = 0; i < finished; ++i) {
     const Realisation& realisation = *realisations[i];
-    lengths.push_back(realisation.of(ContactModel::bem).fit.decay_length / realisation.heights.rms_height);
+    lengths.push_back(realisation.of(ContactModel::bem).fit.decay_length /
+                      realisation.heights.rms_height);
     slopes.push_back(realisation.of(ContactModel::bem).area_slope);
   }
   const auto precise = [&](const std::vector<double>& values) {

@@ -14,8 +14,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/asperity_sampling.hpp>
 #include <salebra/contact/asperity/greenwood_tripp.hpp>
-#include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/contact/asperity/interacting_summits.hpp>
+#include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/contact/theories.hpp>
 #include <salebra/surface/spectrum.hpp>
@@ -57,8 +57,7 @@ ModelResult boundary_elements(ModelWork& work) {
     const std::scoped_lock lock(picture_guard);
     realisation.picture.add_contact(std::int16_t(k), state);
   };
-  return {.curve =
-              sweep_pressures(surface, work.configuration.material, work.pressures, sweep)};
+  return {.curve = sweep_pressures(surface, work.configuration.material, work.pressures, sweep)};
 }
 
 /// The curve of a model that the surface has none for.
@@ -152,11 +151,13 @@ constexpr std::array registry{
     StudyModel{greenwood_tripp, "greenwood_tripp", "Greenwood-Tripp, two equal rough sides", 0,
                &two_rough_sides}};
 
-static_assert([] {
-  for (std::size_t i = 0; i < registry.size(); ++i)
-    if (registry[i].id != ContactModel(i)) return false;
-  return true;
-}(), "a model stands at the place of its enumerator");
+static_assert(
+    [] {
+      for (std::size_t i = 0; i < registry.size(); ++i)
+        if (registry[i].id != ContactModel(i)) return false;
+      return true;
+    }(),
+    "a model stands at the place of its enumerator");
 
 }  // namespace
 

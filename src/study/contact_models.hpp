@@ -14,8 +14,9 @@ struct ModelWork {
   const Surface& surface;
   const SummitList& summits;
   const std::vector<double>& pressures;
-  Realisation& realisation;  ///< has its statistics; boundary elements add spots and marks in the picture
-  Progress progress;         ///< of this model; a stop throws Interrupted or returns anything
+  Realisation&
+      realisation;    ///< has its statistics; boundary elements add spots and marks in the picture
+  Progress progress;  ///< of this model; a stop throws Interrupted or returns anything
 };
 
 }  // namespace salebra::detail

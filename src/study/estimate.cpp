@@ -93,8 +93,7 @@ EnsembleMean Bootstrap::mean(const std::vector<double>& values) const {
       const double shift = drawn.mean - sample.mean;
       // A resample of one value over and over knows no scatter; it belongs to the tail on its side.
       // √n stands on both sides and is left out.
-      statistics[std::size_t(number)] =
-          shift / std::max(drawn.deviation, 1e-12 * sample.deviation);
+      statistics[std::size_t(number)] = shift / std::max(drawn.deviation, 1e-12 * sample.deviation);
     }
   };
   parallel::for_slabs(resamples_, resample_slab, Index(resamples_) * count);

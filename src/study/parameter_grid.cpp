@@ -32,9 +32,9 @@ constexpr double most_points = 1e4, most_bytes = 256e6;
 void require_countable(const StudyConfiguration& configuration) {
   const ParameterLists& lists = configuration.ensemble;
   double points = 1;
-  for (const std::size_t values : {lists.hurst.size(), lists.rolloff.size(),
-                                   lists.short_cutoff.size(), lists.size_x.size(),
-                                   lists.points.size()})
+  for (const std::size_t values :
+       {lists.hurst.size(), lists.rolloff.size(), lists.short_cutoff.size(), lists.size_x.size(),
+        lists.points.size()})
     points *= double(std::max<std::size_t>(values, 1));
   const auto& surfaces = std::get<GeneratedSurfaces>(configuration.surfaces);
   const double each = double(sizeof configuration + configuration.text.size() +

@@ -121,8 +121,10 @@ Means of_models(const StudyResult& result, const MeansOf& means) {
   Means all;
   for (const StudyModel& model : result.models()) {
     const auto found = means(model.id);
-    if constexpr (std::is_same_v<decltype(found), const EnsembleMean>) all.push_back(found);
-    else all.insert(all.end(), found.begin(), found.end());
+    if constexpr (std::is_same_v<decltype(found), const EnsembleMean>)
+      all.push_back(found);
+    else
+      all.insert(all.end(), found.begin(), found.end());
   }
   return all;
 }
@@ -147,12 +149,12 @@ void write_curves(Table table, const StudyResult& result) {
   std::vector<const ForceSample*> items;
   for (const ModelResult* model : model_results(result))
     for (const ForceSample& sample : model->curve.samples) items.push_back(&sample);
-  table.columns(
-      items, {"model", "realisation", "pressure"},
-      [&](const NumberOf<ForceSample>& number, std::string_view) {
-        return of_models(result, [&](ContactModel model) { return result.curve(number, model); });
-      },
-      {"model", "pressure"});
+  table.columns(items, {"model", "realisation", "pressure"},
+                [&](const NumberOf<ForceSample>& number, std::string_view) {
+                  return of_models(result,
+                                   [&](ContactModel model) { return result.curve(number, model); });
+                },
+                {"model", "pressure"});
 }
 
 void write_local_decay_lengths(Table table, const StudyResult& result) {
@@ -175,12 +177,12 @@ void write_local_decay_lengths(Table table, const StudyResult& result) {
 void write_fits(Table table, const StudyResult& result) {
   table.models(result);
   table.realisations(result);
-  table.columns(
-      model_results(result), {"model", "realisation"},
-      [&](const NumberOf<ModelResult>&, std::string_view name) {
-        return of_models(result, [&](ContactModel model) { return result.fitted(name, model); });
-      },
-      {"model"});
+  table.columns(model_results(result), {"model", "realisation"},
+                [&](const NumberOf<ModelResult>&, std::string_view name) {
+                  return of_models(result,
+                                   [&](ContactModel model) { return result.fitted(name, model); });
+                },
+                {"model"});
   table.group().attribute("interval_method", result.interval_method());
 }
 
@@ -194,19 +196,18 @@ void write_damping(Table table, const StudyResult& result) {
   std::vector<const DampingPoint*> items;
   for (const ModelResult* model : model_results(result))
     for (const DampingPoint& point : model->damping) items.push_back(&point);
-  table.columns(
-      items, {"model", "realisation", "pressure"},
-      [&](const NumberOf<DampingPoint>& number, std::string_view name) {
-        return of_models(result, [&](ContactModel model) {
-          const std::vector<StatedMean> stated = result.stated_damping(model);
-          if (name == "damping_constant") return Means(stated.begin(), stated.end());
-          if (name != "damping_constant_error") return result.damping(number, model);
-          Means errors;
-          for (const StatedMean& mean : stated) errors.push_back({.mean = mean.error});
-          return errors;
-        });
-      },
-      {"model", "pressure"});
+  table.columns(items, {"model", "realisation", "pressure"},
+                [&](const NumberOf<DampingPoint>& number, std::string_view name) {
+                  return of_models(result, [&](ContactModel model) {
+                    const std::vector<StatedMean> stated = result.stated_damping(model);
+                    if (name == "damping_constant") return Means(stated.begin(), stated.end());
+                    if (name != "damping_constant_error") return result.damping(number, model);
+                    Means errors;
+                    for (const StatedMean& mean : stated) errors.push_back({.mean = mean.error});
+                    return errors;
+                  });
+                },
+                {"model", "pressure"});
   std::vector<double> low, high;
   for (const StudyModel& model : result.models()) {
     const auto range = result.deviation_range(model.id);
@@ -228,8 +229,8 @@ void write_damping(Table table, const StudyResult& result) {
                                               : "(G*/E*)K");
   const StudyConfiguration& configuration = result.configuration;
   std::visit([&](const auto& motion) { table.attributes(motion); }, configuration.motion);
-  group.attribute("mode", std::holds_alternative<Drag>(configuration.motion) ? "drag"
-                                                                              : "equal-frequency");
+  group.attribute("mode",
+                  std::holds_alternative<Drag>(configuration.motion) ? "drag" : "equal-frequency");
   group.attribute("hold", configuration.damping.hold == Hold::force ? "force" : "indentation");
   group.attribute("modulus_ratio", configuration.material.modulus_ratio());
   group.attribute("contact_modulus", configuration.material.contact_modulus);
@@ -247,14 +248,17 @@ void write_premises(ResultGroup group, const StudyResult& result) {
       group.dataset(dataset, values, {"pressure"}, units, meaning);
     };
     const auto limit = [&](const char* percent, double Premise::*member) {
-      put(key + "_limit_" + percent + "_percent", unit,
+      put(
+          key + "_limit_" + percent + "_percent", unit,
           [member](const Premise& p) { return p.*member; },
           words + ", value at which the loss changes by " + percent + " %");
     };
-    put(key, unit, [](const Premise& p) { return p.value; }, words);
+    put(
+        key, unit, [](const Premise& p) { return p.value; }, words);
     limit("5", &Premise::limit_5_percent);
     limit("20", &Premise::limit_20_percent);
-    put(key + "_verdict", "1", [](const Premise& p) { return double(p.verdict); },
+    put(
+        key + "_verdict", "1", [](const Premise& p) { return double(p.verdict); },
         "0 holds, 1 doubtful, 2 broken, 3 unknown");
   }
   const auto loss = [&](const char* dataset, double LossWithSlip::*member, const char* meaning) {
@@ -283,12 +287,11 @@ void write_spots(Table table, const StudyResult& result) {
       items.push_back(&spots);
       bins = std::max(bins, spots.spots_by_size.size());
     }
-  table.columns(
-      items, {"realisation", "pressure"},
-      [&](const NumberOf<SpotStatistics>& number, std::string_view) {
-        return result.spots(number);
-      },
-      {"pressure"});
+  table.columns(items, {"realisation", "pressure"},
+                [&](const NumberOf<SpotStatistics>& number, std::string_view) {
+                  return result.spots(number);
+                },
+                {"pressure"});
   std::vector<double> cells;
   for (std::size_t bin = 0; bin < bins; ++bin) cells.push_back(std::exp2(double(bin)));
   table.group().coordinate("min_cells", cells, "1", "cells of the smallest spot that is counted");

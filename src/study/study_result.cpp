@@ -25,9 +25,8 @@ EnsembleMean StudyResult::decay_length(ContactModel model) const {
 }
 
 EnsembleMean StudyResult::decay_length_over_rms_height(ContactModel model) const {
-  return mean([&](const Realisation& r) {
-    return r.of(model).fit.decay_length / r.heights.rms_height;
-  });
+  return mean(
+      [&](const Realisation& r) { return r.of(model).fit.decay_length / r.heights.rms_height; });
 }
 
 EnsembleMean StudyResult::fitted(std::string_view column, ContactModel model) const {
@@ -77,9 +76,8 @@ std::vector<EnsembleMean> StudyResult::damping_over_bem(const NumberOf<DampingPo
                                                         ContactModel model) const {
   return at_pressures([&](const Realisation& r, std::size_t k) {
     const auto& points = r.of(model).damping;
-    return k < points.size()
-               ? number(points[k]) / r.of(ContactModel::bem).damping[k].work_per_cycle
-               : ForceSample::unknown;
+    return k < points.size() ? number(points[k]) / r.of(ContactModel::bem).damping[k].work_per_cycle
+                             : ForceSample::unknown;
   });
 }
 
@@ -108,10 +106,9 @@ std::vector<StatedMean> StudyResult::stated_damping(ContactModel model) const {
       const double scatter = point.scatter_error / std::sqrt(double(realisations.size()));
       relative.push_back(std::hypot(scatter, point.cell_error, point.level_error) /
                          std::abs(point.damping_constant));
-      relative.back() = std::hypot(relative.back(), point.ratio_error / point.damping_constant,
-                                   std::isnan(point.seam_error)
-                                       ? 0
-                                       : point.seam_error / point.damping_constant);
+      relative.back() =
+          std::hypot(relative.back(), point.ratio_error / point.damping_constant,
+                     std::isnan(point.seam_error) ? 0 : point.seam_error / point.damping_constant);
     }
     if (realisations.size() > 1 && !relative.empty())
       mean.error = std::accumulate(relative.begin(), relative.end(), 0.0) /

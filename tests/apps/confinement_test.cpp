@@ -141,8 +141,9 @@ TEST_CASE("A child opens no file, writes none and has no descriptor of its paren
   CHECK_FALSE(std::filesystem::exists(absent));
 }
 
-TEST_CASE("Where there is seccomp, a child can neither run a program, signal another, nor make code",
-          "[confinement]") {
+TEST_CASE(
+    "Where there is seccomp, a child can neither run a program, signal another, nor make code",
+    "[confinement]") {
   if (!has_seccomp()) {
     WARN("this system has no seccomp: limits on resources and the refusal of links remain");
     return;
@@ -152,7 +153,8 @@ TEST_CASE("Where there is seccomp, a child can neither run a program, signal ano
     execv("/bin/true", arguments);
     say(hand_over, kill(getppid(), 0) < 0 ? "closed " : "open ");
     say(hand_over, unlink("/nothing") < 0 && errno == EPERM ? "closed " : "open ");
-    void* const code = mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    void* const code =
+        mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     say(hand_over, code == MAP_FAILED ? "closed" : "open");
   });
   tried.run();

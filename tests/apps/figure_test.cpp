@@ -110,8 +110,9 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
   const Values corrected = numbers(answer["spots"]["corrected_area_fraction"]["mean"]);
   check_alike(drawing.column(2, curve, 1),
               each([&](auto k) { return corrected[k] * scale / pressure[k]; }));
-  check_parallel(drawing.column(4, curve, 1),
-                 logarithms(numbers(answer["models"]["bem"]["damping"]["damping_constant_eq16"]["mean"])));
+  check_parallel(
+      drawing.column(4, curve, 1),
+      logarithms(numbers(answer["models"]["bem"]["damping"]["damping_constant_eq16"]["mean"])));
   // The window of the fit, from one to two and a half rms heights.
   CHECK_THAT(drawing.script(), Contains("graph 0,first 1 to") && Contains("graph 0,first 2.5 to"));
 
@@ -164,9 +165,8 @@ TEST_CASE("The numbers of a comparison are those of its file, and the theories' 
       const std::string constant = before + std::string("damping_constant") + after,
                         work = before + std::string("work_per_cycle") + after;
       INFO(constant);
-      check_alike(
-          numbers(found["damping"][constant]["mean"]),
-          row_of(file, "damping/ensemble_" + constant + "_mean", row, loads), 1e-14);
+      check_alike(numbers(found["damping"][constant]["mean"]),
+                  row_of(file, "damping/ensemble_" + constant + "_mean", row, loads), 1e-14);
       check_alike(numbers(found["over_bem"][work]["mean"]),
                   row_of(file, "comparison/" + work + "_mean", row, loads), 1e-14);
     }

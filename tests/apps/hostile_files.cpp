@@ -30,8 +30,8 @@ void make(const std::filesystem::path& file, const std::function<void(hid_t)>& f
 
 void number(hid_t object, const char* name, double value) {
   const hid_t space = good(H5Screate(H5S_SCALAR));
-  const hid_t attribute = good(
-      H5Acreate2(object, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT));
+  const hid_t attribute =
+      good(H5Acreate2(object, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT));
   good(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value));
   H5Aclose(attribute);
   H5Sclose(space);
@@ -41,8 +41,8 @@ void number(hid_t object, const char* name, double value) {
 hid_t surface(hid_t place, const char* name, hsize_t n, hid_t properties, hsize_t most = 0) {
   const hsize_t extents[] = {n, n}, limits[] = {most, most};
   const hid_t space = good(H5Screate_simple(2, extents, most > 0 ? limits : nullptr));
-  const hid_t dataset = good(
-      H5Dcreate2(place, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT));
+  const hid_t dataset =
+      good(H5Dcreate2(place, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, properties, H5P_DEFAULT));
   number(dataset, "size_x", 1e-6);
   number(dataset, "size_y", 1e-6);
   H5Sclose(space);
@@ -85,7 +85,8 @@ std::vector<File> write_hdf5_files(const std::filesystem::path& folder) {
     files.push_back({name, expected.empty(), expected});
   };
 
-  make(folder / "other.hdf5", [](hid_t file) { fill(surface(file, "heights", 4, H5P_DEFAULT), 16); });
+  make(folder / "other.hdf5",
+       [](hid_t file) { fill(surface(file, "heights", 4, H5P_DEFAULT), 16); });
 
   add("external-storage.h5", "external files",
       [&](hid_t file) { external(file, (folder / "secret.txt").string()); });
@@ -215,8 +216,8 @@ std::vector<File> write_hdf5_files(const std::filesystem::path& folder) {
     const hid_t type = good(H5Tcopy(H5T_C_S1));
     good(H5Tset_size(type, 60000));
     const hid_t space = good(H5Screate(H5S_SCALAR));
-    const hid_t attribute = good(
-        H5Acreate2(dataset, "note", type, space, H5P_DEFAULT, H5P_DEFAULT));
+    const hid_t attribute =
+        good(H5Acreate2(dataset, "note", type, space, H5P_DEFAULT, H5P_DEFAULT));
     const std::string text(60000, 'x');
     good(H5Awrite(attribute, type, text.data()));
     for (int i = 0; i < 20000; ++i)
@@ -227,8 +228,7 @@ std::vector<File> write_hdf5_files(const std::filesystem::path& folder) {
     const hid_t type = good(H5Tcopy(H5T_IEEE_F64LE));
     good(H5Tcommit2(file, "heights", type, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   });
-  add("group-as-heights.h5", "a group and no dataset",
-      [](hid_t file) { group(file, "heights"); });
+  add("group-as-heights.h5", "a group and no dataset", [](hid_t file) { group(file, "heights"); });
   return files;
 }
 

@@ -33,15 +33,19 @@ Meanings columns_of() {
 
 /// The group of a file, or the object of an answer, and the structs whose columns it has.
 const std::map<std::string, Meanings> groups{
-    {"surface", columns_of<Realisation>()},      {"curve", columns_of<ForceSample>()},
-    {"local", columns_of<LocalDecayLength>()},   {"fit", columns_of<ModelResult>()},
-    {"damping", columns_of<DampingPoint>()},     {"spots", columns_of<SpotStatistics>()},
-    {"convergence", columns_of<ModelResult>()},  {"comparison", columns_of<ForceSample, DampingPoint>()},
+    {"surface", columns_of<Realisation>()},
+    {"curve", columns_of<ForceSample>()},
+    {"local", columns_of<LocalDecayLength>()},
+    {"fit", columns_of<ModelResult>()},
+    {"damping", columns_of<DampingPoint>()},
+    {"spots", columns_of<SpotStatistics>()},
+    {"convergence", columns_of<ModelResult>()},
+    {"comparison", columns_of<ForceSample, DampingPoint>()},
     {"ensemble", columns_of<SelfAffineParameters, Grid2D, ModelResult>()}};
 
 /// Axes and verdicts, which belong to no struct.
-const std::set<std::string> beside{"model",       "realisation", "pressure",      "midpoint",
-                                   "min_cells",   "surfaces",    "point",         "realisations",
+const std::set<std::string> beside{"model",         "realisation",  "pressure", "midpoint",
+                                   "min_cells",     "surfaces",     "point",    "realisations",
                                    "deviation_min", "deviation_max"};
 
 void check_group(const ResultReader& reader, const std::string& path, const std::string& group) {
@@ -63,7 +67,8 @@ void check_group(const ResultReader& reader, const std::string& path, const std:
     const std::string where = path + "/" + dataset;
     CHECK(reader.text_attribute(where, "units") == (group == "comparison" ? "1" : meaning.units));
     CHECK(reader.text_attribute(where, "long_name") ==
-          (group == "comparison" ? name + " over that of boundary elements" : meaning.long_name) + end);
+          (group == "comparison" ? name + " over that of boundary elements" : meaning.long_name) +
+              end);
     ++known;
   }
   CHECK(known > 0);

@@ -32,7 +32,8 @@ TEST_CASE("A study leaves a page beside its results unless it is told not to", "
   CHECK(test.files().count("result.html") == 1);
 
   // A page that is there already is found out before the work.
-  check_refused(test.run("study study.toml --no-stick -o result.html --overwrite"), "result.html is no name for results");
+  check_refused(test.run("study study.toml --no-stick -o result.html --overwrite"),
+                "result.html is no name for results");
   test.write("other.html", "mine");
   check_refused(test.run("study study.toml --no-stick -o other.h5"), "other.html: exists");
   CHECK(test.read("other.html") == "mine");

@@ -36,12 +36,12 @@ TEST_CASE("Slabs cover every row once, and sums have the same bits for every thr
 
 TEST_CASE("More threads than any machine can use are refused before one is made", "[parallel]") {
   CHECK(parallel::most_threads() >= 64);
-  CHECK_THROWS_WITH(parallel::set_threads(100000),
-                    "threads: 100000 must be from 0 (all) to " +
-                        std::to_string(parallel::most_threads()));
+  CHECK_THROWS_WITH(parallel::set_threads(100000), "threads: 100000 must be from 0 (all) to " +
+                                                       std::to_string(parallel::most_threads()));
   CHECK_THROWS_AS(parallel::set_threads(-1), InvalidInput);
   parallel::set_threads(parallel::most_threads());
-  CHECK(parallel::sum_slabs(100, [](Index begin, Index end) { return double(end - begin); }) == 100);
+  CHECK(parallel::sum_slabs(100, [](Index begin, Index end) { return double(end - begin); }) ==
+        100);
   parallel::set_threads(0);
 }
 

@@ -79,7 +79,8 @@ TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or les
       const double friction = one.friction * limit / opening.value;
       const SampledMotion path = sample(one.motion, one.mean, 2000);
       const double stick = trajectory_damping(*one.law, path).work_per_cycle;
-      const TrajectoryDamping loss = trajectory_damping(*one.law, path, {.friction_coefficient = friction});
+      const TrajectoryDamping loss =
+          trajectory_damping(*one.law, path, {.friction_coefficient = friction});
       return std::abs(
           (std::holds_alternative<Drag>(one.motion) ? loss.relaxation_work : loss.work_per_cycle) /
               stick -

@@ -8,10 +8,10 @@
 #include <functional>
 #include <iterator>
 #include <salebra/base/error.hpp>
-#include <salebra/results/force_curve_file.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/io/write_surface.hpp>
+#include <salebra/results/force_curve_file.hpp>
 
 #include "scratch.hpp"
 

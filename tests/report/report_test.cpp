@@ -91,8 +91,10 @@ TEST_CASE("A report holds the numbers of its study and needs nothing else", "[re
   CHECK(shown["low"].get<double>() == Approx(length.low).epsilon(1e-6));
   CHECK(shown["high"].get<double>() == Approx(length.high).epsilon(1e-6));
   const EnsembleMean bend = result.fitted("law_bend");
-  CHECK(point["fit"]["models"]["bem"]["law_bend"]["mean"].get<double>() == Approx(bend.mean).epsilon(1e-6));
-  CHECK(point["fit"]["models"]["bem"]["law_bend"]["low"].get<double>() == Approx(bend.low).epsilon(1e-6));
+  CHECK(point["fit"]["models"]["bem"]["law_bend"]["mean"].get<double>() ==
+        Approx(bend.mean).epsilon(1e-6));
+  CHECK(point["fit"]["models"]["bem"]["law_bend"]["low"].get<double>() ==
+        Approx(bend.low).epsilon(1e-6));
   const auto curve = result.stated_damping();
   for (std::size_t k = 0; k < curve.size(); ++k) {
     const Json& value = point["damping"]["curve"]["damping_constant"]["bem"]["mean"][k];

@@ -85,7 +85,7 @@ TEST_CASE("Seeds end below 2^63, and none occurs twice", "[configuration]") {
   CHECK(std::get<GeneratedSurfaces>(configuration.surfaces).seeds.back() == (1ull << 63) - 1);
   CHECK_THROWS_WITH(with("first_seed = 9223372036854775807\nseed_count = 2\n"),
                     Catch::Contains("surface.first_seed: 9223372036854775807 must be from 0 to "
-                             "9223372036854775806"));
+                                    "9223372036854775806"));
   CHECK_THROWS_WITH(with("first_seed = -1\nseed_count = 2\n"),
                     Catch::Contains("first_seed: -1 must be"));
   CHECK_THROWS_WITH(with("seeds = [3, 1, 3]\n"), Catch::Contains("seeds: 3 occurs twice"));

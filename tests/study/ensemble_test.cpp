@@ -7,9 +7,9 @@
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/random.hpp>
 #include <salebra/contact/asperity/asperity_sampling.hpp>
-#include <salebra/contact/normal/contact_spots.hpp>
-#include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/theories.hpp>
 #include <salebra/damping/closed_form.hpp>
@@ -316,8 +316,8 @@ TEST_CASE("Contacts that did not converge take no part in means and ratios", "[e
                                2));
   const auto ratios = result.over_bem(&ForceSample::mean_gap, ContactModel::gw_moments);
   for (const std::size_t k : {3u, 5u})
-    CHECK(ratios[k].mean ==
-          second.of(ContactModel::gw_moments).curve.samples[k].mean_gap / second.of(ContactModel::bem).curve.samples[k].mean_gap);
+    CHECK(ratios[k].mean == second.of(ContactModel::gw_moments).curve.samples[k].mean_gap /
+                                second.of(ContactModel::bem).curve.samples[k].mean_gap);
 }
 
 TEST_CASE("A study's contacts, fits and area slopes follow the settings", "[ensemble]") {
@@ -368,9 +368,10 @@ TEST_CASE("A study's contacts, fits and area slopes follow the settings", "[ense
     }
     return product / square;
   };
-  CHECK(r.of(ContactModel::bem).area_slope == Approx(slope([&](auto k) {
-                              return r.of(ContactModel::bem).curve.samples[k].contact_area_fraction;
-                            })).epsilon(1e-12));
+  CHECK(r.of(ContactModel::bem).area_slope ==
+        Approx(slope([&](auto k) {
+          return r.of(ContactModel::bem).curve.samples[k].contact_area_fraction;
+        })).epsilon(1e-12));
   CHECK(r.corrected_area_slope ==
         Approx(slope([&](auto k) { return r.spots[k].corrected_area_fraction; })).epsilon(1e-12));
 }
@@ -387,7 +388,8 @@ TEST_CASE("Each surface of a study has its own drawn summits", "[ensemble]") {
                                      configuration.material, area, -r.ensemble.mean_height,
                                      r.heights.rms_height);
     const ForceCurve expected = curve_at_pressures(drawn, result.pressures);
-    CHECK(r.of(ContactModel::gw_monte_carlo).curve.samples[4].mean_gap == expected.samples[4].mean_gap);
+    CHECK(r.of(ContactModel::gw_monte_carlo).curve.samples[4].mean_gap ==
+          expected.samples[4].mean_gap);
     CHECK(r.of(ContactModel::gw_monte_carlo).curve.samples[4].contact_area_fraction ==
           expected.samples[4].contact_area_fraction);
   }
@@ -409,8 +411,8 @@ TEST_CASE("Two equal rough sides carry what the pairs of their summits carry", "
   constexpr int steps = 400;
   for (int i = 0; i < steps; ++i) {
     const double depth = (i + 0.5) * top / steps, z = sample.separation + depth;
-    const double height_density = std::exp(-z * z / (2 * sum_rms * sum_rms)) /
-                                  (sum_rms * std::sqrt(2 * std::numbers::pi));
+    const double height_density =
+        std::exp(-z * z / (2 * sum_rms * sum_rms)) / (sum_rms * std::sqrt(2 * std::numbers::pi));
     for (int j = 0; j < steps; ++j) {
       // Part of the depth that the distance of the axes takes; r dr = 2R dw.
       const double part = (j + 0.5) / steps;
@@ -530,22 +532,26 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
   // And of another model the mean of what each surface says.
   double stiffness = 0, work = 0;
   for (const Realisation& r : result.realisations) {
-    stiffness +=
-        r.of(ContactModel::persson).curve.samples[3].normal_stiffness / r.of(ContactModel::bem).curve.samples[3].normal_stiffness / 2;
-    work += r.of(ContactModel::gw_deterministic).damping[5].work_per_cycle_eq16 / r.of(ContactModel::bem).damping[5].work_per_cycle / 2;
+    stiffness += r.of(ContactModel::persson).curve.samples[3].normal_stiffness /
+                 r.of(ContactModel::bem).curve.samples[3].normal_stiffness / 2;
+    work += r.of(ContactModel::gw_deterministic).damping[5].work_per_cycle_eq16 /
+            r.of(ContactModel::bem).damping[5].work_per_cycle / 2;
   }
   CHECK(result.over_bem(&ForceSample::normal_stiffness, ContactModel::persson)[3].mean ==
         Approx(stiffness).epsilon(1e-14));
-  CHECK(result.damping_over_bem(&DampingPoint::work_per_cycle_eq16, ContactModel::gw_deterministic)[5].mean ==
-        Approx(work).epsilon(1e-14));
+  CHECK(
+      result.damping_over_bem(&DampingPoint::work_per_cycle_eq16, ContactModel::gw_deterministic)[5]
+          .mean == Approx(work).epsilon(1e-14));
   // Spots by size are all spots, and their area is the contact area.
   const Realisation& first = result.realisations.front();
   double spots = 0;
   for (const double count : first.spots[6].spots_by_size) spots += count;
   CHECK(spots == first.spots[6].spot_count);
   CHECK(first.spots[6].mean_spot_area * spots ==
-        Approx(first.of(ContactModel::bem).curve.samples[6].contact_area_fraction * 16e-12).epsilon(1e-12));
-  CHECK(first.spots[6].corrected_area_fraction < first.of(ContactModel::bem).curve.samples[6].contact_area_fraction);
+        Approx(first.of(ContactModel::bem).curve.samples[6].contact_area_fraction * 16e-12)
+            .epsilon(1e-12));
+  CHECK(first.spots[6].corrected_area_fraction <
+        first.of(ContactModel::bem).curve.samples[6].contact_area_fraction);
   // The same contact once more: spots of n cells count where 2^k <= n < 2^(k+1), and the largest is the largest.
   const Surface surface = study_surface(result.configuration, first.seed);
   const NormalContactState state =

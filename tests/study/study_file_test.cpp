@@ -220,8 +220,9 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
       return std::vector<EnsembleMean>(stated.begin(), stated.end());
     });
   }
-  file.interval_of_loads("damping/ensemble_deviation",
-                         [&](auto model) { return result.damping(&DampingPoint::deviation, model); });
+  file.interval_of_loads("damping/ensemble_deviation", [&](auto model) {
+    return result.damping(&DampingPoint::deviation, model);
+  });
   std::vector<double> forces;
   for (const double pressure : result.pressures) forces.push_back(pressure * result.grid.area());
   file.values("damping/force", {"pressure"}, forces);
@@ -267,9 +268,10 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
         {"normal_stiffness", &ForceSample::normal_stiffness}})
     file.interval_of_loads(std::string("comparison/") + name,
                            [&, of = quantity](auto model) { return result.over_bem(of, model); });
-  for (const auto& [name, quantity] : {std::pair{"work_per_cycle_eq16", &DampingPoint::work_per_cycle_eq16},
-                                       {"small_work_per_cycle", &DampingPoint::small_work_per_cycle},
-                                       {"work_per_cycle", &DampingPoint::work_per_cycle}})
+  for (const auto& [name, quantity] :
+       {std::pair{"work_per_cycle_eq16", &DampingPoint::work_per_cycle_eq16},
+        {"small_work_per_cycle", &DampingPoint::small_work_per_cycle},
+        {"work_per_cycle", &DampingPoint::work_per_cycle}})
     file.interval_of_loads(std::string("comparison/") + name, [&, of = quantity](auto model) {
       return result.damping_over_bem(of, model);
     });

@@ -33,8 +33,9 @@ TEST_CASE("The picture of a study shows where its first surface touches under ea
     const auto touching = std::ranges::count_if(
         picture.first_load, [&](int load) { return load >= 0 && load <= int(k); });
     // Contacts of growing load are nested; on a grid single cells at a rim may leave again.
-    CHECK(double(touching) / (64 * 64) ==
-          Approx(first.of(ContactModel::bem).curve.samples[k].contact_area_fraction).epsilon(0.005));
+    CHECK(
+        double(touching) / (64 * 64) ==
+        Approx(first.of(ContactModel::bem).curve.samples[k].contact_area_fraction).epsilon(0.005));
   }
 }
 

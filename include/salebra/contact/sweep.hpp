@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <functional>
-#include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <vector>
 

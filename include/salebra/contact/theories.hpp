@@ -2,8 +2,8 @@
 #pragma once
 
 #include <functional>
-#include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/law/force_curve.hpp>
 #include <vector>
 
 /// Closed theories of nominally flat contact, to compare with. Lengths in m, pressures in Pa; every function throws

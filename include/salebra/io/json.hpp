@@ -4,7 +4,6 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,8 +13,9 @@
 namespace salebra {
 
 /// A JSON value to write: null, truth, number, text, array, or object whose members keep the order in which they came.
-///   Json answer{{"area", 0.1}, {"spots", {1, 2, 3}}};    // a list of pairs that begin with a text is an object
-///   answer["unit"] = "m^2";                              // null becomes an object, by push_back an array
+///   Json answer = Json::of("area", 0.1, "spots", spots);   // keys and values in turn
+///   answer["unit"] = "m^2";                                // null becomes an object, by push_back an array
+/// No braces: where memory fails within nested initialiser lists, GCC 12 destroys values that it has not made.
 /// throws    std::logic_error where a value is not of the kind that is asked for
 class Json {
  public:
@@ -38,10 +38,16 @@ class Json {
   Json(std::string text) : value_(std::move(text)) {}
   template <class T>
   Json(const std::vector<T>& values) : value_(Array(values.begin(), values.end())) {}
-  Json(std::initializer_list<Json> values);
   /// Empty ones.
   static Json array();
   static Json object();
+  /// An object of keys and values in turn.
+  template <class... Rest>
+  static Json of(std::string_view key, Json value, Rest&&... rest) {
+    Json made = object();
+    made.add(key, std::move(value), std::forward<Rest>(rest)...);
+    return made;
+  }
 
   bool is_null() const { return std::holds_alternative<std::monostate>(value_); }
   bool is_boolean() const { return std::holds_alternative<bool>(value_); }
@@ -92,6 +98,13 @@ class Json {
   const Value& value() const { return value_; }
 
  private:
+  void add() {}
+  template <class... Rest>
+  void add(std::string_view key, Json value, Rest&&... rest) {
+    (*this)[key] = std::move(value);
+    add(std::forward<Rest>(rest)...);
+  }
+
   Value value_;
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/contact/law/fit.hpp>
-#include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/law/force_curve.hpp>
 #include <salebra/results/describe.hpp>
 
 namespace salebra {
@@ -80,8 +80,7 @@ template <class Visitor>
 constexpr void describe(Visitor&& visit, std::type_identity<ExponentialFit>) {
   using enum Dimension;
   using S = ExponentialFit;
-  visit(&S::decay_length,
-        Quantity{"decay_length", length, "decay length of force with mean gap"});
+  visit(&S::decay_length, Quantity{"decay_length", length, "decay length of force with mean gap"});
   visit(&S::decay_length_low,
         Quantity{"decay_length_low", length, "decay length, lower 95 % limit"});
   visit(&S::decay_length_high,
@@ -91,8 +90,8 @@ constexpr void describe(Visitor&& visit, std::type_identity<ExponentialFit>) {
   visit(&S::r_squared,
         Quantity{"r_squared", dimensionless, "coefficient of determination of the fit"});
   visit(&S::window, Part{"window", "pressures of the fit"});
-  visit(&S::decay_length_over_rms_height, Quantity{"decay_length_over_rms_height", dimensionless,
-                                                   "decay length over rms height"});
+  visit(&S::decay_length_over_rms_height,
+        Quantity{"decay_length_over_rms_height", dimensionless, "decay length over rms height"});
 }
 
 template <class Visitor>
@@ -103,8 +102,8 @@ constexpr void describe(Visitor&& visit, std::type_identity<ExponentialTest>) {
                                 "coefficient of the squared mean gap in ln p"});
   visit(&S::standard_error, Quantity{"standard_error", inverse_length_squared,
                                      "standard error of the quadratic coefficient"});
-  visit(&S::significance, Quantity{"significance", dimensionless,
-                                   "probability of so large a bend if the law held"});
+  visit(&S::significance,
+        Quantity{"significance", dimensionless, "probability of so large a bend if the law held"});
   visit(&S::decay_length_closest, Quantity{"decay_length_closest", length,
                                            "local decay length at the close end of the window"});
   visit(&S::decay_length_farthest, Quantity{"decay_length_farthest", length,
@@ -116,10 +115,10 @@ template <class Visitor>
 constexpr void describe(Visitor&& visit, std::type_identity<WindowSensitivity>) {
   using enum Dimension;
   using S = WindowSensitivity;
-  visit(&S::decay_length_min, Quantity{"decay_length_min", length,
-                                       "minimum decay length over parts of the window"});
-  visit(&S::decay_length_max, Quantity{"decay_length_max", length,
-                                       "maximum decay length over parts of the window"});
+  visit(&S::decay_length_min,
+        Quantity{"decay_length_min", length, "minimum decay length over parts of the window"});
+  visit(&S::decay_length_max,
+        Quantity{"decay_length_max", length, "maximum decay length over parts of the window"});
   visit(&S::windows, Kept{"windows", "parts of the window that were fitted"});
 }
 

@@ -37,7 +37,9 @@ struct Kept {
 };
 
 template <class T>
-concept Described = requires { describe([](auto&&...) {}, std::type_identity<T>{}); };
+concept Described = requires {
+  describe([](auto&&...) {}, std::type_identity<T>{});
+};
 
 /// Any number of a T: a member, a member function, or a function of it.
 template <class T>
@@ -82,8 +84,9 @@ void for_each_column(Visitor&& visit) {
         } else if constexpr (std::is_same_v<Line, Part>) {
           using Inner = std::remove_cvref_t<std::invoke_result_t<decltype(member), const T&>>;
           for_each_column<Inner>([&](const auto& inner, const Quantity& quantity) {
-            visit([access, inner](const T& whole) -> decltype(auto) { return inner(access(whole)); },
-                  quantity);
+            visit(
+                [access, inner](const T& whole) -> decltype(auto) { return inner(access(whole)); },
+                quantity);
           });
         }
       },
@@ -96,8 +99,10 @@ concept Number = std::is_arithmetic_v<Value> || std::same_as<Value, std::optiona
 /// NaN where there is none.
 template <Number Value>
 double as_number(const Value& value) {
-  if constexpr (std::is_arithmetic_v<Value>) return static_cast<double>(value);
-  else return value.value_or(std::numeric_limits<double>::quiet_NaN());
+  if constexpr (std::is_arithmetic_v<Value>)
+    return static_cast<double>(value);
+  else
+    return value.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 /// Calls visit(number, quantity) for every column of T that is a real number; number: NumberOf<T>.

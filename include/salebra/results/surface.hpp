@@ -40,7 +40,8 @@ constexpr void describe(Visitor&& visit, std::type_identity<SpectralMoments>) {
   visit(&S::moment4_x, Kept{"moment4_x", "mean square curvature along x, 1/m^2"});
   visit(&S::moment4_y, Kept{"moment4_y", "mean square curvature along y, 1/m^2"});
   visit(&S::moment2, Quantity{"moment2", dimensionless, "spectral moment m2 of a profile"});
-  visit(&S::moment4, Quantity{"moment4", inverse_length_squared, "spectral moment m4 of a profile"});
+  visit(&S::moment4,
+        Quantity{"moment4", inverse_length_squared, "spectral moment m4 of a profile"});
   visit(&S::rms_slope, Quantity{"rms_slope", dimensionless, "root mean square of the gradient"});
   visit(&S::nayak, Quantity{"nayak", dimensionless, "Nayak parameter m0 m4 / m2^2"});
 }
@@ -52,8 +53,7 @@ constexpr void describe(Visitor&& visit, std::type_identity<SummitStatistics>) {
   visit(&S::density, Quantity{"density", inverse_length_squared, "summits per area"});
   visit(&S::mean_height,
         Quantity{"mean_height", length, "mean summit height above the mean plane"});
-  visit(&S::rms_height,
-        Quantity{"summit_rms", length, "standard deviation of summit heights"});
+  visit(&S::rms_height, Quantity{"summit_rms", length, "standard deviation of summit heights"});
   visit(&S::mean_radius, Quantity{"mean_radius", length, "mean radius of summits"});
 }
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 #include <salebra/base/grid.hpp>
-#include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/law/fit.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/premises.hpp>
@@ -64,8 +64,8 @@ struct StudyConfiguration {
   /// only the latter.
   bool stick = true;
   std::optional<PressureWindow>
-      window;                  ///< of the exponential fit; empty: 1 … 2.5 h_rms in mean gap
-  ParameterLists ensemble;     ///< for generated surfaces only
+      window;               ///< of the exponential fit; empty: 1 … 2.5 h_rms in mean gap
+  ParameterLists ensemble;  ///< for generated surfaces only
   double target_precision =
       0;                     ///< relative, at which an ensemble is large enough; 0: use all seeds
   int min_realisations = 8;  ///< >= 2, before the precision is looked at
@@ -83,9 +83,10 @@ struct StudyConfiguration {
   /// Intervals between the contacts inside the oscillation, SurfaceDampingOptions::levels; 0: 8 for one surface, doubled where they do
   /// not suffice, 4 for each of several.
   int levels = 0;
-  double relative_error = 0;  ///< of each damping constant, for which the cells are halved; 0: does not
+  double relative_error =
+      0;  ///< of each damping constant, for which the cells are halved; 0: does not
   std::optional<SeamCheck> seam = {};  ///< adds the error of a continued scan's seam
-  std::string text;  ///< the file as it was read, for provenance
+  std::string text;                    ///< the file as it was read, for provenance
 };
 
 /// Reads a TOML file; README of data/ explains each key by example. Lengths, pressures and so on are numbers in SI units or

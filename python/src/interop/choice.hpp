@@ -6,9 +6,9 @@
 
 #include <array>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/half_space/half_space.hpp>
+#include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/generators/exact_rms.hpp>

@@ -2,8 +2,8 @@
 // Surface that shares the memory of a NumPy array, and texts for repr().
 #include "interop/surface.hpp"
 
-#include <salebra/results/quantity.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/results/quantity.hpp>
 
 namespace salebra::python {
 

@@ -8,9 +8,9 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 
+#include "contact/quadrature.hpp"
 #include "given_summits.hpp"
 #include "height_density.hpp"
-#include "contact/quadrature.hpp"
 
 namespace salebra {
 namespace {

@@ -9,8 +9,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/interacting_summits.hpp>
 
-#include "given_summits.hpp"
 #include "contact/half_space/periodic_point_loads.hpp"
+#include "given_summits.hpp"
 
 namespace salebra {
 namespace {

@@ -21,9 +21,9 @@ namespace {
 using detail::ActiveSetCg;
 using detail::ActiveSetLimits;
 using detail::ActiveSetOutcome;
-using detail::MultigridLevel;
 using detail::ContactTarget;
 using detail::Heights;
+using detail::MultigridLevel;
 
 // Coarse levels only give a start: solving them further gains nothing.
 constexpr double coarse_tolerance = 1e-3;

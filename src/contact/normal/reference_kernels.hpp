@@ -74,8 +74,8 @@ template <class Real>
 void direct(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double z_mean,
             double beta, double t_mean, Real* row) {
   for_active_cells(a, begin, end, [&](const Cell& c) {
-    const double t = double(a.m[c.packed]) * (double(a.z[c.packed]) - z_mean +
-                                              beta * (double(a.t[c.packed]) - t_mean));
+    const double t = double(a.m[c.packed]) *
+                     (double(a.z[c.packed]) - z_mean + beta * (double(a.t[c.packed]) - t_mean));
     a.t[c.packed] = row[c.column] = static_cast<Real>(t);
   });
 }
@@ -158,8 +158,8 @@ SetSums change_set(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff
     if (a.quiet[k] && !any_below(a, k, level)) continue;
     a.quiet[k] = 0;
     for_cells(a, k, k + 1, [&](const Cell& c) {
-      const bool free = becomes_free(a.m[c.packed] != 0, a.p[c.packed], a.g[c.packed], level,
-                                     a.bound);
+      const bool free =
+          becomes_free(a.m[c.packed] != 0, a.p[c.packed], a.g[c.packed], level, a.bound);
       a.m[c.packed] = free;
       sums.count += free;
       sums.g += free ? a.g[c.packed] : 0;
@@ -234,18 +234,10 @@ inline double clip(double* p, std::ptrdiff_t count, double bound) {
 
 template <class Real>
 TileKernels<Real> table() {
-  return {residual<Real>,
-          precondition<Real>,
-          direct<Real>,
-          take_image<Real>,
-          step<Real>,
-          change_set<Real>,
-          truncate<Real>,
-          spread_change<Real>,
-          add_displacement<Real>,
-          gap<Real>,
-          gap<double>,
-          clip};
+  return {residual<Real>,   precondition<Real>,  direct<Real>,
+          take_image<Real>, step<Real>,          change_set<Real>,
+          truncate<Real>,   spread_change<Real>, add_displacement<Real>,
+          gap<Real>,        gap<double>,         clip};
 }
 
 }  // namespace salebra::detail::reference

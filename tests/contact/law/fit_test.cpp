@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/contact/law/fit.hpp>
 
 using namespace salebra;
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/law/law.hpp>
 #include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/law/law.hpp>
 
 using namespace salebra;
 

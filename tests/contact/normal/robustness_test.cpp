@@ -3,8 +3,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/normal/normal.hpp>
 
-#include "contact/normal/active_set_cg.hpp"
 #include "awkward_contacts.hpp"
+#include "contact/normal/active_set_cg.hpp"
 #include "contact/normal/gradient_projection.hpp"
 #include "independent_residual.hpp"
 #include "measured_surfaces.hpp"

@@ -82,8 +82,8 @@ struct Tiles {
         const Real weight = static_cast<Real>(whole(16)) / 8;
         for (const int row_of : {-i, i})
           for (const int column : {-j, j})
-            stencil[static_cast<std::size_t>((row_of + frame) * (2 * frame + 1) + column +
-                                             frame)] = weight;
+            stencil[static_cast<std::size_t>((row_of + frame) * (2 * frame + 1) + column + frame)] =
+                weight;
       }
     const auto a = arrays();
     // The frame, too, holds images of the residual.
@@ -116,13 +116,20 @@ struct Tiles {
   }
 
   TileArrays<Real> arrays() {
-    return {tiles.data(), static_cast<std::ptrdiff_t>(tiles.size()),
-            ny,           framed_stride,
-            r.data(),     p.data(),
-            g.data(),     t.data(),
-            w.data(),     z.data(),
-            m.data(),     quiet.data(),
-            stencil.data(), bound};
+    return {tiles.data(),
+            static_cast<std::ptrdiff_t>(tiles.size()),
+            ny,
+            framed_stride,
+            r.data(),
+            p.data(),
+            g.data(),
+            t.data(),
+            w.data(),
+            z.data(),
+            m.data(),
+            quiet.data(),
+            stencil.data(),
+            bound};
   }
   std::ptrdiff_t count() const { return static_cast<std::ptrdiff_t>(tiles.size()); }
   // The tiles [begin, end) of one row that has some.
@@ -154,7 +161,9 @@ bool equal(const StepSums& a, const StepSums& b) {
          close(a.signed_misfit, b.signed_misfit) && close(a.saturated, b.saturated) &&
          close(a.least, b.least);
 }
-bool equal(const SetSums& a, const SetSums& b) { return close(a.count, b.count) && close(a.g, b.g); }
+bool equal(const SetSums& a, const SetSums& b) {
+  return close(a.count, b.count) && close(a.g, b.g);
+}
 bool equal(const GapSums& a, const GapSums& b) {
   return close(a.pressure, b.pressure) && close(a.count, b.count) && close(a.g, b.g) &&
          close(a.misfit, b.misfit) && close(a.distance, b.distance) &&
@@ -179,7 +188,8 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
     return true;
   });
   both("precondition", [&](auto& f, auto& a, auto& s, auto& b) {
-    return equal(f.precondition(a.arrays(), 0, a.count()), s.precondition(b.arrays(), 0, b.count()));
+    return equal(f.precondition(a.arrays(), 0, a.count()),
+                 s.precondition(b.arrays(), 0, b.count()));
   });
   both("direct", [&](auto& f, auto& a, auto& s, auto& b) {
     const auto [begin, end] = a.one_row();
@@ -220,13 +230,15 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
   both("gap", [&](auto& f, auto& a, auto& s, auto& b) {
     // Any 53 numbers will do as heights; p as it is: within bounds and beyond.
     const std::vector<double> heights = a.g;
-    return equal(f.gap(a.row.data(), heights.data(), 0.5, a.p.data(), a.g.data(), ny, bound, level),
-                 s.gap(b.row.data(), heights.data(), 0.5, b.p.data(), b.g.data(), ny, bound, level));
+    return equal(
+        f.gap(a.row.data(), heights.data(), 0.5, a.p.data(), a.g.data(), ny, bound, level),
+        s.gap(b.row.data(), heights.data(), 0.5, b.p.data(), b.g.data(), ny, bound, level));
   });
   both("exact_gap", [&](auto& f, auto& a, auto& s, auto& b) {
     const std::vector<double> heights = a.g, u = a.p;
-    return equal(f.exact_gap(u.data(), heights.data(), 0.5, a.p.data(), a.g.data(), ny, bound, level),
-                 s.exact_gap(u.data(), heights.data(), 0.5, b.p.data(), b.g.data(), ny, bound, level));
+    return equal(
+        f.exact_gap(u.data(), heights.data(), 0.5, a.p.data(), a.g.data(), ny, bound, level),
+        s.exact_gap(u.data(), heights.data(), 0.5, b.p.data(), b.g.data(), ny, bound, level));
   });
   both("clip", [&](auto& f, auto& a, auto& s, auto& b) {
     return close(f.clip(a.p.data(), ny, bound), s.clip(b.p.data(), ny, bound)) &&

@@ -90,7 +90,8 @@ TEST_CASE("Elliptic contacts follow Mindlin's elliptic integrals", "[stick]") {
   const Grid2D grid{96, 96, 1e-3, 1e-3};
   const ContactSet contact = ellipse(grid, a, b);
   const StickStiffness k = stick_stiffness(contact, grid, material, free_boundary());
-  const PunchStiffness punch = punch_stiffness(contact, grid, contact_modulus, {.boundary = Boundary::free});
+  const PunchStiffness punch =
+      punch_stiffness(contact, grid, contact_modulus, {.boundary = Boundary::free});
   REQUIRE(k.converged);
   REQUIRE(punch.converged);
   const double g1 = inverse_shear(poisson), g2 = poisson_over_shear(poisson);
@@ -129,9 +130,9 @@ TEST_CASE("Strips show the limits of the anisotropy, (1 - nu/2)/(1 - nu) and 1 -
   contact.middleRows(31, 4) = true;
   const StickOptions options{.tolerance = 1e-8};
   const StickStiffness k = stick_stiffness(contact, grid, material, options);
-  const double scaled = material.modulus_ratio() *
-                        punch_stiffness(contact, grid, contact_modulus, {.tolerance = 1e-8})
-                            .normal_stiffness;
+  const double scaled =
+      material.modulus_ratio() *
+      punch_stiffness(contact, grid, contact_modulus, {.tolerance = 1e-8}).normal_stiffness;
   CHECK(k.xx / scaled == Approx((1 - poisson / 2) / (1 - poisson)).epsilon(1e-10));
   CHECK(k.yy / scaled == Approx(1 - poisson / 2).epsilon(1e-10));
 }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
-#include <salebra/contact/half_space/material.hpp>
 #include <salebra/surface/summits.hpp>
 #include <string>
 #include <vector>

@@ -4,8 +4,8 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <salebra/contact/law/law.hpp>
 #include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/law/law.hpp>
 #include <span>
 #include <vector>
 
