@@ -28,7 +28,7 @@ void run(Session& session) {
   const auto failed =
       std::ranges::count_if(checks, [](const Check& check) { return !check.passed(); });
   session.answer(
-      {{"checks", std::move(list)}},
+      Json::of("checks", std::move(list)),
       to_table(rows, 0, true) + fmt::format("{} of {} checks passed\n",
                                             checks.size() - std::size_t(failed), checks.size()));
   if (failed > 0)

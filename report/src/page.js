@@ -101,7 +101,7 @@ function settings(main, point) {
     body.className = "";
     const provenance = data.provenance ?? {}, surface = point.surface ?? {};
     const seeds = (surface.seed ?? []).filter((s) => s !== 0);
-    const entries = [["Results file", data.results], ["Command", provenance.command_line, "code"], ["Made", provenance.created?.replace("T", " ").replace("Z", " UTC")], ["Run time", known(provenance.run_time) ? quantity(provenance.run_time, "s", 3) : null],
+    const entries = [["Results file", data.results], ["Command", provenance.command_line, "code"], ["Made", provenance.created?.replace("T", " ").replace("Z", " UTC")],
       ["Program", provenance.version ? `${provenance.program ?? "salebra"} ${provenance.version}${provenance.revision ? `, revision ${provenance.revision}` : ""}; report by salebra ${data.report_version}` : null],
       ["Libraries", provenance.libraries], ["Surface", point.picture?.origin], ["Seeds", seeds.length ? seedText(seeds) : null], ["Tangential stiffness", point.damping?.tangential_stiffness], ["E*, G*/E*", point.damping ? `${quantity(point.damping.contact_modulus, "Pa")}, ${number(point.damping.modulus_ratio)}` : null]];
     body.append(h("dl", {}, entries.filter(([, text]) => text).map(([name, text, tag]) => h("div", {}, h("dt", {}, name), h("dd", {}, tag ? h(tag, {}, text) : text)))));

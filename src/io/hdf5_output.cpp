@@ -5,7 +5,6 @@
 #include <hdf5_hl.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <numeric>
 #include <salebra/base/version.hpp>
@@ -118,12 +117,6 @@ void require_free(hid_t group, const std::string& name) {
           "is in the file already");
 }
 
-const auto start_of_process = std::chrono::steady_clock::now();
-
-double seconds_since_start() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_of_process).count();
-}
-
 }  // namespace
 
 Output::Output(const std::filesystem::path& file, const Provenance& provenance,
@@ -139,8 +132,6 @@ Output::Output(const std::filesystem::path& file, const Provenance& provenance,
   attribute(root_, "arithmetic", arithmetic());
   attribute(root_, "created", provenance.created.empty() ? utc_now() : provenance.created);
   attribute(root_, "command_line", provenance.command_line);
-  // Of a program that does one thing; a session that calls the library has no run time of a file.
-  if (!provenance.command_line.empty()) attribute(root_, "run_time", seconds_since_start());
   attribute(root_, "configuration", provenance.configuration);
   if (provenance.seed) attribute(root_, "seed", *provenance.seed);
 }

@@ -363,8 +363,6 @@ Json report_payload(const ResultReader& results) {
   for (const char* name :
        {"program", "version", "libraries", "created", "command_line", "configuration"})
     if (const auto text = results.text_attribute("/", name)) json["provenance"][name] = *text;
-  if (const auto seconds = results.number_attribute("/", "run_time"))
-    json["provenance"]["run_time"] = *seconds;
   if (where.size() > 1) {
     const Names names = point_names(results, where.size());
     json["names"] = names;

@@ -58,7 +58,7 @@ TEST_CASE("Bad input of friction is refused by its option", "[sliding][input]") 
             "--friction-coefficient: 0"},
            {law + "--friction-coefficient 0.3 --normal-amplitude -1nm --frequency 1kHz "
                   "--velocities 1mm/s",
-            "normal_amplitude: -1e-09"}}) {
+            "--normal-amplitude: -1e-09"}}) {
     CAPTURE(command);
     check_refused(test.run(command), message);
   }

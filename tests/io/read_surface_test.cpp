@@ -54,7 +54,7 @@ TEST_CASE("Measured surfaces have the statistics of the reference", "[read]") {
 TEST_CASE("A bare array needs its size from the user and keeps its axes", "[read]") {
   if (!std::filesystem::exists(measured)) return;
   CHECK_THROWS_WITH(read_surface(measured / "example-2d.npy"),
-                    Contains("example-2d.npy") && Contains("size_x") && Contains("--size-x"));
+                    Contains("example-2d.npy") && Contains("size_x") && Contains("give `size_x`"));
   CHECK_THROWS_AS(read_surface(measured / "example-2d.npy", {.size_x = 1, .size_y = 0}),
                   InvalidInput);
   const Surface surface =
