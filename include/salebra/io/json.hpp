@@ -15,7 +15,6 @@ namespace salebra {
 /// A JSON value to write: null, truth, number, text, array, or object whose members keep the order in which they came.
 ///   Json answer = Json::of("area", 0.1, "spots", spots);   // keys and values in turn
 ///   answer["unit"] = "m^2";                                // null becomes an object, by push_back an array
-/// No braces: where memory fails within nested initialiser lists, GCC 12 destroys values that it has not made.
 /// throws    std::logic_error where a value is not of the kind that is asked for
 class Json {
  public:
