@@ -36,8 +36,8 @@ struct Case {
   std::vector<std::string>
       inputs;           ///< commands that make what the command reads, run in the folder of inputs
   std::string command;  ///< IN stands for the folder of inputs
-  std::string first = {};   ///< a command whose files lie there already
-  std::string after = {};   ///< run without faults after a failure; then all files must be complete
+  std::string first = {};  ///< a command whose files lie there already
+  std::string after = {};  ///< run without faults after a failure; then all files must be complete
 };
 
 const std::string random_surface =
