@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <salebra/io/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,7 +20,7 @@
 namespace salebra::detail::hdf5 {
 
 /// A number of any type, a text, or something else.
-using AttributeValue = std::variant<std::monostate, double, std::string>;
+using AttributeValue = std::variant<Json::Null, double, std::string>;
 
 /// A group, a dataset, or what is refused under its name.
 struct Object {

@@ -21,7 +21,7 @@ auto& held(auto& value, const char* kind) {
 
 template <class T>
 auto& made(auto& value, const char* kind) {
-  if (std::holds_alternative<std::monostate>(value)) value = T();
+  if (std::holds_alternative<Json::Null>(value)) value = T();
   return held<T>(value, kind);
 }
 
@@ -30,7 +30,7 @@ nlohmann::ordered_json converted(const Value& value) {
   return std::visit(
       [](const auto& part) -> nlohmann::ordered_json {
         using T = std::decay_t<decltype(part)>;
-        if constexpr (std::is_same_v<T, std::monostate>) {
+        if constexpr (std::is_same_v<T, Json::Null>) {
           return nullptr;
         } else if constexpr (std::is_same_v<T, Json::Array>) {
           auto array = nlohmann::ordered_json::array();
