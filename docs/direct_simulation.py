@@ -35,7 +35,7 @@ class Runs:
 
 def motion(case, amplitude):
     if case == "b":
-        return ["--mode", "drag", "--normal-amplitude", amplitude, "--drag-velocity", "1mm/s", "--frequency", "100Hz"]
+        return ["--mode", "drag", "--normal-amplitude", amplitude, "--drag-velocity", "1nm/s", "--frequency", "100Hz"]
     return ["--normal-amplitude", amplitude, "--tangential-amplitude", amplitude, "--phase", case]
 
 
@@ -93,7 +93,7 @@ def paraboloid(case, ratio):
     if case == "b":
         s = sum(t * k for t, k in zip(theta, stiffness)) * step
         least = 2 * modulus * math.sqrt(radius * (depth - u))
-        return 2 * (1e-3 / (2 * math.pi * 100)) ** 2 * (2 * s - math.pi**2 * least)
+        return 2 * (1e-9 / (2 * math.pi * 100)) ** 2 * (2 * s - math.pi**2 * least)
     phase = math.radians(float(case[:2]))
     s = sum(math.sin(2 * t) * k for t, k in zip(theta, stiffness)) * step
     return 2 * (u * math.sin(phase)) ** 2 * s
