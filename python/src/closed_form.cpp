@@ -95,7 +95,7 @@ void bind_closed_form(nb::module_& parent) {
         return cf::work_per_cycle_rough(modulus_ratio, force, decay_length, motion);
       },
       nb::arg("modulus_ratio"), nb::arg("force"), nb::arg("decay_length"), nb::arg("motion"),
-      R"(Eq. (16): energy lost per cycle by a nominally flat rough contact that is dragged, J.
+      R"(Eq. (16): energy lost per normal cycle by a nominally flat rough contact in slow tangential oscillation, J.
 
 .. math:: W = 2(\pi^2-4)\tfrac{G^*}{E^*}\tfrac{F}{l^2}|u_z|(v/\omega)^2
 

@@ -48,7 +48,9 @@ angular_frequency : float
       });
   nb::class_<Drag>(
       m, "Drag",
-      R"(Case (b) of the paper: z = u_z cos ωt while the body is drawn tangentially at constant velocity.
+      R"(Case (b) of the paper: z = u_z cos ωt and a slow oscillation along x, of velocity v and an excursion far below (μE*/G*)F/K.
+
+A motion at constant velocity that continues slides, whatever the coefficient of friction.
 
 Parameters
 ----------

@@ -16,7 +16,7 @@ struct EqualFrequency {
   double angular_frequency = 0;
 };
 
-/// Case (b): z = u_z cos ωt while the body is drawn tangentially at constant velocity.
+/// Case (b): z = u_z cos ωt and a slow oscillation along x, velocity v, excursion far below (μE*/G*)F/K. Motion that goes on slides.
 struct Drag {
   double normal_amplitude = 0;   ///< u_z >= 0, m
   double drag_velocity = 0;      ///< v, m/s

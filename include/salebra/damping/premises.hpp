@@ -79,11 +79,11 @@ struct Premises {
   /// limits estimated: 0.6 (flow begins below the surface at 1.6 yield stresses, H = 2.8; Greenwood and Williamson's ψ) and 1.
   Premise plasticity;
   /// value  ω a/c_s, c_s = √(G/ρ) of one elastic body with the law's G*/E*.
-  /// limits estimated: a stuck circle has the impedance K(1 + 0.58i ωa/c_s), so that 0.55 and 1.2 change |K| by 5 and 20 %; in case (a)
+  /// limits estimated: a stuck circle has the impedance K(1 + 0.58i ωa/c_s), so that 0.55 and 1.1 change |K| by 5 and 20 %; in case (a)
   ///        less, where waves carry away 5 % of the loss: π·0.58 (ωa/c_s) u_x² K_t²/(2G*a).
   Premise inertia;
-  /// value  share of the loss that the coupling of pressure and traction changes, 1.3|β|³: interpolates direct simulations of rough
-  ///        surfaces, 3 % at ν = 0.3, 17 % at ν = 0, none at ν = 0.5.
+  /// value  share of the loss that the coupling of pressure and traction changes, 1.3|β|³: interpolates direct simulations of a
+  ///        paraboloid at 90°, 3 % at ν = 0.3, 17 % at ν = 0, none at ν = 0.5.
   /// limits 0.05 and 0.2.
   Premise coupling;
 
