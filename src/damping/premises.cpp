@@ -396,7 +396,7 @@ Premise coupling_of(const ContactLaw& law, const ContactFacts& facts) {
   const double poisson = poisson_of(law.modulus_ratio());
   const double dundurs =
       std::isnan(facts.dundurs) ? (1 - 2 * poisson) / (2 * (1 - poisson)) : facts.dundurs;
-  // Direct simulations of a paraboloid at 90°: 3 % at ν = 0.3 (β = 0.286), 17 % at ν = 0 (β = 0.5).
+  // Direct simulations of a rough surface at 45° and a paraboloid at 90°: 3 % at ν = 0.3 (β = 0.286), 17 % at ν = 0 (β = 0.5).
   premise.value = 1.3 * std::pow(std::abs(dundurs), 3);
   judge(premise);
   return premise;
