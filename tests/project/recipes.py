@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compares the libraries that CMake looks for with those that each recipe of packaging/ names: recipes.py ROOT"""
+"""Compares the libraries that CMake looks for with those that each recipe of packaging/ names, and plotly's versions: recipes.py ROOT"""
 
 import ast
 import pathlib
@@ -20,6 +20,9 @@ wanted = re.findall(r"find_package\((\w+)", cmake) + re.findall(r"pkg_check_modu
 wanted += re.findall(r"find_path\((\w+)", cmake)
 faults = [f"NAMES lacks {name}, which CMake looks for" for name in wanted if name not in NAMES]
 
+plotly = re.search(r"^plotly==\S+", (ROOT / "report/requirements.txt").read_text(), re.MULTILINE)[0]
+if f'"{plotly}"' not in (ROOT / "pyproject.toml").read_text():
+    faults.append(f"pyproject.toml builds with another plotly than {plotly}, that of report/requirements.txt")
 version = re.search(r"project\(salebra VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1]
 conda = (ROOT / "packaging/conda/recipe.yaml").read_text()
 spack = (ROOT / "packaging/spack/package.py").read_text()

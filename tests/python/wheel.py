@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""wheel.py SURFACE: the README's example with an installed wheel, and where each of its libraries comes from."""
+"""wheel.py SURFACE: the README's example with an installed wheel, a report, and where each of its libraries comes from."""
 
 import math
 import re
 import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +25,30 @@ damping = salebra.relaxation_damping(law, motion, force=float(curve.force[6]))
 if not damping.converged or not damping.damping_constant > 0:
     sys.exit(f"no damping constant: {damping}")
 
+STUDY = """
+[surface]
+file = '{surface}'
+[material]
+contact_modulus = "115GPa"
+poisson = 0.3
+[contact]
+relative_pressures = "5e-4:0.2:8"
+[damping]
+mode = "drag"
+normal_amplitude = "1nm"
+drag_velocity = "1um/s"
+frequency = "20kHz"
+"""
+if salebra.can_report():
+    result = salebra.run_study(salebra.parse_study_configuration(STUDY.format(surface=Path(sys.argv[1]).resolve())))
+    with tempfile.TemporaryDirectory() as folder:
+        results, page = Path(folder, "scan.h5"), Path(folder, "scan.html")
+        result.write(results)
+        salebra.write_report(results, page)
+        text = page.read_text()
+        if "Plotly" not in text or '<script type="application/json" id="data">{"' not in text:
+            sys.exit("the report is no page with figures and numbers")
+
 # Everything that this process has mapped beside the C library and the interpreter comes from the environment.
 allowed = re.compile(r"/(ld-linux|libc|libm|libdl|libpthread|librt|libutil|libresolv|libgcc_s|libstdc\+\+|libz|libpython|libexpat|libffi|libssl|libcrypto"
                      r"|libuuid|liblzma|libbz2|libsqlite|libreadline|libtinfo|libncurses|libnss_\w+|libb2)[-.\d]")  # fmt: skip
@@ -35,6 +60,8 @@ foreign = sorted(
 if foreign:
     sys.exit(f"libraries that the wheel does not bring: {foreign}")
 brought = sorted(Path(library).name for library in mapped if "salebra.libs" in library)
-if not any(name.startswith("libgsl") for name in brought):
-    sys.exit(f"the wheel brings {brought}, no GSL among them")
-print(f"salebra {salebra.__version__}: damping constant {damping.damping_constant:.4g} N s/m with {len(brought)} libraries of the wheel")
+if not any(name.startswith("libgomp") for name in brought):
+    sys.exit(f"the wheel brings {brought}, no OpenMP among them")
+reports = "a report" if salebra.can_report() else "no report: it was built without plotly.js"
+print(f"salebra {salebra.__version__}, Python {sys.version_info.major}.{sys.version_info.minor}: "
+      f"damping constant {damping.damping_constant:.4g} N s/m, {reports}, {len(brought)} libraries of the wheel")  # fmt: skip
