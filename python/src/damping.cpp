@@ -253,8 +253,8 @@ void bind_damper(nb::module_& m) {
       nb::arg("law"), nb::kw_only(), nb::arg("angular_frequency"), nb::arg("falling_slope"),
       nb::arg("largest_amplitude"), nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation", nb::arg("tolerance") = 1e-10,
-      "The least u_z, m, at which γ >= falling_slope (N s/m): it keeps a slider whose friction "
-      "falls with velocity from stick–slip. "
+      "The least u_z, m, at which γ >= falling_slope (N s/m): an estimate, without slip, of what "
+      "keeps a slider whose friction falls with velocity from stick–slip. "
       "NaN where no amplitude up to largest_amplitude is enough.");
 }
 

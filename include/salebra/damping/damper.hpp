@@ -56,7 +56,7 @@ DamperMap damper_map(const ContactLaw& law, const Position& position,
                      const std::vector<double>& angular_frequencies,
                      const DampingOptions& options = {});
 
-/// The least normal amplitude, m, at which γ >= falling_slope: it keeps a slider from stick–slip whose friction force
+/// The least normal amplitude, m, at which γ >= falling_slope: an estimate, without slip, of what keeps a slider from stick–slip whose friction force
 /// falls with velocity, F_f = F_0 − bv, b = falling_slope > 0, N s/m, which is a damping constant of −b
 /// for small disturbances of steady sliding. NaN where no amplitude up to largest_amplitude is enough: under a dead weight γ has
 /// a maximum over u_z.
