@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rewrites the tables of direct_simulation.md from runs of the program.
 
-Usage: docs/direct_simulation.py PROGRAM [--tables shapes,convergence,rough,mindlin,slip] [--jobs N] [--measured FILE --measured-name TEXT]
+Usage: docs/direct_simulation.py PROGRAM [--tables shapes,convergence,rough,cells,mindlin,slip] [--jobs N] [--measured FILE --measured-name TEXT]
 Each table stands between a line `<!-- NAME -->` and a line `<!-- end of NAME -->`. Only Python's own library is needed.
 """
 import argparse
@@ -15,6 +15,7 @@ import tempfile
 
 PAGE = pathlib.Path(__file__).with_name("direct_simulation.md")
 SWEEP = {"cylinder": 6e-6, "parabola": 6e-6, "pyramids": 1.8e-6, "sinusoids": 1.35e-6}  # u_z, m
+ROUGH_MODULUS, ROUGH_SLOPE = 1e9, 0.1  # E* in Pa and h' of the generated surfaces
 
 
 class Runs:
@@ -120,26 +121,51 @@ def convergence(runs, _):
     return table(["case", "cells", *(f"{k} steps" for k in steps), "levels"], rows)
 
 
+def generated(runs, folder, seed, points):
+    """One of the generated surfaces of the rough tables; its long waves do not depend on the points."""
+    file = f"{folder}/{seed}-{points}.h5"
+    runs.answer("generate", "--points", points, "--size-x", "10um", "--hurst", 0.8, "--rolloff", "1.25um",
+                "--short-cutoff", "0.625um", "--rms-slope", ROUGH_SLOPE, "--seed", seed, "-o", file)
+    return file
+
+
+def decay_length(runs, surface, scale, curve):
+    runs.answer("sweep", surface, "--pressures", f"{5e-4 * ROUGH_MODULUS * scale}:{0.2 * ROUGH_MODULUS * scale}:20",
+                "--contact-modulus", ROUGH_MODULUS, "--poisson", 0.3, "-o", curve)
+    return runs.answer("fit", curve)["decay_length"]
+
+
+def cells(runs, _):
+    """What half the cells change of W on generated surfaces, by levels."""
+    seeds, cases, points = (1, 2), ("45deg", "b"), (256, 512)
+    with tempfile.TemporaryDirectory() as folder:
+        files = {(s, n): generated(runs, folder, s, n) for s in seeds for n in points}
+        lengths = {s: decay_length(runs, files[s, 256], ROUGH_SLOPE, f"{folder}/{s}-curve.h5") for s in seeds}
+        rows_of = [(load, k) for load in (0.01, 0.05) for k in (0.1, 0.25, 0.5)]
+        keys = [(s, load, k, case, n) for load, k in rows_of for s in seeds for case in cases for n in points]
+
+        def run(seed, load, k, case, n):
+            return runs.answer("oscillate", "--surface", files[seed, n], "--pressure", load * ROUGH_MODULUS * ROUGH_SLOPE,
+                               "--contact-modulus", ROUGH_MODULUS, "--poisson", 0.3, "--method", "levels",
+                               "--levels", 64, *motion(case, k * lengths[seed]))["work_by_levels"]
+
+        work = dict(zip(keys, runs.all(run, keys)))
+        rows = [[str(load), str(k), *(percent(work[s, load, k, c, 512] / work[s, load, k, c, 256] - 1) for s in seeds for c in cases)]
+                for load, k in rows_of]
+    return table(["p/(E*h')", "u_z/l", *(f"seed {s}, {'(b)' if c == 'b' else '(a) 45°'}" for s in seeds for c in cases)], rows)
+
+
 def rough(runs, arguments):
     """Generated and measured surfaces: both routes against Eq. (16) and against the curve."""
-    modulus, slope, points = 1e9, 0.1, 256
     with tempfile.TemporaryDirectory() as folder:
-        surfaces = []
-        for seed in (1, 2, 3):
-            file = f"{folder}/{seed}.h5"
-            runs.answer("generate", "--points", points, "--size-x", "10um", "--hurst", 0.8, "--rolloff", "1.25um",
-                        "--short-cutoff", "0.625um", "--rms-slope", slope, "--seed", seed, "-o", file)
-            surfaces.append((f"seed {seed}", [file], slope))
+        surfaces = [(f"seed {seed}", [generated(runs, folder, seed, 256)], ROUGH_SLOPE) for seed in (1, 2, 3)]
         if arguments.measured:
             found = runs.answer("info", arguments.measured)
             surfaces.append((arguments.measured_name, [arguments.measured, "--boundary", "periodic"],
                              found["rms_slope"]))
 
         def fit(name, surface, scale):
-            curve = f"{folder}/{name.replace(' ', '_')}-curve.h5"
-            runs.answer("sweep", surface[0], "--pressures", f"{5e-4 * modulus * scale}:{0.2 * modulus * scale}:20",
-                        "--contact-modulus", modulus, "--poisson", 0.3, "-o", curve)
-            return runs.answer("fit", curve)["decay_length"]
+            return decay_length(runs, surface[0], scale, f"{folder}/{name.replace(' ', '_')}-curve.h5")
 
         lengths = runs.all(fit, surfaces)
         keys = [(name, surface, scale, l, load, k, case)
@@ -147,8 +173,8 @@ def rough(runs, arguments):
                 for load in (0.01, 0.05) for k in (0.1, 0.25, 0.5) for case in ("45deg", "b")]
 
         def run(_, surface, scale, l, load, k, case):
-            return runs.answer("oscillate", "--surface", *surface, "--pressure", load * modulus * scale,
-                               "--contact-modulus", modulus, "--poisson", 0.3, "--decay-length", l,
+            return runs.answer("oscillate", "--surface", *surface, "--pressure", load * ROUGH_MODULUS * scale,
+                               "--contact-modulus", ROUGH_MODULUS, "--poisson", 0.3, "--decay-length", l,
                                "--steps", 128, "--levels", 64, *motion(case, k * l))
 
         rows = []
@@ -224,13 +250,13 @@ def slip(runs, _):
                       "balance", "periods"], rows)
 
 
-TABLES = {"shapes": shapes, "convergence": convergence, "rough": rough, "mindlin": mindlin, "slip": slip}
+TABLES = {"shapes": shapes, "convergence": convergence, "rough": rough, "cells": cells, "mindlin": mindlin, "slip": slip}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
-    parser.add_argument("--tables", default="shapes,convergence,rough,mindlin,slip")
+    parser.add_argument("--tables", default="shapes,convergence,rough,cells,mindlin,slip")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--measured")
     parser.add_argument("--measured-name", default="measured")
