@@ -62,7 +62,7 @@ EnsembleMean simple_decay_length(const StudyResult& result) {
 }
 
 Json model_json(const StudyResult& result, const StudyModel& model) {
-  Json answer = Json::of("title", model.title);
+  Json answer = {{"title", model.title}};
   answer["curve"] =
       columns_json<ForceSample>([&](const auto& number) { return result.curve(number, model.id); });
   answer["curve"]["pressure"] = result.pressures;
@@ -85,14 +85,20 @@ Json comparison_json(const StudyResult& result, const StudyPremises& premises) {
   Json spots =
       columns_json<SpotStatistics>([&](const auto& number) { return result.spots(number); });
   spots["corrected_area_slope"] = to_json(result.mean(&Realisation::corrected_area_slope));
-  Json answer = Json::of(
-      "realisations", result.realisations.size(), "pressure", result.pressures, "relative_pressure",
-      relative, "models", models, "theories",
-      Json::of("bgt_area_slope", bgt_slope, "persson_area_slope", persson_slope,
-               "bearing_area_fraction", to_json(bearing_area(result)), "campana_persson_muser",
-               Json::of("decay_length_over_rms_height", to_json(simple_decay_length(result)),
-                        "normal_stiffness", simple_stiffness(result))),
-      "spots", spots, "flags", flags_json(result), "interval_method", result.interval_method());
+  Json answer = {{"realisations", result.realisations.size()},
+                 {"pressure", result.pressures},
+                 {"relative_pressure", relative},
+                 {"models", models},
+                 {"theories",
+                  {{"bgt_area_slope", bgt_slope},
+                   {"persson_area_slope", persson_slope},
+                   {"bearing_area_fraction", to_json(bearing_area(result))},
+                   {"campana_persson_muser",
+                    {{"decay_length_over_rms_height", to_json(simple_decay_length(result))},
+                     {"normal_stiffness", simple_stiffness(result)}}}}},
+                 {"spots", spots},
+                 {"flags", flags_json(result)},
+                 {"interval_method", result.interval_method()}};
   add_premises(answer, premises);
   return answer;
 }
@@ -225,7 +231,7 @@ void run(const CompareArguments& arguments, Session& session) {
   } else {
     for (const StudyResult& result : results) {
       const std::string name = describe_point(configuration.ensemble, result.configuration);
-      Json point = Json::of("point", name);
+      Json point = {{"point", name}};
       const StudyPremises premises = premises_of(result);
       const Json comparison = comparison_json(result, premises);
       for (const auto& [key, part] : comparison.items()) point[key] = part;

@@ -112,12 +112,18 @@ void run(const ContactArguments& arguments, Session& session) {
     write_contact(session, surface.grid, state);
   }
   if (state.converged && session.has_plot()) session.plot(pressure_figure(surface.grid, state));
-  Json answer = Json::of(
-      "pressure", state.mean_pressure, "force", state.force, "contact_area_fraction",
-      state.contact_area_fraction, "mean_gap", state.mean_gap, "indentation", state.indentation,
-      "max_pressure", state.pressure.size() > 0 ? state.pressure.maxCoeff() : 0.0, "elastic_energy",
-      state.elastic_energy, "iterations", state.iterations, "fft_count", state.fft_count,
-      "residual", state.residual, "converged", state.converged, "seconds", elapsed.count());
+  Json answer = {{"pressure", state.mean_pressure},
+                 {"force", state.force},
+                 {"contact_area_fraction", state.contact_area_fraction},
+                 {"mean_gap", state.mean_gap},
+                 {"indentation", state.indentation},
+                 {"max_pressure", state.pressure.size() > 0 ? state.pressure.maxCoeff() : 0.0},
+                 {"elastic_energy", state.elastic_energy},
+                 {"iterations", state.iterations},
+                 {"fft_count", state.fft_count},
+                 {"residual", state.residual},
+                 {"converged", state.converged},
+                 {"seconds", elapsed.count()}};
   if (arguments.stiffness && state.converged)
     answer["normal_stiffness"] = normal_stiffness(state, surface.grid, contact_modulus, options);
   if (interrupted()) throw Interrupted("contact: interrupted; the stiffness was not computed");

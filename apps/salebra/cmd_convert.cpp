@@ -25,7 +25,7 @@ void run(ConvertArguments& arguments, Session& session) {
   require_output(arguments.to, session.write_options());
   if (arguments.surface.detrend.empty()) arguments.surface.detrend = "none";
   Surface surface = arguments.surface.read(session);
-  Json answer = Json::of("file", arguments.to);
+  Json answer = {{"file", arguments.to}};
   if (arguments.fill) {
     answer["filled_points"] = surface.undefined_points();
     surface = filled(std::move(surface));

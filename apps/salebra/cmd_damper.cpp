@@ -72,10 +72,13 @@ Json constants(const DamperMap& map) {
 }
 
 Json decay_of(const OscillatorDecay& decay) {
-  return Json::of("contact_stiffness", decay.contact_stiffness, "natural_frequency",
-                  decay.natural_frequency, "damping_ratio", decay.damping_ratio, "quality_factor",
-                  decay.quality_factor, "decay_time", decay.decay_time, "logarithmic_decrement",
-                  decay.logarithmic_decrement, "frequency_ratio", decay.frequency_ratio);
+  return Json{{"contact_stiffness", decay.contact_stiffness},
+              {"natural_frequency", decay.natural_frequency},
+              {"damping_ratio", decay.damping_ratio},
+              {"quality_factor", decay.quality_factor},
+              {"decay_time", decay.decay_time},
+              {"logarithmic_decrement", decay.logarithmic_decrement},
+              {"frequency_ratio", decay.frequency_ratio}};
 }
 
 // For people, a map is a row for each pair of amplitude and frequency: in one table with the list of amplitudes and that of
@@ -84,13 +87,13 @@ std::string text_of(const Json& answer, const DamperMap& map) {
   Json pairs = Json::array();
   for (std::size_t i = 0; i < map.normal_amplitude.size(); ++i)
     for (std::size_t j = 0; j < map.angular_frequency.size(); ++j)
-      pairs.push_back(Json::of("normal_amplitude", map.normal_amplitude[i], "angular_frequency",
-                               map.angular_frequency[j], "damping_constant",
-                               map.damping_constant(Index(i), Index(j))));
-  std::string text = to_text(Json::of("map", pairs));
+      pairs.push_back({{"normal_amplitude", map.normal_amplitude[i]},
+                       {"angular_frequency", map.angular_frequency[j]},
+                       {"damping_constant", map.damping_constant(Index(i), Index(j))}});
+  std::string text = to_text(Json{{"map", pairs}});
   if (answer.contains("stabilising_amplitude"))
-    text += "\n" + to_text(Json::of("angular_frequency", answer["angular_frequency"],
-                                    "stabilising_amplitude", answer["stabilising_amplitude"]));
+    text += "\n" + to_text(Json{{"angular_frequency", answer["angular_frequency"]},
+                                {"stabilising_amplitude", answer["stabilising_amplitude"]}});
   return text;
 }
 

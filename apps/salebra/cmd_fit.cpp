@@ -61,15 +61,16 @@ void run(const FitArguments& arguments, Session& session) {
                              })->second;
   const ExponentialFit fit = fit_exponential(curve, window, weights);
   const bool noisy = weights != FitWeights::spacing;
-  Json answer = Json::of("decay_length", fit.decay_length);
+  Json answer = {{"decay_length", fit.decay_length}};
   if (noisy) {
     answer["decay_length_low"] = fit.decay_length_low;
     answer["decay_length_high"] = fit.decay_length_high;
   }
   answer["reference_pressure"] = fit.reference_pressure;
   answer["r_squared"] = fit.r_squared;
-  answer["window"] = Json::of("pressure_min", fit.window.pressure_min, "pressure_max",
-                              fit.window.pressure_max, "points", fit.window.points);
+  answer["window"] = {{"pressure_min", fit.window.pressure_min},
+                      {"pressure_max", fit.window.pressure_max},
+                      {"points", fit.window.points}};
   answer["decay_length_over_rms_height"] = fit.decay_length_over_rms_height;
   Json by_weights = Json::object();
   for (const auto& [name, other] : weightings)
@@ -77,15 +78,16 @@ void run(const FitArguments& arguments, Session& session) {
   answer["weights"] = arguments.weights;
   answer["decay_length_by_weights"] = by_weights;
   const WindowSensitivity parts = window_sensitivity(curve, window, weights);
-  answer["window_sensitivity"] = Json::of("decay_length_min", parts.decay_length_min,
-                                          "decay_length_max", parts.decay_length_max);
+  answer["window_sensitivity"] = {{"decay_length_min", parts.decay_length_min},
+                                  {"decay_length_max", parts.decay_length_max}};
   std::string verdict = "Four samples in the window would be needed to test the law.\n";
   if (fit.window.points >= 4) {
     const ExponentialTest test = test_exponential(curve, window, weights);
     const LawDescription law =
         describe_law(fit.decay_length, test.decay_length_closest, test.decay_length_farthest);
-    answer["test"] = Json::of("fair", law.fair(), "decay_length_closest", test.decay_length_closest,
-                              "decay_length_farthest", test.decay_length_farthest);
+    answer["test"] = {{"fair", law.fair()},
+                      {"decay_length_closest", test.decay_length_closest},
+                      {"decay_length_farthest", test.decay_length_farthest}};
     if (noisy) answer["test"]["significance"] = test.significance;
     verdict = in_words(test, parts, law, noisy);
   }
@@ -93,7 +95,7 @@ void run(const FitArguments& arguments, Session& session) {
   // Too long for the answer in words, and not a part of the fit.
   Json complete = answer;
   const LocalDecayLength local = local_decay_length(curve);
-  complete["local"] = Json::of("mean_gap", local.mean_gap, "decay_length", local.decay_length);
+  complete["local"] = {{"mean_gap", local.mean_gap}, {"decay_length", local.decay_length}};
   if (session.has_plot()) session.plot(curve_figure(curve, fit));
   session.answer(complete, to_text(answer) + "\n" + verdict);
 }

@@ -110,10 +110,12 @@ void run(const FrictionArguments& arguments, Session& session) {
                                    sliding.size()));
 
   const SteadySliding& any = sliding.front();
-  Json object = Json::of("mean_force", any.mean_force, "critical_velocity", any.critical_velocity,
-                         "static_friction_coefficient", any.static_friction_coefficient,
-                         "low_speed_damping", any.low_speed_damping, "relaxation_damping",
-                         any.relaxation_damping, "velocity", arguments.velocities);
+  Json object = {{"mean_force", any.mean_force},
+                 {"critical_velocity", any.critical_velocity},
+                 {"static_friction_coefficient", any.static_friction_coefficient},
+                 {"low_speed_damping", any.low_speed_damping},
+                 {"relaxation_damping", any.relaxation_damping},
+                 {"velocity", arguments.velocities}};
   const auto column = [&](const char* name, double SteadySliding::*member) {
     Json& all = object[name] = Json::array();
     for (const SteadySliding& one : sliding) all.push_back(one.*member);

@@ -70,7 +70,7 @@ std::uint64_t seed_of(const std::string& text) {
 }
 
 Json rms_of(const SpectralMoments& moments) {
-  return Json::of("rms_height", moments.rms_height(), "rms_slope", moments.rms_slope());
+  return Json{{"rms_height", moments.rms_height()}, {"rms_slope", moments.rms_slope()}};
 }
 
 Json all_of(const SpectralMoments& moments) {
@@ -146,9 +146,10 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
           fmt::format("generate: the spectrum still changes after {} iterations; "
                       "raise --max-iterations",
                       made.iterations));
-    answer["distribution"] =
-        Json::of("name", distribution->name, "iterations", made.iterations, "spectrum_mismatch",
-                 made.spectrum_mismatch, "converged", made.converged);
+    answer["distribution"] = {{"name", distribution->name},
+                              {"iterations", made.iterations},
+                              {"spectrum_mismatch", made.spectrum_mismatch},
+                              {"converged", made.converged}};
     return std::move(made.surface);
   }
   if (method == "random-phase")
@@ -186,10 +187,13 @@ void make_profile(const GenerateArguments& arguments, Session& session) {
     line.heights(k, 0) = profile.heights[static_cast<std::size_t>(k)];
     x.push_back(static_cast<double>(k) * profile.dx());
   }
-  const Json answer = Json::of("points", points, "size_x", length, "seed", arguments.seed, "method",
-                               method, "target", rms_of(spectrum.moments()), "lattice",
-                               rms_of(spectrum.lattice_moments(points, length)), "realised",
-                               rms_of(spectral_moments(line)));
+  const Json answer = {{"points", points},
+                       {"size_x", length},
+                       {"seed", arguments.seed},
+                       {"method", method},
+                       {"target", rms_of(spectrum.moments())},
+                       {"lattice", rms_of(spectrum.lattice_moments(points, length))},
+                       {"realised", rms_of(spectral_moments(line))}};
   if (!session.has_output())
     session.note("no file was written; add --output FILE.csv, .json or .h5 to keep the profile");
   write_tables(session, "generate", answer,
@@ -206,7 +210,7 @@ void run(const GenerateArguments& arguments, Session& session) {
   if (arguments.profile) return make_profile(arguments, session);
   const Grid2D grid = grid_of(arguments);
   for (const std::string& line : doubts_of_cells(grid)) session.warn(line);
-  Json answer = Json::of("nx", grid.nx, "ny", grid.ny, "size_x", grid.lx, "size_y", grid.ly);
+  Json answer = {{"nx", grid.nx}, {"ny", grid.ny}, {"size_x", grid.lx}, {"size_y", grid.ly}};
   Surface surface;
   if (arguments.shape.given()) {
     surface = arguments.shape.surface(grid);

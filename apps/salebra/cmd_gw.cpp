@@ -33,11 +33,13 @@ struct Described {
 };
 
 Json to_json(const SummitEnsemble& ensemble) {
-  return Json::of(
-      "density", ensemble.density, "radius", ensemble.radius, "summit_rms", ensemble.summit_rms,
-      "mean_height", ensemble.mean_height, "distribution",
-      ensemble.distribution == SummitDistribution::gaussian ? "gaussian" : "exponential",
-      "rms_height", ensemble.rms_height);
+  return Json{{"density", ensemble.density},
+              {"radius", ensemble.radius},
+              {"summit_rms", ensemble.summit_rms},
+              {"mean_height", ensemble.mean_height},
+              {"distribution",
+               ensemble.distribution == SummitDistribution::gaussian ? "gaussian" : "exponential"},
+              {"rms_height", ensemble.rms_height}};
 }
 
 Described of_surface(const GwArguments& arguments, const Material& material, Session& session) {
@@ -97,7 +99,7 @@ void run(const GwArguments& arguments, Session& session) {
   if (session.has_output())
     write_force_curve(session.output(), curve, session.provenance(), session.write_options());
   if (session.has_plot()) session.plot(curve_figure(curve));
-  session.answer(Json::of("parameters", described.parameters, "curve", cli::to_json(curve)));
+  session.answer(Json{{"parameters", described.parameters}, {"curve", cli::to_json(curve)}});
 }
 
 }  // namespace

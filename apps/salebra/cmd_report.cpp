@@ -27,7 +27,7 @@ void run(const ReportArguments& arguments, Session& session) {
                {.write = session.write_options(),
                 .title = arguments.title,
                 .direct = {arguments.direct.begin(), arguments.direct.end()}});
-  session.answer(Json::of("file", page.string()), fmt::format("report: {}\n", page.string()));
+  session.answer(Json{{"file", page.string()}}, fmt::format("report: {}\n", page.string()));
 }
 
 }  // namespace

@@ -91,21 +91,22 @@ std::vector<ResultTable> height_tables(const Surface& surface) {
 }
 
 Json areal_json(const ArealParameters& p) {
-  return Json::of("Sa", p.Sa, "Sq", p.Sq, "Ssk", p.Ssk, "Sku", p.Sku, "Sp", p.Sp, "Sv", p.Sv, "Sz",
-                  p.Sz, "Sal", p.Sal, "Str", p.Str, "Std", p.Std, "Sdq", p.Sdq, "Sdr", p.Sdr, "Sk",
-                  p.Sk, "Spk", p.Spk, "Svk", p.Svk, "Smr1", p.Smr1, "Smr2", p.Smr2, "Spd", p.Spd,
-                  "Spc", p.Spc);
+  return Json{{"Sa", p.Sa},     {"Sq", p.Sq},     {"Ssk", p.Ssk}, {"Sku", p.Sku}, {"Sp", p.Sp},
+              {"Sv", p.Sv},     {"Sz", p.Sz},     {"Sal", p.Sal}, {"Str", p.Str}, {"Std", p.Std},
+              {"Sdq", p.Sdq},   {"Sdr", p.Sdr},   {"Sk", p.Sk},   {"Spk", p.Spk}, {"Svk", p.Svk},
+              {"Smr1", p.Smr1}, {"Smr2", p.Smr2}, {"Spd", p.Spd}, {"Spc", p.Spc}};
 }
 
 Json moments_json(const SpectralMoments& moments) {
-  return Json::of("rms_height", moments.rms_height(), "rms_slope", moments.rms_slope(), "moment0",
-                  moments.moment0, "moment2", moments.moment2(), "moment4", moments.moment4(),
-                  "nayak", moments.nayak());
+  return Json{{"rms_height", moments.rms_height()}, {"rms_slope", moments.rms_slope()},
+              {"moment0", moments.moment0},         {"moment2", moments.moment2()},
+              {"moment4", moments.moment4()},       {"nayak", moments.nayak()}};
 }
 
 Json interval_json(const IntervalEstimate& estimate) {
-  return Json::of("wavelength", estimate.value, "wavelength_low", estimate.low, "wavelength_high",
-                  estimate.high);
+  return Json{{"wavelength", estimate.value},
+              {"wavelength_low", estimate.low},
+              {"wavelength_high", estimate.high}};
 }
 
 const std::vector<std::string> spectrum_tables{"psd", "profile_psd_x", "profile_psd_y"};
@@ -120,23 +121,29 @@ void run(const StatisticsArguments& arguments, Session& session) {
 
   const Surface surface = arguments.surface.read(session);
   const Index undefined = surface.undefined_points();
-  Json answer =
-      Json::of("nx", surface.grid.nx, "ny", surface.grid.ny, "size_x", surface.grid.lx, "size_y",
-               surface.grid.ly, "periodic", surface.periodic, "undefined_points", undefined,
-               "filled_points", arguments.fill ? undefined : 0, "filter", "none", "areal",
-               areal_json(areal_parameters(surface)), "differences",
-               moments_json(difference_moments(surface)));
+  Json answer = {{"nx", surface.grid.nx},
+                 {"ny", surface.grid.ny},
+                 {"size_x", surface.grid.lx},
+                 {"size_y", surface.grid.ly},
+                 {"periodic", surface.periodic},
+                 {"undefined_points", undefined},
+                 {"filled_points", arguments.fill ? undefined : 0},
+                 {"filter", "none"},
+                 {"areal", areal_json(areal_parameters(surface))},
+                 {"differences", moments_json(difference_moments(surface))}};
   if (surface.periodic && undefined == 0)
     answer["spectral"] = moments_json(spectral_moments(surface));
   const SummitStatistics summits = summit_statistics(find_summits(surface));
-  answer["summits"] =
-      Json::of("density", summits.density, "mean_height", summits.mean_height, "rms_height",
-               summits.rms_height, "mean_radius", summits.mean_radius);
+  answer["summits"] = {{"density", summits.density},
+                       {"mean_height", summits.mean_height},
+                       {"rms_height", summits.rms_height},
+                       {"mean_radius", summits.mean_radius}};
   const ReliabilityLimit limit = short_wavelength_limit(
       surface, {.tip_radius = arguments.tip_radius, .resolution = arguments.resolution});
-  answer["reliability"] =
-      Json::of("pixel_limit", limit.pixel, "tip_limit", limit.tip.value_or(none), "resolution",
-               limit.resolution.value_or(none), "wavelength", limit.wavelength());
+  answer["reliability"] = {{"pixel_limit", limit.pixel},
+                           {"tip_limit", limit.tip.value_or(none)},
+                           {"resolution", limit.resolution.value_or(none)},
+                           {"wavelength", limit.wavelength()}};
 
   std::vector<ResultTable> tables;
   std::optional<PowerSpectrum> spectrum;
@@ -165,8 +172,7 @@ void run(const StatisticsArguments& arguments, Session& session) {
         "{} undefined points: no power spectrum; --fill fills them by the smoothest surface",
         undefined));
   }
-  answer["hurst"] =
-      Json::of("value", fit.hurst.value, "low", fit.hurst.low, "high", fit.hurst.high);
+  answer["hurst"] = {{"value", fit.hurst.value}, {"low", fit.hurst.low}, {"high", fit.hurst.high}};
   answer["rolloff"] = interval_json(fit.rolloff);
   answer["short_cutoff"] = interval_json(fit.short_cutoff);
   const CorrelationMap map = correlation_map(surface);

@@ -21,9 +21,9 @@ namespace {
 Json study_json(const StudyResult& result, const StudyPremises& premises, const StudyFiles& files) {
   Json comparison;
   for (const StudyModel& model : result.models()) {
-    comparison[model.name] = Json::of("decay_length", to_json(result.decay_length(model.id)),
-                                      "decay_length_over_rms_height",
-                                      to_json(result.decay_length_over_rms_height(model.id)));
+    comparison[model.name] = {
+        {"decay_length", to_json(result.decay_length(model.id))},
+        {"decay_length_over_rms_height", to_json(result.decay_length_over_rms_height(model.id))}};
   }
   Json damping =
       columns_json<DampingPoint>([&](const auto& number) { return result.damping(number); });
@@ -34,11 +34,13 @@ Json study_json(const StudyResult& result, const StudyPremises& premises, const 
   damping.erase("damping_constant_error");
   damping["damping_constant"] = to_json(result.stated_damping());
   damping["damping_constant_eq16"]["error"] = std::vector<Json>(forces.size());
-  Json answer =
-      Json::of("decay_length", to_json(result.decay_length()), "decay_length_over_rms_height",
-               to_json(result.decay_length_over_rms_height()), "damping", damping, "comparison",
-               comparison, "realisations", result.realisations.size(), "flags", flags_json(result),
-               "files", files.json());
+  Json answer = {{"decay_length", to_json(result.decay_length())},
+                 {"decay_length_over_rms_height", to_json(result.decay_length_over_rms_height())},
+                 {"damping", damping},
+                 {"comparison", comparison},
+                 {"realisations", result.realisations.size()},
+                 {"flags", flags_json(result)},
+                 {"files", files.json()}};
   add_premises(answer, premises);
   return answer;
 }
@@ -171,7 +173,7 @@ void run(const StudyArguments& arguments, Session& session) {
       points.push_back(std::move(point));
       text += "== " + name + " ==\n" + study_text(result, premises, {}) + "\n";
     }
-    session.answer(Json::of("points", points, "files", files.json()), text + files.text());
+    session.answer(Json{{"points", points}, {"files", files.json()}}, text + files.text());
   }
   report.require_written();
   if (std::ranges::any_of(results, &StudyResult::interrupted))

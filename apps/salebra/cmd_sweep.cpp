@@ -50,7 +50,7 @@ void run(const SweepArguments& arguments, Session& session) {
   if (session.has_output())
     write_force_curve(session.output(), curve, session.provenance(), session.write_options());
   if (session.has_plot()) session.plot(curve_figure(curve));
-  session.answer(Json::of("curve", to_json(curve)));
+  session.answer(Json{{"curve", to_json(curve)}});
   const auto lost = std::ranges::count(curve.samples, false, &ForceSample::converged);
   if (lost > 0) {
     throw NotConverged(

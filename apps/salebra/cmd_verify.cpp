@@ -19,8 +19,11 @@ void run(Session& session) {
   Json list = Json::array();
   std::vector<std::vector<std::string>> rows{{"check", "value", "expected", "tolerance", "result"}};
   for (const Check& check : checks) {
-    list.push_back(Json::of("name", check.name, "value", check.value, "expected", check.expected,
-                            "tolerance", check.tolerance, "passed", check.passed()));
+    list.push_back({{"name", check.name},
+                    {"value", check.value},
+                    {"expected", check.expected},
+                    {"tolerance", check.tolerance},
+                    {"passed", check.passed()}});
     rows.push_back({check.name, fmt::format("{:.12g}", check.value),
                     fmt::format("{:.12g}", check.expected), fmt::format("{:.0e}", check.tolerance),
                     check.passed() ? "passed" : "FAILED"});
@@ -28,7 +31,7 @@ void run(Session& session) {
   const auto failed =
       std::ranges::count_if(checks, [](const Check& check) { return !check.passed(); });
   session.answer(
-      Json::of("checks", std::move(list)),
+      Json{{"checks", std::move(list)}},
       to_table(rows, 0, true) + fmt::format("{} of {} checks passed\n",
                                             checks.size() - std::size_t(failed), checks.size()));
   if (failed > 0)

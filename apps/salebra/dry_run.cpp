@@ -57,13 +57,22 @@ std::string describe_levels(const StudyConfiguration& configuration, const Study
 Json to_json(const StudyCost& cost, const std::string& file) {
   Json points = Json::array();
   for (const PointCost& point : cost.points)
-    points.push_back(Json::of("surfaces", point.surfaces, "nx", point.grid.nx, "ny", point.grid.ny,
-                              "pressure", point.pressures, "levels", point.levels,
-                              "seconds_of_one_thread", point.seconds, "warnings", point.warnings));
-  return Json::of("dry_run", true, "points", points, "surfaces", cost.surfaces(), "contacts",
-                  cost.contacts(), "threads", cost.threads, "seconds", cost.seconds, "memory_bytes",
-                  cost.memory, "available_memory_bytes", cost.available, "files",
-                  Json::of("results", file.empty() ? Json() : Json(file)));
+    points.push_back({{"surfaces", point.surfaces},
+                      {"nx", point.grid.nx},
+                      {"ny", point.grid.ny},
+                      {"pressure", point.pressures},
+                      {"levels", point.levels},
+                      {"seconds_of_one_thread", point.seconds},
+                      {"warnings", point.warnings}});
+  return Json{{"dry_run", true},
+              {"points", points},
+              {"surfaces", cost.surfaces()},
+              {"contacts", cost.contacts()},
+              {"threads", cost.threads},
+              {"seconds", cost.seconds},
+              {"memory_bytes", cost.memory},
+              {"available_memory_bytes", cost.available},
+              {"files", {{"results", file.empty() ? Json() : Json(file)}}}};
 }
 
 }  // namespace

@@ -177,10 +177,12 @@ Json to_json(const OscillationOutcome& outcome) {
   if (outcome.choice) {
     object["error_reached"] = outcome.choice->reached;
     for (const QuadratureTrial& trial : outcome.choice->trials)
-      object["trials"].push_back(Json::of("nx", trial.grid.nx, "ny", trial.grid.ny, "levels",
-                                          trial.levels, "work_per_cycle", trial.work_per_cycle,
-                                          "stiffness_ratio", trial.stiffness_ratio,
-                                          "error_estimate", trial.error_estimate));
+      object["trials"].push_back({{"nx", trial.grid.nx},
+                                  {"ny", trial.grid.ny},
+                                  {"levels", trial.levels},
+                                  {"work_per_cycle", trial.work_per_cycle},
+                                  {"stiffness_ratio", trial.stiffness_ratio},
+                                  {"error_estimate", trial.error_estimate}});
   }
   if (outcome.cycle) {
     const CycleResult& cycle = *outcome.cycle;

@@ -145,10 +145,10 @@ void PremiseReport::add_to(Json& answer) const {
         return p.largest.empty() ? ContactFacts::unknown : p.largest[i].*member;
       });
     };
-    largest.push_back(Json::of("friction_coefficient", judged[i].friction_coefficient,
-                               "drag_velocity", of(&LargestMotion::drag_velocity),
-                               "tangential_amplitude", of(&LargestMotion::tangential_amplitude),
-                               "excursion", of(&LargestMotion::excursion)));
+    largest.push_back({{"friction_coefficient", judged[i].friction_coefficient},
+                       {"drag_velocity", of(&LargestMotion::drag_velocity)},
+                       {"tangential_amplitude", of(&LargestMotion::tangential_amplitude)},
+                       {"excursion", of(&LargestMotion::excursion)}});
   }
 }
 

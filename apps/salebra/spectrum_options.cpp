@@ -148,8 +148,10 @@ Json SpectrumOptions::anisotropy() const {
   const Anisotropy stretch{.along = stretch_along.value_or(1),
                            .across = stretch_across.value_or(1),
                            .angle = lay_angle.value_or(0)};
-  Json object = Json::of("stretch_along", stretch.along, "stretch_across", stretch.across,
-                         "lay_angle", stretch.angle, "peklenik", stretch.peklenik());
+  Json object = {{"stretch_along", stretch.along},
+                 {"stretch_across", stretch.across},
+                 {"lay_angle", stretch.angle},
+                 {"peklenik", stretch.peklenik()}};
   if (correlation_length) {
     object["correlation_length_along"] = stretch.along * *correlation_length;
     object["correlation_length_across"] = stretch.across * *correlation_length;

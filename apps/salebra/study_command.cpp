@@ -179,8 +179,8 @@ StudyConfiguration StudyArguments::study() const {
 }
 
 Json StudyFiles::json() const {
-  return Json::of("results", results.empty() ? Json() : Json(results), "report",
-                  report.empty() ? Json() : Json(report));
+  return Json{{"results", results.empty() ? Json() : Json(results)},
+              {"report", report.empty() ? Json() : Json(report)}};
 }
 
 std::string StudyFiles::text() const {
@@ -197,7 +197,7 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, b
   if (resume && is_result_of(session.output(), configuration)) {
     StudyParts(folder, true).discard();
     const StudyFiles files{session.output().string(), page.complete()};
-    session.answer(Json::of("files", files.json()),
+    session.answer(Json{{"files", files.json()}},
                    fmt::format("results: {}, complete already\n", files.results) +
                        StudyFiles{"", files.report}.text());
     page.require_written();
@@ -270,7 +270,7 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, b
 }
 
 Json to_json(const EnsembleMean& estimate) {
-  return Json::of("mean", estimate.mean, "low", estimate.low, "high", estimate.high);
+  return Json{{"mean", estimate.mean}, {"low", estimate.low}, {"high", estimate.high}};
 }
 
 Json to_json(const std::vector<EnsembleMean>& estimates) {
@@ -280,7 +280,7 @@ Json to_json(const std::vector<EnsembleMean>& estimates) {
     low.push_back(estimate.low);
     high.push_back(estimate.high);
   }
-  return Json::of("mean", mean, "low", low, "high", high);
+  return Json{{"mean", mean}, {"low", low}, {"high", high}};
 }
 
 Json to_json(const std::vector<StatedMean>& estimates) {
@@ -421,10 +421,10 @@ void add_premises(Json& answer, const StudyPremises& found) {
     for (const LossWithSlip& loss : found.losses) values.push_back(loss.*member);
     return values;
   };
-  answer["with_slip"] = Json::of("work_per_cycle", column(&LossWithSlip::work_per_cycle),
-                                 "relaxation_work", column(&LossWithSlip::relaxation_work),
-                                 "slip_work", column(&LossWithSlip::slip_work), "damping_constant",
-                                 found.damping_constant_with_slip);
+  answer["with_slip"] = {{"work_per_cycle", column(&LossWithSlip::work_per_cycle)},
+                         {"relaxation_work", column(&LossWithSlip::relaxation_work)},
+                         {"slip_work", column(&LossWithSlip::slip_work)},
+                         {"damping_constant", found.damping_constant_with_slip}};
 }
 
 }  // namespace salebra::cli

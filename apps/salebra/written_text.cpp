@@ -7,9 +7,9 @@
 namespace salebra::cli {
 
 void answer_text(const std::string& text, Session& session) {
-  if (!session.has_output()) return session.answer(Json::of("text", text), text);
+  if (!session.has_output()) return session.answer(Json{{"text", text}}, text);
   write_text_file(session.output(), text, session.write_options());
-  session.answer(Json::of("file", session.output().string()), "");
+  session.answer(Json{{"file", session.output().string()}}, "");
 }
 
 }  // namespace salebra::cli

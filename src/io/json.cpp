@@ -49,6 +49,10 @@ nlohmann::ordered_json converted(const Value& value) {
 
 }  // namespace
 
+Json::Json(std::initializer_list<std::pair<std::string_view, Json>> members) {
+  for (const auto& [key, value] : members) (*this)[key] = value;
+}
+
 Json Json::array() {
   Json value;
   value.value_ = Array();

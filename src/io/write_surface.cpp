@@ -106,11 +106,17 @@ void append_number(std::string& text, double value) {
 }
 
 Json description_of(const Surface& surface, const Provenance& provenance) {
-  Json description = Json::of(
-      "size_x", surface.grid.lx, "size_y", surface.grid.ly, "periodic", surface.periodic, "units",
-      "m", "origin", surface.origin, "program", "salebra", "version", version(), "libraries",
-      library_versions(), "created", provenance.created.empty() ? utc_now() : provenance.created,
-      "command_line", provenance.command_line, "configuration", provenance.configuration);
+  Json description = {{"size_x", surface.grid.lx},
+                      {"size_y", surface.grid.ly},
+                      {"periodic", surface.periodic},
+                      {"units", "m"},
+                      {"origin", surface.origin},
+                      {"program", "salebra"},
+                      {"version", version()},
+                      {"libraries", library_versions()},
+                      {"created", provenance.created.empty() ? utc_now() : provenance.created},
+                      {"command_line", provenance.command_line},
+                      {"configuration", provenance.configuration}};
   if (provenance.seed) description["seed"] = *provenance.seed;
   return description;
 }

@@ -79,7 +79,7 @@ class Point {
     json["pressure"] = list(pressures_);
     json["models"] = Json::array();
     for (const std::string& model : models_)
-      json["models"].push_back(Json::of("name", model, "title", title(model)));
+      json["models"].push_back({{"name", model}, {"title", title(model)}});
     add(json, "surface", surface());
     add(json, "picture", picture(map_side));
     add(json, "curve",
@@ -182,9 +182,12 @@ class Point {
       if (!values) continue;
       const Quantity quantity = find_quantity(name);
       const EnsembleMean mean = bootstrap_.mean(*values);
-      statistics.push_back(Json::of("name", name, "title", quantity.long_name, "unit",
-                                    si_unit(quantity.dimension), "mean", number(mean.mean), "low",
-                                    number(mean.low), "high", number(mean.high)));
+      statistics.push_back({{"name", name},
+                            {"title", quantity.long_name},
+                            {"unit", si_unit(quantity.dimension)},
+                            {"mean", number(mean.mean)},
+                            {"low", number(mean.low)},
+                            {"high", number(mean.high)}});
     }
     return json;
   }
@@ -413,8 +416,9 @@ void add_direct(Json& payload, const ResultReader& oscillation) {
     break;
   }
   damping["direct"].push_back(
-      Json::of("file", oscillation.file().filename().string(), "force", number(mean_force),
-               "work_per_cycle", number(*oscillation.number_attribute(group, "work_per_cycle"))));
+      {{"file", oscillation.file().filename().string()},
+       {"force", number(mean_force)},
+       {"work_per_cycle", number(*oscillation.number_attribute(group, "work_per_cycle"))}});
 }
 
 }  // namespace salebra::detail

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copies of values whose memory fails at each allocation in turn: each throws std::bad_alloc and leaves nothing half-made.
-#include "io/hdf5_document.hpp"
-
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <new>
 #include <salebra/io/json.hpp>
+
+#include "io/hdf5_document.hpp"
 
 using salebra::Json;
 
@@ -14,7 +14,8 @@ constexpr long never = -1;
 long allocations_left = never;
 }  // namespace
 
-void* operator new(std::size_t bytes) {
+// Not inlined: GCC would take free() of what came from new for a mistake.
+[[gnu::noinline]] void* operator new(std::size_t bytes) {
   if (allocations_left != never && allocations_left-- == 0) {
     allocations_left = never;
     throw std::bad_alloc();
@@ -22,8 +23,8 @@ void* operator new(std::size_t bytes) {
   if (void* memory = std::malloc(bytes == 0 ? 1 : bytes)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
@@ -49,7 +50,7 @@ const std::string long_text = "a text that does not fit into the object of a str
 
 TEST_CASE("A JSON value is copied or the copy throws", "[json]") {
   const Json text(long_text), numbers(std::vector<double>{1, 2, 3});
-  const Json nested = Json::of("a key beyond short strings", Json::of(long_text, text, "n", numbers));
+  const Json nested = {{"a key beyond short strings", {{long_text, text}, {"n", numbers}}}};
   CHECK(failures_before([&] { const Json copy = text; }) == 1);     // the characters
   CHECK(failures_before([&] { const Json copy = numbers; }) == 1);  // the array
   // Two objects, two keys, the text, the array.

@@ -8,11 +8,11 @@
 
 using salebra::Json;
 
-TEST_CASE("Keys and values in turn make an object", "[json]") {
-  CHECK(Json::of("area", 0.5, "unit", "m^2").dump() == R"({"area":0.5,"unit":"m^2"})");
-  CHECK(Json::of("only", Json::of("a", 1)).dump() == R"({"only":{"a":1}})");
+TEST_CASE("Pairs of key and value make an object", "[json]") {
+  CHECK(Json{{"area", 0.5}, {"unit", "m^2"}}.dump() == R"({"area":0.5,"unit":"m^2"})");
+  CHECK(Json{{"only", {{"a", 1}}}}.dump() == R"({"only":{"a":1}})");
   CHECK(Json(std::vector<Json>{1, "two", nullptr, true}).dump() == R"([1,"two",null,true])");
-  CHECK(Json::of("counts", std::vector<int>{1, 2, 3}).dump() == R"({"counts":[1,2,3]})");
+  CHECK(Json{{"counts", std::vector<int>{1, 2, 3}}}.dump() == R"({"counts":[1,2,3]})");
   CHECK(Json(std::vector<double>{0.1, 1e-9}).dump() == "[0.1,1e-09]");
   CHECK(Json::array().dump() == "[]");
   CHECK(Json::object().dump() == "{}");
@@ -22,7 +22,7 @@ TEST_CASE("Members keep the order in which they came, and null becomes what it i
           "[json]") {
   Json object;
   object["z"]["inner"] = 1;
-  object["a"].push_back(Json::of("name", "x"));
+  object["a"].push_back({{"name", "x"}});
   object["z"]["second"] = -2;
   CHECK(object.dump() == R"({"z":{"inner":1,"second":-2},"a":[{"name":"x"}]})");
   CHECK(object.contains("a"));
@@ -38,7 +38,7 @@ TEST_CASE("Numbers come back with all their bits; what is not finite is null", "
   const double third = 1.0 / 3.0, least = std::numeric_limits<double>::denorm_min();
   const std::uint64_t seed = std::numeric_limits<std::uint64_t>::max();
   const auto back = nlohmann::json::parse(
-      Json::of("third", third, "least", least, "seed", seed, "nan", std::nan("")).dump(2));
+      Json{{"third", third}, {"least", least}, {"seed", seed}, {"nan", std::nan("")}}.dump(2));
   CHECK(back["third"].get<double>() == third);
   CHECK(back["least"].get<double>() == least);
   CHECK(back["seed"].get<std::uint64_t>() == seed);
@@ -47,6 +47,6 @@ TEST_CASE("Numbers come back with all their bits; what is not finite is null", "
 }
 
 TEST_CASE("A file's name that is not UTF-8 gives valid JSON", "[json]") {
-  const auto back = nlohmann::json::parse(Json::of("file", "scan\xff.txt").dump());
+  const auto back = nlohmann::json::parse(Json{{"file", "scan\xff.txt"}}.dump());
   CHECK(back["file"] == "scan\xef\xbf\xbd.txt");
 }

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,8 +14,8 @@
 namespace salebra {
 
 /// A JSON value to write: null, truth, number, text, array, or object whose members keep the order in which they came.
-///   Json answer = Json::of("area", 0.1, "spots", spots);   // keys and values in turn
-///   answer["unit"] = "m^2";                                // null becomes an object, by push_back an array
+///   Json answer{{"area", 0.1}, {"spots", spots}};   // members; arrays come from std::vector
+///   answer["unit"] = "m^2";                         // null becomes an object, by push_back an array
 /// throws    std::logic_error where a value is not of the kind that is asked for
 class Json {
  public:
@@ -46,16 +47,11 @@ class Json {
   Json(std::string text) : value_(std::move(text)) {}
   template <class T>
   Json(const std::vector<T>& values) : value_(Array(values.begin(), values.end())) {}
+  /// An object; of two members with one key the last counts.
+  Json(std::initializer_list<std::pair<std::string_view, Json>> members);
   /// Empty ones.
   static Json array();
   static Json object();
-  /// An object of keys and values in turn.
-  template <class... Rest>
-  static Json of(std::string_view key, Json value, Rest&&... rest) {
-    Json made = object();
-    made.add(key, std::move(value), std::forward<Rest>(rest)...);
-    return made;
-  }
 
   bool is_null() const { return std::holds_alternative<Null>(value_); }
   bool is_boolean() const { return std::holds_alternative<bool>(value_); }
@@ -101,18 +97,11 @@ class Json {
   /// is not finite becomes null.
   std::string dump(int indent = -1) const;
 
-  using Value = std::variant<Null, bool, std::int64_t, std::uint64_t, double, std::string,
-                             Array, Object>;
+  using Value =
+      std::variant<Null, bool, std::int64_t, std::uint64_t, double, std::string, Array, Object>;
   const Value& value() const { return value_; }
 
  private:
-  void add() {}
-  template <class... Rest>
-  void add(std::string_view key, Json value, Rest&&... rest) {
-    (*this)[key] = std::move(value);
-    add(std::forward<Rest>(rest)...);
-  }
-
   Value value_;
 };
 
