@@ -34,7 +34,7 @@ for name, title in (("rms_height", "rms height"), ("rms_slope", "rms slope"), ("
 # 4. Its summits, beside Nayak's density for a Gaussian surface of these moments, m4/(6√3 π m2).
 summits = salebra.summit_statistics(salebra.find_summits(surface))
 nayak_density = realised.moment4 / (6 * math.sqrt(3) * math.pi * realised.moment2)
-print(f"{'summit density':22} {summits.density * 1e-6:.4g} per mm², Nayak: {nayak_density * 1e-6:.4g}")
+print(f"{'summit density':22} {summits.summit_density * 1e-6:.4g} per mm², Nayak: {nayak_density * 1e-6:.4g}")
 print(f"{'mean summit radius':22} {format_quantity(summits.mean_radius, 'mean_radius')}")
 
 print(f"realised/lattice rms height = {realised.rms_height / expected.lattice.rms_height:.9f}")

@@ -35,7 +35,7 @@ print(f"contact area fraction {state.contact_area_fraction:.4f}, Persson {persso
 print(f"solver                {state.iterations} iterations, residual {state.residual:.1e}")
 
 # 4. The fields are NumPy arrays, [ix, iy], and views: nothing is copied.
-print(f"largest pressure      {format_quantity(state.pressure.max(), 'pressure')}")
+print(f"largest pressure      {format_quantity(state.contact_pressure.max(), 'pressure')}")
 
 # 5. The mean gap that the pressure gave, given back, must return that pressure.
 back = salebra.press_to_mean_gap(surface, contact_modulus, state.mean_gap)

@@ -38,7 +38,7 @@ for level in profile.image((np.arange(springs) + 0.5) * width) - indentation:
         by_springs += 2 * closed_form.spring_energy(material.tangential_modulus, released, width)
 
 # 4. Eq. (12) knows only F'' at the mean indentation; the theorem knows the whole law.
-small = closed_form.work_per_cycle(material.modulus_ratio, law.curvature(indentation), motion)
+small = closed_form.work_per_cycle(material.modulus_ratio, law.force_curvature(indentation), motion)
 exact = salebra.relaxation_damping(law, motion, indentation=indentation)
 if not exact.converged:
     sys.exit(1)

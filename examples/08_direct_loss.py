@@ -32,7 +32,7 @@ if not cycle.converged:
 # 4. The same loss from the law of the paraboloid alone, and from Eq. (12).
 law = salebra.IndenterLaw(salebra.paraboloid_profile(radius), material)
 exact = salebra.relaxation_damping(law, motion, indentation=indentation).work_per_cycle
-small = closed_form.work_per_cycle(material.modulus_ratio, law.curvature(indentation), motion)
+small = closed_form.work_per_cycle(material.modulus_ratio, law.force_curvature(indentation), motion)
 print(f"contact area          {cycle.contact_area_min * 1e6:.4g} … {cycle.contact_area_max * 1e6:.4g} mm²")
 print(f"work of F_x           {cycle.work_per_cycle:.5e} J")
 print(f"energy dissipated     {cycle.dissipated:.5e} J")

@@ -60,10 +60,10 @@ bool reaches_edge(const Field& pressure) {
 
 void write_contact(const Session& session, const Grid2D& grid, const NormalContactState& state) {
   ResultFile file(session.output(), session.provenance(), session.write_options());
-  ResultGroup group = file.group("contact");
+  QuantityGroup group(file.group("contact"));
   write_axes(group, grid);
-  group.dataset("contact_pressure", state.pressure, "x", "y", "Pa", "contact pressure");
-  group.dataset("gap", state.gap, "x", "y", "m", "gap of the deformed surfaces");
+  group.dataset("contact_pressure", state.pressure);
+  group.dataset("gap", state.gap);
   group.attribute("pressure", state.mean_pressure);
   group.attribute("force", state.force);
   group.attribute("mean_gap", state.mean_gap);

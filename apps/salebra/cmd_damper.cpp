@@ -41,20 +41,18 @@ std::vector<double> angular_frequencies(const DamperArguments& arguments) {
 void write_map(const DamperMap& map, const std::optional<double>& falling_slope,
                const Session& session) {
   ResultFile file(session.output(), session.provenance(), session.write_options());
-  ResultGroup group = file.group("damper");
-  group.coordinate("normal_amplitude", map.normal_amplitude, "m",
-                   "amplitude of the normal oscillation");
-  group.coordinate("angular_frequency", map.angular_frequency, "rad/s", "angular frequency");
-  group.dataset("damping_constant", map.damping_constant, "normal_amplitude", "angular_frequency",
-                "N s/m", "damping constant P/v^2");
+  QuantityGroup group(file.group("damper"));
+  group.coordinate("normal_amplitude", map.normal_amplitude);
+  group.coordinate("angular_frequency", map.angular_frequency);
+  group.dataset("damping_constant", map.damping_constant, "normal_amplitude", "angular_frequency");
   if (falling_slope) {
     std::vector<bool> stable;
     for (Index i = 0; i < map.damping_constant.rows(); ++i)
       for (Index j = 0; j < map.damping_constant.cols(); ++j)
         stable.push_back(map.damping_constant(i, j) >= *falling_slope);
-    group.flags("stable", stable, {"normal_amplitude", "angular_frequency"},
-                "steady sliding is stable");
-    group.scalar("falling_slope", *falling_slope, "N s/m", "decrease of friction with velocity");
+    group.plain().flags("stable", stable, {"normal_amplitude", "angular_frequency"},
+                        "steady sliding is stable");
+    group.scalar("falling_slope", *falling_slope);
   }
   file.commit();
 }

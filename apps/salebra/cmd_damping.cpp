@@ -124,7 +124,7 @@ void follow_motion(const DampingArguments& arguments, const LawOptions::Contact&
   Json object;
   add_losses(object, loss);
   object["full_stick_work"] = full_stick.work_per_cycle;
-  object["curvature"] = full_stick.curvature;
+  object["force_curvature"] = full_stick.curvature;
   object["force"] = full_stick.force;
   object["indentation"] = full_stick.indentation;
   const PremiseReport premises{{premises_of_case(
@@ -218,7 +218,7 @@ void run(const DampingArguments& arguments, Session& session) {
   object["work_per_cycle"] = quantity_of(&DampingResult::work_per_cycle);
   object["power"] = quantity_of(&DampingResult::power);
   object["damping_constant"] = quantity_of(&DampingResult::damping_constant);
-  object["curvature"] = quantity_of(&DampingResult::curvature);
+  object["force_curvature"] = quantity_of(&DampingResult::curvature);
   if (quantity != "force") object["force"] = quantity_of(&DampingResult::force);
   object["mean_force"] = quantity_of(&DampingResult::mean_force);
   if (quantity != "indentation") object["indentation"] = quantity_of(&DampingResult::indentation);

@@ -95,7 +95,7 @@ void run(const FitArguments& arguments, Session& session) {
   // Too long for the answer in words, and not a part of the fit.
   Json complete = answer;
   const LocalDecayLength local = local_decay_length(curve);
-  complete["local"] = {{"mean_gap", local.mean_gap}, {"decay_length", local.decay_length}};
+  complete["local"] = {{"mean_gap", local.mean_gap}, {"local_decay_length", local.decay_length}};
   if (session.has_plot()) session.plot(curve_figure(curve, fit));
   session.answer(complete, to_text(answer) + "\n" + verdict);
 }

@@ -21,7 +21,7 @@ struct GwArguments {
   SurfaceOptions surface;
   MaterialOptions material;
   std::string summits = "moments";
-  std::optional<double> density, radius, summit_rms;
+  std::optional<double> summit_density, radius, summit_rms;
   std::string distribution = "gaussian";
   std::vector<double> separations, pressures;
 };
@@ -33,7 +33,7 @@ struct Described {
 };
 
 Json to_json(const SummitEnsemble& ensemble) {
-  return Json{{"density", ensemble.density},
+  return Json{{"summit_density", ensemble.density},
               {"radius", ensemble.radius},
               {"summit_rms", ensemble.summit_rms},
               {"mean_height", ensemble.mean_height},
@@ -43,9 +43,10 @@ Json to_json(const SummitEnsemble& ensemble) {
 }
 
 Described of_surface(const GwArguments& arguments, const Material& material, Session& session) {
-  for (const auto& [option, given] : {std::pair{"--density", arguments.density.has_value()},
-                                      {"--radius", arguments.radius.has_value()},
-                                      {"--summit-rms", arguments.summit_rms.has_value()}})
+  for (const auto& [option, given] :
+       {std::pair{"--summit-density", arguments.summit_density.has_value()},
+        {"--radius", arguments.radius.has_value()},
+        {"--summit-rms", arguments.summit_rms.has_value()}})
     require(!given, option, "given",
             "beside a surface, which has its own summits; leave out one of them");
   const Surface surface = arguments.surface.read(session);
@@ -71,7 +72,7 @@ Described of_surface(const GwArguments& arguments, const Material& material, Ses
 Described of_parameters(const GwArguments& arguments, const Material& material) {
   constexpr std::string_view reason = "there is no SURFACE to take it from";
   SummitEnsemble ensemble;
-  ensemble.density = required(arguments.density, "--density", reason);
+  ensemble.density = required(arguments.summit_density, "--summit-density", reason);
   ensemble.radius = required(arguments.radius, "--radius", reason);
   ensemble.summit_rms = required(arguments.summit_rms, "--summit-rms", reason);
   if (arguments.distribution == "exponential") {
@@ -110,15 +111,16 @@ void add_gw_command(Program& program) {
       "gw", "Greenwood-Williamson contact of a surface or of given summits",
       {"salebra gw rough.h5 --summits deterministic --pressures 1:100MPa:16 --contact-modulus "
        "115GPa --poisson 0.3",
-       "salebra gw --density 10/um2 --radius 100nm --summit-rms 10nm --distribution exponential "
+       "salebra gw --summit-density 10/um2 --radius 100nm --summit-rms 10nm --distribution "
+       "exponential "
        "--separations 10nm,20nm,40nm --contact-modulus 115GPa"},
       [arguments](Session& session) { run(*arguments, session); },
       "pressure over gap, area, stiffness", OutputCheck::any_name);
   arguments->surface.add_to(command, false);
   add_choice(command, "--summits", arguments->summits, {"moments", "deterministic"},
              "of a surface; default moments");
-  add_quantity(command, "--density", arguments->density, Dimension::inverse_length_squared,
-               "summits per area, without a surface");
+  add_quantity(command, "--summit-density", arguments->summit_density,
+               Dimension::inverse_length_squared, "summits per area, without a surface");
   add_quantity(command, "--radius", arguments->radius, Dimension::length,
                "of the summits, without a surface");
   add_quantity(command, "--summit-rms", arguments->summit_rms, Dimension::length,

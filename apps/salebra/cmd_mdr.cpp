@@ -43,13 +43,13 @@ void write_stress_map(const MdrArguments& arguments, const IndenterLaw& law, dou
   const StressMap map =
       stress_map(law, indentation, motion, arguments.phases, arguments.radii, session.progress());
   ResultFile file(arguments.stress_map, session.provenance(), session.write_options());
-  ResultGroup group = file.group("stress_map");
-  group.coordinate("angle", map.angle, "rad", "phase of the normal motion, 0 at its top");
-  group.coordinate("radius", map.radius, "m", "distance from the axis");
-  group.dataset("contact_radius", map.contact_radius, {"angle"}, "m", "contact radius");
-  group.dataset("tangential_force", map.tangential_force, {"angle"}, "N", "tangential force");
-  group.dataset("shear", map.shear, "angle", "radius", "Pa", "tangential stress, Eq. (17)");
-  group.dataset("pressure", map.pressure, "angle", "radius", "Pa", "normal stress");
+  QuantityGroup group(file.group("stress_map"));
+  group.coordinate("angle", map.angle);
+  group.coordinate("radial_position", map.radial_position);
+  group.dataset("contact_radius", map.contact_radius, {"angle"});
+  group.dataset("tangential_force", map.tangential_force, {"angle"});
+  group.dataset("shear", map.shear, "angle", "radial_position");
+  group.dataset("contact_pressure", map.contact_pressure, "angle", "radial_position");
   if (session.has_plot() && arguments.friction_map.empty())
     session.plot(stress_figure(law, indentation, motion, map));
   file.commit();
@@ -65,14 +65,12 @@ void write_friction_map(const MdrArguments& arguments, const IndenterLaw& law, d
       friction_map(law, indentation, motion.normal_amplitude, motion.tangential_amplitude, numbers,
                    phases, {.steps = arguments.follow.steps, .on_progress = session.progress()});
   ResultFile file(arguments.friction_map, session.provenance(), session.write_options());
-  ResultGroup group = file.group("friction_map");
-  group.coordinate("friction_number", numbers, "1", "M = mu E* u_z/(G* u_x)");
-  group.coordinate("phase", phases, "rad", "phase between the oscillations");
-  group.dataset("loss", map.loss, "friction_number", "phase", "1", "W(mu)/W(infinity)");
-  group.dataset("relaxation", map.relaxation, "friction_number", "phase", "1",
-                "part of it from springs that open and close");
-  group.dataset("slip", map.slip, "friction_number", "phase", "1",
-                "part of it from slip in permanent contact");
+  QuantityGroup group(file.group("friction_map"));
+  group.coordinate("friction_number", numbers);
+  group.coordinate("phase", phases);
+  group.dataset("loss_ratio", map.loss_ratio, "friction_number", "phase");
+  group.dataset("relaxation_ratio", map.relaxation_ratio, "friction_number", "phase");
+  group.dataset("slip_ratio", map.slip_ratio, "friction_number", "phase");
   if (session.has_plot()) session.plot(friction_figure(map));
   file.commit();
 }
@@ -83,7 +81,7 @@ void add_state(Json& object, const IndenterLaw& law, double indentation) {
   object["force"] = law.force(indentation);
   object["normal_stiffness"] = law.normal_stiffness(indentation);
   object["tangential_stiffness"] = law.tangential_stiffness(indentation);
-  object["curvature"] = law.curvature(indentation);
+  object["force_curvature"] = law.curvature(indentation);
 }
 
 void run(const MdrArguments& arguments, Session& session) {

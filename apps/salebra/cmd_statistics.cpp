@@ -27,7 +27,7 @@ namespace {
 
 struct StatisticsArguments {
   SurfaceOptions surface;
-  std::string window = "customary", convention = "salebra";
+  std::string window = "default", convention = "salebra";
   bool fill = false;
   std::optional<double> tip_radius, resolution;
 };
@@ -39,7 +39,7 @@ Window window_of(const std::string& name) {
   if (name == "hann") return Window::hann;
   if (name == "blackman") return Window::blackman;
   if (name == "radial-hann") return Window::radial_hann;
-  return Window::customary;
+  return Window::automatic;
 }
 
 std::vector<double> as_numbers(const std::vector<Index>& counts) {
@@ -49,28 +49,27 @@ std::vector<double> as_numbers(const std::vector<Index>& counts) {
 ResultTable psd_table(const std::string& name, const ConvertedPsd& psd,
                       const std::vector<Index>& modes) {
   return {name,
-          {{"wavenumber", psd.wavenumber_unit, "wave number", psd.wavenumber},
-           {"density", psd.density_unit, "power spectral density", psd.density},
-           {"modes", "1", "modes in the mean", as_numbers(modes)}},
+          {{"wavenumber", psd.wavenumber, psd.wavenumber_unit},
+           {name == "psd" ? "psd" : "profile_psd", psd.psd, psd.psd_unit},
+           {"modes", as_numbers(modes)}},
           psd.normalisation};
 }
 
 ResultTable correlation_table(const std::string& name, const Correlation& correlation) {
   return {name,
-          {{"distance", "m", "distance of the points of a pair", correlation.distance},
-           {"autocorrelation", "m^2", "mean of h(x) h(x+r), h from the mean",
-            correlation.autocorrelation},
-           {"structure", "m^2", "mean of (h(x+r) - h(x))^2", correlation.structure},
-           {"pairs", "1", "pairs in the mean", correlation.pairs}}};
+          {{"distance", correlation.distance},
+           {"autocorrelation", correlation.autocorrelation},
+           {"structure", correlation.structure},
+           {"pairs", correlation.pairs}}};
 }
 
 ResultTable scale_table(const std::string& name, const ScaleDependence& scales) {
   return {name,
-          {{"spacing", "m", "distance s of the differences", scales.spacing},
-           {"rms_slope", "1", "rms of (h(x+s) - h(x))/s", scales.rms_slope},
-           {"rms_curvature", "1/m", "rms of (h(x+s) - 2 h(x) + h(x-s))/s^2", scales.rms_curvature},
-           {"least_curvature", "1/m", "curvature of the sharpest peak", scales.least_curvature},
-           {"stencils", "1", "stencils of the curvature", as_numbers(scales.stencils)}}};
+          {{"spacing", scales.spacing},
+           {"profile_slope", scales.profile_slope},
+           {"profile_curvature", scales.profile_curvature},
+           {"min_curvature", scales.min_curvature},
+           {"stencils", as_numbers(scales.stencils)}}};
 }
 
 std::vector<ResultTable> height_tables(const Surface& surface) {
@@ -81,13 +80,11 @@ std::vector<ResultTable> height_tables(const Surface& surface) {
     fraction.push_back(percent / 100.0);
     height.push_back(curve.height(fraction.back()));
   }
-  return {{"bearing",
-           {{"area_fraction", "1", "part of the surface above", fraction},
-            {"height", "m", "height", height}}},
+  return {{"bearing", {{"area_fraction", fraction}, {"height", height}}},
           {"histogram",
-           {{"height", "m", "middle of the bin", histogram.height},
-            {"density", "1/m", "density of heights", histogram.density},
-            {"points", "1", "points in the bin", as_numbers(histogram.points)}}}};
+           {{"height", histogram.height},
+            {"height_density", histogram.height_density},
+            {"points", as_numbers(histogram.points)}}}};
 }
 
 Json areal_json(const ArealParameters& p) {
@@ -104,9 +101,7 @@ Json moments_json(const SpectralMoments& moments) {
 }
 
 Json interval_json(const IntervalEstimate& estimate) {
-  return Json{{"wavelength", estimate.value},
-              {"wavelength_low", estimate.low},
-              {"wavelength_high", estimate.high}};
+  return {{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}};
 }
 
 const std::vector<std::string> spectrum_tables{"psd", "profile_psd_x", "profile_psd_y"};
@@ -134,7 +129,7 @@ void run(const StatisticsArguments& arguments, Session& session) {
   if (surface.periodic && undefined == 0)
     answer["spectral"] = moments_json(spectral_moments(surface));
   const SummitStatistics summits = summit_statistics(find_summits(surface));
-  answer["summits"] = {{"density", summits.density},
+  answer["summits"] = {{"summit_density", summits.density},
                        {"mean_height", summits.mean_height},
                        {"rms_height", summits.rms_height},
                        {"mean_radius", summits.mean_radius}};
@@ -205,7 +200,7 @@ void add_statistics_command(Program& program) {
       OutputCheck::any_name);
   arguments->surface.add_to(command);
   add_choice(command, "--window", arguments->window,
-             {"customary", "none", "hann", "blackman", "radial-hann"},
+             {"default", "none", "hann", "blackman", "radial-hann"},
              "of the spectra; default none if periodic, hann if not");
   add_choice(command, "--convention", arguments->convention,
              {"salebra", "surface-topography", "gwyddion", "tamaas", "rfgen"},

@@ -219,7 +219,7 @@ Figure damping_figure(const std::string& quantity, const std::vector<double>& va
 Figure stress_figure(const IndenterLaw& law, double indentation, const Oscillation& motion,
                      const StressMap& map) {
   const OscillatingStress stress(law, indentation, motion);
-  const double most = std::ranges::max(map.contact_radius), least = stress.least_contact_radius();
+  const double most = std::ranges::max(map.contact_radius), least = stress.min_contact_radius();
   const std::vector<double> cycle = scaled(map.angle, 1 / (2 * pi));
   const PlotAxis radius = {.label = "r", .unit = "m"};
   const PlotAxis time = {.label = "ωt / 2π"};
@@ -237,7 +237,7 @@ Figure stress_figure(const IndenterLaw& law, double indentation, const Oscillati
     Field image = field.transpose();
     for (Index i = 0; i < image.rows(); ++i)
       for (Index j = 0; j < image.cols(); ++j)
-        if (map.radius[static_cast<std::size_t>(i)] >=
+        if (map.radial_position[static_cast<std::size_t>(i)] >=
             map.contact_radius[static_cast<std::size_t>(j)])
           image(i, j) = nothing;
     return image;
@@ -249,7 +249,7 @@ Figure stress_figure(const IndenterLaw& law, double indentation, const Oscillati
   shear.title = "(a) tangential stress τ";
   shear.x = radius;
   shear.y = time;
-  shear.image = PlotImage{.x = map.radius,
+  shear.image = PlotImage{.x = map.radial_position,
                           .y = cycle,
                           .values = in_contact(map.shear),
                           .scale = {.label = "τ", .unit = "Pa", .low = -limit, .high = limit},
@@ -286,9 +286,9 @@ Figure stress_figure(const IndenterLaw& law, double indentation, const Oscillati
   pressure.title = "(c) pressure p";
   pressure.x = radius;
   pressure.y = time;
-  pressure.image = PlotImage{.x = map.radius,
+  pressure.image = PlotImage{.x = map.radial_position,
                              .y = cycle,
-                             .values = in_contact(map.pressure),
+                             .values = in_contact(map.contact_pressure),
                              .scale = {.label = "p", .unit = "Pa"}};
   pressure.curves.push_back(edge);
   figure.panels.push_back(section(-pi / 3, "(d) τ(r) while pressing in, ωt/2π = −1/6"));
@@ -306,7 +306,7 @@ Figure friction_figure(const FrictionMap& map) {
   panel.y = {.label = "phase φ_0 (°)"};
   panel.image = PlotImage{.x = map.friction_number,
                           .y = scaled(map.phase, degrees),
-                          .values = map.loss,
+                          .values = map.loss_ratio,
                           .scale = {.label = "W(μ) / W(∞)", .low = 0, .high = 1.5},
                           .contours = {0.5, 0.9, 0.95, 0.99}};
 
@@ -333,7 +333,8 @@ Figure friction_figure(const FrictionMap& map) {
     PlotCurve curve{
         .name = fmt::format("φ_0 = {:.0f}°", map.phase[static_cast<std::size_t>(j)] * degrees),
         .x = map.friction_number};
-    for (Index i = 0; i < map.loss.rows(); ++i) curve.y.push_back(std::abs(1 - map.loss(i, j)));
+    for (Index i = 0; i < map.loss_ratio.rows(); ++i)
+      curve.y.push_back(std::abs(1 - map.loss_ratio(i, j)));
     missing.curves.push_back(curve);
   }
   const Index j = columns.back();
@@ -342,10 +343,10 @@ Figure friction_figure(const FrictionMap& map) {
   PlotCurve relaxation{.name = "levels that open", .x = map.friction_number};
   PlotCurve slip{.name = "slip in permanent contact", .x = map.friction_number};
   PlotCurve sum{.name = "sum", .x = map.friction_number, .style = PlotStyle::dashed, .color = 6};
-  for (Index i = 0; i < map.loss.rows(); ++i) {
-    relaxation.y.push_back(map.relaxation(i, j));
-    slip.y.push_back(map.slip(i, j));
-    sum.y.push_back(map.loss(i, j));
+  for (Index i = 0; i < map.loss_ratio.rows(); ++i) {
+    relaxation.y.push_back(map.relaxation_ratio(i, j));
+    slip.y.push_back(map.slip_ratio(i, j));
+    sum.y.push_back(map.loss_ratio(i, j));
   }
   parts.curves = {relaxation, slip, sum};
   return figure;

@@ -78,13 +78,12 @@ void follow_file(const FollowOptions& options, const ContactLaw& law, const Cont
   const PremiseReport premises{{premises_of(law, path, at_state(facts, law, nullptr, middle))}};
   if (session.has_output()) {
     ResultFile file(session.output(), session.provenance(), session.write_options());
-    ResultGroup group = file.group("trajectory");
-    group.coordinate("time", path.time, "s", "time");
-    group.dataset("indentation", path.indentation, {"time"}, "m", "indentation");
-    group.dataset("displacement", path.displacement, {"time"}, "m", "tangential displacement");
-    group.dataset("tangential_force", loss.tangential_force, {"time"}, "N", "tangential force");
-    group.dataset("dissipated", loss.dissipated, {"time"}, "J",
-                  "energy dissipated since the first time");
+    QuantityGroup group(file.group("trajectory"));
+    group.coordinate("time", path.time);
+    group.dataset("indentation", path.indentation, {"time"});
+    group.dataset("tangential", path.displacement, {"time"});
+    group.dataset("tangential_force", loss.tangential_force, {"time"});
+    group.dataset("dissipated", loss.dissipated, {"time"});
     file.commit();
   }
   session.plot(cycle_figure(path, loss));

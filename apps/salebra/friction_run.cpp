@@ -9,7 +9,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/coupling.hpp>
-#include <salebra/io/cycle_columns.hpp>
+#include <salebra/results/cycle.hpp>
 
 namespace salebra::cli {
 namespace {
@@ -163,7 +163,7 @@ void add_friction(Json& object, const FrictionOptions& options, const CycleOptio
   const CycleResult& frictional = *outcome.frictional;
   const double uncertain = no_loss(outcome);
   Json& friction = object["friction"];
-  friction["coefficient"] =
+  friction["friction_coefficient"] =
       options.friction_coefficient ? Json(*options.friction_coefficient) : Json(nullptr);
   add_cycle(friction, frictional, uncertain);
   friction["over_stick"] = over(frictional.work_per_cycle, outcome.work_per_cycle(), uncertain);
@@ -202,11 +202,11 @@ PlotPanel loop_panel(const FrictionOptions& options, const OscillationOutcome& o
 void write_friction(ResultFile& file, const CycleOptions& cycle,
                     const OscillationOutcome& outcome) {
   const Grid2D& grid = outcome.run.body.surface.grid;
-  ResultGroup friction = file.group("friction");
-  friction.attribute("coefficient", cycle.friction_coefficient);
+  QuantityGroup friction(file.group("friction"));
+  friction.attribute("friction_coefficient", cycle.friction_coefficient);
   write_cycle(friction, *outcome.frictional, grid);
   if (!outcome.coupled) return;
-  ResultGroup coupling = file.group("coupling");
+  QuantityGroup coupling(file.group("coupling"));
   coupling.attribute("dundurs", dundurs_of(cycle, outcome));
   coupling.attribute("normal_work", outcome.coupled->normal_work);
   write_cycle(coupling, *outcome.coupled, grid);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <optional>
-#include <salebra/io/cycle_recorder.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/cycle_recorder.hpp>
 #include <string>
 #include <vector>
 

@@ -2,14 +2,14 @@
 #pragma once
 
 #include <salebra/base/grid.hpp>
-#include <salebra/io/result_file.hpp>
+#include <salebra/results/quantity_group.hpp>
 
 namespace salebra::cli {
 
 /// The coordinates x and y of the cells of a grid.
-inline void write_axes(ResultGroup& group, const Grid2D& grid) {
-  group.coordinate("x", positions(grid.nx, grid.dx()), "m", "position along x");
-  group.coordinate("y", positions(grid.ny, grid.dy()), "m", "position along y");
+inline void write_axes(QuantityGroup& group, const Grid2D& grid) {
+  group.coordinate("x", positions(grid.nx, grid.dx()));
+  group.coordinate("y", positions(grid.ny, grid.dy()));
 }
 
 }  // namespace salebra::cli

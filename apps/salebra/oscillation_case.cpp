@@ -7,7 +7,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/generators/shapes.hpp>
-#include <salebra/io/cycle_columns.hpp>
+#include <salebra/results/cycle.hpp>
 
 #include "grid_axes.hpp"
 
@@ -169,7 +169,7 @@ Json to_json(const OscillationOutcome& outcome) {
   object["work_over_elastic_energy"] = outcome.work_per_cycle() / outcome.elastic_energy();
   object["indentation"] = outcome.run.indentation;
   object["force"] = levels.force;
-  object["curvature"] = bends_down ? Json() : Json(levels.curvature);
+  object["force_curvature"] = bends_down ? Json() : Json(levels.curvature);
   object["nx"] = grid.nx;
   object["ny"] = grid.ny;
   // The two ends of the sweep are levels without a tangential solve, but for the last of a drag.
@@ -190,7 +190,7 @@ Json to_json(const OscillationOutcome& outcome) {
     object["contact_area_min"] = cycle.contact_area_min;
     object["contact_area_max"] = cycle.contact_area_max;
     object["fft_count"] = cycle.fft_count + levels.fft_count;
-    object["time"] = column(cycle, &CycleSample::t);
+    object["time_in_periods"] = column(cycle, &CycleSample::t);
     object["work"] = column(cycle, &CycleSample::work);
   } else {
     const auto& samples = levels.curve.samples;
@@ -220,20 +220,19 @@ Premises premises_of(const OscillationOutcome& outcome, ContactFacts facts) {
                      facts);
 }
 
-void write_cycle(ResultGroup& group, const CycleResult& cycle, const Grid2D& grid) {
+void write_cycle(QuantityGroup& group, const CycleResult& cycle, const Grid2D& grid) {
   write_axes(group, grid);
-  group.dataset("contact", map_of(cycle), "x", "y", "1",
-                "0 never in contact, 1 during a part of the cycle, 2 always");
-  if (cycle.loss.size() > 0)
-    group.dataset("loss", cycle.loss, "x", "y", "J/m^2",
-                  "energy dissipated in a period by unit area");
-  for (const CycleColumn& of : cycle_columns) {
-    const std::vector<double> values = column(cycle, of.value);
-    if (of.value == &CycleSample::t)
-      group.coordinate(of.name, values, of.units, of.long_name);
-    else
-      group.dataset(of.name, values, {"time"}, of.units, of.long_name);
-  }
+  group.dataset("contact_map", map_of(cycle));
+  if (cycle.loss.size() > 0) group.dataset("loss", cycle.loss);
+  describe(
+      [&](double CycleSample::*member, const Quantity& quantity) {
+        const std::string name(quantity.name);
+        if (member == &CycleSample::t)
+          group.coordinate(name, column(cycle, member));
+        else
+          group.dataset(name, column(cycle, member), {"time_in_periods"});
+      },
+      std::type_identity<CycleSample>{});
   group.attribute("work_per_cycle", cycle.work_per_cycle);
   group.attribute("relaxation_work", cycle.relaxation_work);
   group.attribute("slip_work", cycle.slip_work);
@@ -241,27 +240,22 @@ void write_cycle(ResultGroup& group, const CycleResult& cycle, const Grid2D& gri
 
 void write_outcome(ResultFile& file, const std::string& prefix, const OscillationOutcome& outcome) {
   if (outcome.cycle) {
-    ResultGroup group = file.group(prefix + "cycle");
+    QuantityGroup group(file.group(prefix + "cycle"));
     write_cycle(group, *outcome.cycle, outcome.run.body.surface.grid);
-    group.dataset("heights", outcome.run.body.surface.heights, "x", "y", "m",
-                  "height, positive out of the material");
+    group.dataset("heights", outcome.run.body.surface.heights);
     group.attribute("error_estimate", outcome.cycle->step_error);
     group.attribute("predicted", outcome.levels.small_amplitude_work);
     group.attribute("predicted_finite", outcome.levels.work_by_force);
   }
-  ResultGroup group = file.group(prefix + "levels");
+  QuantityGroup group(file.group(prefix + "levels"));
   const ForceCurve& curve = outcome.levels.curve;
-  group.coordinate("indentation", curve.column(&ForceSample::indentation), "m", "indentation");
-  const auto add = [&](const char* name, double ForceSample::*quantity, const char* units,
-                       const char* text) {
-    group.dataset(name, curve.column(quantity), {"indentation"}, units, text);
-  };
-  add("force", &ForceSample::force, "N", "normal force");
-  add("normal_stiffness", &ForceSample::normal_stiffness, "N/m", "normal stiffness");
-  add("tangential_stiffness", &ForceSample::tangential_stiffness, "N/m",
-      "tangential stiffness in full stick");
-  add("contact_area_fraction", &ForceSample::contact_area_fraction, "1",
-      "contact area over nominal area");
+  group.coordinate("indentation", curve.column(&ForceSample::indentation));
+  for (const auto& [name, quantity] :
+       {std::pair{"force", &ForceSample::force},
+        {"normal_stiffness", &ForceSample::normal_stiffness},
+        {"tangential_stiffness", &ForceSample::tangential_stiffness},
+        {"contact_area_fraction", &ForceSample::contact_area_fraction}})
+    group.dataset(name, curve.column(quantity), {"indentation"});
   group.attribute("work_per_cycle", outcome.levels.work_per_cycle);
   group.attribute("error_estimate", outcome.levels.error_estimate);
   group.attribute("work_by_whole_cells", outcome.levels.work_by_levels);

@@ -73,7 +73,7 @@ OscillationOutcome run_routes(OscillationCase run, const OscillationRoutes& rout
 CycleResult simulate(const OscillationCase& run, const CycleOptions& options);
 
 /// Axes, columns over time, where the contact is and where energy is lost.
-void write_cycle(ResultGroup& group, const CycleResult& cycle, const Grid2D& grid);
+void write_cycle(QuantityGroup& group, const CycleResult& cycle, const Grid2D& grid);
 
 Json to_json(const OscillationOutcome& outcome);
 /// From the force at the contact levels; nothing but what the facts say where fewer than four of them touch.

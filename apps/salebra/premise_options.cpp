@@ -50,8 +50,8 @@ void PremiseOptions::add_to(Command& command) {
   add_quantity(command, "--hardness", hardness, Dimension::pressure,
                "of the softer body, to judge plasticity")
       ->group(group);
-  add_quantity(command, "--density", density, Dimension::dimensionless,
-               "of the elastic body in kg/m^3, to judge inertia")
+  add_quantity(command, "--density", density, Dimension::mass_density,
+               "of the elastic body, to judge inertia")
       ->group(group);
   add_quantity(command, "--excursion", excursion, Dimension::length,
                "of the slow motion from one turning point to the other, to judge slip of what "

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <optional>
-#include <salebra/io/cycle_recorder.hpp>
+#include <salebra/results/cycle_recorder.hpp>
 #include <string>
 #include <vector>
 

@@ -49,7 +49,7 @@ std::string comment(const Session& session, const ResultTable& table) {
                                  session.provenance().command_line);
   if (!table.note.empty()) text += "# " + table.note + "\n";
   for (const ResultColumn& column : table.columns)
-    text += fmt::format("# {} in {}: {}\n", column.name, column.units, column.long_name);
+    text += fmt::format("# {} in {}: {}\n", column.name, column.units(), column.long_name());
   return text;
 }
 
@@ -86,10 +86,11 @@ void write_tables(const Session& session, const std::string& group, const Json& 
       for (const ResultTable& table : tables) {
         ResultGroup place = results.group(table.name);
         const ResultColumn& first = table.columns.front();
-        place.coordinate(first.name, first.values, first.units, first.long_name);
+        place.coordinate(first.name, first.values, first.units(), first.long_name());
         for (std::size_t k = 1; k < table.columns.size(); ++k) {
           const ResultColumn& column = table.columns[k];
-          place.dataset(column.name, column.values, {first.name}, column.units, column.long_name);
+          place.dataset(column.name, column.values, {first.name}, column.units(),
+                        column.long_name());
         }
         if (!table.note.empty()) place.attribute("note", table.note);
       }
@@ -115,7 +116,7 @@ Json with_tables(Json answer, const std::vector<ResultTable>& tables) {
     Json object, units;
     for (const ResultColumn& column : table.columns) {
       object[column.name] = column.values;
-      units[column.name] = column.units;
+      units[column.name] = column.units();
     }
     object["units"] = units;
     if (!table.note.empty()) object["note"] = table.note;
@@ -127,8 +128,8 @@ Json with_tables(Json answer, const std::vector<ResultTable>& tables) {
 std::string to_text(const ResultTable& table) {
   std::vector<std::vector<std::string>> rows(table.columns.front().values.size() + 1);
   for (const ResultColumn& column : table.columns) {
-    rows.front().push_back(column.units == "1" ? column.name
-                                               : fmt::format("{} [{}]", column.name, column.units));
+    rows.front().push_back(
+        column.units() == "1" ? column.name : fmt::format("{} [{}]", column.name, column.units()));
     for (std::size_t k = 0; k < column.values.size(); ++k)
       rows[k + 1].push_back(fmt::format("{:.5g}", column.values[k]));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/results/quantity.hpp>
 #include <string>
 #include <vector>
 
@@ -8,12 +9,16 @@
 
 namespace salebra::cli {
 
-/// A column of numbers with what it takes to read it.
+/// A column of numbers, whose meaning and, unless it says another, unit are those of the quantity of its name.
 struct ResultColumn {
-  std::string name;       ///< "structure"
-  std::string units;      ///< SI; "1" for a pure number
-  std::string long_name;  ///< "mean square difference of heights"
+  std::string name;  ///< "structure"
   std::vector<double> values;
+  std::string other_units = {};  ///< of a spectral density in another convention
+
+  std::string units() const {
+    return other_units.empty() ? std::string(si_unit(find_quantity(name).dimension)) : other_units;
+  }
+  std::string long_name() const { return std::string(find_quantity(name).long_name); }
 };
 
 /// Columns of one length, the first of which is the coordinate.

@@ -22,12 +22,12 @@ PlotPanel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hur
   panel.legend = PlotLegend::bottom_left;
   PlotCurve measured{.name = "radial mean", .style = PlotStyle::line_and_points};
   double strongest = 0;
-  for (const double density : radial.density) strongest = std::max(strongest, density);
+  for (const double density : radial.psd) strongest = std::max(strongest, density);
   for (std::size_t k = 0; k < radial.wavenumber.size(); ++k) {
     // Where a spectrum is cut off, rounding would take the axis down by thirty decades.
-    if (!(radial.density[k] > 1e-20 * strongest)) continue;
+    if (!(radial.psd[k] > 1e-20 * strongest)) continue;
     measured.x.push_back(radial.wavenumber[k]);
-    measured.y.push_back(radial.density[k]);
+    measured.y.push_back(radial.psd[k]);
   }
   panel.curves.push_back(std::move(measured));
   if (hurst.found()) {
@@ -37,7 +37,7 @@ PlotPanel spectrum_panel(const PowerSpectrum& spectrum, const HurstEstimate& hur
       const double q = radial.wavenumber[k];
       if (q < hurst.wavenumber_min || q > hurst.wavenumber_max) continue;
       const double modes = static_cast<double>(radial.modes[k]);
-      level += modes * radial.density[k] * std::pow(q, 2 * (1 + hurst.value));
+      level += modes * radial.psd[k] * std::pow(q, 2 * (1 + hurst.value));
       weight += modes;
     }
     PlotCurve law{
@@ -61,7 +61,7 @@ PlotPanel distribution_panel(const Surface& surface) {
   panel.y = {.label = "density", .unit = "1/m"};
   panel.curves.push_back({.name = "heights",
                           .x = histogram.height,
-                          .y = histogram.density,
+                          .y = histogram.height_density,
                           .style = PlotStyle::line_and_points});
   PlotCurve gaussian{.name = "Gaussian", .style = PlotStyle::dashed};
   constexpr int points = 121;
@@ -109,7 +109,7 @@ Figure surface_figure(const Surface& surface, const SurfaceSpectrum& of) {
   Figure figure;
   figure.panels.push_back(
       map_panel(surface.grid, surface.heights, "heights", {.label = "height", .unit = "m"}));
-  if (of.spectrum && of.spectrum->density.maxCoeff() > 0)
+  if (of.spectrum && of.spectrum->psd.maxCoeff() > 0)
     figure.panels.push_back(spectrum_panel(*of.spectrum, of.hurst));
   if (height_statistics(surface).rms_height > 0)
     figure.panels.push_back(distribution_panel(surface));

@@ -52,7 +52,7 @@ with tempfile.TemporaryDirectory() as folder:
         python.append(by_python())
         cpp.append(by_cpp(f"{folder}/heights.raw", f"{folder}/out.raw"))
     same = np.array_equal(
-        salebra.press_to_pressure(surface, 1.0, pressure, tolerance=tolerance).pressure,
+        salebra.press_to_pressure(surface, 1.0, pressure, tolerance=tolerance).contact_pressure,
         np.fromfile(f"{folder}/out.raw").reshape(n, n),
     )
 

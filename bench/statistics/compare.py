@@ -74,10 +74,10 @@ def compare(program, file):
     root_mean_square = lambda x, y=None: np.sqrt(np.mean(x**2))  # noqa: E731
     few = slice(0, None, 4)
     theirs = topography.scale_dependent_statistical_property(root_mean_square, n=1, distance=spacing[few], reliable=False)[1]
-    curve("slope along x over distance", numbers(own["scale_x"]["rms_slope"])[few], theirs,
+    curve("slope along x over distance", numbers(own["scale_x"]["profile_slope"])[few], theirs,
           "SurfaceTopography leaves out the last rows in y too, so that x and y have the same points")
     theirs = topography.scale_dependent_statistical_property(root_mean_square, n=2, distance=2 * spacing[few], reliable=False)[1]
-    curve("curvature along x over distance, 1/m", numbers(own["scale_x"]["rms_curvature"])[few], theirs,
+    curve("curvature along x over distance, 1/m", numbers(own["scale_x"]["profile_curvature"])[few], theirs,
           "as for the slope")
     if own["undefined_points"] > 0:
         rows.append(("spectra", "–", "–", "–", "neither has one with undefined points"))
@@ -85,17 +85,17 @@ def compare(program, file):
     radial = salebra(program, file, "--window", "radial-hann")["psd"]
     density, counts = ring_means(topography, "hann")
     assert np.array_equal(counts, numbers(radial["modes"]).astype(int)), "the rings differ"
-    curve("C(q), radial Hann window, m⁴", numbers(radial["density"]), density,
+    curve("C(q), radial Hann window, m⁴", numbers(radial["psd"]), density,
           "salebra subtracts the weighted mean, so that the window does not spread it into the longest waves")
     window = get_window_2D("hann", *topography.nb_grid_pts, topography.physical_sizes)
     heights = topography.heights()
     centred = Topography(heights - np.sum(window * heights) / np.sum(window), topography.physical_sizes)
-    curve("the same, from heights less their weighted mean", numbers(radial["density"]), ring_means(centred, "hann")[0])
-    hann = numbers(own["psd"]["density"])
+    curve("the same, from heights less their weighted mean", numbers(radial["psd"]), ring_means(centred, "hann")[0])
+    hann = numbers(own["psd"]["psd"])
     curve("C(q), salebra's window, m⁴", hann, density,
           "product of two Hann windows: sees the corners of the scan; a window of another kind has other scatter")
     q, profile = topography.power_spectrum_from_profile(window="hann", resampling_method=None, reliable=False)
-    ours = numbers(own["profile_psd_x"]["density"])
+    ours = numbers(own["profile_psd_x"]["psd"])
     n = min(len(ours), len(profile) - 1)
     curve("C₁(q) along x, m³", ours[:n], np.ma.filled(profile, np.nan)[1 : n + 1] / (2 * np.pi),
           "each profile less its weighted mean; SurfaceTopography leaves the mean of a profile in")

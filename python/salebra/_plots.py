@@ -100,7 +100,7 @@ def _(result: _core.Surface, ax: Axes | None = None, **keywords: Any) -> Axes:
 
 @plot.register(_core.NormalContactState)
 def _(result: _core.NormalContactState, ax: Axes | None = None, **keywords: Any) -> Axes:
-    return _image(ax, result.grid, result.pressure, "pressure", "Pa", {"cmap": "magma"} | keywords)
+    return _image(ax, result.grid, result.contact_pressure, "pressure", "Pa", {"cmap": "magma"} | keywords)
 
 
 @plot.register(_core.ForceCurve)
@@ -198,7 +198,7 @@ def _(result: _core.SummitList, ax: Axes | None = None, **keywords: Any) -> Axes
 @plot.register(_core.PowerSpectrum)
 def _(result: _core.PowerSpectrum, ax: Axes | None = None, **keywords: Any) -> Axes:
     order = np.argsort(result.wavenumber_x)
-    density = np.log10(np.where(result.density > 0, result.density, np.nan))[order]
+    density = np.log10(np.where(result.psd > 0, result.psd, np.nan))[order]
     axes = ((result.wavenumber_x[order], "wave number q_x", "rad/m"), (result.wavenumber_y, "wave number q_y", "rad/m"))
     return _map(ax, axes, density, "log₁₀ C, C in m⁴", "1", keywords)
 
@@ -240,7 +240,7 @@ def _(result: _core.ContactSetAt, ax: Axes | None = None, **keywords: Any) -> Ax
 
 @plot.register(_core.SurfacePicture)
 def _(result: _core.SurfacePicture, ax: Axes | None = None, **keywords: Any) -> Axes:
-    spectrum = (np.asarray(result.wavenumber), "wave number q", "rad/m"), (np.asarray(result.density), "C(q)", "m⁴")
+    spectrum = (np.asarray(result.wavenumber), "wave number q", "rad/m"), (np.asarray(result.psd), "C(q)", "m⁴")
     return _line(ax, *spectrum, "xy", keywords)
 
 
@@ -269,24 +269,24 @@ def _(result: _core.NonGaussianSurface, ax: Axes | None = None, **keywords: Any)
 
 @plot.register(_core.ConvertedPsd)
 def _(result: _core.ConvertedPsd, ax: Axes | None = None, **keywords: Any) -> Axes:
-    x, y = (result.wavenumber, "wave number", result.wavenumber_unit), (result.density, "density", result.density_unit)
+    x, y = (result.wavenumber, "wave number", result.wavenumber_unit), (result.psd, "power spectral density", result.psd_unit)
     return _line(ax, x, y, "xy", keywords)
 
 
 @plot.register(_core.LocalDecayLength)
 def _(result: _core.LocalDecayLength, ax: Axes | None = None, **keywords: Any) -> Axes:
     keywords = {"marker": "."} | keywords
-    return _line(ax, (result.mean_gap, "mean gap ū", "m"), (result.decay_length, "local decay length l", "m"), "", keywords)
+    return _line(ax, (result.mean_gap, "mean gap ū", "m"), (result.local_decay_length, "local decay length l", "m"), "", keywords)
 
 
 @plot.register(_core.RadialSpectrum)
 def _(result: _core.RadialSpectrum, ax: Axes | None = None, **keywords: Any) -> Axes:
-    return _line(ax, (result.wavenumber, "wave number q", "rad/m"), (result.density, "C(q)", "m⁴"), "xy", keywords)
+    return _line(ax, (result.wavenumber, "wave number q", "rad/m"), (result.psd, "C(q)", "m⁴"), "xy", keywords)
 
 
 @plot.register(_core.ProfilePsd)
 def _(result: _core.ProfilePsd, ax: Axes | None = None, **keywords: Any) -> Axes:
-    return _line(ax, (result.wavenumber, "wave number q", "rad/m"), (result.density, "C₁(q)", "m³"), "xy", keywords)
+    return _line(ax, (result.wavenumber, "wave number q", "rad/m"), (result.profile_psd, "C₁(q)", "m³"), "xy", keywords)
 
 
 @plot.register(_core.Correlation)
@@ -296,13 +296,13 @@ def _(result: _core.Correlation, ax: Axes | None = None, **keywords: Any) -> Axe
 
 @plot.register(_core.ScaleDependence)
 def _(result: _core.ScaleDependence, ax: Axes | None = None, **keywords: Any) -> Axes:
-    return _line(ax, (result.spacing, "distance", "m"), (result.rms_slope, "rms slope", "1"), "xy", keywords)
+    return _line(ax, (result.spacing, "distance", "m"), (result.profile_slope, "rms slope", "1"), "xy", keywords)
 
 
 @plot.register(_core.HeightHistogram)
 def _(result: _core.HeightHistogram, ax: Axes | None = None, **keywords: Any) -> Axes:
     keywords = {"drawstyle": "steps-mid"} | keywords
-    return _line(ax, (result.height, "height", "m"), (result.density, "density", "1/m"), "", keywords)
+    return _line(ax, (result.height, "height", "m"), (result.height_density, "density", "1/m"), "", keywords)
 
 
 def _map(
@@ -334,14 +334,14 @@ def _(result: _core.StressMap, ax: Axes | None = None, **keywords: Any) -> Axes:
     limit = float(np.quantile(finite, 0.99)) if finite.size else 1.0
     factor, _ = _scale(result.shear, "Pa")
     keywords = {"cmap": "RdBu_r", "vmin": -limit * factor, "vmax": limit * factor} | keywords
-    axes = ((result.angle, "phase θ", "rad"), (result.radius, "radius r", "m"))
+    axes = ((result.angle, "phase θ", "rad"), (result.radial_position, "radius r", "m"))
     return _map(ax, axes, result.shear, "shear stress τ", "Pa", keywords)
 
 
 @plot.register(_core.FrictionMap)
 def _(result: _core.FrictionMap, ax: Axes | None = None, **keywords: Any) -> Axes:
     axes = ((result.friction_number, "M = μE*u_z/(G*u_x)", "1"), (result.phase, "phase φ₀", "rad"))
-    drawn = _map(ax, axes, result.loss, "W(μ)/W(∞)", "1", keywords)
+    drawn = _map(ax, axes, result.loss_ratio, "W(μ)/W(∞)", "1", keywords)
     drawn.set_xscale("log")
     return drawn
 

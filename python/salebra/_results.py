@@ -15,38 +15,9 @@ if TYPE_CHECKING:
 
     import xarray
 
-# Names whose meaning depends on where they stand, with what they mean there.
-_SPECIAL = {
-    "wavenumber": ("rad/m", "wave number"),
-    "wavenumber_x": ("rad/m", "wave number along x"),
-    "wavenumber_y": ("rad/m", "wave number along y"),
-    "distance": ("m", "distance"),
-    "spacing": ("m", "distance of the finite difference"),
-    "autocorrelation": ("m^2", "autocorrelation of heights"),
-    "structure": ("m^2", "structure function"),
-    "pairs": ("1", "number of pairs"),
-    "modes": ("1", "number of modes"),
-    "rms_curvature": ("1/m", "root mean square curvature"),
-    "least_curvature": ("1/m", "least curvature: the sharpest peak"),
-    "stencils": ("1", "number of stencils"),
-    "height": ("m", "height"),
-    "gap": ("m", "gap"),
-    "angle": ("rad", "phase of the normal oscillation"),
-    "radius": ("m", "distance from the axis"),
-    "time": ("1", "time over the period"),
-    "tangential": ("m", "tangential displacement"),
-    "dissipated": ("J", "energy dissipated since the start of the period"),
-    "normal_force": ("N", "normal force"),
-    "contact_area": ("m^2", "contact area"),
-    "slip_area": ("m^2", "area of cells that slip"),
-    "loss": ("J/m^2", "energy dissipated in a period by unit area"),
-    "contact": ("1", "whether the cell is in contact"),
-    "converged": ("1", "whether the solver converged"),
-}
 
-
-def _variable(name: str, dims: tuple[str, ...], values: Any, meaning: tuple[str, str] | None = None) -> Any:
-    units, long_name = meaning or _SPECIAL.get(name) or _core.quantity(name)
+def _variable(name: str, dims: tuple[str, ...], values: Any) -> Any:
+    units, long_name = _core.quantity(name)
     return dims, np.asarray(values), {"units": units, "long_name": long_name}
 
 
@@ -54,16 +25,14 @@ def _dataset(
     variables: Mapping[str, tuple[tuple[str, ...], Any]],
     coordinates: Mapping[str, Any],
     attributes: Mapping[str, Any],
-    meanings: dict[str, tuple[str, str]] | None = None,
 ) -> xarray.Dataset:
     try:
         import xarray
     except ImportError as error:
         raise ImportError("to_xarray needs xarray; install it") from error
-    meanings = meanings or {}
     return xarray.Dataset(
-        {name: _variable(name, dims, values, meanings.get(name)) for name, (dims, values) in variables.items()},
-        {name: _variable(name, (name,), values, meanings.get(name)) for name, values in coordinates.items()},
+        {name: _variable(name, dims, values) for name, (dims, values) in variables.items()},
+        {name: _variable(name, (name,), values) for name, values in coordinates.items()},
         dict(attributes) | {"program": "salebra", "version": _core.version()},
     )
 
@@ -91,8 +60,8 @@ def _(result: _core.NormalContactState) -> xarray.Dataset:
         "contact_modulus", "boundary",
     )  # fmt: skip
     attributes = {name: getattr(result, name) for name in numbers} | {"converged": int(result.converged)}
-    fields = {name: (("x", "y"), getattr(result, name)) for name in ("pressure", "gap")}
-    return _dataset(fields, _points(result.grid), attributes, {"pressure": ("Pa", "contact pressure")})
+    fields = {name: (("x", "y"), getattr(result, name)) for name in ("contact_pressure", "gap")}
+    return _dataset(fields, _points(result.grid), attributes)
 
 
 @to_xarray.register(_core.ForceCurve)
@@ -109,32 +78,29 @@ def _(result: _core.ForceCurve) -> xarray.Dataset:
 
 @to_xarray.register(_core.LocalDecayLength)
 def _(result: _core.LocalDecayLength) -> xarray.Dataset:
-    return _dataset({"decay_length": (("mean_gap",), result.decay_length)}, {"mean_gap": result.mean_gap}, {})
+    return _dataset({"local_decay_length": (("mean_gap",), result.local_decay_length)}, {"mean_gap": result.mean_gap}, {})
 
 
 @to_xarray.register(_core.PowerSpectrum)
 def _(result: _core.PowerSpectrum) -> xarray.Dataset:
     order = np.argsort(result.wavenumber_x)
     return _dataset(
-        {"density": (("wavenumber_x", "wavenumber_y"), result.density[order])},
+        {"psd": (("wavenumber_x", "wavenumber_y"), result.psd[order])},
         {"wavenumber_x": result.wavenumber_x[order], "wavenumber_y": result.wavenumber_y},
         {"cell": result.cell},
-        {"density": ("m^4", "power spectral density C, h_rms^2 = integral of C d^2q")},
     )
 
 
 @to_xarray.register(_core.RadialSpectrum)
 def _(result: _core.RadialSpectrum) -> xarray.Dataset:
-    columns = {name: (("wavenumber",), getattr(result, name)) for name in ("density", "modes")}
-    meaning = {"density": ("m^4", "power spectral density C, h_rms^2 = 2 pi integral of q C dq")}
-    return _dataset(columns, {"wavenumber": result.wavenumber}, {}, meaning)
+    columns = {name: (("wavenumber",), getattr(result, name)) for name in ("psd", "modes")}
+    return _dataset(columns, {"wavenumber": result.wavenumber}, {})
 
 
 @to_xarray.register(_core.ProfilePsd)
 def _(result: _core.ProfilePsd) -> xarray.Dataset:
-    columns = {name: (("wavenumber",), getattr(result, name)) for name in ("density", "modes")}
-    meaning = {"density": ("m^3", "power spectral density C1 of profiles, h_rms^2 = integral of C1 dq over all q")}
-    return _dataset(columns, {"wavenumber": result.wavenumber}, {"profiles": result.profiles, "length": result.length}, meaning)
+    columns = {name: (("wavenumber",), getattr(result, name)) for name in ("profile_psd", "modes")}
+    return _dataset(columns, {"wavenumber": result.wavenumber}, {"profiles": result.profiles, "length": result.length})
 
 
 @to_xarray.register(_core.Correlation)
@@ -145,15 +111,14 @@ def _(result: _core.Correlation) -> xarray.Dataset:
 
 @to_xarray.register(_core.ScaleDependence)
 def _(result: _core.ScaleDependence) -> xarray.Dataset:
-    names = ("rms_slope", "rms_curvature", "least_curvature", "stencils")
+    names = ("profile_slope", "profile_curvature", "min_curvature", "stencils")
     return _dataset({name: (("spacing",), getattr(result, name)) for name in names}, {"spacing": result.spacing}, {})
 
 
 @to_xarray.register(_core.HeightHistogram)
 def _(result: _core.HeightHistogram) -> xarray.Dataset:
-    meaning = {"density": ("1/m", "part of the points in the bin over its width"), "points": ("1", "points in the bin")}
-    columns = {name: (("height",), getattr(result, name)) for name in ("density", "points")}
-    return _dataset(columns, {"height": result.height}, {"width": result.width}, meaning)
+    columns = {name: (("height",), getattr(result, name)) for name in ("height_density", "points")}
+    return _dataset(columns, {"height": result.height}, {"width": result.width})
 
 
 @to_xarray.register(_core.DamperMap)
@@ -165,19 +130,15 @@ def _(result: _core.DamperMap) -> xarray.Dataset:
 @to_xarray.register(_core.FrictionMap)
 def _(result: _core.FrictionMap) -> xarray.Dataset:
     dims = ("friction_number", "phase")
-    names = ("loss", "relaxation", "slip")
-    meanings = {name: ("1", f"{name} over the loss in full stick") for name in names}
-    return _dataset(
-        {name: (dims, getattr(result, name)) for name in names}, {name: getattr(result, name) for name in dims}, {}, meanings
-    )
+    names = ("loss_ratio", "relaxation_ratio", "slip_ratio")
+    return _dataset({name: (dims, getattr(result, name)) for name in names}, {name: getattr(result, name) for name in dims}, {})
 
 
 @to_xarray.register(_core.StressMap)
 def _(result: _core.StressMap) -> xarray.Dataset:
-    fields = {name: (("angle", "radius"), getattr(result, name)) for name in ("shear", "pressure")}
+    fields = {name: (("angle", "radial_position"), getattr(result, name)) for name in ("shear", "contact_pressure")}
     curves = {name: (("angle",), getattr(result, name)) for name in ("contact_radius", "tangential_force")}
-    meaning = {"pressure": ("Pa", "contact pressure")}
-    return _dataset({**fields, **curves}, {"angle": result.angle, "radius": result.radius}, {}, meaning)
+    return _dataset({**fields, **curves}, {"angle": result.angle, "radial_position": result.radial_position}, {})
 
 
 @to_xarray.register(_core.CycleResult)
@@ -187,24 +148,25 @@ def _(result: _core.CycleResult) -> xarray.Dataset:
         "tangential_stiffness",
     )  # fmt: skip
     attributes = {name: getattr(result, name) for name in ("work_per_cycle", "dissipated", "relaxation_work", "slip_work")}
-    return _dataset({name: (("time",), getattr(result, name)) for name in names}, {"time": result.time}, attributes)
+    return _dataset({name: (("time_in_periods",), getattr(result, name)) for name in names}, {"time_in_periods": result.time_in_periods}, attributes)
 
 
 @to_xarray.register(_core.StudyResult)
 def _(result: _core.StudyResult) -> xarray.Dataset:
     columns: dict[str, tuple[tuple[str, ...], Any]] = {}
-    meanings: dict[str, tuple[str, str]] = {}
-
-    for described, of in ((_core._curve_columns(), result.curve), (_core._damping_columns(), result.damping)):
-        for name, units, long_name in described:
+    described = {name: (units, long_name) for name, units, long_name in (*_core._curve_columns(), *_core._damping_columns())}
+    for names, of in ((_core._curve_columns(), result.curve), (_core._damping_columns(), result.damping)):
+        for name, _, _ in names:
             if name == "pressure":
                 continue
             means = [of(name, model) for model in result.models]
             for part in ("mean", "low", "high"):
                 columns[f"{name}_{part}"] = ("model", "pressure"), [[getattr(mean, part) for mean in row] for row in means]
-                meanings[f"{name}_{part}"] = units, f"{long_name}, {part}"
-    meanings["model"] = "1", "contact model"
-    return _dataset(columns, {"model": result.models, "pressure": result.pressures}, {}, meanings)
+    data = _dataset(columns, {"model": result.models, "pressure": result.pressures}, {})
+    for column in columns:
+        name, _, part = column.rpartition("_")
+        data[column].attrs = {"units": described[name][0], "long_name": f"{described[name][1]}, {part}"}
+    return data
 
 
 def group_to_xarray(reader: _core.ResultReader, group: str) -> xarray.Dataset:

@@ -3,7 +3,7 @@
 its number, and the closed forms that go beyond them.
 
 All assume infinite friction, quasi-static motion and no coupling of normal and tangential motion. ``modulus_ratio`` is G*/E*,
-``curvature`` is F'' = ∂²F/∂δ², ``level`` is z0, the distance of a point of the indenter from first touch at the mean position.
+``force_curvature`` is F'' = ∂²F/∂δ², ``level`` is z0, the distance of a point of the indenter from first touch at the mean position.
 Units are SI. Arguments are not checked: they are formulas.
 """
 

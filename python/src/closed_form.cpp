@@ -14,17 +14,17 @@ namespace salebra::python {
 namespace cf = closed_form;
 
 void bind_closed_form(nb::module_& parent) {
-  nb::module_ m =
-      parent.def_submodule("_closed_form",
-                           "Equations (6)–(16) of Popov, Popov and Pohrt, \"Relaxation damping in "
-                           "oscillating contacts\", doi:10.1038/srep16189, each "
-                           "under its number, and the closed forms that go beyond them.\n\n"
-                           "All assume infinite friction, quasi-static motion and no coupling of "
-                           "normal and tangential motion. `modulus_ratio` is G*/E*, "
-                           "`curvature` is F'' = ∂²F/∂δ², `level` is z0, the distance of a point "
-                           "of the indenter from first touch at the mean position. "
-                           "Units are SI. Arguments are not checked: they are formulas.");
-  m.def("edge_slope", &cf::edge_slope, nb::arg("contact_modulus"), nb::arg("curvature"),
+  nb::module_ m = parent.def_submodule(
+      "_closed_form",
+      "Equations (6)–(16) of Popov, Popov and Pohrt, \"Relaxation damping in "
+      "oscillating contacts\", doi:10.1038/srep16189, each "
+      "under its number, and the closed forms that go beyond them.\n\n"
+      "All assume infinite friction, quasi-static motion and no coupling of "
+      "normal and tangential motion. `modulus_ratio` is G*/E*, "
+      "`force_curvature` is F'' = ∂²F/∂δ², `level` is z0, the distance of a point "
+      "of the indenter from first touch at the mean position. "
+      "Units are SI. Arguments are not checked: they are formulas.");
+  m.def("edge_slope", &cf::edge_slope, nb::arg("contact_modulus"), nb::arg("force_curvature"),
         "Eq. (6): slope c = 2E*/F'' of the one-dimensional profile at the edge of the contact.");
   m.def(
       "released_distance",
@@ -76,13 +76,15 @@ void bind_closed_form(nb::module_& parent) {
       "released_distance: a function of the level.");
   m.def(
       "work_per_cycle",
-      [](double modulus_ratio, double curvature, const Oscillation& motion) {
+      [](double modulus_ratio, double force_curvature, const Oscillation& motion) {
         cite({"popov2015"});
         return std::visit(
-            [&](const auto& one) { return cf::work_per_cycle(modulus_ratio, curvature, one); },
+            [&](const auto& one) {
+              return cf::work_per_cycle(modulus_ratio, force_curvature, one);
+            },
             motion);
       },
-      nb::arg("modulus_ratio"), nb::arg("curvature"), nb::arg("motion"),
+      nb::arg("modulus_ratio"), nb::arg("force_curvature"), nb::arg("motion"),
       R"(Energy lost per cycle, J, in the limit u_z → 0 of every contact with K_t = (G*/E*)K; exact for F'' = const (the cone).
 
 .. math:: W = \tfrac83\tfrac{G^*}{E^*}F''u_x^2|u_z|\sin^2\varphi_0 \;\text{Eq. (12)}, \qquad

@@ -146,14 +146,14 @@ void bind_state(nb::module_& m) {
 
 Unless `converged`, the numbers describe the last iterate and must not be used as the answer.
 )");
-  view_property(state, "pressure", &NormalContactState::pressure, "(nx, ny), Pa, >= 0.");
+  view_property(state, "contact_pressure", &NormalContactState::pressure, "(nx, ny), Pa, >= 0.");
   view_property(state, "gap", &NormalContactState::gap, "(nx, ny), m, >= 0 up to the tolerance.");
   state.def_ro("grid", &BoundContact::grid, "Points and size.")
       .def_ro("contact_modulus", &BoundContact::contact_modulus, "E*, Pa, as given.")
       .def_prop_ro(
           "boundary", [](const BoundContact& self) { return text_of(self.boundary); },
           "\"periodic\" or \"free\", as given.")
-      .def_ro("mean_pressure", &BoundContact::mean_pressure, "Pa.")
+      .def_ro("mean_pressure", &BoundContact::mean_pressure, "Nominal pressure, Pa.")
       .def_ro("force", &BoundContact::force, "N.")
       .def_ro("mean_gap", &BoundContact::mean_gap, "ū: mean of the gap over all cells, m.")
       .def_ro("indentation", &BoundContact::indentation, "Rigid approach from first touch, m.")

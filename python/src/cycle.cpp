@@ -15,8 +15,8 @@
 #include <salebra/damping/adaptive_quadrature.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/level_quadrature.hpp>
-#include <salebra/io/cycle_columns.hpp>
-#include <salebra/io/cycle_recorder.hpp>
+#include <salebra/results/cycle.hpp>
+#include <salebra/results/cycle_recorder.hpp>
 
 #include "bindings.hpp"
 #include "interop/choice.hpp"
@@ -153,9 +153,14 @@ void bind_result(nb::module_& m) {
                 "Lost in a period by unit area, (nx, ny), J/m²; empty where nothing slips.");
   view_property(result, "smallest", &Result::smallest, "Cells that are in contact always.");
   view_property(result, "largest", &Result::largest, "Cells that are in contact at some time.");
-  for (const CycleColumn& of : cycle_columns)
-    if (of.value != &CycleSample::dissipated)  // the name of the sum
-      column_property(result, of.name, &Result::samples, of.value, of.long_name);
+  describe(
+      [&](double CycleSample::*member, const Quantity& quantity) {
+        if (member == &CycleSample::dissipated) return;  // the name of the sum
+        const std::string text =
+            std::string(quantity.long_name) + ", " + std::string(si_unit(quantity.dimension)) + ".";
+        column_property(result, quantity.name.data(), &Result::samples, member, text.c_str());
+      },
+      std::type_identity<CycleSample>{});
   result_methods(result, true);
 }
 
@@ -342,7 +347,7 @@ void bind_quadrature(nb::module_& m) {
       .def_ro("small_amplitude_work", &Result::small_amplitude_work,
               "Eq. (12) or (15) with F'' of the same fit, J.")
       .def_ro("force", &Result::force, "F at the mean indentation, N.")
-      .def_ro("curvature", &Result::curvature, "F'' there, N/m².")
+      .def_ro("force_curvature", &Result::curvature, "F'' there, N/m².")
       .def_ro("stiffness_ratio", &Result::stiffness_ratio, "work_per_cycle/work_by_force.")
       .def_ro("curve", &Result::curve, "The levels.")
       .def_ro("converged", &Result::converged)

@@ -52,7 +52,7 @@ void bind_damping_result(nb::module_& m) {
       .def_ro("mean_force", &DampingResult::mean_force, "Mean of F over the cycle, N.")
       .def_ro("normal_stiffness", &DampingResult::normal_stiffness,
               "K at the mean indentation, N/m.")
-      .def_ro("curvature", &DampingResult::curvature, "F'' at the mean indentation, N/m².")
+      .def_ro("force_curvature", &DampingResult::curvature, "F'' at the mean indentation, N/m².")
       .def_ro("tangential_curvature", &DampingResult::tangential_curvature,
               "K_t' at the mean indentation, N/m².")
       .def_ro("small_amplitude_work", &DampingResult::small_amplitude_work,

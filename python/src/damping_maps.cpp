@@ -21,10 +21,12 @@ void bind_friction_map(nb::module_& m) {
       "How far the paper's \"infinite\" friction reaches: losses over the full-stick loss.");
   view_property(friction, "friction_number", &FrictionMap::friction_number, "M = μE*u_z/(G*u_x).");
   view_property(friction, "phase", &FrictionMap::phase, "φ0, rad.");
-  view_property(friction, "loss", &FrictionMap::loss, "W(μ)/W(∞), (friction numbers, phases).");
-  view_property(friction, "relaxation", &FrictionMap::relaxation,
+  view_property(friction, "loss_ratio", &FrictionMap::loss_ratio,
+                "W(μ)/W(∞), (friction numbers, phases).");
+  view_property(friction, "relaxation_ratio", &FrictionMap::relaxation_ratio,
                 "Its part from levels that open and close.");
-  view_property(friction, "slip", &FrictionMap::slip, "Its part from slip in permanent contact.");
+  view_property(friction, "slip_ratio", &FrictionMap::slip_ratio,
+                "Its part from slip in permanent contact.");
   result_methods(friction, true);
   m.def(
       "friction_map",
@@ -47,11 +49,11 @@ void bind_stress_map(nb::module_& m) {
                                "Stresses under an axisymmetric indenter over phases and radii: "
                                "Fig. 4 of doi:10.1038/srep16189.");
   view_property(stress, "angle", &StressMap::angle, "θ, rad.");
-  view_property(stress, "radius", &StressMap::radius, "r, m.");
+  view_property(stress, "radial_position", &StressMap::radial_position, "r, m.");
   view_property(stress, "contact_radius", &StressMap::contact_radius, "a of each phase, m.");
   view_property(stress, "tangential_force", &StressMap::tangential_force, "F_x of each phase, N.");
   view_property(stress, "shear", &StressMap::shear, "τ (phases, radii), Pa, Eq. (17).");
-  view_property(stress, "pressure", &StressMap::pressure, "p (phases, radii), Pa.");
+  view_property(stress, "contact_pressure", &StressMap::contact_pressure, "p (phases, radii), Pa.");
   result_methods(stress, true);
   m.def(
       "stress_map",

@@ -28,7 +28,7 @@ void bind_ensemble(nb::module_& m) {
 
 Parameters
 ----------
-density : float
+summit_density : float
     η, 1/m².
 radius : float
     R, m.
@@ -45,20 +45,20 @@ table : list of (float, float)
 )")
       .def(
           "__init__",
-          [](SummitEnsemble* self, double density, double radius, double summit_rms,
+          [](SummitEnsemble* self, double summit_density, double radius, double summit_rms,
              double mean_height, const Choice<SummitDistribution>& distribution, double rms_height,
              const std::vector<std::pair<double, double>>& table) {
             SummitEnsemble ensemble{
-                density,    radius, summit_rms, mean_height, distribution.value("distribution"),
-                rms_height, {}};
+                summit_density, radius, summit_rms, mean_height, distribution.value("distribution"),
+                rms_height,     {}};
             for (const auto& [height, phi] : table) ensemble.table.push_back({height, phi});
             new (self) SummitEnsemble(std::move(ensemble));
           },
-          nb::kw_only(), nb::arg("density"), nb::arg("radius"), nb::arg("summit_rms") = 0.0,
+          nb::kw_only(), nb::arg("summit_density"), nb::arg("radius"), nb::arg("summit_rms") = 0.0,
           nb::arg("mean_height") = 0.0, nb::arg("distribution") = "gaussian",
           nb::arg("rms_height") = ForceSample::unknown,
           nb::arg("table") = std::vector<std::pair<double, double>>{})
-      .def_ro("density", &SummitEnsemble::density, "η, 1/m².")
+      .def_ro("summit_density", &SummitEnsemble::density, "η, 1/m².")
       .def_ro("radius", &SummitEnsemble::radius, "R, m.")
       .def_ro("summit_rms", &SummitEnsemble::summit_rms, "σ_s, m.")
       .def_ro("mean_height", &SummitEnsemble::mean_height, "m")
@@ -66,10 +66,11 @@ table : list of (float, float)
                    [](const SummitEnsemble& self) { return text_of(self.distribution); })
       .def_ro("rms_height", &SummitEnsemble::rms_height, "m")
       .def("__repr__", [](const SummitEnsemble& self) {
-        return describe(
-            "SummitEnsemble",
-            {{"density", self.density}, {"radius", self.radius}, {"summit_rms", self.summit_rms}},
-            "distribution='" + text_of(self.distribution) + "'");
+        return describe("SummitEnsemble",
+                        {{"summit_density", self.density},
+                         {"radius", self.radius},
+                         {"summit_rms", self.summit_rms}},
+                        "distribution='" + text_of(self.distribution) + "'");
       });
   m.def(
       "summit_ensemble",
@@ -106,7 +107,7 @@ void bind_models(nb::module_& m) {
       .def_ro("contact_area", &AsperityContact::contact_area, "A_c, m².")
       .def_ro("force", &AsperityContact::force, "F, N.")
       .def_ro("normal_stiffness", &AsperityContact::normal_stiffness, "K, N/m.")
-      .def_ro("curvature", &AsperityContact::curvature, "F'', N/m².")
+      .def_ro("force_curvature", &AsperityContact::curvature, "F'', N/m².")
       .def_ro("converged", &AsperityContact::converged, "Only a model that iterates may say no.");
   nb::class_<AsperityModel>(
       m, "AsperityModel", nb::dynamic_attr(),

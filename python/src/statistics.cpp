@@ -28,7 +28,7 @@ void bind_spectra(nb::module_& m) {
 
 on the half-spectrum of wave vectors (i, j), j = 0 … ny/2.
 )");
-  view_property(power, "density", &PowerSpectrum::density, "C, (nx, ny/2+1), m⁴.");
+  view_property(power, "psd", &PowerSpectrum::psd, "C, (nx, ny/2+1), m⁴.");
   power.def_ro("grid", &PowerSpectrum::grid)
       .def_ro("windowed", &PowerSpectrum::windowed,
               "A window made the heights fade out at the edges.")
@@ -36,7 +36,7 @@ on the half-spectrum of wave vectors (i, j), j = 0 … ny/2.
           "wavenumber_x",
           [](const PowerSpectrum& self) {
             std::vector<double> q;
-            for (Index i = 0; i < self.density.rows(); ++i) q.push_back(self.wavenumber_x(i));
+            for (Index i = 0; i < self.psd.rows(); ++i) q.push_back(self.wavenumber_x(i));
             return array_of(std::move(q));
           },
           nb::sig("def wavenumber_x(self) -> numpy.typing.NDArray[numpy.float64]"),
@@ -45,7 +45,7 @@ on the half-spectrum of wave vectors (i, j), j = 0 … ny/2.
           "wavenumber_y",
           [](const PowerSpectrum& self) {
             std::vector<double> q;
-            for (Index j = 0; j < self.density.cols(); ++j) q.push_back(self.wavenumber_y(j));
+            for (Index j = 0; j < self.psd.cols(); ++j) q.push_back(self.wavenumber_y(j));
             return array_of(std::move(q));
           },
           nb::sig("def wavenumber_y(self) -> numpy.typing.NDArray[numpy.float64]"),
@@ -58,21 +58,21 @@ on the half-spectrum of wave vectors (i, j), j = 0 … ny/2.
         const Window chosen = window.value("window");
         return unlocked([&] { return power_spectrum(surface.surface, chosen); });
       },
-      nb::arg("surface"), nb::arg("window") = "customary",
+      nb::arg("surface"), nb::arg("window") = "default",
       R"(Power spectral density of a surface; exact on the modes of a periodic one: Σ C d²q = h_rms².
 
 Parameters
 ----------
 surface : Surface
     Complete; subtract its tilt before.
-window : {"customary", "none", "hann", "blackman", "radial_hann"}
-    "customary": none for a periodic surface, "hann" for any other.
+window : {"default", "none", "hann", "blackman", "radial_hann"}
+    "default": none for a periodic surface, "hann" for any other.
 )");
 
   nb::class_<RadialSpectrum> radial(m, "RadialSpectrum", "C averaged over rings of wave vectors.");
   view_property(radial, "wavenumber", &RadialSpectrum::wavenumber,
                 "Mean wave number of the modes in the bin, rad/m.");
-  view_property(radial, "density", &RadialSpectrum::density, "Mean C, m⁴.");
+  view_property(radial, "psd", &RadialSpectrum::psd, "Mean C, m⁴.");
   view_property(radial, "modes", &RadialSpectrum::modes, "In the bin, of the full spectrum.");
   result_methods(radial, true);
   m.def("radial_spectrum", &radial_spectrum, nb::arg("spectrum"), nb::arg("bins_per_octave") = 4,
@@ -81,7 +81,7 @@ window : {"customary", "none", "hann", "blackman", "radial_hann"}
   nb::class_<ProfilePsd> profile(
       m, "ProfilePsd", "Power spectral density of profiles, C₁(q) = ∫C dq_y, h_rms² = ∫C₁ dq.");
   view_property(profile, "wavenumber", &ProfilePsd::wavenumber, "q, rad/m.");
-  view_property(profile, "density", &ProfilePsd::density, "C₁, m³.");
+  view_property(profile, "profile_psd", &ProfilePsd::psd, "C₁, m³.");
   view_property(profile, "modes", &ProfilePsd::modes, "q and −q of all profiles.");
   profile.def_ro("profiles", &ProfilePsd::profiles)
       .def_ro("length", &ProfilePsd::length, "m")
@@ -94,16 +94,16 @@ window : {"customary", "none", "hann", "blackman", "radial_hann"}
         const Window chosen = window.value("window");
         return unlocked([&] { return profile_psd(surface.surface, along, chosen); });
       },
-      nb::arg("surface"), nb::arg("axis") = "x", nb::arg("window") = "customary",
+      nb::arg("surface"), nb::arg("axis") = "x", nb::arg("window") = "default",
       "Mean power spectral density of all profiles along an axis.");
 
   nb::class_<ConvertedPsd> converted_psd(
       m, "ConvertedPsd",
       "A power spectral density in another convention, with what it takes to read it.");
   view_property(converted_psd, "wavenumber", &ConvertedPsd::wavenumber, "In wavenumber_unit.");
-  view_property(converted_psd, "density", &ConvertedPsd::density, "In density_unit.");
+  view_property(converted_psd, "psd", &ConvertedPsd::psd, "In psd_unit.");
   converted_psd.def_ro("wavenumber_unit", &ConvertedPsd::wavenumber_unit)
-      .def_ro("density_unit", &ConvertedPsd::density_unit)
+      .def_ro("psd_unit", &ConvertedPsd::psd_unit)
       .def_ro("normalisation", &ConvertedPsd::normalisation, "What the mean square height is.");
   m.def(
       "converted",
@@ -197,10 +197,9 @@ Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
                                     "Slope and curvature along one axis over the distance of their "
                                     "differences, doi:10.1016/j.apsadv.2021.100190.");
   view_property(scale, "spacing", &ScaleDependence::spacing, "s, m.");
-  view_property(scale, "rms_slope", &ScaleDependence::rms_slope, "√⟨slope²⟩ = √S(s)/s.");
-  view_property(scale, "rms_curvature", &ScaleDependence::rms_curvature, "1/m");
-  view_property(scale, "least_curvature", &ScaleDependence::least_curvature,
-                "The sharpest peak, 1/m.");
+  view_property(scale, "profile_slope", &ScaleDependence::profile_slope, "√⟨slope²⟩ = √S(s)/s.");
+  view_property(scale, "profile_curvature", &ScaleDependence::profile_curvature, "1/m");
+  view_property(scale, "min_curvature", &ScaleDependence::min_curvature, "The sharpest peak, 1/m.");
   view_property(scale, "stencils", &ScaleDependence::stencils, "Of the curvature.");
   result_methods(scale, true);
   m.def(
@@ -277,7 +276,7 @@ void bind_bearing(nb::module_& m) {
   m.def("core_parameters", &core_parameters, nb::arg("curve"), "Sk, Spk, Svk, Smr1, Smr2.");
   nb::class_<HeightHistogram> histogram(m, "HeightHistogram", "Heights in bins of equal width.");
   view_property(histogram, "height", &HeightHistogram::height, "Middle of the bin, m.");
-  view_property(histogram, "density", &HeightHistogram::density,
+  view_property(histogram, "height_density", &HeightHistogram::height_density,
                 "Part of the points over the width, 1/m.");
   view_property(histogram, "points", &HeightHistogram::points, "In the bin.");
   histogram.def_ro("width", &HeightHistogram::width, "Of a bin, m.");

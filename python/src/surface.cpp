@@ -282,13 +282,13 @@ void bind_summits(nb::module_& m) {
 
   nb::class_<SummitStatistics>(m, "SummitStatistics",
                                "An ensemble of summits as the Greenwood–Williamson theory uses it.")
-      .def_ro("density", &SummitStatistics::density, "Summits per searched area, 1/m².")
+      .def_ro("summit_density", &SummitStatistics::density, "Summits per searched area, 1/m².")
       .def_ro("mean_height", &SummitStatistics::mean_height, "From the zero of the heights, m.")
       .def_ro("rms_height", &SummitStatistics::rms_height,
               "Standard deviation of the summit heights, m.")
       .def_ro("mean_radius", &SummitStatistics::mean_radius, "1/⟨mean curvature⟩, m.")
       .def("__repr__", [](const SummitStatistics& s) {
-        return describe("SummitStatistics", {{"density", s.density},
+        return describe("SummitStatistics", {{"summit_density", s.density},
                                              {"mean_height", s.mean_height},
                                              {"rms_height", s.rms_height},
                                              {"mean_radius", s.mean_radius}});
@@ -316,11 +316,11 @@ Neighbours wrap where the surface is periodic; elsewhere the border is not searc
       .def_ro("mean_curvature", &Peak::mean_curvature, "1/m");
   m.def(
       "significant_peaks",
-      [](const BoundSurface& surface, double least_prominence) {
-        return unlocked([&] { return significant_peaks(surface.surface, least_prominence); });
+      [](const BoundSurface& surface, double min_prominence) {
+        return unlocked([&] { return significant_peaks(surface.surface, min_prominence); });
       },
-      nb::arg("surface"), nb::arg("least_prominence"),
-      "Peaks that stand at least `least_prominence` (m) above the saddle to a higher one: Wolf's "
+      nb::arg("surface"), nb::arg("min_prominence"),
+      "Peaks that stand at least `min_prominence` (m) above the saddle to a higher one: Wolf's "
       "pruning of ISO 25178-2.");
 }
 

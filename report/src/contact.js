@@ -85,18 +85,18 @@ function localLengthFigure(parent, point) {
   const single = rows === 1;
   addFigure(parent, {
     id: "local-length", title: "Is the decay length a constant?", height: 520,
-    alt: () => `Local decay length against the mean gap, for ${rows} ${single ? "surface" : "surfaces"}: from ${quantity(Math.min(...local.decay_length.flat().filter(known)), "m", 3)} to ${quantity(Math.max(...local.decay_length.flat().filter(known)), "m", 3)}; the fit has ${quantity(f.length, "m", 3)}.`,
+    alt: () => `Local decay length against the mean gap, for ${rows} ${single ? "surface" : "surfaces"}: from ${quantity(Math.min(...local.local_decay_length.flat().filter(known)), "m", 3)} to ${quantity(Math.max(...local.local_decay_length.flat().filter(known)), "m", 3)}; the fit has ${quantity(f.length, "m", 3)}.`,
     caption: `Local decay length −d‹ū›/d ln ‹p› between neighbouring loads. An exponential law would be a level line${known(f.length) ? `; the fit takes ‹l› = ${quantity(f.length, "m", 3)} (dashed) over the shaded window` : ""}.`,
     axes: {x: {label: "mean gap ‹ū›", short: "‹ū›", unit: "m", log: false, fixed: true}, y: {label: "local decay length", unit: "m", log: false}},
-    columns: () => [{label: "surface", key: "surface", unit: "1", values: local.mean_gap.flatMap((row, r) => row.map(() => r + 1))}, {label: "mean gap", key: "mean_gap", unit: "m", values: local.mean_gap.flat()}, {label: "local decay length", key: "local_decay_length", unit: "m", values: local.decay_length.flat()}],
+    columns: () => [{label: "surface", key: "surface", unit: "1", values: local.mean_gap.flatMap((row, r) => row.map(() => r + 1))}, {label: "mean gap", key: "mean_gap", unit: "m", values: local.mean_gap.flat()}, {label: "local decay length", key: "local_decay_length", unit: "m", values: local.local_decay_length.flat()}],
     plot: () => {
       const shapes = [];
       if (known(f.length)) {
         shapes.push({type: "rect", x0: f.gapOf(f.pressureMax), x1: f.gapOf(f.pressureMin), y0: 0, y1: 1, yref: "paper", fillcolor: faint("vermilion", 0.1), line: {width: 0}, layer: "below"});
         shapes.push({type: "line", x0: 0, x1: 1, xref: "paper", y0: f.length, y1: f.length, line: {color: color("vermilion"), width: 2, dash: "dash"}});
       }
-      return {shapes, axes: {yaxis: {rangemode: "tozero"}}, series: local.mean_gap.map((row, r) => ({label: "single surfaces", group: "single", x: row, y: local.decay_length[r], mode: single ? "lines+markers" : "lines", line: {color: single ? color("blue") : faint("blue", 0.45), width: single ? 2 : 1.2}, marker: {size: 5, color: color("blue")},
-        text: row.map((g, i) => `${single ? "" : `surface ${r + 1}<br>`}<i>l</i> = ${quantity(local.decay_length[r][i], "m", 3)} = ${number(local.decay_length[r][i] / f.rms, 3)} <i>h</i><sub>rms</sub><br><i>ū</i> = ${quantity(g, "m", 3)}`)}))};
+      return {shapes, axes: {yaxis: {rangemode: "tozero"}}, series: local.mean_gap.map((row, r) => ({label: "single surfaces", group: "single", x: row, y: local.local_decay_length[r], mode: single ? "lines+markers" : "lines", line: {color: single ? color("blue") : faint("blue", 0.45), width: single ? 2 : 1.2}, marker: {size: 5, color: color("blue")},
+        text: row.map((g, i) => `${single ? "" : `surface ${r + 1}<br>`}<i>l</i> = ${quantity(local.local_decay_length[r][i], "m", 3)} = ${number(local.local_decay_length[r][i] / f.rms, 3)} <i>h</i><sub>rms</sub><br><i>ū</i> = ${quantity(g, "m", 3)}`)}))};
     },
   });
 }

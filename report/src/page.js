@@ -84,7 +84,7 @@ function warningsOf(point) {
 }
 
 const STATISTICS = {rms_height: "rms height ‹h›_{rms}", rms_slope: "rms slope ‹h›′", skewness: "skewness", kurtosis: "kurtosis (Gaussian: 3)", nayak: "Nayak’s α = ‹m›_{0}‹m›_{4}/‹m›_{2}^{2}",
-  moment0: "spectral moment ‹m›_{0}", moment2: "‹m›_{2}, of a profile", moment4: "‹m›_{4}, of a profile", density: "summits per area", mean_radius: "mean radius of summits", summit_rms: "rms of summit heights"};
+  moment0: "spectral moment ‹m›_{0}", moment2: "‹m›_{2}, of a profile", moment4: "‹m›_{4}, of a profile", summit_density: "summits per area", mean_radius: "mean radius of summits", summit_rms: "rms of summit heights"};
 
 function surfaceTable(point) {
   const statistics = point.surface?.statistics;

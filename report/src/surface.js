@@ -61,15 +61,15 @@ function spectrumFigure(parent, point) {
     alt: () => `Power spectral density against wave number, both logarithmic, from ${number(Math.min(...picture.wavenumber), 3)} to ${number(Math.max(...picture.wavenumber), 3)} rad/m. ${plainText(hurst)}`,
     caption: `‹C›(‹q›), mean over rings of wave vectors; ‹h›_{rms}² is its integral over the plane. ${hurst} Wavelengths are 2π/‹q›.`,
     axes: {x: {label: "wave number ‹q›", short: "‹q›", unit: "rad/m", log: true}, y: {label: "‹C›", unit: "m^4", log: true}},
-    columns: () => [{label: "wave number", key: "wavenumber", unit: "rad/m", values: picture.wavenumber}, {label: "‹C›", key: "density", unit: "m^4", values: picture.density},
-      {label: picture.law === "asked for" ? "‹C› asked for" : "‹C› of the fit", key: "law_density", unit: "m^4", values: picture.law_density}],
+    columns: () => [{label: "wave number", key: "wavenumber", unit: "rad/m", values: picture.wavenumber}, {label: "‹C›", key: "psd", unit: "m^4", values: picture.psd},
+      {label: picture.law === "asked for" ? "‹C› asked for" : "‹C› of the fit", key: "law_density", unit: "m^4", values: picture.law_psd}],
     plot: () => {
       // Beyond the shortest wave there is nothing but rounding.
-      const seen = picture.density.map((_, i) => i).filter((i) => picture.density[i] > Math.max(...picture.density) * 1e-13);
+      const seen = picture.psd.map((_, i) => i).filter((i) => picture.psd[i] > Math.max(...picture.psd) * 1e-13);
       return {series: [
-        {label: "this surface", x: seen.map((i) => picture.wavenumber[i]), y: seen.map((i) => picture.density[i]), mode: "lines+markers", line: {color: color("blue"), width: 1.5}, marker: {size: 5, color: color("blue")},
-          text: seen.map((i) => `<i>q</i> = ${number(picture.wavenumber[i], 3)} rad/m, wavelength ${quantity(2 * Math.PI / picture.wavenumber[i], "m", 3)}<br><i>C</i> = ${number(picture.density[i], 3)} m⁴`)},
-        ...(picture.law ? [{label: law, x: picture.wavenumber.filter((_, i) => known(picture.law_density[i])), y: picture.law_density.filter(known), mode: "lines", line: {color: color("vermilion"), width: 2, dash: "dash"}, hoverinfo: "skip"}] : [])]};
+        {label: "this surface", x: seen.map((i) => picture.wavenumber[i]), y: seen.map((i) => picture.psd[i]), mode: "lines+markers", line: {color: color("blue"), width: 1.5}, marker: {size: 5, color: color("blue")},
+          text: seen.map((i) => `<i>q</i> = ${number(picture.wavenumber[i], 3)} rad/m, wavelength ${quantity(2 * Math.PI / picture.wavenumber[i], "m", 3)}<br><i>C</i> = ${number(picture.psd[i], 3)} m⁴`)},
+        ...(picture.law ? [{label: law, x: picture.wavenumber.filter((_, i) => known(picture.law_psd[i])), y: picture.law_psd.filter(known), mode: "lines", line: {color: color("vermilion"), width: 2, dash: "dash"}, hoverinfo: "skip"}] : [])]};
     },
   });
 }

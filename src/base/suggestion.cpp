@@ -27,8 +27,15 @@ std::size_t edits(std::string_view a, std::string_view b) {
 
 /// Options and keys of a study file that had another name in version 0.1. Options have "--" and dashes.
 constexpr std::pair<std::string_view, std::string_view> renamed[]{
-    {"coupling", "dundurs"},           {"force", "overwrite"},
-    {"force_newton", "normal_force"},  {"least_realisations", "min_realisations"},
+    {"coupling", "dundurs"},
+    {"curvature", "force_curvature"},
+    {"customary", "default"},
+    {"density", "summit_density"},
+    {"force", "overwrite"},
+    {"force_newton", "normal_force"},
+    {"friction", "friction_coefficient"},
+    {"least_prominence", "min_prominence"},
+    {"least_realisations", "min_realisations"},
     {"precision", "target_precision"},
 };
 

@@ -35,9 +35,9 @@ FrictionMap friction_map(const ContactLaw& law, double mean_indentation, double 
         const double number = friction_numbers[static_cast<std::size_t>(i)];
         const TrajectoryDamping rubbed =
             trajectory_damping(law, path, {.friction_coefficient = number * friction_of_one});
-        map.loss(i, j) = rubbed.work_per_cycle / stick;
-        map.relaxation(i, j) = rubbed.relaxation_work / stick;
-        map.slip(i, j) = rubbed.slip_work / stick;
+        map.loss_ratio(i, j) = rubbed.work_per_cycle / stick;
+        map.relaxation_ratio(i, j) = rubbed.relaxation_work / stick;
+        map.slip_ratio(i, j) = rubbed.slip_work / stick;
       }
     });
     const double done = static_cast<double>(j + 1) / static_cast<double>(columns);

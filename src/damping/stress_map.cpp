@@ -67,7 +67,7 @@ double OscillatingStress::contact_radius(double angle) const {
              : 0;
 }
 
-double OscillatingStress::least_contact_radius() const {
+double OscillatingStress::min_contact_radius() const {
   return open_angle_ < pi ? 0 : law_.contact_radius(mean_indentation_ - amplitude_);
 }
 
@@ -148,7 +148,7 @@ StressMap stress_map(const IndenterLaw& law, double mean_indentation, const Osci
   const OscillatingStress stress(law, mean_indentation, motion);
   StressMap map;
   const double largest = 1.05 * stress.contact_radius(0);
-  for (int j = 0; j < radii; ++j) map.radius.push_back(largest * (j + 0.5) / radii);
+  for (int j = 0; j < radii; ++j) map.radial_position.push_back(largest * (j + 0.5) / radii);
   for (int i = 0; i <= phases; ++i) {
     const double angle = -pi + 2 * pi * i / phases;
     map.angle.push_back(angle);
@@ -156,7 +156,7 @@ StressMap stress_map(const IndenterLaw& law, double mean_indentation, const Osci
     map.tangential_force.push_back(stress.tangential_force(angle));
   }
   map.shear.resize(phases + 1, radii);
-  map.pressure.resize(phases + 1, radii);
+  map.contact_pressure.resize(phases + 1, radii);
   constexpr Index block = 16;
   for (Index first = 0; first <= phases; first += block) {
     const Index count = std::min<Index>(block, phases + 1 - first);
@@ -164,9 +164,9 @@ StressMap stress_map(const IndenterLaw& law, double mean_indentation, const Osci
       for (Index i = first + begin; i < first + end; ++i)
         for (Index j = 0; j < radii; ++j) {
           const double angle = map.angle[static_cast<std::size_t>(i)];
-          const double r = map.radius[static_cast<std::size_t>(j)];
+          const double r = map.radial_position[static_cast<std::size_t>(j)];
           map.shear(i, j) = stress.shear(angle, r);
-          map.pressure(i, j) = stress.pressure(angle, r);
+          map.contact_pressure(i, j) = stress.pressure(angle, r);
         }
     });
     const double done = static_cast<double>(first + count) / (phases + 1);

@@ -177,7 +177,7 @@ class Point {
     if (const auto seeds = column("surface/seed")) json["seed"] = *seeds;
     Json& statistics = json["statistics"];
     for (const char* name : {"rms_height", "rms_slope", "skewness", "kurtosis", "nayak", "moment0",
-                             "moment2", "moment4", "density", "mean_radius", "summit_rms"}) {
+                             "moment2", "moment4", "summit_density", "mean_radius", "summit_rms"}) {
       const auto values = column(std::string("surface/") + name);
       if (!values) continue;
       const Quantity quantity = find_quantity(name);
@@ -221,7 +221,7 @@ class Point {
     for (const char* name : {"hurst", "hurst_low", "hurst_high"})
       if (const auto value = file_.number_attribute(where_ + "picture", name))
         json[name] = number(*value);
-    for (const char* name : {"wavenumber", "density", "law_density", "height", "height_density"})
+    for (const char* name : {"wavenumber", "psd", "law_psd", "height", "height_density"})
       if (const auto values = column(std::string("picture/") + name)) json[name] = list(*values);
     return json;
   }

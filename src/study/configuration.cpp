@@ -174,7 +174,7 @@ double read_fact(TomlTable& table, const char* key, Dimension dimension) {
 Material read_material(TomlTable table, ContactFacts& known) {
   known.friction_coefficient = read_fact(table, "friction_coefficient", Dimension::dimensionless);
   known.hardness = read_fact(table, "hardness", Dimension::pressure);
-  known.density = read_fact(table, "density", Dimension::dimensionless);
+  known.density = read_fact(table, "density", Dimension::mass_density);
   const auto young = table.values("young", Dimension::pressure);
   const auto poisson = table.values("poisson", Dimension::dimensionless);
   const auto modulus = table.quantity("contact_modulus", Dimension::pressure);

@@ -107,7 +107,7 @@ std::vector<RoughnessShell> shells_of(const Surface& surface) {
   const RadialSpectrum rings = radial_spectrum(spectrum, 16);
   std::vector<RoughnessShell> shells;
   for (std::size_t i = 0; i < rings.wavenumber.size(); ++i) {
-    const double power = double(rings.modes[i]) * rings.density[i] * spectrum.cell();
+    const double power = double(rings.modes[i]) * rings.psd[i] * spectrum.cell();
     if (power > 0) shells.push_back({rings.wavenumber[i], power});
   }
   return shells;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <salebra/results/damping.hpp>
+#include <salebra/results/quantity_group.hpp>
 #include <salebra/results/spectrum.hpp>
 #include <salebra/study/study_premises.hpp>
 #include <set>
@@ -266,14 +267,14 @@ void write_premises(ResultGroup group, const StudyResult& result) {
     for (const LossWithSlip& one : found.losses) values.push_back(one.*member);
     group.dataset(dataset, values, {"pressure"}, "J", meaning);
   };
-  loss("work_per_cycle", &LossWithSlip::work_per_cycle,
+  loss("work_per_cycle_with_slip", &LossWithSlip::work_per_cycle,
        "energy dissipated in a cycle with friction");
   loss("relaxation_work", &LossWithSlip::relaxation_work,
        "energy dissipated in a cycle by springs that open and close");
   loss("slip_work", &LossWithSlip::slip_work,
        "energy dissipated in a cycle by slip in permanent contact");
-  group.dataset("damping_constant", found.damping_constant_with_slip, {"pressure"}, "N s/m",
-                "damping constant P/v^2 with friction");
+  group.dataset("damping_constant_with_slip", found.damping_constant_with_slip, {"pressure"},
+                "N s/m", "damping constant P/v^2 with friction");
   group.attribute("objections", objections(found.premises));
 }
 
@@ -331,26 +332,22 @@ void write_convergence(Table table, const StudyResult& result) {
   table.put(std::string(ratio.name), ratio, result.convergence(), {"surfaces"});
 }
 
-void write_picture(ResultGroup group, const SurfacePicture& picture) {
-  group.coordinate("x", positions(picture.nx, picture.step_x), "m", "position");
-  group.coordinate("y", positions(picture.ny, picture.step_y), "m", "position");
-  group.dataset("heights", picture.heights, {"x", "y"}, "m", "height above the mean");
-  group.dataset("first_load", picture.first_load, {"x", "y"}, "1",
-                "number of the least pressure of the curve at which the point touches; -1: none");
-  group.coordinate("wavenumber", picture.wavenumber, "rad/m", "wave number");
-  group.dataset("density", picture.density, {"wavenumber"}, "m^4",
-                "power spectral density C, mean over a ring of wave vectors");
-  group.dataset("law_density", picture.law_density, {"wavenumber"}, "m^4",
-                "C of the self-affine law");
-  group.coordinate("height", picture.height, "m", "height above the mean, middle of a bin");
-  group.dataset("height_density", picture.height_density, {"height"}, "1/m",
-                "share of the points in a bin over its width");
-  group.attribute("origin", picture.origin);
+void write_picture(QuantityGroup group, const SurfacePicture& picture) {
+  group.coordinate("x", positions(picture.nx, picture.step_x));
+  group.coordinate("y", positions(picture.ny, picture.step_y));
+  group.dataset("heights", picture.heights, {"x", "y"});
+  group.dataset("first_load", picture.first_load, {"x", "y"});
+  group.coordinate("wavenumber", picture.wavenumber);
+  group.dataset("psd", picture.psd, {"wavenumber"});
+  group.dataset("law_psd", picture.law_psd, {"wavenumber"});
+  group.coordinate("height", picture.height);
+  group.dataset("height_density", picture.height_density, {"height"});
   group.attribute("stride", std::int64_t(picture.stride));
-  group.attribute("law", picture.law);
   group.attribute("hurst", picture.hurst);
   group.attribute("hurst_low", picture.hurst_low);
   group.attribute("hurst_high", picture.hurst_high);
+  group.plain().attribute("origin", picture.origin);
+  group.plain().attribute("law", picture.law);
 }
 
 }  // namespace
@@ -367,7 +364,7 @@ void write_study_groups(ResultFile& output, const std::string& where, const Stud
   write_comparison(table("comparison"), result);
   if (result.realisations.size() >= 2) write_convergence(table("convergence"), result);
   const SurfacePicture& picture = result.realisations.front().picture;
-  if (!picture.empty()) write_picture(output.group(where + "picture"), picture);
+  if (!picture.empty()) write_picture(QuantityGroup(output.group(where + "picture")), picture);
 }
 
 void write_study_overview(ResultGroup group, const std::vector<StudyResult>& results) {

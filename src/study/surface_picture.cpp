@@ -27,7 +27,7 @@ std::vector<double> power_law(const RadialSpectrum& rings, const HurstEstimate& 
     if (!inside(q)) continue;
     // Relative deviations count: a ring of the law's density has weight modes, whatever its power.
     law[i] = std::pow(q / hurst.wavenumber_min, slope);
-    power += double(rings.modes[i]) * rings.density[i] / law[i];
+    power += double(rings.modes[i]) * rings.psd[i] / law[i];
     unit_power += double(rings.modes[i]);
   }
   for (double& density : law) density *= power / unit_power;
@@ -72,22 +72,22 @@ SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& conf
   const RadialSpectrum rings = radial_spectrum(spectrum, 8);
   const HurstEstimate hurst = estimate_hurst(spectrum);
   picture.wavenumber = rings.wavenumber;
-  picture.density = rings.density;
+  picture.psd = rings.psd;
   picture.hurst = hurst.value;
   picture.hurst_low = hurst.low;
   picture.hurst_high = hurst.high;
   if (const auto* generated = std::get_if<GeneratedSurfaces>(&configuration.surfaces)) {
-    picture.law_density = prescribed_law(rings, generated->spectrum);
+    picture.law_psd = prescribed_law(rings, generated->spectrum);
     picture.law = "asked for";
   } else {
-    picture.law_density = power_law(rings, hurst);
+    picture.law_psd = power_law(rings, hurst);
     if (hurst.found()) picture.law = "fitted";
   }
 
   const HeightHistogram histogram = height_histogram(BearingCurve(surface));
   for (std::size_t i = 0; i < histogram.height.size(); ++i) {
     picture.height.push_back(histogram.height[i] - mean);
-    picture.height_density.push_back(histogram.density[i]);
+    picture.height_density.push_back(histogram.height_density[i]);
   }
   return picture;
 }

@@ -77,15 +77,15 @@ double ray_power(const PowerSpectrum& spectrum, double angle) {
   const double along_x = std::cos(angle) * grid.lx / scale;
   const double along_y = std::sin(angle) * grid.ly / scale;
   const auto at = [&](Index i, Index j) {
-    if (2 * std::abs(i) > grid.nx || j >= spectrum.density.cols()) return 0.0;
-    return spectrum.density((i + grid.nx) % grid.nx, j);
+    if (2 * std::abs(i) > grid.nx || j >= spectrum.psd.cols()) return 0.0;
+    return spectrum.psd((i + grid.nx) % grid.nx, j);
   };
   double sum = 0;
   for (double r = 0.5;; r += 0.5) {
     const double x = r * along_x, y = r * along_y;
     const double low_x = std::floor(x), low_y = std::floor(y);
     const auto i = static_cast<Index>(low_x), j = static_cast<Index>(low_y);
-    if (2 * std::abs(x) > static_cast<double>(grid.nx) || j >= spectrum.density.cols()) return sum;
+    if (2 * std::abs(x) > static_cast<double>(grid.nx) || j >= spectrum.psd.cols()) return sum;
     const double u = x - low_x, v = y - low_y;
     sum += r * ((1 - u) * ((1 - v) * at(i, j) + v * at(i, j + 1)) +
                 u * ((1 - v) * at(i + 1, j) + v * at(i + 1, j + 1)));

@@ -132,7 +132,7 @@ HeightHistogram height_histogram(const BearingCurve& curve, int bins) {
   }
   for (std::size_t k = 0; k < histogram.points.size(); ++k) {
     histogram.height.push_back(lowest + (static_cast<double>(k) + 0.5) * width);
-    histogram.density.push_back(static_cast<double>(histogram.points[k]) / (points * width));
+    histogram.height_density.push_back(static_cast<double>(histogram.points[k]) / (points * width));
   }
   return histogram;
 }

@@ -64,14 +64,14 @@ Range self_affine_range(const PowerSpectrum& spectrum, const RadialSpectrum& rad
   const Grid2D& grid = spectrum.grid;
   const double nyquist = pi / std::max(grid.dx(), grid.dy());
   const double longest = 2 * pi / std::min(grid.lx, grid.ly);
-  const double strongest = std::ranges::max(radial.density);
+  const double strongest = std::ranges::max(radial.psd);
   std::vector<std::size_t> bins;
   bool power_ended = false;
   for (std::size_t k = 0; k < radial.modes.size() && !power_ended; ++k) {
     if (spectrum.windowed && radial.wavenumber[k] < 3.5 * longest) continue;
     if (radial.wavenumber[k] > nyquist) break;
     // Rounding leaves 1e-32 of the strongest mode where a spectrum is cut off.
-    power_ended = !(radial.density[k] > 1e-24 * strongest);
+    power_ended = !(radial.psd[k] > 1e-24 * strongest);
     if (!power_ended) bins.push_back(k);
   }
   RunningFit fits;
@@ -80,7 +80,7 @@ Range self_affine_range(const PowerSpectrum& spectrum, const RadialSpectrum& rad
     const double variance =
         spectrum.correlated_modes / independent + forgiven_deviation * forgiven_deviation;
     // The mean of n exponential variates has a logarithm that is low by about 1/(2n).
-    fits.add(std::log(radial.wavenumber[k]), std::log(radial.density[k]) + 0.5 / independent,
+    fits.add(std::log(radial.wavenumber[k]), std::log(radial.psd[k]) + 0.5 / independent,
              1 / variance);
   }
 
@@ -129,10 +129,10 @@ struct Mode {
 std::vector<Mode> modes_within(const PowerSpectrum& spectrum, const Range& range) {
   std::vector<Mode> modes;
   for (Index i = 0; i < spectrum.grid.nx; ++i) {
-    for (Index j = 0; j < spectrum.density.cols(); ++j) {
+    for (Index j = 0; j < spectrum.psd.cols(); ++j) {
       const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
       if (q > 0 && q >= range.low && q <= range.high)
-        modes.push_back({std::log(q), spectrum.density(i, j), spectrum.multiplicity(j) / 2});
+        modes.push_back({std::log(q), spectrum.psd(i, j), spectrum.multiplicity(j) / 2});
     }
   }
   return modes;
@@ -168,7 +168,7 @@ HurstEstimate estimate_hurst(const PowerSpectrum& spectrum) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const HurstEstimate not_found{none, none, none, none, none, 0};
   const RadialSpectrum radial = radial_spectrum(spectrum);
-  if (radial.modes.empty() || !(std::ranges::max(radial.density) > 0)) return not_found;
+  if (radial.modes.empty() || !(std::ranges::max(radial.psd) > 0)) return not_found;
   const Range range = self_affine_range(spectrum, radial);
   std::vector<Mode> modes = modes_within(spectrum, range);
   if (modes.size() < 3) return not_found;

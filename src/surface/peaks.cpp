@@ -41,14 +41,14 @@ class Hills {
 
 }  // namespace
 
-std::vector<Peak> significant_peaks(const Surface& surface, double least_prominence) {
+std::vector<Peak> significant_peaks(const Surface& surface, double min_prominence) {
   detail::require_shape(surface);
   const Grid2D& grid = surface.grid;
   require(grid.nx >= 3, "nx", grid.nx, "must be >= 3 to have peaks");
   require(grid.ny >= 3, "ny", grid.ny, "must be >= 3 to have peaks");
   require(grid.points() <= std::numeric_limits<std::int32_t>::max(), "nx*ny", grid.points(),
           "must be below 2^31 points; crop the surface");
-  require(least_prominence >= 0, "least_prominence", least_prominence, "must be >= 0");
+  require(min_prominence >= 0, "min_prominence", min_prominence, "must be >= 0");
 
   const double* heights = surface.heights.data();
   const auto points = static_cast<std::size_t>(grid.points());
@@ -80,7 +80,7 @@ std::vector<Peak> significant_peaks(const Surface& surface, double least_promine
 
   std::vector<Peak> peaks;
   const auto keep = [&](std::size_t point, double prominence) {
-    if (prominence < least_prominence) return;
+    if (prominence < min_prominence) return;
     const Index ix = static_cast<Index>(point) / grid.ny, iy = static_cast<Index>(point) % grid.ny;
     Index defined = 0;
     neighbours(ix, iy, [&](std::size_t next) { defined += !std::isnan(heights[next]); });

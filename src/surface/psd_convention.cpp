@@ -17,15 +17,15 @@ ConvertedPsd scaled(const std::vector<double>& wavenumber, const std::vector<dou
   ConvertedPsd result;
   for (std::size_t k = 0; k < wavenumber.size(); ++k) {
     result.wavenumber.push_back(wavenumber_factor * wavenumber[k]);
-    result.density.push_back(factor(wavenumber[k]) * density[k]);
+    result.psd.push_back(factor(wavenumber[k]) * density[k]);
   }
   return result;
 }
 
-ConvertedPsd labelled(ConvertedPsd psd, std::string wavenumber_unit, std::string density_unit,
+ConvertedPsd labelled(ConvertedPsd psd, std::string wavenumber_unit, std::string psd_unit,
                       std::string normalisation) {
   psd.wavenumber_unit = std::move(wavenumber_unit);
-  psd.density_unit = std::move(density_unit);
+  psd.psd_unit = std::move(psd_unit);
   psd.normalisation = std::move(normalisation);
   return psd;
 }
@@ -40,7 +40,7 @@ void require_equal(double along_x, double along_y, const char* field) {
 ConvertedPsd converted(const RadialSpectrum& spectrum, const Grid2D& grid,
                        PsdConvention convention) {
   const auto with = [&](double wavenumber_factor, const std::function<double(double)>& factor) {
-    return scaled(spectrum.wavenumber, spectrum.density, wavenumber_factor, factor);
+    return scaled(spectrum.wavenumber, spectrum.psd, wavenumber_factor, factor);
   };
   const auto constant = [](double value) { return [value](double) { return value; }; };
   switch (convention) {
@@ -70,7 +70,7 @@ ConvertedPsd converted(const RadialSpectrum& spectrum, const Grid2D& grid,
 
 ConvertedPsd converted(const ProfilePsd& spectrum, PsdConvention convention) {
   const auto with = [&](double factor) {
-    return scaled(spectrum.wavenumber, spectrum.density, 1, [=](double) { return factor; });
+    return scaled(spectrum.wavenumber, spectrum.psd, 1, [=](double) { return factor; });
   };
   require(convention != PsdConvention::tamaas && convention != PsdConvention::rfgen, "convention",
           "tamaas or rfgen", "has no spectrum of profiles; use another");

@@ -76,10 +76,11 @@ ScaleDependence scale_dependence(const Surface& surface, Axis axis) {
     if (sums.curvatures == 0) break;
     const double spacing = static_cast<double>(lag) * step;
     result.spacing.push_back(spacing);
-    result.rms_slope.push_back(std::sqrt(sums.slope / static_cast<double>(sums.slopes)) / spacing);
-    result.rms_curvature.push_back(
+    result.profile_slope.push_back(std::sqrt(sums.slope / static_cast<double>(sums.slopes)) /
+                                   spacing);
+    result.profile_curvature.push_back(
         std::sqrt(sums.curvature / static_cast<double>(sums.curvatures)) / (spacing * spacing));
-    result.least_curvature.push_back(sums.least / (spacing * spacing));
+    result.min_curvature.push_back(sums.least / (spacing * spacing));
     result.stencils.push_back(sums.curvatures);
   }
   require(!result.spacing.empty() && n >= 3, "heights", axis == Axis::x ? "along x" : "along y",
@@ -106,12 +107,12 @@ ReliabilityLimit short_wavelength_limit(const Surface& surface, const Reliabilit
   for (const Axis axis : {Axis::x, Axis::y}) {
     const ScaleDependence scales = scale_dependence(surface, axis);
     std::size_t k = scales.spacing.size();
-    while (k > 0 && scales.least_curvature[k - 1] >= sharpest) --k;
+    while (k > 0 && scales.min_curvature[k - 1] >= sharpest) --k;
     if (k == 0) continue;
     double length = std::numeric_limits<double>::infinity();
     if (k < scales.spacing.size()) {
       // The curvature passes the limit between two spacings: straight between them.
-      const double low = scales.least_curvature[k - 1], high = scales.least_curvature[k];
+      const double low = scales.min_curvature[k - 1], high = scales.min_curvature[k];
       const double part = (sharpest - low) / (high - low);
       length = 2 * (scales.spacing[k - 1] + part * (scales.spacing[k] - scales.spacing[k - 1]));
     }

@@ -32,7 +32,7 @@ std::vector<Ring> fine_rings(const PowerSpectrum& spectrum, double lowest, doubl
   std::vector<Ring> rings;
   const double start = std::log(lowest);
   for (Index i = 0; i < spectrum.grid.nx; ++i) {
-    for (Index j = 0; j < spectrum.density.cols(); ++j) {
+    for (Index j = 0; j < spectrum.psd.cols(); ++j) {
       const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
       if (!(q > 0) || q < lowest || q > highest) continue;
       const auto number = static_cast<std::size_t>((std::log(q) - start) * bins_per_unit);
@@ -40,7 +40,7 @@ std::vector<Ring> fine_rings(const PowerSpectrum& spectrum, double lowest, doubl
       const double weight = spectrum.multiplicity(j) / 2;
       rings[number].weight += weight;
       rings[number].x += weight * std::log(q);
-      rings[number].power += weight * spectrum.density(i, j);
+      rings[number].power += weight * spectrum.psd(i, j);
     }
   }
   std::erase_if(rings, [](const Ring& ring) { return ring.weight == 0; });
@@ -150,10 +150,10 @@ IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEst
   double level = 0, weight = 0;
   const double exponent = 2 * (1 + hurst.value);
   for (Index i = 0; i < spectrum.grid.nx; ++i) {
-    for (Index j = 0; j < spectrum.density.cols(); ++j) {
+    for (Index j = 0; j < spectrum.psd.cols(); ++j) {
       const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
       if (!(q > 0)) continue;
-      const double flat = spectrum.density(i, j) * std::pow(q, exponent);
+      const double flat = spectrum.psd(i, j) * std::pow(q, exponent);
       if (q >= hurst.wavenumber_min && q <= hurst.wavenumber_max) {
         level += flat;
         ++weight;

@@ -18,7 +18,7 @@ namespace {
 using std::numbers::pi;
 
 Window chosen(Window window, const Surface& surface) {
-  if (window != Window::customary) return window;
+  if (window != Window::automatic) return window;
   return surface.periodic ? Window::none : Window::hann;
 }
 
@@ -82,13 +82,13 @@ PowerSpectrum power_spectrum(const Surface& surface, Window window) {
   std::vector<std::complex<double>> modes(static_cast<std::size_t>(grid.nx * fft.modes_y()));
   fft.forward(heights.data(), modes.data());
 
-  spectrum.density.resize(grid.nx, fft.modes_y());
+  spectrum.psd.resize(grid.nx, fft.modes_y());
   const double points = static_cast<double>(grid.points());
   const double scale = 1 / (points * points * spectrum.cell());
-  for (Index k = 0; k < spectrum.density.size(); ++k)
-    spectrum.density.data()[k] = scale * std::norm(modes[static_cast<std::size_t>(k)]);
+  for (Index k = 0; k < spectrum.psd.size(); ++k)
+    spectrum.psd.data()[k] = scale * std::norm(modes[static_cast<std::size_t>(k)]);
   // What rounding left of the mean.
-  spectrum.density(0, 0) = 0;
+  spectrum.psd(0, 0) = 0;
   return spectrum;
 }
 
@@ -117,7 +117,7 @@ ProfilePsd profile_psd(const Surface& surface, Axis axis, Window window) {
   const double scale = 1 / (points * points * psd.step() * static_cast<double>(psd.profiles));
   for (Index k = 1; k < power.size(); ++k) {
     psd.wavenumber.push_back(static_cast<double>(k) * psd.step());
-    psd.density.push_back(scale * power(k));
+    psd.psd.push_back(scale * power(k));
     psd.modes.push_back(psd.profiles * static_cast<Index>(detail::multiplicity(k, n)));
   }
   return psd;
@@ -127,16 +127,16 @@ RadialSpectrum radial_spectrum(const PowerSpectrum& spectrum, int bins_per_octav
   const Grid2D& grid = spectrum.grid;
   detail::RingMeans<1> rings(2 * pi / std::max(grid.lx, grid.ly), bins_per_octave);
   for (Index i = 0; i < grid.nx; ++i) {
-    for (Index j = 0; j < spectrum.density.cols(); ++j) {
+    for (Index j = 0; j < spectrum.psd.cols(); ++j) {
       if (i == 0 && j == 0) continue;
       const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
-      rings.add(q, spectrum.multiplicity(j), {spectrum.density(i, j)});
+      rings.add(q, spectrum.multiplicity(j), {spectrum.psd(i, j)});
     }
   }
   RadialSpectrum radial;
   for (const auto& ring : rings.rings()) {
     radial.wavenumber.push_back(ring.radius);
-    radial.density.push_back(ring.mean[0]);
+    radial.psd.push_back(ring.mean[0]);
     radial.modes.push_back(static_cast<Index>(ring.weight));
   }
   return radial;

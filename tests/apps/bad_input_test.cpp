@@ -181,9 +181,10 @@ TEST_CASE("Pressures, gaps and materials that cannot be are refused, and nothing
       {"sweep rough.h5 --pressures 1MPa,0 --contact-modulus 1GPa", "--pressures"},
       {"sweep rough.h5 --pressures 1MPa:2MPa:1 --contact-modulus 1GPa", "--pressures"},
       {"gw rough.h5 --pressures -1 --contact-modulus 1GPa", "--pressures"},
-      {"gw --pressures 1MPa --contact-modulus 1GPa", "--density"},
-      {"gw --density 0 --radius 1um --summit-rms 1nm --pressures 1MPa --contact-modulus 1GPa",
-       "--density: 0 must"},
+      {"gw --pressures 1MPa --contact-modulus 1GPa", "--summit-density"},
+      {"gw --summit-density 0 --radius 1um --summit-rms 1nm --pressures 1MPa --contact-modulus "
+       "1GPa",
+       "--summit-density: 0 must"},
   }));
   INFO(options);
   check_refused(test.run(options + " -o result.h5"), expected);

@@ -263,14 +263,14 @@ TEST_CASE("Greenwood-Williamson curves come from a surface or from parameters", 
     const auto answer = result.json();
     CHECK(keys(answer) == std::set<std::string>{"parameters", "curve"});
     CHECK(keys(answer["curve"]) == curve_keys);
-    CHECK(answer["parameters"]["density"] > 0);
+    CHECK(answer["parameters"]["summit_density"] > 0);
     CHECK(answer["curve"]["pressure"][0].get<double>() == Approx(2e6).epsilon(1e-9));
   }
-  const auto answer =
-      test.run(
-              "gw --density 10/um2 --radius 100nm --summit-rms 10nm --distribution exponential "
-              "--separations 10nm,30nm --contact-modulus 10GPa --json")
-          .json();
+  const auto answer = test.run(
+                              "gw --summit-density 10/um2 --radius 100nm --summit-rms 10nm "
+                              "--distribution exponential "
+                              "--separations 10nm,30nm --contact-modulus 10GPa --json")
+                          .json();
   // F ∝ exp(−s/σ), from the lowest force to the highest.
   CHECK(answer["curve"]["pressure"][1].get<double>() /
             answer["curve"]["pressure"][0].get<double>() ==

@@ -23,8 +23,9 @@ TEST_CASE("Damping of the exponential law at small amplitude is Eq. (16)", "[dam
   REQUIRE(result.status == 0);
   const auto answer = result.json();
   CHECK(keys(answer) == std::set<std::string>{"premises", "largest_motion", "work_per_cycle",
-                                              "power", "damping_constant", "curvature", "force",
-                                              "mean_force", "indentation", "closed_form", "ratio"});
+                                              "power", "damping_constant", "force_curvature",
+                                              "force", "mean_force", "indentation", "closed_form",
+                                              "ratio"});
   const double omega = 2 * pi * 2e4, ratio = 2 * 0.7 / 1.7;
   const double work = 2 * (pi * pi - 4) * ratio * 1 / 1e-14 * 5e-9 * 4e-6 / (omega * omega);
   // The same few products in another order.
@@ -32,7 +33,7 @@ TEST_CASE("Damping of the exponential law at small amplitude is Eq. (16)", "[dam
   CHECK(answer["power"].get<double>() == Approx(work * omega / (2 * pi)).epsilon(1e-12));
   CHECK(answer["damping_constant"].get<double>() ==
         Approx(work * omega / (2 * pi) / 4e-6).epsilon(1e-12));
-  CHECK(answer["curvature"].get<double>() == Approx(1e14).epsilon(1e-12));
+  CHECK(answer["force_curvature"].get<double>() == Approx(1e14).epsilon(1e-12));
   CHECK(answer["force"].get<double>() == Approx(1).epsilon(1e-12));
 }
 
@@ -86,7 +87,7 @@ TEST_CASE("A cone loses what Eqs (12) and (15) say at any amplitude", "[damping]
                               "--mode equal-frequency --normal-amplitude 50nm "
                               "--tangential-amplitude 30nm --phase 60deg --json")
                          .json();
-  CHECK(shear["curvature"].get<double>() == Approx(curvature).epsilon(1e-12));
+  CHECK(shear["force_curvature"].get<double>() == Approx(curvature).epsilon(1e-12));
   // The theorem's quadrature has a relative tolerance of 1e-10.
   CHECK(shear["work_per_cycle"].get<double>() ==
         Approx(8. / 3. * ratio * curvature * 9e-16 * 5e-8 * 0.75).epsilon(1e-9));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests that files and answers of study, compare and sweep call each quantity what its description says.
+// Tests that options, files and answers of all commands call each quantity what its description says.
 #include <catch2/catch.hpp>
 #include <map>
+#include <regex>
+#include <salebra/damping/premises.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/damping.hpp>
 #include <salebra/results/spectrum.hpp>
@@ -74,6 +76,84 @@ void check_group(const ResultReader& reader, const std::string& path, const std:
   CHECK(known > 0);
 }
 
+/// What counts or names, and so has no unit: axes of files, and what an answer has beside its quantities.
+const std::set<std::string> indices{"sample",   "component", "realisation", "midpoint", "min_cells",
+                                    "surfaces", "point",     "nx",          "ny"};
+const std::set<std::string> counts{"realisations", "seed"};
+
+/// Names of 0.1 that are now another, whole or their beginnings.
+bool is_old(const std::string& name) {
+  static const std::regex old(
+      "curvature|customary|coefficient|law_density|(least|greatest)_.*|.*_percent_of.*|"
+      "law_deviation_percent|released_energy");
+  return std::regex_match(name, old);
+}
+
+std::string stem(const std::string& name) {
+  std::string whole = name.starts_with("ensemble_") ? name.substr(9) : name;
+  for (const std::string part : {"_mean", "_low", "_high"})
+    if (!is_quantity(whole) && whole.ends_with(part))
+      return whole.substr(0, whole.size() - part.size());
+  return whole;
+}
+
+/// Numbers for which a premise stands, whose unit is its own.
+const std::set<std::string>& premise_keys() {
+  static const std::set<std::string> keys = [] {
+    std::set<std::string> all;
+    for (const PremiseName& name : premise_names()) all.insert(name.key);
+    return all;
+  }();
+  return keys;
+}
+
+/// Every dataset has the name, unit and meaning of the table, every number in an attribute the name of one.
+void check_file(const ResultReader& reader, const std::string& path = "") {
+  for (const std::string& dataset : reader.datasets(path.empty() ? "/" : path)) {
+    const std::string where = path + "/" + dataset;
+    INFO(where);
+    CHECK_FALSE(is_old(dataset));
+    if (indices.contains(dataset) || path.ends_with("premises") || reader.holds_labels(where))
+      continue;
+    const std::string parent = path.substr(path.rfind('/') + 1);
+    // "hurst" has value, low and high; "psd" and "contact" are groups too.
+    const bool part = is_quantity(parent) && parent != "psd" && parent != "contact";
+    const std::string name = part ? parent : stem(dataset);
+    REQUIRE(is_quantity(name));
+    const Quantity quantity = find_quantity(name);
+    CHECK(reader.text_attribute(where, "units") == std::string(si_unit(quantity.dimension)));
+    CHECK_THAT(reader.text_attribute(where, "long_name").value_or(""),
+               Catch::StartsWith(std::string(quantity.long_name)));
+  }
+  for (const std::string& group : reader.groups(path.empty() ? "/" : path)) {
+    const std::string inner = path + "/" + group;
+    for (const std::string& name : reader.attributes(inner)) {
+      INFO(inner << "@" << name);
+      CHECK_FALSE(is_old(name));
+      if (reader.number_attribute(inner, name))
+        CHECK((is_quantity(name) || indices.contains(name)));
+    }
+    check_file(reader, inner);
+  }
+}
+
+/// Every number stands under the name of a quantity, or is a part of one, as in "hurst": {"value": …, "low": …}.
+void check_numbers(const json& object, const std::string& parent) {
+  for (const auto& [key, value] : object.items()) {
+    INFO(parent << "." << key);
+    CHECK_FALSE(is_old(key));
+    const bool numbers =
+        value.is_number() || (value.is_array() && !value.empty() && value[0].is_number());
+    if (numbers)
+      CHECK((is_quantity(key) || is_quantity(parent) || premise_keys().contains(parent) ||
+             indices.contains(key) || counts.contains(key)));
+    if (value.is_object()) check_numbers(value, key);
+    if (value.is_array())
+      for (const json& item : value)
+        if (item.is_object()) check_numbers(item, key);
+  }
+}
+
 void check_keys(const json& object, const Meanings& columns) {
   for (const auto& [key, value] : object.items()) {
     INFO(key);
@@ -131,4 +211,90 @@ TEST_CASE("Every column of a sweep has the name and unit of its description", "[
     known += titles.find(name + " [" + meaning.units + "]") != std::string::npos;
   // All but the separation, which boundary elements do not have, and `converged`, which has no unit.
   CHECK(known == int(columns.size()) - 2);
+}
+
+TEST_CASE("Every number that the program writes has the name, unit and meaning of the table",
+          "[names]") {
+  const ProgramTest test;
+  const std::string body = " --contact-modulus 10GPa --poisson 0.3 ";
+  const std::string law = " --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 ";
+  const std::string drag = " --drag-velocity 1mm/s --frequency 20kHz ";
+  const std::string rough =
+      "--points 64 --size-x 4um --hurst 0.8 --rolloff 2um --short-cutoff 0.5um --rms-height 10nm ";
+  const std::string shape = "oscillate --shape parabola --points 24 --steps 8 --levels 4 " + body;
+  test.write("study.toml", study_text("seeds = [3, 4]"));
+  for (const std::string& command : std::vector<std::string>{
+           "generate " + rough + "-o rough.h5",
+           "generate --points 64 --size-x 1mm --correlation gaussian --correlation-length 50um "
+           "--stretch-along 3 "
+           "--rms-height 1um --skewness -1 --kurtosis 5 -o skew.h5",
+           "generate --shape sphere --radius 2um --points 32 --size-x 1um -o sphere.h5",
+           "info rough.h5 -o info.h5",
+           "statistics rough.h5 --tip-radius 10nm -o statistics.h5",
+           "contact rough.h5 --pressure 20MPa --stiffness -o contact.h5" + body,
+           "sweep rough.h5 --pressures 2:60MPa:10 --stiffness --stick -o curve.h5" + body,
+           "gw rough.h5 --summits deterministic --pressures 2:60MPa:5 -o gw.h5" + body,
+           "gw --summit-density 10/um2 --radius 100nm --summit-rms 10nm --separations "
+           "10nm,20nm,40nm" +
+               body,
+           "fit curve.h5 -o fit.h5",
+           "damping --normal-amplitude 1:50nm:4 -o damping.h5" + law + drag,
+           "damping --normal-amplitude 5nm --friction 0.3 -o friction.h5" + law + drag,
+           "damping --mode two-frequencies --normal-amplitude 1nm --tangential-amplitude 1nm "
+           "--phase 40deg "
+           "--frequency 20kHz --tangential-frequency 1kHz -o two.h5" +
+               law,
+           "mdr --profile parabola --radius 10mm --indentation 1um --normal-amplitude 300nm -o "
+           "mdr.h5" +
+               drag + body,
+           "mdr --profile parabola --radius 10mm --indentation 1um --mode equal-frequency "
+           "--normal-amplitude 300nm "
+           "--tangential-amplitude 200nm --phase 90deg --stress-map stress.h5 --map-phases 8:8 "
+           "--quiet" +
+               body,
+           "damper --normal-amplitude 20nm --frequency 20kHz --mass 10g --spring-stiffness 1kN/m "
+           "-o damper.h5" +
+               law,
+           "damper --normal-amplitude 1nm,2nm --frequency 10kHz,20kHz --falling-slope 5 -o map.h5" +
+               law,
+           shape + "--friction 0.5 --coupled --fields fields --field-steps 4 -o cycle.h5",
+           "study study.toml --no-report -o study.h5",
+           "compare study.toml --no-report -o compare.h5"}) {
+    const auto run = test.run(command + " --json --quiet");
+    INFO(command << "\n" << run.err);
+    REQUIRE(run.status == 0);
+    check_numbers(run.json(), "");
+  }
+  int files = 0;
+  for (const std::string& file : test.files()) {
+    if (!file.ends_with(".h5")) continue;
+    INFO(file);
+    check_file(ResultReader(test.folder() / file));
+    ++files;
+  }
+  CHECK(files >= 20);
+}
+
+TEST_CASE("Every option that is a quantity has its unit", "[names]") {
+  const ProgramTest test;
+  const std::regex line("\\n  --([a-z0-9-]+) (VALUES in ([^ \\n]+)|[^ \\n]+)");
+  int known = 0;
+  for (const char* command : {"generate", "statistics", "contact", "sweep", "gw", "fit", "damping",
+                              "mdr", "damper", "oscillate", "figure3", "study", "compare"}) {
+    const std::string help = test.run(std::string(command) + " --help").out;
+    for (std::sregex_iterator found(help.begin(), help.end(), line), end; found != end; ++found) {
+      std::string name = (*found)[1];
+      std::ranges::replace(name, '-', '_');
+      INFO(command << " --" << name);
+      CHECK_FALSE(is_old(name));
+      if (!is_quantity(name) && name.ends_with('s')) name.pop_back();
+      const std::string type = (*found)[2], unit = (*found)[3].matched ? (*found)[3].str() : type;
+      if (!is_quantity(name)) continue;
+      const std::string expected(si_unit(find_quantity(name).dimension));
+      const bool plain = unit == "NUMBER" || unit == "INT" || unit == "VALUES" || unit == "TEXT";
+      CHECK((plain ? "1" : unit) == expected);
+      ++known;
+    }
+  }
+  CHECK(known > 100);
 }

@@ -35,13 +35,13 @@ TEST_CASE("The statistics of a surface agree with each other and with info", "[s
   CHECK(found["correlation"]["autocorrelation"][0].get<double>() ==
         Approx(rms_height * rms_height).epsilon(1e-12));
   // S(dx) = dx² ⟨(Δh/dx)²⟩, and the first entry of the scale-dependent slope is the slope by differences.
-  const double dx = 1e-6 / 64, slope = found["scale_x"]["rms_slope"][0];
+  const double dx = 1e-6 / 64, slope = found["scale_x"]["profile_slope"][0];
   CHECK(found["correlation_x"]["structure"][1].get<double>() ==
         Approx(slope * slope * dx * dx).epsilon(1e-9));
   // Σ modes·C·d²q = h_rms².
   double sum = 0;
   for (std::size_t k = 0; k < found["psd"]["modes"].size(); ++k)
-    sum += found["psd"]["modes"][k].get<double>() * found["psd"]["density"][k].get<double>();
+    sum += found["psd"]["modes"][k].get<double>() * found["psd"]["psd"][k].get<double>();
   const double cell = std::pow(2 * std::numbers::pi / 1e-6, 2);
   CHECK(sum * cell == Approx(rms_height * rms_height).epsilon(1e-10));
   CHECK(integral(found["bearing"]["area_fraction"], found["bearing"]["height"]) ==
@@ -67,12 +67,12 @@ TEST_CASE("Tables are written as CSV, JSON and HDF5 with the same numbers", "[st
   std::string line;
   while (std::getline(csv, line) && line.starts_with("#")) {
   }
-  CHECK(line == "wavenumber,density,modes");
+  CHECK(line == "wavenumber,psd,modes");
   std::getline(csv, line);
   double wavenumber = 0, density = 0;
   REQUIRE(std::sscanf(line.c_str(), "%lf,%lf", &wavenumber, &density) == 2);
   CHECK(wavenumber == json["psd"]["wavenumber"][0].get<double>());
-  CHECK(density == json["psd"]["density"][0].get<double>());
+  CHECK(density == json["psd"]["psd"][0].get<double>());
   CHECK(test.read("scan.csv").find("areal.Sdr,") != std::string::npos);
   check_refused(test.run("statistics rough.h5 -o scan.csv"), "scan.csv");
   check_refused(test.run("statistics rough.h5 -o scan.xlsx"), "--output");
@@ -84,11 +84,11 @@ TEST_CASE("A convention changes the numbers of the spectrum and says so", "[stat
   const auto own = test.run("statistics rough.h5 --json").json()["psd"];
   const auto theirs =
       test.run("statistics rough.h5 --convention surface-topography --json").json()["psd"];
-  CHECK(theirs["density"][3].get<double>() ==
-        Approx(4 * std::pow(std::numbers::pi, 2) * own["density"][3].get<double>()).epsilon(1e-12));
+  CHECK(theirs["psd"][3].get<double>() ==
+        Approx(4 * std::pow(std::numbers::pi, 2) * own["psd"][3].get<double>()).epsilon(1e-12));
   CHECK(own["note"] != theirs["note"]);
   const auto gwyddion = test.run("statistics rough.h5 --convention gwyddion --json").json()["psd"];
-  CHECK(gwyddion["units"]["density"] == "m^3");
+  CHECK(gwyddion["units"]["psd"] == "m^3");
 }
 
 TEST_CASE("Undefined points take no part, and are filled on request only", "[statistics]") {

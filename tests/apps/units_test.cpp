@@ -69,7 +69,7 @@ Dimension meaning(const std::string& object, const std::string& name) {
       {"tangential_stiffness", stiffness},
       {"contact_stiffness", stiffness},
       {"storage_stiffness", stiffness},
-      {"curvature", curvature},
+      {"force_curvature", force_curvature},
       {"decay_length", length},
       {"decay_length_low", length},
       {"decay_length_high", length},

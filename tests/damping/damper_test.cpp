@@ -136,12 +136,13 @@ TEST_CASE("The friction map tends to the paper's result for large M and to none 
   const PowerLaw law(1e9, 2, ratio);
   const FrictionMap map =
       friction_map(law, 1e-6, 1e-8, 1e-8, {1e-3, 1, 1000}, {0.0, 0.3, pi / 2}, {.steps = 200});
-  CHECK(std::isnan(map.loss(1, 0)));
+  CHECK(std::isnan(map.loss_ratio(1, 0)));
   for (Index j = 1; j < 3; ++j) {
-    CHECK(map.loss(2, j) == Approx(1).epsilon(0.01));
-    CHECK(map.slip(2, j) < 1e-6);
-    CHECK(map.relaxation(0, j) < 0.1);
-    CHECK(map.loss(1, j) == Approx(map.slip(1, j) + map.relaxation(1, j)).epsilon(1e-12));
+    CHECK(map.loss_ratio(2, j) == Approx(1).epsilon(0.01));
+    CHECK(map.slip_ratio(2, j) < 1e-6);
+    CHECK(map.relaxation_ratio(0, j) < 0.1);
+    CHECK(map.loss_ratio(1, j) ==
+          Approx(map.slip_ratio(1, j) + map.relaxation_ratio(1, j)).epsilon(1e-12));
   }
   CHECK_THROWS_AS(friction_map(law, 1e-6, 0, 1e-8, {1}, {1}), InvalidInput);
   CHECK_THROWS_AS(friction_map(law, 1e-6, 1e-8, 1e-8, {-1}, {1}), InvalidInput);

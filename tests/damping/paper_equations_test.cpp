@@ -354,7 +354,7 @@ TEST_CASE("Eq (17): shear stress of a uniform line load is Mindlin's stuck disc,
   EqualFrequency motion = equal;
   motion.phase = pi / 2;
   const OscillatingStress stress(law, indentation, motion);
-  const double least = stress.least_contact_radius(), most = stress.contact_radius(angle);
+  const double least = stress.min_contact_radius(), most = stress.contact_radius(angle);
   // r = least ∓ (…)t⁴ takes away the logarithm on both sides of the least radius; the edge has a root.
   const auto inner = gauss(
       [&](double t) {

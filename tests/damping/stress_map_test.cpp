@@ -51,7 +51,7 @@ TEST_CASE("Eq (17): shear stress carries the tangential force", "[stress]") {
   const OscillatingStress stress(law, mean, motion);
   for (const double angle : {-2.0, -0.5, 0.0, 0.6, 1.5, 3.0}) {
     CAPTURE(mean, motion.index(), angle);
-    const double a = stress.contact_radius(angle), least = stress.least_contact_radius();
+    const double a = stress.contact_radius(angle), least = stress.min_contact_radius();
     if (a == 0) {
       CHECK(stress.tangential_force(angle) == 0);
       continue;
@@ -89,7 +89,7 @@ TEST_CASE("The force under the stresses is that of the turning-point stack", "[s
 TEST_CASE("Fig. 4: the logarithm at the least contact radius keeps its coefficient", "[stress]") {
   const IndenterLaw law(paraboloid_profile(radius), material);
   const OscillatingStress stress(law, indentation, quarter);
-  const double least = stress.least_contact_radius();
+  const double least = stress.min_contact_radius();
   const double expected =
       tangential_modulus * stroke / (2 * pi) * std::sqrt(2 / (radius * amplitude));
   for (const double angle : {-2.0, -0.5, 0.8, 2.0}) {
@@ -129,8 +129,8 @@ TEST_CASE("A stress map holds the stresses of its phases and radii", "[stress]")
   const OscillatingStress stress(law, indentation, quarter);
   REQUIRE(map.shear.rows() == 9);
   REQUIRE(map.shear.cols() == 12);
-  CHECK(map.shear(5, 3) == stress.shear(map.angle[5], map.radius[3]));
-  CHECK(map.pressure(2, 4) == stress.pressure(map.angle[2], map.radius[4]));
+  CHECK(map.shear(5, 3) == stress.shear(map.angle[5], map.radial_position[3]));
+  CHECK(map.contact_pressure(2, 4) == stress.pressure(map.angle[2], map.radial_position[4]));
   CHECK(map.shear.isFinite().all());
   CHECK(map.contact_radius[4] == law.contact_radius(indentation + amplitude));
   CHECK_THROWS_AS(stress_map(law, -1e-6, quarter), InvalidInput);

@@ -90,7 +90,7 @@ std::vector<Case> all_cases() {
       {"sweep_table", in, sweep + " -o out.csv"},
       {"gw",
        {},
-       "gw --density 10/um2 --radius 100nm --summit-rms 10nm --separations 10nm,20nm,40nm "
+       "gw --summit-density 10/um2 --radius 100nm --summit-rms 10nm --separations 10nm,20nm,40nm "
        "-o out.h5" +
            material},
       {"fit", {in[0], sweep + " -o curve.h5"}, "fit IN/curve.h5 -o out.h5"},

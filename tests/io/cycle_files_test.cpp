@@ -5,10 +5,10 @@
 #include <regex>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
-#include <salebra/io/cycle_checkpoint.hpp>
-#include <salebra/io/cycle_fields.hpp>
-#include <salebra/io/cycle_recorder.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/cycle_checkpoint.hpp>
+#include <salebra/results/cycle_fields.hpp>
+#include <salebra/results/cycle_recorder.hpp>
 #include <sstream>
 
 #include "damping/islands.hpp"
@@ -256,7 +256,7 @@ TEST_CASE("The XDMF list names datasets that are there, with their sizes, and ev
 
   // The value of cell (ix, iy) stands beside the point (x, y) of that cell.
   const ResultReader mesh(scratch / "a&b-mesh.h5");
-  const std::vector<double> points = mesh.numbers("mesh/points");
+  const std::vector<double> points = mesh.numbers("mesh/cells");
   const ResultReader frame(scratch / "a&b-0004.h5");
   const Field traction = frame.field("fields/traction_x");
   const StuckState& fourth = std::get<StuckState>(states[4].body);
@@ -273,7 +273,7 @@ TEST_CASE("The XDMF list names datasets that are there, with their sizes, and ev
   // Without pressures to tell, the gap is that of undeformed bodies that just touch.
   CHECK(frame.field("fields/gap").minCoeff() == 0);
   const ResultReader last(scratch / "a&b-0006.h5");
-  CHECK((last.field("fields/pressure") == normal.pressure).all());
+  CHECK((last.field("fields/contact_pressure") == normal.pressure).all());
   CHECK((last.field("fields/gap") == normal.gap).all());
   const ContactSet& contact = std::get<StuckState>(states[6].body).contact;
   check_same(last.field("fields/contact"), contact.cast<double>());
@@ -315,7 +315,7 @@ TEST_CASE("Fields of a cycle with friction say where it was lost", "[io]") {
   const SlidingState& body = std::get<SlidingState>(state.body);
   const Field lost = body.loss - state.loss_at_period_start;
   CHECK(loss.sum() * grid.cell_area() == Approx(lost.sum()));
-  check_same(frame.field("fields/pressure"), body.pressure);
+  check_same(frame.field("fields/contact_pressure"), body.pressure);
   check_same(frame.field("fields/traction_y"), body.traction.y);
   check_same(frame.field("fields/displacement_x"), body.displacement.x);
   CHECK((frame.field("fields/contact") == (body.pressure > 0).cast<double>()).all());

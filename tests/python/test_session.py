@@ -129,7 +129,7 @@ def test_ctrl_c_leaves_a_generator_and_interacting_summits(name: str) -> None:
                 return salebra.SelfAffineSpectrum(rolloff=2.5e-4, short_cutoff=2e-3 / points, rms_height=1e-6)
 
             def interacting():
-                ensemble = salebra.SummitEnsemble(density=5e10, radius=1e-6, summit_rms=1e-7)
+                ensemble = salebra.SummitEnsemble(summit_density=5e10, radius=1e-6, summit_rms=1e-7)
                 summits = salebra.draw_summits(ensemble, 50000, 1e-3, 1)
                 grid = salebra.Grid2D(4, 4, 1e-3, 1e-3)
                 return salebra.InteractingSummits(summits, salebra.Material(1e11, poisson=0.3), grid)
@@ -255,7 +255,7 @@ def test_results_become_datasets_with_units(surface: salebra.Surface, material: 
     assert np.array_equal(data.mean_gap, curve.mean_gap)
     state = salebra.press_to_pressure(surface, 1e9, 1e5)
     fields = state.to_xarray()
-    assert fields.pressure.dims == ("x", "y")
+    assert fields.contact_pressure.dims == ("x", "y")
     assert float(fields.x[1]) == surface.grid.dx
     results = [
         surface, salebra.power_spectrum(surface), salebra.radial_spectrum(salebra.power_spectrum(surface)),

@@ -109,9 +109,9 @@ def test_seeds_give_the_same_bits_whatever_the_threads() -> None:
 
 def test_the_power_spectrum_sums_to_the_mean_square_height(surface: salebra.Surface) -> None:
     spectrum = salebra.power_spectrum(surface)
-    weights = np.full(spectrum.density.shape[1], 2.0)
+    weights = np.full(spectrum.psd.shape[1], 2.0)
     weights[0] = weights[-1] = 1.0
-    assert np.isclose((spectrum.density * weights).sum() * spectrum.cell, surface.heights.var(), rtol=1e-12)
+    assert np.isclose((spectrum.psd * weights).sum() * spectrum.cell, surface.heights.var(), rtol=1e-12)
 
 
 def test_a_plane_is_subtracted_and_undefined_points_are_kept() -> None:

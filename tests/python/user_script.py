@@ -60,7 +60,7 @@ def main() -> None:
     lengths = decay_lengths(again, material, pressures)
 
     state = salebra.press_to_pressure(again, material.contact_modulus, float(pressures[3]), progress=told)
-    field: npt.NDArray[np.float64] = state.pressure
+    field: npt.NDArray[np.float64] = state.contact_pressure
     spots = salebra.contact_spots(state)
     stick = salebra.stick_stiffness(field > 0, state.grid, material)
     print(len(spots), stick.xx, state.converged)
@@ -68,7 +68,7 @@ def main() -> None:
     law: salebra.ContactLaw = salebra.ExponentialLaw(0.1, lengths[0], material.modulus_ratio)
     motion = salebra.EqualFrequency(normal_amplitude=1e-9, tangential_amplitude=1e-9, phase=math.pi / 2)
     result = salebra.relaxation_damping(law, motion, force=0.1, hold="force")
-    small = closed_form.work_per_cycle(law.modulus_ratio, float(law.curvature(0.0)), motion)
+    small = closed_form.work_per_cycle(law.modulus_ratio, float(law.force_curvature(0.0)), motion)
     print(result.work_per_cycle / small, Path(__file__).name)
 
     study: salebra.StudyConfiguration = salebra.parse_study_configuration(STUDY).with_models(["gw_deterministic"])

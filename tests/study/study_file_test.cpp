@@ -119,7 +119,7 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
   file.of_surfaces("surface/moment2", [](const auto& r) { return r.moments.moment2(); });
   file.of_surfaces("surface/moment4", [](const auto& r) { return r.moments.moment4(); });
   file.of_surfaces("surface/nayak", [](const auto& r) { return r.moments.nayak(); });
-  file.of_surfaces("surface/density", [](const auto& r) { return r.summits.density; });
+  file.of_surfaces("surface/summit_density", [](const auto& r) { return r.summits.density; });
   file.of_surfaces("surface/mean_height", [](const auto& r) { return r.summits.mean_height; });
   file.of_surfaces("surface/summit_rms", [](const auto& r) { return r.summits.rms_height; });
   file.of_surfaces("surface/mean_radius", [](const auto& r) { return r.summits.mean_radius; });
@@ -187,7 +187,7 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
                            local.decay_length.end());
     }
   file.values("local/mean_gap", {"model", "realisation", "midpoint"}, gaps);
-  file.values("local/decay_length", {"model", "realisation", "midpoint"}, local_lengths);
+  file.values("local/local_decay_length", {"model", "realisation", "midpoint"}, local_lengths);
 
   // Two surfaces make one mean, that of both.
   CHECK(reader.numbers("convergence/surfaces") == std::vector<double>{2});

@@ -46,12 +46,12 @@ TEST_CASE("The law drawn with a random-phase surface is its spectrum", "[picture
   CHECK(picture.law == "asked for");
   int compared = 0;
   for (std::size_t i = 0; i < picture.wavenumber.size(); ++i) {
-    if (std::isnan(picture.law_density[i]) || picture.density[i] == 0) continue;
+    if (std::isnan(picture.law_psd[i]) || picture.psd[i] == 0) continue;
     // The mean of q^-3.6 over a ring of an eighth of an octave is not that of the mean q: 1 %. A ring across a limit of the law
     // holds modes beyond it.
     const double wavelength = 2 * std::numbers::pi / picture.wavenumber[i];
     if (wavelength < 1.1 * 0.5e-6 || std::abs(wavelength / 1e-6 - 1) < 0.1) continue;
-    CHECK(picture.density[i] == Approx(picture.law_density[i]).epsilon(0.02));
+    CHECK(picture.psd[i] == Approx(picture.law_psd[i]).epsilon(0.02));
     ++compared;
   }
   CHECK(compared >= 3);

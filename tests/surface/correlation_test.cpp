@@ -161,17 +161,16 @@ TEST_CASE("Slope and curvature at a distance are those of a sinusoid seen throug
   CHECK(along.spacing.back() <= lx / 4);
   for (std::size_t k = 0; k < along.spacing.size(); ++k) {
     const double s = along.spacing[k], half = std::sin(q * s / 2);
-    CHECK(along.rms_slope[k] ==
+    CHECK(along.profile_slope[k] ==
           Approx(amplitude * std::sqrt(2) * std::abs(half) / s).epsilon(1e-12));
-    CHECK(along.rms_curvature[k] ==
+    CHECK(along.profile_curvature[k] ==
           Approx(4 * half * half / (s * s) * amplitude / std::sqrt(2)).epsilon(1e-12));
     // The crest lies on a point: 200 points hold 100 to the wave.
-    CHECK(along.least_curvature[k] ==
-          Approx(-4 * half * half / (s * s) * amplitude).epsilon(1e-12));
+    CHECK(along.min_curvature[k] == Approx(-4 * half * half / (s * s) * amplitude).epsilon(1e-12));
     CHECK(along.stencils[k] == 1000);
   }
   const ScaleDependence across = scale_dependence(wave, Axis::y);
-  CHECK(across.rms_slope.front() < 1e-15);
+  CHECK(across.profile_slope.front() < 1e-15);
 }
 
 TEST_CASE("The scale-dependent slope is the root of the structure function over the distance",
@@ -185,7 +184,7 @@ TEST_CASE("The scale-dependent slope is the root of the structure function over 
   for (std::size_t k = 0; k < scales.spacing.size(); ++k) {
     const auto lag = static_cast<std::size_t>(std::lround(scales.spacing[k] / step));
     // By transforms on one side, by differences on the other.
-    CHECK(scales.rms_slope[k] ==
+    CHECK(scales.profile_slope[k] ==
           Approx(std::sqrt(profile.structure[lag]) / scales.spacing[k]).epsilon(1e-12));
   }
 }
@@ -220,7 +219,7 @@ TEST_CASE("A parabola that is not periodic has one curvature, at its edges and b
   bowl.heights(20, 10) = std::numeric_limits<double>::quiet_NaN();
   const ScaleDependence along = scale_dependence(bowl, Axis::x);
   for (std::size_t k = 0; k < along.spacing.size(); ++k) {
-    CHECK(along.rms_curvature[k] == Approx(1).epsilon(1e-10));
+    CHECK(along.profile_curvature[k] == Approx(1).epsilon(1e-10));
     // Three stencils of a row touch the hole.
     CHECK(along.stencils[k] == (41 - 2 * std::lround(along.spacing[k])) * 30 - 3);
   }

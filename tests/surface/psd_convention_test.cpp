@@ -32,13 +32,13 @@ TEST_CASE("The mean square height is the same in every convention", "[psd]") {
   RadialSpectrum spectrum;
   for (double q = 1e1; q < 1e5; q *= 1.01) {
     spectrum.wavenumber.push_back(q);
-    spectrum.density.push_back(rms * rms * length * length / (4 * pi) *
-                               std::exp(-q * q * length * length / 4));
+    spectrum.psd.push_back(rms * rms * length * length / (4 * pi) *
+                           std::exp(-q * q * length * length / 4));
     spectrum.modes.push_back(1);
   }
   const auto mean_square = [&](PsdConvention convention) {
     const ConvertedPsd psd = converted(spectrum, grid, convention);
-    std::vector<double> ring(psd.density);
+    std::vector<double> ring(psd.psd);
     if (convention != PsdConvention::gwyddion)
       for (std::size_t k = 0; k < ring.size(); ++k) ring[k] *= psd.wavenumber[k];
     const double sum = integral(psd.wavenumber, ring);
@@ -52,7 +52,7 @@ TEST_CASE("The mean square height is the same in every convention", "[psd]") {
     CHECK(mean_square(convention) == Approx(rms * rms).epsilon(1e-4));
   // Wave number of a wave of ten cells: 1/10 cycles in a sample, 10 waves on the side.
   spectrum.wavenumber = {2 * pi / (10 * grid.dx())};
-  spectrum.density = {1};
+  spectrum.psd = {1};
   CHECK(converted(spectrum, grid, PsdConvention::rfgen).wavenumber.front() == Approx(0.1));
   CHECK(converted(spectrum, grid, PsdConvention::tamaas).wavenumber.front() == Approx(10));
   CHECK_THROWS_AS(converted(spectrum, {100, 100, 2, 1}, PsdConvention::tamaas), InvalidInput);
@@ -70,13 +70,13 @@ TEST_CASE("Profiles of a periodic surface: their spectrum is that of the surface
   CHECK(along_x.profiles == ny);
   for (Index i = 1; i <= nx / 2; ++i) {
     double sum = 0;
-    for (Index j = 0; j < area.density.cols(); ++j) {
+    for (Index j = 0; j < area.psd.cols(); ++j) {
       // Both (i, j) and (i, −j); the latter is the conjugate of (−i, j).
-      sum += area.density(i, j);
-      if (area.multiplicity(j) == 2) sum += area.density((nx - i) % nx, j);
+      sum += area.psd(i, j);
+      if (area.multiplicity(j) == 2) sum += area.psd((nx - i) % nx, j);
     }
     const auto k = static_cast<std::size_t>(i - 1);
-    CHECK(along_x.density[k] == Approx(sum * 2 * pi / surface.grid.ly).epsilon(1e-12));
+    CHECK(along_x.psd[k] == Approx(sum * 2 * pi / surface.grid.ly).epsilon(1e-12));
     CHECK(along_x.modes[k] == (2 * i == nx ? 1 : 2) * ny);
   }
 }
@@ -89,12 +89,12 @@ TEST_CASE("Parseval: the spectrum of profiles holds their variance about their m
     variance += (surface.heights.col(iy) - surface.heights.col(iy).mean()).square().mean() / 6;
   const ProfilePsd psd = profile_psd(surface, Axis::x);
   double sum = 0;
-  for (std::size_t k = 0; k < psd.density.size(); ++k)
-    sum += static_cast<double>(psd.modes[k]) * psd.density[k] * psd.step() / 6;
+  for (std::size_t k = 0; k < psd.psd.size(); ++k)
+    sum += static_cast<double>(psd.modes[k]) * psd.psd[k] * psd.step() / 6;
   CHECK(sum == Approx(variance).epsilon(1e-13));
   // Twice as large over q > 0 in the other convention.
   const ConvertedPsd other = converted(psd, PsdConvention::surface_topography);
-  CHECK(other.density[3] == Approx(2 * pi * psd.density[3]));
+  CHECK(other.psd[3] == Approx(2 * pi * psd.psd[3]));
 }
 
 TEST_CASE("Every window keeps the expectation of short waves", "[psd]") {
@@ -105,15 +105,15 @@ TEST_CASE("Every window keeps the expectation of short waves", "[psd]") {
   const double exact = 1.0 / 3 * surface.grid.cell_area() / (4 * pi * pi);
   double sum = 0, modes = 0;
   for (std::size_t k = 0; k < radial.modes.size(); ++k) {
-    sum += static_cast<double>(radial.modes[k]) * radial.density[k];
+    sum += static_cast<double>(radial.modes[k]) * radial.psd[k];
     modes += static_cast<double>(radial.modes[k]);
   }
   // The mean of w²h² over 10800 points: ⟨w⁴⟩ ≈ 4 to 7, ⟨h⁴⟩/⟨h²⟩² = 1.8; 4 standard deviations are 4·√(12/10800).
   CHECK(sum / modes == Approx(exact).epsilon(window == Window::none ? 0.04 : 0.14));
   const ProfilePsd profiles = profile_psd(surface, Axis::x, window);
   double mean = 0;
-  for (const double density : profiles.density)
-    mean += density / static_cast<double>(profiles.density.size());
+  for (const double density : profiles.psd)
+    mean += density / static_cast<double>(profiles.psd.size());
   CHECK(mean == Approx(1.0 / 3 * surface.grid.dx() / (2 * pi)).epsilon(0.08));
 }
 
@@ -122,7 +122,7 @@ TEST_CASE("A window takes the leakage of a tilt out of the short waves", "[psd]"
   const Surface plane = sampled({128, 128, 1, 1}, false, [](double x, double) { return x; });
   const auto high = [&](Window window) {
     const ProfilePsd psd = profile_psd(plane, Axis::x, window);
-    return psd.density[50] / psd.density[0];
+    return psd.psd[50] / psd.psd[0];
   };
   CHECK(high(Window::none) > 1e-4);
   CHECK(high(Window::hann) < 1e-9);

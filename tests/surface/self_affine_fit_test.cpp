@@ -121,7 +121,7 @@ TEST_CASE("The fitted range of H leaves out the waves that a window mixes, and c
   if (!surface.periodic) CHECK(fit.wavenumber_min > 3 * longest);
   Index modes = 0;
   for (Index i = 0; i < 128; ++i) {
-    for (Index j = 0; j < spectrum.density.cols(); ++j) {
+    for (Index j = 0; j < spectrum.psd.cols(); ++j) {
       const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
       // The limits are those of the outermost modes.
       if (q > fit.wavenumber_min * (1 - 1e-9) && q < fit.wavenumber_max * (1 + 1e-9))

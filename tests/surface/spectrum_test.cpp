@@ -19,8 +19,8 @@ namespace {
 double integral(const PowerSpectrum& spectrum) {
   double sum = 0;
   for (Index i = 0; i < spectrum.grid.nx; ++i)
-    for (Index j = 0; j < spectrum.density.cols(); ++j)
-      sum += spectrum.multiplicity(j) * spectrum.density(i, j) * spectrum.cell();
+    for (Index j = 0; j < spectrum.psd.cols(); ++j)
+      sum += spectrum.multiplicity(j) * spectrum.psd(i, j) * spectrum.cell();
   return sum;
 }
 
@@ -39,7 +39,7 @@ TEST_CASE("Parseval: the PSD of a periodic surface integrates to its variance, o
   for (std::size_t k = 0; k < radial.modes.size(); ++k) {
     CHECK(radial.modes[k] > 0);
     if (k > 0) CHECK(radial.wavenumber[k] > radial.wavenumber[k - 1]);
-    sum += static_cast<double>(radial.modes[k]) * radial.density[k] * spectrum.cell();
+    sum += static_cast<double>(radial.modes[k]) * radial.psd[k] * spectrum.cell();
   }
   CHECK(sum == Approx(rms_height * rms_height).epsilon(1e-13));
 }
@@ -52,7 +52,7 @@ TEST_CASE("A wave has its power in its mode: a²/4 at q and at −q over the cel
   });
   const PowerSpectrum spectrum = power_spectrum(wave);
   // (3, −2) stands in the half-spectrum as its conjugate (−3, 2).
-  CHECK(spectrum.density(13, 2) ==
+  CHECK(spectrum.psd(13, 2) ==
         Approx(amplitude * amplitude / 4 * lx * ly / (4 * pi * pi)).epsilon(1e-13));
   CHECK(spectrum.wavenumber_x(13) == Approx(-2 * pi * 3 / lx));
   CHECK(spectrum.wavenumber_y(2) == Approx(2 * pi * 2 / ly));
@@ -75,7 +75,7 @@ TEST_CASE("The PSD of a generated surface is the one asked, with a window too", 
     const double waves = q / (2 * pi);
     const double tolerance = 4 * (windowed ? 1.94 : 1) / std::sqrt(independent) + 0.02 +
                              (windowed ? 2 / (waves * waves) : 0);
-    CHECK(radial.density[k] == Approx(target.density(q, 0)).epsilon(tolerance));
+    CHECK(radial.psd[k] == Approx(target.density(q, 0)).epsilon(tolerance));
   }
 }
 
@@ -114,8 +114,8 @@ TEST_CASE(
   if (window == Window::radial_hann) return;
   const ProfilePsd profiles = profile_psd(surface, Axis::x, window);
   double sum = 0, expected = 0;
-  for (std::size_t k = 0; k < profiles.density.size(); ++k)
-    sum += double(profiles.modes[k]) * profiles.density[k] * profiles.step() / 30;
+  for (std::size_t k = 0; k < profiles.psd.size(); ++k)
+    sum += double(profiles.modes[k]) * profiles.psd[k] * profiles.step() / 30;
   for (Index iy = 0; iy < 30; ++iy) {
     Field line = surface.heights.col(iy), line_weights(24, 1);
     for (Index ix = 0; ix < 24; ++ix)

@@ -13,20 +13,25 @@ enum class Dimension {
   dimensionless,
   length,                  ///< m
   length_squared,          ///< m²
+  length_cubed,            ///< m³; spectral density of a profile
+  length_to_the_fourth,    ///< m⁴; spectral density of a surface
   inverse_length,          ///< 1/m; curvature of a surface
   inverse_length_squared,  ///< m⁻²; spectral moment 4 and the inverse of an area
   pressure,                ///< Pa
   force,                   ///< N
   stiffness,               ///< N/m
-  curvature,               ///< N/m², F''
+  force_curvature,         ///< N/m², F''
   damping,                 ///< N s/m
   mass,                    ///< kg
+  mass_density,            ///< kg/m³
   angle,                   ///< rad
+  wavenumber,              ///< rad/m
   frequency,               ///< Hz
   angular_frequency,       ///< rad/s
   velocity,                ///< m/s
   time,                    ///< s
   energy,                  ///< J
+  energy_per_area,         ///< J/m²
   power,                   ///< W
 };
 

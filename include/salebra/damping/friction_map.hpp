@@ -19,9 +19,9 @@ struct FrictionMapOptions {
 struct FrictionMap {
   std::vector<double> friction_number;  ///< M = μE*u_z/(G*u_x)
   std::vector<double> phase;            ///< φ0, rad
-  Field loss;                           ///< W(μ)/W(∞), (friction numbers, phases)
-  Field relaxation;                     ///< its part from levels that open and close
-  Field slip;                           ///< its part from slip in permanent contact
+  Field loss_ratio;                     ///< W(μ)/W(∞), (friction numbers, phases)
+  Field relaxation_ratio;               ///< its part from levels that open and close
+  Field slip_ratio;                     ///< its part from slip in permanent contact
 };
 
 /// Phases with sin φ0 = 0 have no relaxation loss and give NaN. Cost: steps × 2 for each entry, in parallel.

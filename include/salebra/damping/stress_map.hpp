@@ -17,7 +17,7 @@ class OscillatingStress {
   OscillatingStress(const IndenterLaw& law, double mean_indentation, const Oscillation& motion);
 
   double contact_radius(double angle) const;      ///< a(θ), m; 0 while the contact is open
-  double least_contact_radius() const;            ///< m
+  double min_contact_radius() const;              ///< m
   double displacement(double angle) const;        ///< x(θ) − x(−π), m
   double tangential_force(double angle) const;    ///< F_x = 2∫_0^a q_x dx, N
   double pressure(double angle, double r) const;  ///< p(r), Pa
@@ -43,11 +43,11 @@ class OscillatingStress {
 /// Stresses on a grid of phases and radii.
 struct StressMap {
   std::vector<double> angle;             ///< θ, rad
-  std::vector<double> radius;            ///< r, m
+  std::vector<double> radial_position;   ///< r, m
   std::vector<double> contact_radius;    ///< a of each phase, m
   std::vector<double> tangential_force;  ///< F_x of each phase, N
   Field shear;                           ///< τ (phases, radii), Pa
-  Field pressure;                        ///< p (phases, radii), Pa
+  Field contact_pressure;                ///< p (phases, radii), Pa
 };
 
 /// The map of Fig. 4: `phases` + 1 angles from −π to π, both ends included, and `radii` cells from 0 to 1.05 times

@@ -29,7 +29,7 @@ template <class Visitor>
 constexpr void describe(Visitor&& visit, std::type_identity<SummitEnsemble>) {
   using enum Dimension;
   using S = SummitEnsemble;
-  visit(&S::density, Quantity{"density", inverse_length_squared, "summits per area"});
+  visit(&S::density, Quantity{"summit_density", inverse_length_squared, "summits per area"});
   visit(&S::radius, Quantity{"radius", length, "radius of summits"});
   visit(&S::summit_rms, Quantity{"summit_rms", length, "standard deviation of summit heights"});
   visit(&S::mean_height,
@@ -128,7 +128,7 @@ constexpr void describe(Visitor&& visit, std::type_identity<LocalDecayLength>) {
   using S = LocalDecayLength;
   visit(&S::mean_gap, Quantity{"mean_gap", length, "mean gap of the deformed surfaces"});
   visit(&S::decay_length,
-        Quantity{"decay_length", length, "local decay length -d(mean gap)/d ln(pressure)"});
+        Quantity{"local_decay_length", length, "local decay length -d(mean gap)/d ln(pressure)"});
 }
 
 }  // namespace salebra

@@ -50,7 +50,7 @@ template <class Visitor>
 constexpr void describe(Visitor&& visit, std::type_identity<SummitStatistics>) {
   using enum Dimension;
   using S = SummitStatistics;
-  visit(&S::density, Quantity{"density", inverse_length_squared, "summits per area"});
+  visit(&S::density, Quantity{"summit_density", inverse_length_squared, "summits per area"});
   visit(&S::mean_height,
         Quantity{"mean_height", length, "mean summit height above the mean plane"});
   visit(&S::rms_height, Quantity{"summit_rms", length, "standard deviation of summit heights"});

@@ -25,9 +25,9 @@ struct SurfacePicture {
   std::vector<std::int16_t>
       first_load;  ///< number of the least load at which a point touches; −1: none
 
-  std::vector<double> wavenumber, density;  ///< radial spectrum C, rad/m and m⁴
-  std::vector<double> law_density;          ///< NaN where the law does not reach
-  std::string law;                          ///< where the law comes from; empty: there is none
+  std::vector<double> wavenumber, psd;  ///< radial spectrum C, rad/m and m⁴
+  std::vector<double> law_psd;          ///< NaN where the law does not reach
+  std::string law;                      ///< where the law comes from; empty: there is none
   double hurst = 0, hurst_low = 0,
          hurst_high = 0;  ///< estimated, with its 95 % interval; NaN: no self-affine range
 
@@ -52,8 +52,8 @@ constexpr void describe(Visitor&& visit, std::type_identity<SurfacePicture>) {
         Kept{"first_load",
              "number of the least pressure of the curve at which the point touches; -1: none"});
   visit(&S::wavenumber, Kept{"wavenumber", "wave number, rad/m"});
-  visit(&S::density, Kept{"density", "power spectral density C, m^4"});
-  visit(&S::law_density, Kept{"law_density", "C of the self-affine law, m^4"});
+  visit(&S::psd, Kept{"psd", "power spectral density C, m^4"});
+  visit(&S::law_psd, Kept{"law_psd", "C of the self-affine law, m^4"});
   visit(&S::law, Kept{"law", "where the law comes from"});
   visit(&S::hurst, Kept{"hurst", "Hurst exponent"});
   visit(&S::hurst_low, Kept{"hurst_low", "Hurst exponent, lower 95 % limit"});

@@ -44,9 +44,9 @@ CoreParameters core_parameters(const BearingCurve& curve);
 
 /// Heights in bins of equal width from the lowest to the highest defined height.
 struct HeightHistogram {
-  std::vector<double> height;   ///< middle of the bin, m
-  std::vector<double> density;  ///< part of the points in the bin over its width, 1/m; ∫ = 1
-  std::vector<Index> points;    ///< in the bin
+  std::vector<double> height;          ///< middle of the bin, m
+  std::vector<double> height_density;  ///< part of the points in the bin over its width, 1/m; ∫ = 1
+  std::vector<Index> points;           ///< in the bin
   double width = 0;  ///< of a bin, m; 0, and an infinite density, if all heights are equal
 };
 

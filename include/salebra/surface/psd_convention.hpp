@@ -19,9 +19,9 @@ enum class PsdConvention {
 /// One in any convention, with what it takes to read it.
 struct ConvertedPsd {
   std::vector<double> wavenumber;
-  std::vector<double> density;
+  std::vector<double> psd;
   std::string wavenumber_unit;  ///< "rad/m", "1"
-  std::string density_unit;     ///< "m^4", "m^3", "m^2"
+  std::string psd_unit;         ///< "m^4", "m^3", "m^2"
   std::string normalisation;    ///< what the mean square height is
 };
 

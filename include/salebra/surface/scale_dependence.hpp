@@ -15,11 +15,11 @@ namespace salebra {
 /// over all stencils that touch no undefined point, with wrap where the surface is periodic. An entry stands for the distance
 /// s of the slope; the curvature beside it belongs to 2s.
 struct ScaleDependence {
-  std::vector<double> spacing;          ///< s, m
-  std::vector<double> rms_slope;        ///< √⟨slope²⟩ = √S(s)/s of the structure function
-  std::vector<double> rms_curvature;    ///< √⟨curvature²⟩, 1/m
-  std::vector<double> least_curvature;  ///< of all stencils: the sharpest peak, 1/m
-  std::vector<Index> stencils;          ///< of the curvature
+  std::vector<double> spacing;        ///< s, m
+  std::vector<double> profile_slope;  ///< √⟨slope²⟩ = √S(s)/s of the structure function
+  std::vector<double> profile_curvature;  ///< √⟨curvature²⟩, 1/m
+  std::vector<double> min_curvature;      ///< of all stencils: the sharpest peak, 1/m
+  std::vector<Index> stencils;            ///< of the curvature
 };
 
 /// Throws InvalidInput if the heights have not the shape of the grid or hold no complete stencil of three neighbours along the axis.

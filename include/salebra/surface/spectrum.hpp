@@ -12,7 +12,7 @@ namespace salebra {
 /// on the half-spectrum of wave vectors (i, j), j = 0 … ny/2; C(−q) = C(q). The mean height is left out.
 struct PowerSpectrum {
   Grid2D grid;
-  Field density;          ///< C, (nx, ny/2+1), m⁴
+  Field psd;              ///< C, (nx, ny/2+1), m⁴
   bool windowed = false;  ///< a window made the heights fade out at the edges
   /// How many neighbouring modes count as one in a mean, since the window mixes them: ⟨w⁴⟩/⟨w²⟩²; 1 without a window.
   double correlated_modes = 1;
@@ -26,7 +26,7 @@ struct PowerSpectrum {
 /// What the heights are multiplied by before they are transformed, ξ = (i+½)/nx and η = (j+½)/ny from edge to edge. A window takes the
 /// leakage of the steps between opposite edges out of the spectrum.
 enum class Window {
-  customary,  ///< none for a periodic surface, hann for any other
+  automatic,  ///< none for a periodic surface, hann for any other
   none,       ///< 1
   hann,       ///< v(ξ)·v(η), v(ξ) = ½(1 − cos 2πξ)
   blackman,  ///< the same with v(ξ) = 0.42 − 0.5 cos 2πξ + 0.08 cos 4πξ: less leakage, less resolution
@@ -36,13 +36,13 @@ enum class Window {
 /// C of a periodic surface is exact on its modes: Σ C d²q = h_rms². Under a window the weighted mean is subtracted, and C is divided
 /// by ⟨w²⟩, so that the expectation of a short-waved C is kept, and Σ C d²q = ⟨w²(h − ⟨wh⟩/⟨w⟩)²⟩/⟨w²⟩; tilt should be subtracted before.
 /// Throws InvalidInput unless the surface is complete. Cost: one FFT.
-PowerSpectrum power_spectrum(const Surface& surface, Window window = Window::customary);
+PowerSpectrum power_spectrum(const Surface& surface, Window window = Window::automatic);
 
 /// Power spectral density of profiles along one axis, C₁(q) = ∫C dq_y, so that h_rms² = ∫C₁ dq over −∞ < q < ∞: mean of
 /// |dx Σ w h e^{−iqx}|²/(2π l ⟨w²⟩) over all profiles, each less its (weighted) mean.
 struct ProfilePsd {
   std::vector<double> wavenumber;  ///< 2πk/l, k = 1 … n/2, rad/m
-  std::vector<double> density;     ///< C₁, m³
+  std::vector<double> psd;         ///< C₁, m³
   std::vector<Index>
       modes;  ///< q and −q of all profiles; at the Nyquist wave number of an even n they are one
   Index profiles = 0;
@@ -53,12 +53,12 @@ struct ProfilePsd {
 };
 
 /// radial_hann is as hann here. Throws InvalidInput unless the surface is complete. Cost: as power_spectrum.
-ProfilePsd profile_psd(const Surface& surface, Axis axis, Window window = Window::customary);
+ProfilePsd profile_psd(const Surface& surface, Axis axis, Window window = Window::automatic);
 
 /// C averaged over rings of wave vectors. Every bin holds at least one mode.
 struct RadialSpectrum {
   std::vector<double> wavenumber;  ///< mean |q| of the modes in the bin, rad/m, increasing
-  std::vector<double> density;     ///< mean C, m⁴
+  std::vector<double> psd;         ///< mean C, m⁴
   std::vector<Index> modes;  ///< in the bin, of the full spectrum; h_rms² = Σ modes·C·d²q
 };
 

@@ -69,8 +69,8 @@ SALEBRA_TEXTS(Axis, "'x', 'y'", {Axis::x, "x"}, {Axis::y, "y"});
 SALEBRA_TEXTS(Detrend, "'none', 'mean', 'plane', 'quadratic'", {Detrend::none, "none"},
               {Detrend::mean, "mean"}, {Detrend::plane, "plane"},
               {Detrend::quadratic, "quadratic"});
-SALEBRA_TEXTS(Window, "'customary', 'none', 'hann', 'blackman', 'radial_hann'",
-              {Window::customary, "customary"}, {Window::none, "none"}, {Window::hann, "hann"},
+SALEBRA_TEXTS(Window, "'default', 'none', 'hann', 'blackman', 'radial_hann'",
+              {Window::automatic, "default"}, {Window::none, "none"}, {Window::hann, "hann"},
               {Window::blackman, "blackman"}, {Window::radial_hann, "radial_hann"});
 SALEBRA_TEXTS(PsdConvention, "'salebra', 'surface_topography', 'gwyddion', 'tamaas', 'rfgen'",
               {PsdConvention::salebra, "salebra"},

@@ -13,7 +13,7 @@ namespace {
 /// The sum of two heights, as heights of an ensemble of its own.
 SummitEnsemble sum_of_sides(const SummitEnsemble& first, const SummitEnsemble& second) {
   for (const SummitEnsemble& side : {first, second}) {
-    require_positive(side.density, "density");
+    require_positive(side.density, "summit_density");
     require_positive(side.radius, "radius");
     require_positive(side.summit_rms, "summit_rms");
     require(side.distribution == SummitDistribution::gaussian, "distribution",

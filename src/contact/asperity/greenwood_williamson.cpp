@@ -84,7 +84,7 @@ StatisticalSummits::StatisticalSummits(const SummitEnsemble& ensemble, const Mat
       radius_(ensemble.radius),
       scale_(material.contact_modulus * std::sqrt(ensemble.radius) * count_),
       heights_(std::move(heights)) {
-  require_positive(ensemble.density, "density");
+  require_positive(ensemble.density, "summit_density");
   require_positive(ensemble.radius, "radius");
   require(std::isfinite(ensemble.mean_height), "mean_height", ensemble.mean_height,
           "must be finite");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checkpoints of simulated cycles: states and settings in an HDF5 file (io/cycle_checkpoint.hpp).
+// Checkpoints of simulated cycles: states and settings in an HDF5 file (results/cycle_checkpoint.hpp).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
-#include <salebra/io/cycle_checkpoint.hpp>
-#include <salebra/io/cycle_columns.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/cycle.hpp>
+#include <salebra/results/cycle_checkpoint.hpp>
 
 namespace salebra {
 namespace {
@@ -145,11 +145,14 @@ void write_state(ResultFile& output, const CycleState& state) {
   std::visit([&](const auto& memory) { describe_body(memory, body); }, state.body);
   ResultGroup samples = output.group(kind + "/samples");
   samples.index("sample", state.samples.size(), "steps of the period so far");
-  for (const CycleColumn& column : cycle_columns) {
-    std::vector<double> values;
-    for (const CycleSample& sample : state.samples) values.push_back(sample.*column.value);
-    samples.dataset(column.name, values, {"sample"}, column.units, column.long_name);
-  }
+  describe(
+      [&](double CycleSample::*member, const Quantity& quantity) {
+        std::vector<double> values;
+        for (const CycleSample& sample : state.samples) values.push_back(sample.*member);
+        samples.dataset(std::string(quantity.name), values, {"sample"},
+                        std::string(si_unit(quantity.dimension)), std::string(quantity.long_name));
+      },
+      std::type_identity<CycleSample>{});
 }
 
 template <class Body>
@@ -161,11 +164,14 @@ CycleState read_state(const ResultReader& reader, const std::string& kind) {
   Body body;
   describe_body(body, memory);
   state.body = std::move(body);
-  for (const CycleColumn& column : cycle_columns) {
-    const std::vector<double> values = reader.numbers(kind + "/samples/" + column.name);
-    state.samples.resize(values.size());
-    for (std::size_t k = 0; k < values.size(); ++k) state.samples[k].*column.value = values[k];
-  }
+  describe(
+      [&](double CycleSample::*member, const Quantity& quantity) {
+        const std::vector<double> values =
+            reader.numbers(kind + "/samples/" + std::string(quantity.name));
+        state.samples.resize(values.size());
+        for (std::size_t k = 0; k < values.size(); ++k) state.samples[k].*member = values[k];
+      },
+      std::type_identity<CycleSample>{});
   return state;
 }
 

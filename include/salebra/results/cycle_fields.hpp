@@ -36,12 +36,6 @@ class CycleFields {
     double time;
     std::vector<std::string> fields;
   };
-  struct Values {
-    const char* name;
-    const char* units;
-    const char* text;
-    Field values;
-  };
   std::filesystem::path frame_file(int step) const;
   Field gap_of(const NormalContactState& normal) const;
   void add(int step, double time, std::vector<std::string> fields);

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <salebra/io/cycle_fields.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/cycle_fields.hpp>
+#include <salebra/results/quantity_group.hpp>
 
-#include "atomic_file.hpp"
+#include "io/atomic_file.hpp"
 
 namespace salebra {
 namespace {
@@ -46,12 +47,12 @@ CycleFields::CycleFields(std::filesystem::path prefix, const Surface& surface,
   for (const double x : x_)
     for (const double y : y_) points.insert(points.end(), {x, y, 0.0});
   ResultFile file(with_ending(prefix_, "-mesh.h5"), provenance_, {.overwrite = true});
-  ResultGroup mesh = file.group("mesh");
-  mesh.coordinate("x", x_, "m", "position along x");
-  mesh.coordinate("y", y_, "m", "position along y");
-  mesh.labels("component", {"x", "y", "z"}, "component of a point");
-  mesh.dataset("points", points, {"x", "y", "component"}, "m", "middles of the cells");
-  mesh.dataset("heights", heights_, "x", "y", "m", "height, positive out of the material");
+  QuantityGroup mesh(file.group("mesh"));
+  mesh.coordinate("x", x_);
+  mesh.coordinate("y", y_);
+  mesh.plain().labels("component", {"x", "y", "z"}, "component of a point");
+  mesh.dataset("cells", points, {"x", "y", "component"});
+  mesh.dataset("heights", heights_);
   file.commit();
 }
 
@@ -70,30 +71,28 @@ void CycleFields::write(const CycleState& state, double time, const NormalContac
   if (pressure.size() == 0) pressure = Field::Zero(grid_.nx, grid_.ny);
   Field contact =
       stuck ? Field(stuck->contact.cast<double>()) : Field((sliding->pressure > 0).cast<double>());
-  std::vector<Values> values{
-      {"contact", "1", "1 in contact", std::move(contact)},
-      {"traction_x", "Pa", "shear traction along x", traction.x},
-      {"traction_y", "Pa", "shear traction along y", traction.y},
-      {"displacement_x", "m", "displacement of cells in contact along x", displacement.x},
-      {"displacement_y", "m", "displacement of cells in contact along y", displacement.y},
-      {"pressure", "Pa", "pressure", std::move(pressure)},
-      {"gap", "m", "gap between the deformed surfaces", coupled ? coupled->gap : gap_of(normal)}};
+  std::vector<std::pair<std::string, Field>> values{
+      {"contact", std::move(contact)},
+      {"traction_x", traction.x},
+      {"traction_y", traction.y},
+      {"displacement_x", displacement.x},
+      {"displacement_y", displacement.y},
+      {"contact_pressure", std::move(pressure)},
+      {"gap", coupled ? coupled->gap : gap_of(normal)}};
   if (sliding)
-    values.push_back({"loss", "J/m^2",
-                      "energy dissipated by unit area since the start of the period",
-                      (sliding->loss - state.loss_at_period_start) / grid_.cell_area()});
+    values.emplace_back("loss", (sliding->loss - state.loss_at_period_start) / grid_.cell_area());
 
   ResultFile file(frame_file(state.step), provenance_, {.overwrite = true});
-  ResultGroup fields = file.group("fields");
-  fields.coordinate("x", x_, "m", "position along x");
-  fields.coordinate("y", y_, "m", "position along y");
+  QuantityGroup fields(file.group("fields"));
+  fields.coordinate("x", x_);
+  fields.coordinate("y", y_);
   std::vector<std::string> names;
-  for (const Values& field : values) {
-    fields.dataset(field.name, field.values, "x", "y", field.units, field.text);
-    names.emplace_back(field.name);
+  for (const auto& [name, field] : values) {
+    fields.dataset(name, field);
+    names.push_back(name);
   }
   fields.attribute("step", state.step);
-  fields.attribute("time", time);
+  fields.attribute("time_in_periods", time);
   file.commit();
   add(state.step, time, std::move(names));
 }
@@ -139,7 +138,7 @@ void CycleFields::write_list() const {
         "   <Grid Name=\"step {}\" GridType=\"Uniform\">\n    <Time Value=\"{}\"/>\n"
         "    <Topology TopologyType=\"2DSMesh\" Dimensions=\"{} {}\"/>\n"
         "    <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
-        frame.step, frame.time, grid_.nx, grid_.ny, item(mesh, "/mesh/points", " 3"));
+        frame.step, frame.time, grid_.nx, grid_.ny, item(mesh, "/mesh/cells", " 3"));
     for (const std::string& name : frame.fields)
       attribute(name, item(frame_file(frame.step), "/fields/" + name, ""));
     attribute("heights", item(mesh, "/mesh/heights", ""));

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
-#include <salebra/io/cycle_checkpoint.hpp>
-#include <salebra/io/cycle_fields.hpp>
+#include <salebra/results/cycle_checkpoint.hpp>
+#include <salebra/results/cycle_fields.hpp>
 #include <string>
 #include <vector>
 

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/base/error.hpp>
+#include <salebra/io/result_file.hpp>
+#include <salebra/results/quantity.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace salebra {
+
+/// A group of a file whose datasets take their unit and meaning from the table of quantities.
+/// throws  as ResultGroup; InvalidInput for a name that is not in the table
+class QuantityGroup {
+ public:
+  explicit QuantityGroup(ResultGroup group) : group_(std::move(group)) {}
+
+  void coordinate(const std::string& name, const std::vector<double>& values) {
+    const Quantity quantity = listed(name);
+    group_.coordinate(name, values, unit(quantity), std::string(quantity.long_name));
+  }
+  template <class Values>
+  void dataset(const std::string& name, const Values& values,
+               const std::vector<std::string>& coordinates) {
+    const Quantity quantity = listed(name);
+    group_.dataset(name, values, coordinates, unit(quantity), std::string(quantity.long_name));
+  }
+  /// A field on the coordinates of its first and its second index.
+  void dataset(const std::string& name, const Field& values, const std::string& first = "x",
+               const std::string& second = "y") {
+    const Quantity quantity = listed(name);
+    group_.dataset(name, values, first, second, unit(quantity), std::string(quantity.long_name));
+  }
+  void scalar(const std::string& name, double value) {
+    const Quantity quantity = listed(name);
+    group_.scalar(name, value, unit(quantity), std::string(quantity.long_name));
+  }
+  /// A number in the SI unit of its quantity.
+  template <class Value>
+  void attribute(const std::string& name, Value value) {
+    group_.attribute(std::string(listed(name).name), value);
+  }
+  /// For words and indices, which are no quantities.
+  ResultGroup& plain() { return group_; }
+
+ private:
+  static Quantity listed(const std::string& name) {
+    require(is_quantity(name), "quantity", name,
+            "is not in the table; describe it in salebra/results");
+    return find_quantity(name);
+  }
+  static std::string unit(const Quantity& quantity) {
+    return std::string(si_unit(quantity.dimension));
+  }
+
+  ResultGroup group_;
+};
+
+}  // namespace salebra

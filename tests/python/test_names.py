@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Names: a property is called what files, answers and options call it, with the same unit; messages name arguments."""
+
+from __future__ import annotations
+
+import inspect
+import pathlib
+import re
+
+import salebra
+from salebra import _core
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+
+# Properties that have the name of a quantity and are another thing: an interval's or a sample's mean, statistics of heights, a part
+# of the mean square slope.
+OTHERS = {("EnsembleMean", "mean"), ("MonteCarloCurve", "mean"), ("Realisation", "heights"), ("RoughnessShell", "power")}
+OLD = re.compile(r"curvature|customary|coefficient|density_unit|law_density|(least|greatest)_.*|released_work")
+
+
+def properties() -> list[tuple[str, str, str]]:
+    found = []
+    for class_name, cls in vars(_core).items():
+        if inspect.isclass(cls):
+            for name, member in vars(cls).items():
+                if not name.startswith("_") and isinstance(member, property):
+                    found.append((class_name, name, member.__doc__ or ""))
+    return found
+
+
+def spellings(unit: str) -> set[str]:
+    """1/m^2 and 1/m²."""
+    digits = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+    return {unit, re.sub(r"\^(\d)", lambda match: match.group(1).translate(digits), unit)}
+
+
+def test_properties_have_the_unit_of_the_quantity_of_their_name() -> None:
+    checked = 0
+    for class_name, name, text in properties():
+        assert not OLD.fullmatch(name), f"{class_name}.{name}"
+        unit, long_name = salebra.quantity(name)
+        if long_name == name or (class_name, name) in OTHERS:
+            continue
+        checked += 1
+        assert unit == "1" or any(spelling in text for spelling in spellings(unit)), f"{class_name}.{name}: '{text}' is not in {unit}"
+    assert checked > 200
+
+
+def test_messages_name_arguments_of_python() -> None:
+    texts = [(getattr(value, "__doc__", None) or "") for value in vars(salebra).values()]
+    for cls in vars(_core).values():
+        if inspect.isclass(cls):
+            texts += [member.__doc__ or "" for member in vars(cls).values()]
+    arguments = set(re.findall(r"[(,\s](\w+): ", "\n".join(texts)))
+    named = set()
+    for file in (ROOT / "src").rglob("*.cpp"):
+        for literal in re.findall(r'"(?:[^"\\]|\\.)*"', file.read_text(encoding="utf-8")):
+            named |= set(re.findall(r"`([a-z_]+)`", literal))
+    assert {"overwrite", "size_x", "steps"} <= named
+    assert named <= arguments
