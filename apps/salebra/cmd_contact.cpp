@@ -8,6 +8,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/quantity_group.hpp>
 
 #include "curve_figure.hpp"
 #include "grid_axes.hpp"

@@ -8,6 +8,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/quantity_group.hpp>
 
 #include "figures.hpp"
 #include "law_options.hpp"

@@ -196,10 +196,9 @@ void make_profile(const GenerateArguments& arguments, Session& session) {
                        {"realised", rms_of(spectral_moments(line))}};
   if (!session.has_output())
     session.note("no file was written; add --output FILE.csv, .json or .h5 to keep the profile");
-  write_tables(session, "generate", answer,
-               {{"profile",
-                 {{"x", "m", "position", x}, {"heights", "m", "height", profile.heights}},
-                 "periodic, " + profile.origin}});
+  write_tables(
+      session, "generate", answer,
+      {{"profile", {{"x", x}, {"heights", profile.heights}}, "periodic, " + profile.origin}});
   session.answer(answer);
 }
 

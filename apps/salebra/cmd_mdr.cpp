@@ -14,6 +14,7 @@
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/quantity_group.hpp>
 
 #include "figures.hpp"
 #include "follow.hpp"

@@ -10,6 +10,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/io/number_table.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/quantity_group.hpp>
 
 #include "figures.hpp"
 #include "premise_options.hpp"

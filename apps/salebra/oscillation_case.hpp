@@ -6,6 +6,7 @@
 #include <salebra/damping/premises.hpp>
 #include <salebra/io/plot.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/quantity_group.hpp>
 #include <string>
 #include <vector>
 
