@@ -49,8 +49,8 @@ PremiseReport premises_without_slip(const FrictionArguments& arguments,
   return {{premises}};
 }
 
-Figure friction_figure(const std::vector<SteadySliding>& sliding,
-                       const std::vector<double>& velocities, double friction) {
+Figure sliding_figure(const std::vector<SteadySliding>& sliding,
+                      const std::vector<double>& velocities, double friction) {
   PlotCurve mean{.name = "computed", .x = velocities},
       slow{.name = "static friction and Γv", .x = velocities};
   slow.style = PlotStyle::dashed;
@@ -124,11 +124,10 @@ void run(const FrictionArguments& arguments, Session& session) {
   column("friction_coefficient", &SteadySliding::friction_coefficient);
   column("relaxation_work", &SteadySliding::relaxation_work);
   column("slip_work", &SteadySliding::slip_work);
+  for (const std::string& line : contact.doubts) session.warn(line);
   write_answer(session, "friction", object);
-  session.plot(friction_figure(sliding, arguments.velocities, friction));
-  const double indentation =
-      relaxation_damping(*contact.law, position, motion, options).indentation;
-  premises_without_slip(arguments, contact, indentation, motion).answer(session, object);
+  session.plot(sliding_figure(sliding, arguments.velocities, friction));
+  premises_without_slip(arguments, contact, any.indentation, motion).answer(session, object);
 }
 
 }  // namespace

@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/coupling.hpp>
-#include <salebra/contact/mdr/mdr.hpp>
 
 #include "text.hpp"
 
@@ -32,12 +30,6 @@ const std::vector<LargestMotion>& any_largest(const std::vector<Premises>& cases
   const auto judged =
       std::ranges::find_if(cases, [](const Premises& p) { return !p.largest.empty(); });
   return judged == cases.end() ? cases.front().largest : judged->largest;
-}
-
-const ForceSample& nearest_load(const ForceCurve& curve, double force) {
-  return *std::ranges::min_element(curve.samples, {}, [&](const ForceSample& sample) {
-    return std::abs(std::log(sample.force / force));
-  });
 }
 
 }  // namespace
@@ -84,36 +76,6 @@ ContactFacts PremiseOptions::facts(const MaterialOptions& material,
                          coupling_constant(ElasticBody{material.young[0], material.poisson[0]},
                                            ElasticBody{material.young[1], material.poisson[1]}));
   return facts;
-}
-
-ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
-                      double indentation) {
-  const double force = law.force(indentation);
-  if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law); indenter && force > 0) {
-    const double radius = indenter->contact_radius(indentation);
-    facts.contact_modulus = indenter->contact_modulus();
-    facts.loaded_size = radius;
-    facts.mean_contact_pressure = facts.nominal_pressure =
-        force / (std::numbers::pi * radius * radius);
-  }
-  if (curve == nullptr || !(curve->nominal_area > 0)) return facts;
-  facts.loaded_size = std::sqrt(curve->nominal_area);
-  facts.nominal_pressure = force / curve->nominal_area;
-  // Area and force grow almost in proportion: that of the nearest load will do.
-  const ForceSample& nearest = nearest_load(*curve, force);
-  facts.mean_contact_pressure =
-      nearest.force / (nearest.contact_area_fraction * curve->nominal_area);
-  return facts;
-}
-
-double patch_radius(const ContactFacts& facts, const ContactLaw& law, const ForceCurve* curve,
-                    double indentation) {
-  if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law))
-    return indenter->contact_radius(indentation);
-  if (curve == nullptr) return ContactFacts::unknown;
-  const ForceSample& nearest = nearest_load(*curve, law.force(indentation));
-  return 2 * facts.contact_modulus * nearest.contact_area_fraction * curve->nominal_area /
-         (std::numbers::pi * nearest.normal_stiffness);
 }
 
 void PremiseReport::add_to(Json& answer) const {

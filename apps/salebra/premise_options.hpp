@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <salebra/contact/law/force_curve.hpp>
 #include <salebra/damping/premises.hpp>
 #include <string>
 #include <vector>
@@ -21,15 +20,6 @@ struct PremiseOptions {
   ContactFacts facts(const MaterialOptions& material,
                      const std::optional<double>& followed = {}) const;
 };
-
-/// Adds what an indenter or a curve says of the contact at an indentation: pressures and size. curve may be nullptr.
-ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
-                      double indentation);
-
-/// Radius of a typical contact patch, m: of an indenter's one contact; of a curve 2E*A/(πK), since patches of radius a have K = 2E*Σa
-/// and A = πΣa². NaN where E* or K is not known.
-double patch_radius(const ContactFacts& facts, const ContactLaw& law, const ForceCurve* curve,
-                    double indentation);
 
 /// The premises of an answer: of one case, or of a list of them.
 struct PremiseReport {

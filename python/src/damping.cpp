@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bindings of the damping theorem and of the damper.
+#include "interop/damping.hpp"
+
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/variant.h>
@@ -7,65 +9,62 @@
 
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/premises.hpp>
 
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/cycle_motion.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
 namespace salebra::python {
 namespace {
 
-// Where the contact stands: exactly one of the two keywords.
-Position position_of(std::optional<double> indentation, std::optional<double> force) {
-  require(indentation.has_value() != force.has_value(), "force", force.value_or(0),
-          "and indentation were both given, or neither; give exactly one of them");
-  if (force) return AtForce{*force};
-  return AtIndentation{*indentation};
-}
-
 DampingOptions damping_options(const Choice<Hold>& hold, const Choice<Amplitude>& amplitude,
                                double tolerance) {
   return {hold.value("hold"), amplitude.value("amplitude"), tolerance, {}};
 }
 
-using AnyMotion = std::variant<EqualFrequency, Drag, TwoFrequencies>;
-
-// calls function(Oscillation) or function(TwoFrequencies).
-template <class Function>
-auto with_motion(const AnyMotion& motion, const Function& function) {
-  if (const auto* two = std::get_if<TwoFrequencies>(&motion)) return function(*two);
-  if (const auto* drag = std::get_if<Drag>(&motion)) return function(Oscillation(*drag));
-  return function(Oscillation(std::get<EqualFrequency>(motion)));
+/// The premises of an answer, of a law made of `curve` if there is one.
+Premises judged(const ContactLaw& law, const AnyMotion& motion, double indentation,
+                const ContactFacts& facts, const ForceCurve* curve) {
+  return with_motion(motion, [&](const auto& one) {
+    return premises_of(law, indentation, one, at_state(facts, law, curve, indentation));
+  });
 }
 
 void bind_damping_result(nb::module_& m) {
-  nb::class_<DampingResult>(m, "DampingResult",
-                            "Relaxation damping of one contact under one motion; NaN is unknown.")
-      .def_ro("work_per_cycle", &DampingResult::work_per_cycle, "W, J.")
-      .def_ro("power", &DampingResult::power, "P = Wω/2π, W; NaN where the motion has no ω.")
-      .def_ro("damping_constant", &DampingResult::damping_constant,
+  nb::class_<BoundDamping>(m, "DampingResult",
+                           "Relaxation damping of one contact under one motion; NaN is unknown.")
+      .def_ro("work_per_cycle", &BoundDamping::work_per_cycle, "W, J.")
+      .def_ro("power", &BoundDamping::power, "P = Wω/2π, W; NaN where the motion has no ω.")
+      .def_ro("damping_constant", &BoundDamping::damping_constant,
               "γ = P/⟨ẋ²⟩ with ⟨ẋ²⟩ = v² or (u_x ω)²/2, N s/m; NaN where the motion has no ω.")
-      .def_ro("indentation", &DampingResult::indentation, "Mean indentation of the cycle, m.")
-      .def_ro("force", &DampingResult::force, "F at the mean indentation, N.")
-      .def_ro("mean_force", &DampingResult::mean_force, "Mean of F over the cycle, N.")
-      .def_ro("normal_stiffness", &DampingResult::normal_stiffness,
+      .def_ro("indentation", &BoundDamping::indentation, "Mean indentation of the cycle, m.")
+      .def_ro("force", &BoundDamping::force, "F at the mean indentation, N.")
+      .def_ro("mean_force", &BoundDamping::mean_force, "Mean of F over the cycle, N.")
+      .def_ro("normal_stiffness", &BoundDamping::normal_stiffness,
               "K at the mean indentation, N/m.")
-      .def_ro("force_curvature", &DampingResult::curvature, "F'' at the mean indentation, N/m².")
-      .def_ro("tangential_curvature", &DampingResult::tangential_curvature,
+      .def_ro("force_curvature", &BoundDamping::curvature, "F'' at the mean indentation, N/m².")
+      .def_ro("tangential_curvature", &BoundDamping::tangential_curvature,
               "K_t' at the mean indentation, N/m².")
-      .def_ro("small_amplitude_work", &DampingResult::small_amplitude_work,
+      .def_ro("small_amplitude_work", &BoundDamping::small_amplitude_work,
               "Eq. (12) or (15) at the given position, J.")
-      .def_ro("error_estimate", &DampingResult::error_estimate,
+      .def_ro("error_estimate", &BoundDamping::error_estimate,
               "Of work_per_cycle, J: quadrature and round-off.")
-      .def_ro("converged", &DampingResult::converged, "False: do not use work_per_cycle.")
-      .def("__repr__", [](const DampingResult& r) {
+      .def_ro("converged", &BoundDamping::converged, "False: do not use work_per_cycle.")
+      .def_ro("premises", &BoundDamping::premises,
+              "Whether the contact may be taken for one without slip, yielding and inertia; None "
+              "where they were not asked for.")
+      .def("__repr__", [](const BoundDamping& r) {
+        std::string rest = r.converged ? "converged=True" : "converged=False";
+        if (r.premises) rest += ", premises=" + verdicts(*r.premises);
         return describe("DampingResult",
                         {{"work_per_cycle", r.work_per_cycle},
                          {"damping_constant", r.damping_constant},
                          {"force", r.force}},
-                        r.converged ? "converged=True" : "converged=False");
+                        rest);
       });
 }
 
@@ -74,19 +73,21 @@ void bind_theorem(nb::module_& m) {
       "relaxation_damping",
       [](const ContactLaw& law, const AnyMotion& motion, std::optional<double> indentation,
          std::optional<double> force, const Choice<Hold>& hold, const Choice<Amplitude>& amplitude,
-         double tolerance) {
+         double tolerance, const ContactFacts* facts, const ForceCurve* curve) {
         cite({"popov2015"});
         const Position position = position_of(indentation, force);
         const DampingOptions options = damping_options(hold, amplitude, tolerance);
         return unlocked([&] {
-          return with_motion(motion, [&](const auto& one) {
+          const DampingResult result = with_motion(motion, [&](const auto& one) {
             return relaxation_damping(law, position, one, options);
           });
+          return BoundDamping{result, judged(law, motion, result.indentation, known(facts), curve)};
         });
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
-      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10,
+      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10, nb::arg("facts") = nb::none(),
+      nb::arg("curve") = nb::none(),
       R"(Work lost per cycle by a contact without slip that oscillates, at any amplitude.
 
 .. math:: W = \tfrac12\oint s^2\,dK_t, \qquad s = x_{out} - x_{in}\text{ of each indentation level}
@@ -113,6 +114,12 @@ amplitude : {"finite", "small"}
     "small": Eq. (12) or (15) with F'' of the law.
 tolerance : float
     Relative, of the quadrature of W; 1e-13 … 1e-2.
+facts : ContactFacts, optional
+    Friction, hardness, density and the like, by which the premises are judged.
+curve : ForceCurve, optional
+    The curve that the law is made of; says pressures and size.
+
+The result's `premises` cost about 10 ms.
 
 Raises
 ------
@@ -124,6 +131,7 @@ InvalidInput
       [](const ContactLaw& law, const std::vector<Oscillation>& motions,
          const std::optional<Values>& indentation, const std::optional<Values>& force,
          const Choice<Hold>& hold, const Choice<Amplitude>& amplitude, double tolerance,
+         const ContactFacts* facts, const ForceCurve* curve, bool premises,
          const ProgressArgument& progress) {
         cite({"popov2015"});
         require(indentation.has_value() != force.has_value(), "force", force ? "given" : "missing",
@@ -144,13 +152,24 @@ InvalidInput
         DampingOptions options = damping_options(hold, amplitude, tolerance);
         return interruptible(progress, [&](Progress told) {
           options.on_progress = std::move(told);
-          return relaxation_damping(law, cases, options);
+          std::vector<BoundDamping> answers;
+          for (const DampingResult& result : relaxation_damping(law, cases, options))
+            answers.push_back({result, {}});
+          if (premises)
+            for (std::size_t i = 0; i < count; ++i)
+              answers[i].premises =
+                  premises_of(law, answers[i].indentation, cases[i].motion,
+                              at_state(known(facts), law, curve, answers[i].indentation));
+          return answers;
         });
       },
       nb::arg("law"), nb::arg("motions"), nb::kw_only(), nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
-      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10, nb::arg("progress") = false,
+      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10, nb::arg("facts") = nb::none(),
+      nb::arg("curve") = nb::none(), nb::arg("premises") = true, nb::arg("progress") = false,
       R"(:func:`relaxation_damping` of many cases, in parallel: a list of motions, of positions, or both of one length.
+
+`premises=False` leaves the premises out, which take some 10 ms of each case.
 
 Returns
 -------
@@ -160,20 +179,28 @@ list of DampingResult
   m.def(
       "relaxation_damping_force_controlled",
       [](const ContactLaw& law, double mean_force, double force_amplitude, const AnyMotion& motion,
-         const Choice<Amplitude>& amplitude, double tolerance) {
+         const Choice<Amplitude>& amplitude, double tolerance, const ContactFacts* facts,
+         const ForceCurve* curve) {
         cite({"popov2015"});
         DampingOptions options;
         options.amplitude = amplitude.value("amplitude");
         options.tolerance = tolerance;
         return unlocked([&] {
-          return with_motion(motion, [&](const auto& one) {
+          const DampingResult result = with_motion(motion, [&](const auto& one) {
             return relaxation_damping_force_controlled(law, mean_force, force_amplitude, one,
                                                        options);
           });
+          // The normal oscillation has the amplitude that the stiffness makes of the force's.
+          AnyMotion moved = motion;
+          std::visit(
+              [&](auto& one) { one.normal_amplitude = force_amplitude / result.normal_stiffness; },
+              moved);
+          return BoundDamping{result, judged(law, moved, result.indentation, known(facts), curve)};
         });
       },
       nb::arg("law"), nb::arg("mean_force"), nb::arg("force_amplitude"), nb::arg("motion"),
       nb::kw_only(), nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10,
+      nb::arg("facts") = nb::none(), nb::arg("curve") = nb::none(),
       "Normal motion by force, F = F0 + F_a cos ωt with 0 <= F_a <= F0, N; the motion's "
       "normal_amplitude is not used.");
   m.def("mean_force_of_cycle", &mean_force_of_cycle, nb::arg("law"), nb::arg("mean_indentation"),

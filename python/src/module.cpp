@@ -22,7 +22,9 @@ NB_MODULE(_core, m) {
   bind_theories(m);
   bind_mdr(m);
   bind_motion(m);
+  bind_premises(m);
   bind_damping(m);
+  bind_surface_damping(m);
   bind_trajectories(m);
   bind_damping_maps(m);
   bind_closed_form(m);

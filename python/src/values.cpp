@@ -17,7 +17,9 @@
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/level_quadrature.hpp>
+#include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/stress_map.hpp>
+#include <salebra/damping/surface_damping.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/generators/anisotropic_spectrum.hpp>
 #include <salebra/generators/forecast.hpp>
@@ -128,9 +130,10 @@ void bind_values(nb::module_& m) {
                 LocalDecayLength, ElasticBody, Material, BoundContact, ContactSpot, ContactSpots,
                 StickStiffness, PunchStiffness, PartialSlipReport, RoughnessShell,
                 PerssonTheory::Asymptote, SummitEnsemble, AsperityContact, MonteCarloCurve>();
-  value_classes<EqualFrequency, Drag, TwoFrequencies, SampledMotion, DampingResult, OscillatorDecay,
-                DamperMap, FrictionMap, StressMap, AsperityDamping, TrajectoryDamping, ContactSetAt,
-                CycleResult, LevelQuadratureResult>();
+  value_classes<EqualFrequency, Drag, TwoFrequencies, SampledMotion, BoundDamping, ContactFacts,
+                Premise, LargestMotion, Premises, LossWithSlip, SteadySliding, SurfaceDamping,
+                OscillatorDecay, DamperMap, FrictionMap, StressMap, AsperityDamping,
+                TrajectoryDamping, ContactSetAt, CycleResult, LevelQuadratureResult>();
   value_classes<StudyConfiguration, DampingPoint, SpotStatistics, SurfacePicture, ModelResult,
                 Realisation, EnsembleMean, StudyFlag, StudyResult, Check, Report>();
   value_class<Grid2D>([](const Grid2D& self) { return self; },

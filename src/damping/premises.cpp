@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/tangential_contact.hpp>
@@ -539,7 +540,43 @@ Premises all_premises(const ContactLaw& given, const Case& motion, const Contact
   return premises;
 }
 
+const ForceSample& nearest_load(const ForceCurve& curve, double force) {
+  return *std::ranges::min_element(curve.samples, {}, [&](const ForceSample& sample) {
+    return std::abs(std::log(sample.force / force));
+  });
+}
+
 }  // namespace
+
+ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
+                      double indentation) {
+  const double force = law.force(indentation);
+  if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law); indenter && force > 0) {
+    const double radius = indenter->contact_radius(indentation);
+    facts.contact_modulus = indenter->contact_modulus();
+    facts.loaded_size = radius;
+    facts.mean_contact_pressure = facts.nominal_pressure =
+        force / (std::numbers::pi * radius * radius);
+  }
+  if (curve == nullptr || !(curve->nominal_area > 0)) return facts;
+  facts.loaded_size = std::sqrt(curve->nominal_area);
+  facts.nominal_pressure = force / curve->nominal_area;
+  // Area and force grow almost in proportion: that of the nearest load will do.
+  const ForceSample& nearest = nearest_load(*curve, force);
+  facts.mean_contact_pressure =
+      nearest.force / (nearest.contact_area_fraction * curve->nominal_area);
+  return facts;
+}
+
+double patch_radius(const ContactFacts& facts, const ContactLaw& law, const ForceCurve* curve,
+                    double indentation) {
+  if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law))
+    return indenter->contact_radius(indentation);
+  if (curve == nullptr) return ContactFacts::unknown;
+  const ForceSample& nearest = nearest_load(*curve, law.force(indentation));
+  return 2 * facts.contact_modulus * nearest.contact_area_fraction * curve->nominal_area /
+         (std::numbers::pi * nearest.normal_stiffness);
+}
 
 std::string name_of(Verdict verdict) {
   switch (verdict) {

@@ -80,6 +80,7 @@ SteadySliding steady_sliding(const ContactLaw& law, const Position& position, co
           : law.modulus_ratio();
 
   SteadySliding result;
+  result.indentation = stuck.indentation;
   result.mean_force = stuck.mean_force;
   result.relaxation_damping = stuck.damping_constant;
   result.critical_velocity = friction_coefficient / stiffness_ratio * amplitude * omega;

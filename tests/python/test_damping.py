@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import salebra
-from conftest import ROOT
+from conftest import ROOT, generated
 from salebra import closed_form
 
 DRAG = salebra.Drag(normal_amplitude=1e-9, drag_velocity=1e-3, angular_frequency=2 * math.pi * 20e3)
@@ -48,6 +48,78 @@ def test_position_is_given_once() -> None:
         salebra.relaxation_damping(law, DRAG)
     with pytest.raises(salebra.InvalidInput, match="give exactly one"):
         salebra.relaxation_damping(law, DRAG, force=1.0, indentation=0.0)
+
+
+def test_a_damping_constant_carries_its_premises() -> None:
+    law = salebra.IndenterLaw(salebra.paraboloid_profile(1e-2), salebra.Material(1e9, poisson=0.3))
+    fast = salebra.Drag(normal_amplitude=1e-8, drag_velocity=1e-2, angular_frequency=1e5)
+    told = salebra.relaxation_damping(law, fast, indentation=1e-6).premises
+    assert told.slip_of_opening_levels.verdict == "unknown"
+    assert told.slip_of_opening_levels.needs == "friction_coefficient"
+    assert [motion.friction_coefficient for motion in told.largest] == [0.1, 0.3, 1.0]
+    facts = salebra.ContactFacts(friction_coefficient=0.3)
+    result = salebra.relaxation_damping(law, fast, indentation=1e-6, facts=facts)
+    slip = result.premises.slip_of_opening_levels
+    # M = μ u_z ω/(g v), g = G*/E* = 2(1-ν)/(2-ν).
+    assert slip.value == pytest.approx(0.3 * 1e-8 * 1e5 / (1.4 / 1.7 * 1e-2), rel=1e-12)
+    assert slip.verdict == "broken" and slip.value < slip.limit_20_percent < slip.limit_5_percent
+    assert "slip_of_opening_levels broken" in repr(result)
+    assert "slip" in result.premises.objections
+    assert result.premises == salebra.premises_of(law, fast, indentation=1e-6, facts=facts)
+    # At the largest velocity the loss with slip is 5 % off: a chord of 360 steps is good to 1e-3 of it.
+    slow = salebra.Drag(normal_amplitude=1e-8, drag_velocity=result.premises.largest[0].drag_velocity, angular_frequency=1e5)
+    loss = salebra.loss_with_slip(law, slow, 1e-6, friction_coefficient=0.3)
+    assert abs(loss.relaxation_work / loss.full_stick_work - 1) == pytest.approx(0.05, rel=0.02)
+    assert salebra.damping_curve(law, [fast], indentation=[1e-6], premises=False)[0].premises is None
+    assert salebra.damping_curve(law, [fast], indentation=[1e-6], facts=facts)[0] == result
+    with pytest.raises(salebra.InvalidInput, match="friction_coefficient: -0.3"):
+        salebra.relaxation_damping(law, fast, indentation=1e-6, facts=salebra.ContactFacts(friction_coefficient=-0.3))
+
+
+def test_a_curve_says_pressures_and_size_for_the_premises() -> None:
+    surface, material = generated(32), salebra.Material(1e9, poisson=0.3)
+    curve = salebra.sweep_pressures(surface, material, np.geomspace(1e5, 5e6, 6))
+    law = salebra.TabulatedLaw(curve, material.modulus_ratio)
+    facts = salebra.ContactFacts(hardness=1e9, contact_modulus=1e9)
+    motion = salebra.Drag(normal_amplitude=1e-9, drag_velocity=1e-6, angular_frequency=1e5)
+    place = float(curve.force[3])
+    with_curve = salebra.relaxation_damping(law, motion, force=place, facts=facts, curve=curve)
+    # 1.5 mean pressures of the contact over the hardness.
+    assert with_curve.premises.plasticity.value == pytest.approx(
+        1.5 * curve.pressure[3] / curve.contact_area_fraction[3] / 1e9, rel=1e-9
+    )
+    assert salebra.relaxation_damping(law, motion, force=place, facts=facts).premises.plasticity.verdict == "unknown"
+
+
+def test_damping_of_a_surface_has_its_error_and_needs_no_interpolation() -> None:
+    surface, material = generated(32), salebra.Material(1e9, poisson=0.3)
+    motion = salebra.Drag(normal_amplitude=1e-8, drag_velocity=1e-6, angular_frequency=1e5)
+    curve = salebra.sweep_pressures(surface, material, np.geomspace(1e6, 5e6, 4))
+    answers = salebra.surface_damping(surface, material, motion, curve)
+    assert len(answers) == 4 and all(answer.converged for answer in answers)
+    for answer in answers:
+        parts = (answer.cell_error, answer.scatter, answer.level_error, answer.ratio_error, answer.seam_error, answer.solver_error)
+        assert answer.error == pytest.approx(math.hypot(*parts), rel=1e-12)
+        assert answer.damping_constant_error == pytest.approx(answer.error * answer.damping_constant / answer.work_per_cycle, rel=1e-12)
+    # The answer of a load does not depend on the others, but for the slope of K_t/K between them.
+    few = salebra.surface_damping(surface, material, motion, salebra.sweep_pressures(surface, material, [1e6, 5e6]))
+    assert few[-1].damping_constant == pytest.approx(answers[-1].damping_constant, abs=answers[-1].damping_constant_error)
+    with pytest.raises(salebra.InvalidInput, match="seam: 'open' is none of window, free"):
+        salebra.surface_damping(surface, material, motion, curve, seam="open")  # type: ignore[arg-type]
+
+
+def test_steady_sliding_of_a_paraboloid_tends_to_coulomb_and_to_its_static_friction() -> None:
+    law = salebra.IndenterLaw(salebra.paraboloid_profile(1e-2), salebra.Material(1e9, poisson=0.3))
+    def at(velocity: float) -> salebra.SteadySliding:
+        motion = salebra.Drag(normal_amplitude=3e-7, drag_velocity=velocity, angular_frequency=1e5)
+        return salebra.steady_sliding(law, motion, friction_coefficient=0.4, indentation=1e-6)
+    critical = at(1e-3).critical_velocity
+    # v_c = μ/g u_z ω.
+    assert critical == pytest.approx(0.4 / (1.4 / 1.7) * 3e-7 * 1e5, rel=1e-9)
+    assert at(1.01 * critical).friction_coefficient == pytest.approx(0.4, rel=1e-12)
+    static = 0.4 * law.force(0.7e-6) / salebra.mean_force_of_cycle(law, 1e-6, 3e-7)
+    # What is left is Γv: 1e-6 of it.
+    assert at(1e-9 * critical).friction_coefficient == pytest.approx(static, rel=1e-6)
 
 
 def test_a_damping_curve_is_its_points() -> None:

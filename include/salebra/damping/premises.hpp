@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <salebra/base/units.hpp>
+#include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <span>
@@ -30,6 +31,16 @@ struct ContactFacts {
   double mean_contact_pressure = unknown;  ///< F over the true contact area, Pa
   double rms_slope = unknown;              ///< h' of a rough surface
 };
+
+/// Adds what an indenter, or the curve that the law is made of, says of the contact at an indentation: E*, pressures and size. curve may
+/// be nullptr.
+ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
+                      double indentation);
+
+/// Radius of a typical contact patch, m: of an indenter's one contact; of a curve 2E*A/(πK), since patches of radius a have K = 2E*Σa
+/// and A = πΣa². NaN where E* or K is not known.
+double patch_radius(const ContactFacts& facts, const ContactLaw& law, const ForceCurve* curve,
+                    double indentation);
 
 enum class Verdict {
   holds,     ///< within the limit of 5 %

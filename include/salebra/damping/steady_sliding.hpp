@@ -9,6 +9,7 @@ namespace salebra {
 /// A contact that slides steadily at constant velocity while it oscillates in the normal direction.
 struct SteadySliding {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double indentation = unknown;            ///< δ0, m
   double mean_tangential_force = unknown;  ///< T̄, N
   double mean_force = unknown;             ///< F̄, mean normal force of the cycle, N
   double friction_coefficient = unknown;   ///< T̄/F̄: what a slow observer measures

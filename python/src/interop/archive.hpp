@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "interop/contact.hpp"
+#include "interop/damping.hpp"
 
 /// Values as bytes and back, for pickle and for ==: every member of a struct in the order of its declaration. One function walks a
 /// value for both directions.
@@ -240,6 +241,9 @@ void archive(Archive& through, T& value) {
     archive(through, own.grid);
     archive(through, own.contact_modulus);
     archive(through, own.boundary);
+  } else if constexpr (std::is_same_v<Plain, BoundDamping>) {
+    archive(through, static_cast<DampingResult&>(own));
+    archive(through, own.premises);
   } else {
     visit_members(own, [&](auto&... members) { (archive(through, members), ...); });
   }

@@ -11,6 +11,7 @@
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/surface_damping.hpp>
 #include <salebra/generators/exact_rms.hpp>
 #include <salebra/generators/non_gaussian.hpp>
 #include <salebra/surface/axis.hpp>
@@ -92,6 +93,8 @@ SALEBRA_TEXTS(Hold, "'indentation', 'force'", {Hold::indentation, "indentation"}
               {Hold::force, "force"});
 SALEBRA_TEXTS(Amplitude, "'small', 'finite'", {Amplitude::small, "small"},
               {Amplitude::finite, "finite"});
+SALEBRA_TEXTS(SeamCheck, "'window', 'free'", {SeamCheck::window, "window"},
+              {SeamCheck::free, "free"});
 
 #undef SALEBRA_TEXTS
 

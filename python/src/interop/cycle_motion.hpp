@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+#include <salebra/base/error.hpp>
 #include <salebra/damping/cycle.hpp>
+#include <salebra/damping/dissipation.hpp>
 #include <variant>
 
 namespace salebra::python {
@@ -13,6 +16,24 @@ inline Oscillation oscillation(const std::variant<EqualFrequency, Drag>& motion)
 inline Trajectory trajectory(const std::variant<EqualFrequency, Drag>& motion,
                              double mean_indentation) {
   return trajectory_of(oscillation(motion), mean_indentation);
+}
+
+using AnyMotion = std::variant<EqualFrequency, Drag, TwoFrequencies>;
+
+/// function(Oscillation) or function(TwoFrequencies).
+template <class Function>
+auto with_motion(const AnyMotion& motion, const Function& function) {
+  if (const auto* two = std::get_if<TwoFrequencies>(&motion)) return function(*two);
+  if (const auto* drag = std::get_if<Drag>(&motion)) return function(Oscillation(*drag));
+  return function(Oscillation(std::get<EqualFrequency>(motion)));
+}
+
+/// Where the contact stands: exactly one of the two keywords.
+inline Position position_of(std::optional<double> indentation, std::optional<double> force) {
+  require(indentation.has_value() != force.has_value(), "force", force.value_or(0),
+          "and indentation were both given, or neither; give exactly one of them");
+  if (force) return AtForce{*force};
+  return AtIndentation{*indentation};
 }
 
 }  // namespace salebra::python

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of the premises behind a damping constant, of the loss with slip, and of steady sliding.
+#include <fmt/format.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <salebra/damping/premises.hpp>
+#include <salebra/damping/steady_sliding.hpp>
+
+#include "bindings.hpp"
+#include "interop/citations.hpp"
+#include "interop/cycle_motion.hpp"
+#include "interop/damping.hpp"
+#include "interop/running.hpp"
+#include "interop/surface.hpp"
+
+namespace salebra::python {
+
+std::string verdicts(const Premises& premises) {
+  std::string text;
+  for (const PremiseName& name : premise_names()) {
+    const Verdict verdict = (premises.*name.premise).verdict;
+    if (verdict == Verdict::broken || verdict == Verdict::doubtful)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name.key, name_of(verdict));
+  }
+  return "'" + (text.empty() ? "none broken" : text) + "'";
+}
+
+namespace {
+
+void bind_facts(nb::module_& m) {
+  nb::class_<ContactFacts>(m, "ContactFacts",
+                           "What is known of a contact in addition to its law and its motion. NaN: "
+                           "not known.")
+      .def(
+          "__init__",
+          [](ContactFacts* self, double friction_coefficient, double hardness, double density,
+             double excursion, double contact_modulus, double dundurs, double loaded_size,
+             double nominal_pressure, double largest_pressure, double mean_contact_pressure,
+             double rms_slope) {
+            new (self) ContactFacts{
+                friction_coefficient, hardness,         density,          excursion,
+                contact_modulus,      dundurs,          loaded_size,      nominal_pressure,
+                largest_pressure,     mean_contact_pressure, rms_slope};
+          },
+          nb::kw_only(), nb::arg("friction_coefficient") = ContactFacts::unknown,
+          nb::arg("hardness") = ContactFacts::unknown, nb::arg("density") = ContactFacts::unknown,
+          nb::arg("excursion") = ContactFacts::unknown,
+          nb::arg("contact_modulus") = ContactFacts::unknown,
+          nb::arg("dundurs") = ContactFacts::unknown, nb::arg("loaded_size") = ContactFacts::unknown,
+          nb::arg("nominal_pressure") = ContactFacts::unknown,
+          nb::arg("largest_pressure") = ContactFacts::unknown,
+          nb::arg("mean_contact_pressure") = ContactFacts::unknown,
+          nb::arg("rms_slope") = ContactFacts::unknown)
+      .def_ro("friction_coefficient", &ContactFacts::friction_coefficient, "Coulomb's μ.")
+      .def_ro("hardness", &ContactFacts::hardness, "H of the softer body, Pa.")
+      .def_ro("density", &ContactFacts::density, "ρ of the elastic body, kg/m³.")
+      .def_ro("excursion", &ContactFacts::excursion,
+              "Of the slow motion from one turning point to the other, m.")
+      .def_ro("contact_modulus", &ContactFacts::contact_modulus, "E*, Pa.")
+      .def_ro("dundurs", &ContactFacts::dundurs, "Dundurs' β.")
+      .def_ro("loaded_size", &ContactFacts::loaded_size,
+              "Radius of one contact, side of a rough surface, m.")
+      .def_ro("nominal_pressure", &ContactFacts::nominal_pressure, "F over the nominal area, Pa.")
+      .def_ro("largest_pressure", &ContactFacts::largest_pressure, "Pa.")
+      .def_ro("mean_contact_pressure", &ContactFacts::mean_contact_pressure,
+              "F over the true contact area, Pa.")
+      .def_ro("rms_slope", &ContactFacts::rms_slope, "h' of a rough surface.");
+}
+
+void bind_premise_classes(nb::module_& m) {
+  nb::class_<Premise>(m, "Premise", "One premise: its value, its limits, and what follows.")
+      .def_ro("value", &Premise::value, "NaN where it cannot be known.")
+      .def_ro("limit_5_percent", &Premise::limit_5_percent,
+              "The value at which the loss changes by 5 %; NaN: at none, or not known.")
+      .def_ro("limit_20_percent", &Premise::limit_20_percent,
+              "The value at which the loss changes by 20 %; NaN: at none, or not known.")
+      .def_prop_ro(
+          "verdict", [](const Premise& self) { return name_of(self.verdict); },
+          "'holds', 'doubtful', 'broken' or 'unknown'.")
+      .def_ro("needs", &Premise::needs,
+              "The keyword of ContactFacts that a verdict needs; '' where none does.");
+  nb::class_<LargestMotion>(m, "LargestMotion",
+                            "The largest motion that keeps the premises of slip to 5 %.")
+      .def_ro("friction_coefficient", &LargestMotion::friction_coefficient, "μ that it is for.")
+      .def_ro("drag_velocity", &LargestMotion::drag_velocity, "Case (b), m/s.")
+      .def_ro("tangential_amplitude", &LargestMotion::tangential_amplitude, "Case (a), m.")
+      .def_ro("excursion", &LargestMotion::excursion, "Of a slow motion, m.");
+  nb::class_<Premises> premises(
+      m, "Premises", "What a damping constant without slip takes for granted, each with a verdict.");
+  for (const PremiseName& name : premise_names())
+    premises.def_prop_ro(
+        name.key, [member = name.premise](const Premises& self) { return self.*member; },
+        (std::string(name.words) + "; value: " + name.value + ".").c_str());
+  premises
+      .def_ro("largest", &Premises::largest,
+              "Largest motions, of the μ that is known or of 0.1, 0.3 and 1.")
+      .def_prop_ro(
+          "objections", [](const Premises& self) { return objections({&self, 1}); },
+          "What is broken or doubtful, a line each; '' where nothing is.")
+      .def("__repr__", [](const Premises& self) { return "Premises(" + verdicts(self) + ")"; });
+  m.def(
+      "premises_of",
+      [](const ContactLaw& law, const AnyMotion& motion, std::optional<double> indentation,
+         std::optional<double> force, const ContactFacts* facts, const ForceCurve* curve) {
+        const Position position = position_of(indentation, force);
+        const auto* at = std::get_if<AtIndentation>(&position);
+        return unlocked([&] {
+          const double mean =
+              at ? at->indentation : law.indentation_of(std::get<AtForce>(position).force);
+          const ContactFacts all = at_state(known(facts), law, curve, mean);
+          return with_motion(motion,
+                             [&](const auto& one) { return premises_of(law, mean, one, all); });
+        });
+      },
+      nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
+      nb::arg("force") = nb::none(), nb::arg("facts") = nb::none(),
+      nb::arg("curve") = nb::none(),
+      R"(The premises of relaxation_damping() for this contact and motion, with the limits at which the loss changes by 5 and 20 %.
+
+Parameters
+----------
+law : ContactLaw
+motion : EqualFrequency, Drag or TwoFrequencies
+    Drag with a velocity of NaN: not known; the largest one is found.
+indentation : float, optional
+    Mean indentation, m, on the law's own scale …
+force : float, optional
+    … or the force at it, N; exactly one of the two.
+facts : ContactFacts, optional
+    What is known of friction, hardness, density and the like; without it the largest motions are those of μ = 0.1, 0.3 and 1.
+curve : ForceCurve, optional
+    The curve that the law is made of; says pressures and size.
+)");
+}
+
+void bind_loss_with_slip(nb::module_& m) {
+  nb::class_<LossWithSlip>(m, "LossWithSlip", "Energy lost in a cycle with Coulomb's friction.")
+      .def_ro("work_per_cycle", &LossWithSlip::work_per_cycle, "W, J.")
+      .def_ro("relaxation_work", &LossWithSlip::relaxation_work,
+              "Of it, by levels that open and close, J.")
+      .def_ro("slip_work", &LossWithSlip::slip_work, "Of it, by levels that stay closed, J.")
+      .def_ro("full_stick_work", &LossWithSlip::full_stick_work,
+              "Of the same springs without slip, J.");
+  m.def(
+      "loss_with_slip",
+      [](const ContactLaw& law, const std::variant<EqualFrequency, Drag>& motion,
+         double mean_indentation, double friction_coefficient, double excursion) {
+        return unlocked([&] {
+          return loss_with_slip(law, mean_indentation, oscillation(motion), friction_coefficient,
+                                excursion);
+        });
+      },
+      nb::arg("law"), nb::arg("motion"), nb::arg("mean_indentation"), nb::kw_only(),
+      nb::arg("friction_coefficient"), nb::arg("excursion") = ContactFacts::unknown,
+      "The loss of a cycle with slip. Case (b) without an excursion (m): sliding that goes on, all "
+      "levels slip; with one: mean of a cycle on the way there and back.");
+}
+
+void bind_steady_sliding(nb::module_& m) {
+  nb::class_<SteadySliding>(m, "SteadySliding",
+                            "A contact that slides steadily while it oscillates in the normal "
+                            "direction; NaN is unknown.")
+      .def_ro("indentation", &SteadySliding::indentation, "Mean indentation of the cycle, m.")
+      .def_ro("mean_tangential_force", &SteadySliding::mean_tangential_force, "T̄, N.")
+      .def_ro("mean_force", &SteadySliding::mean_force, "F̄, N.")
+      .def_ro("friction_coefficient", &SteadySliding::friction_coefficient,
+              "T̄/F̄: what a slow observer measures.")
+      .def_ro("static_friction_coefficient", &SteadySliding::static_friction_coefficient,
+              "μF(δ_min)/F̄, its limit as v → 0.")
+      .def_ro("critical_velocity", &SteadySliding::critical_velocity,
+              "From it on T̄ = μF̄, m/s.")
+      .def_ro("low_speed_damping", &SteadySliding::low_speed_damping,
+              "Γ of T̄ = μF(δ_min) + Γv + O(v^(3/2)), N s/m.")
+      .def_ro("relaxation_damping", &SteadySliding::relaxation_damping,
+              "γ of case (b) without slip, N s/m.")
+      .def_ro("relaxation_work", &SteadySliding::relaxation_work,
+              "Lost per period by levels that open and close, J.")
+      .def_ro("slip_work", &SteadySliding::slip_work,
+              "Lost per period by levels that stay closed, J.")
+      .def_ro("error_estimate", &SteadySliding::error_estimate,
+              "Of mean_tangential_force, N: quadrature, not the law's.")
+      .def_ro("converged", &SteadySliding::converged, "False: do not use the forces.");
+  m.def(
+      "steady_sliding",
+      [](const ContactLaw& law, const Drag& motion, double friction_coefficient,
+         std::optional<double> indentation, std::optional<double> force) {
+        cite({"popov2015"});
+        const Position position = position_of(indentation, force);
+        return unlocked([&] { return steady_sliding(law, position, motion, friction_coefficient); });
+      },
+      nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("friction_coefficient"),
+      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
+      "Mean tangential force of steady sliding at motion.drag_velocity with Coulomb's friction "
+      "under a normal oscillation; indentation (m) or force (N), one of the two.");
+}
+
+}  // namespace
+
+void bind_premises(nb::module_& m) {
+  bind_facts(m);
+  bind_premise_classes(m);
+  bind_loss_with_slip(m);
+  bind_steady_sliding(m);
+}
+
+}  // namespace salebra::python

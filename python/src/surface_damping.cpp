@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of the damping of one surface with its error, and of a surface on finer cells.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <salebra/damping/surface_damping.hpp>
+
+#include "bindings.hpp"
+#include "interop/choice.hpp"
+#include "interop/citations.hpp"
+#include "interop/cycle_motion.hpp"
+#include "interop/running.hpp"
+#include "interop/surface.hpp"
+
+namespace salebra::python {
+
+void bind_surface_damping(nb::module_& m) {
+  nb::class_<SurfaceDamping>(m, "SurfaceDamping",
+                             "Damping of one surface at one load, with its error; NaN is unknown.")
+      .def_ro("work_per_cycle", &SurfaceDamping::work_per_cycle, "W, J.")
+      .def_ro("damping_constant", &SurfaceDamping::damping_constant, "γ, N s/m.")
+      .def_prop_ro("damping_constant_error", &SurfaceDamping::damping_constant_error,
+                   "Error of γ, N s/m.")
+      .def_ro("error", &SurfaceDamping::error,
+              "Of work_per_cycle, J: the root of the sum of the squares of all that follow.")
+      .def_ro("cell_error", &SurfaceDamping::cell_error, "Of the size of the cells, J.")
+      .def_ro("scatter", &SurfaceDamping::scatter,
+              "Of the chance at which whole cells, and spots, touch, J.")
+      .def_ro("level_error", &SurfaceDamping::level_error, "Of the number of levels, J.")
+      .def_ro("ratio_error", &SurfaceDamping::ratio_error, "Of K_t/((G*/E*)K), J.")
+      .def_ro("seam_error", &SurfaceDamping::seam_error,
+              "Of the edges of a surface that is not periodic, J; 0 where not asked for.")
+      .def_ro("solver_error", &SurfaceDamping::solver_error, "Of the solver's tolerance, J.")
+      .def_ro("stiffness_ratio", &SurfaceDamping::stiffness_ratio, "K_t/((G*/E*)K).")
+      .def_ro("window", &SurfaceDamping::window,
+              "Half the range of indentations that were solved, m.")
+      .def_ro("levels", &SurfaceDamping::levels, "Intervals between contact levels.")
+      .def_ro("points", &SurfaceDamping::points, "Along x, of the grid that W belongs to.")
+      .def_ro("converged", &SurfaceDamping::converged, "False: do not use work_per_cycle.")
+      .def("__repr__", [](const SurfaceDamping& self) {
+        return describe("SurfaceDamping",
+                        {{"damping_constant", self.damping_constant},
+                         {"damping_constant_error", self.damping_constant_error()},
+                         {"work_per_cycle", self.work_per_cycle},
+                         {"error", self.error}},
+                        self.converged ? "converged=True" : "converged=False");
+      });
+  m.def(
+      "surface_damping",
+      [](const BoundSurface& surface, const Material& material,
+         const std::variant<EqualFrequency, Drag>& motion, const ForceCurve& curve,
+         const Choice<Hold>& hold, const Choice<Amplitude>& amplitude,
+         const Choice<Boundary>& boundary, double relative_error,
+         const std::optional<Choice<SeamCheck>>& seam, const ProgressArgument& progress) {
+        cite({"popov2015"});
+        SurfaceDampingOptions options{.hold = hold.value("hold"),
+                                      .amplitude = amplitude.value("amplitude"),
+                                      .boundary = boundary.value("boundary"),
+                                      .relative_error = relative_error};
+        if (seam) options.seam = seam->value("seam");
+        return interruptible(progress, [&](Progress told) {
+          options.on_progress = std::move(told);
+          return surface_damping(surface.surface, material, oscillation(motion), curve, options);
+        });
+      },
+      nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("curve"), nb::kw_only(),
+      nb::arg("hold") = "indentation", nb::arg("amplitude") = "finite",
+      nb::arg("boundary") = "periodic", nb::arg("relative_error") = 0.0,
+      nb::arg("seam") = nb::none(), nb::arg("progress") = false,
+      R"(Relaxation damping of one surface at each load of its curve, from contacts inside the oscillation, with its error.
+
+Nothing is interpolated between loads. The cells are halved once, which gives their error; relative_error > 0 halves them further
+where the error is above this part of W.
+
+Parameters
+----------
+surface : Surface
+material : Material
+motion : EqualFrequency or Drag
+curve : ForceCurve
+    Of this surface and material, by sweep_pressures(); its loads are the loads of the answer.
+hold : {"indentation", "force"}
+amplitude : {"finite", "small"}
+boundary : {"periodic", "free"}
+relative_error : float
+    0, or the part of W that the error is to be below.
+seam : {"window", "free"}, optional
+    Solves once more without the seam of a surface that is not periodic, and counts the change as an error.
+
+Returns
+-------
+list of SurfaceDamping
+    In the order of the loads.
+)");
+}
+
+}  // namespace salebra::python
