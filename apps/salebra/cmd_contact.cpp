@@ -32,8 +32,8 @@ struct ContactArguments {
 
 NormalContactOptions contact_options(const ContactArguments& arguments, Session& session) {
   NormalContactOptions options;
-  options.boundary = arguments.boundary == "free" ? Boundary::free : Boundary::periodic;
-  options.precision = arguments.precision == "full" ? Precision::full : Precision::mixed;
+  options.boundary = *value_of<Boundary>(arguments.boundary);
+  options.precision = *value_of<Precision>(arguments.precision);
   if (arguments.tolerance) options.tolerance = *arguments.tolerance;
   if (arguments.hardness) options.hardness = *arguments.hardness;
   options.max_iterations = arguments.max_iterations;
@@ -151,7 +151,7 @@ void add_contact_command(Program& program) {
   arguments->surface.add_to(command);
   arguments->position.add_to(command, true);
   arguments->material.add_to(command);
-  add_choice(command, "--boundary", arguments->boundary, {"periodic", "free"}, "default periodic");
+  add_choice<Boundary>(command, "--boundary", arguments->boundary, "default periodic");
   add_quantity(command, "--hardness", arguments->hardness, Dimension::pressure,
                "largest pressure: cells saturate there and sink in; default none");
   command.add_flag("--stiffness", arguments->stiffness,
@@ -161,8 +161,8 @@ void add_contact_command(Program& program) {
   command.add_option("--initial", arguments->initial,
                      "result of this command to start from, of the same grid; saves iterations and "
                      "changes no result");
-  add_choice(command, "--precision", arguments->precision, {"mixed", "full"},
-             "of the iterations; residuals are in double always; default mixed");
+  add_choice<Precision>(command, "--precision", arguments->precision,
+                        "of the iterations; residuals are in double always; default mixed");
   command.add_option("--max-iterations", arguments->max_iterations, "on the finest grid")
       ->show_default();
   add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,

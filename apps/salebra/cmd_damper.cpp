@@ -137,8 +137,8 @@ void run(const DamperArguments& arguments, Session& session) {
   const Position& position = contact.positions.front();
   const std::vector<double> omega = angular_frequencies(arguments);
   DampingOptions options;
-  options.hold = arguments.hold == "force" ? Hold::force : Hold::indentation;
-  options.amplitude = arguments.amplitude == "small" ? Amplitude::small : Amplitude::finite;
+  options.hold = *value_of<Hold>(arguments.hold);
+  options.amplitude = *value_of<Amplitude>(arguments.amplitude);
   options.on_progress = session.progress();
   const bool one = arguments.normal_amplitude.size() == 1 && omega.size() == 1;
 
@@ -215,11 +215,11 @@ void add_damper_command(Program& program) {
   add_values(command, "--angular-frequency", arguments->angular_frequency,
              Dimension::angular_frequency, "in rad/s, instead of --frequency")
       ->group(motion);
-  add_choice(command, "--amplitude", arguments->amplitude, {"small", "finite"},
-             "of the normal oscillation; default finite")
+  add_choice<Amplitude>(command, "--amplitude", arguments->amplitude,
+                        "of the normal oscillation; default finite")
       ->group(motion);
-  add_choice(command, "--hold", arguments->hold, {"indentation", "force"},
-             "what stays in the mean; default indentation")
+  add_choice<Hold>(command, "--hold", arguments->hold,
+                   "what stays in the mean; default indentation")
       ->group(motion);
   const std::string use = "Use";
   add_quantity(command, "--mass", arguments->mass, Dimension::mass,

@@ -161,8 +161,8 @@ void run(const DampingArguments& arguments, Session& session) {
   const ContactLaw& law = *contact.law;
   const auto& positions = contact.positions;
   DampingOptions options;
-  options.hold = arguments.hold == "force" ? Hold::force : Hold::indentation;
-  options.amplitude = arguments.amplitude == "small" ? Amplitude::small : Amplitude::finite;
+  options.hold = *value_of<Hold>(arguments.hold);
+  options.amplitude = *value_of<Amplitude>(arguments.amplitude);
 
   const auto at = [](const auto& all, std::size_t i) { return all[all.size() == 1 ? 0 : i]; };
   const std::size_t count = std::max<std::size_t>(1, values.size());
@@ -271,11 +271,11 @@ void add_damping_command(Program& program) {
   add_values(command, "--force-amplitude", arguments->force_amplitude, Dimension::force,
              "F_a of a force-controlled motion F + F_a cos wt, instead of --normal-amplitude")
       ->group(normal);
-  add_choice(command, "--amplitude", arguments->amplitude, {"small", "finite"},
-             "of the normal oscillation; default finite")
+  add_choice<Amplitude>(command, "--amplitude", arguments->amplitude,
+                        "of the normal oscillation; default finite")
       ->group(normal);
-  add_choice(command, "--hold", arguments->hold, {"indentation", "force"},
-             "what stays in the mean; default indentation")
+  add_choice<Hold>(command, "--hold", arguments->hold,
+                   "what stays in the mean; default indentation")
       ->group(normal);
   arguments->follow.add_to(command);
   arguments->premises.add_to(command);

@@ -97,7 +97,7 @@ void run(const FrictionArguments& arguments, Session& session) {
           "are given; friction takes one, and several --velocities");
   const Position& position = contact.positions.front();
   DampingOptions options;
-  options.hold = arguments.hold == "force" ? Hold::force : Hold::indentation;
+  options.hold = *value_of<Hold>(arguments.hold);
 
   Drag motion{*arguments.normal_amplitude, 0, angular_frequency_of(arguments)};
   std::vector<SteadySliding> sliding;
@@ -157,8 +157,8 @@ void add_friction_command(Program& program) {
   add_quantity(command, "--angular-frequency", arguments->angular_frequency,
                Dimension::angular_frequency, "in rad/s, instead of --frequency")
       ->group(motion);
-  add_choice(command, "--hold", arguments->hold, {"indentation", "force"},
-             "what stays in the mean; default indentation")
+  add_choice<Hold>(command, "--hold", arguments->hold,
+                   "what stays in the mean; default indentation")
       ->group(motion);
   arguments->premises.add_to(command);
 }

@@ -135,11 +135,10 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
   if (arguments.non_gaussian()) {
     require(method == "random-phase", "--method", method,
             "has no other heights than its own; leave it out beside a distribution");
-    NonGaussianSurface made =
-        non_gaussian(grid, *spectrum, *distribution, arguments.seed,
-                     {.exact = arguments.exact == "heights" ? Exact::heights : Exact::spectrum,
-                      .max_iterations = arguments.max_iterations,
-                      .on_progress = session.progress()});
+    NonGaussianSurface made = non_gaussian(grid, *spectrum, *distribution, arguments.seed,
+                                           {.exact = *value_of<Exact>(arguments.exact),
+                                            .max_iterations = arguments.max_iterations,
+                                            .on_progress = session.progress()});
     if (made.interrupted) throw Interrupted("generate: interrupted; no surface was written");
     if (!made.converged)
       throw NotConverged(
@@ -295,8 +294,8 @@ void add_generate_command(Program& program) {
                   "the distribution of heights of this surface, less its trend")
       ->type_name("FILE")
       ->group(heights);
-  add_choice(command, "--exact", arguments->exact, {"heights", "spectrum"},
-             "which of the two holds exactly; default heights")
+  add_choice<Exact>(command, "--exact", arguments->exact,
+                    "which of the two holds exactly; default heights")
       ->group(heights);
   command.add_option("--max-iterations", arguments->max_iterations, "at most; default 200")
       ->group(heights);

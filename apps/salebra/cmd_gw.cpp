@@ -37,8 +37,7 @@ Json to_json(const SummitEnsemble& ensemble) {
               {"radius", ensemble.radius},
               {"summit_rms", ensemble.summit_rms},
               {"mean_height", ensemble.mean_height},
-              {"distribution",
-               ensemble.distribution == SummitDistribution::gaussian ? "gaussian" : "exponential"},
+              {"distribution", std::string(word_of(ensemble.distribution))},
               {"rms_height", ensemble.rms_height}};
 }
 
@@ -62,8 +61,7 @@ Described of_surface(const GwArguments& arguments, const Material& material, Ses
   surface.require_complete("spectral moments");
   const SpectralMoments moments = surface_moments(surface);
   SummitEnsemble ensemble = summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
-  ensemble.distribution = arguments.distribution == "exponential" ? SummitDistribution::exponential
-                                                                  : SummitDistribution::gaussian;
+  ensemble.distribution = *value_of<SummitDistribution>(arguments.distribution);
   ensemble.rms_height = heights.rms_height;
   return {std::make_unique<StatisticalSummits>(ensemble, material, surface.grid.area()),
           to_json(ensemble)};

@@ -155,16 +155,17 @@ std::string measured(const Arguments& arguments, std::string& amplitude, Session
   const auto text = [](const std::string& value) {
     return value.empty() ? value : toml_string(value);
   };
-  return fmt::format(fmt::runtime(measured_surface),
-                     fmt::arg("file", toml_string(name.string()) + "  # from this file's folder"),
-                     fmt::arg("size_x", key_or_choice("size_x", size(given.size_x), "\"10um\"",
-                                                      "where the file does not know its size")),
-                     fmt::arg("size_y", key_or_choice("size_y", size(given.size_y), "\"10um\"",
-                                                      "without it cells are square")),
-                     fmt::arg("height_unit", key_or_choice("height_unit", text(given.height_unit),
-                                                           "\"nm\"", "where the file names none")),
-                     fmt::arg("detrend", key_or_choice("detrend", text(given.detrend), "\"plane\"",
-                                                       "none, mean, plane or quadratic")));
+  return fmt::format(
+      fmt::runtime(measured_surface),
+      fmt::arg("file", toml_string(name.string()) + "  # from this file's folder"),
+      fmt::arg("size_x", key_or_choice("size_x", size(given.size_x), "\"10um\"",
+                                       "where the file does not know its size")),
+      fmt::arg("size_y", key_or_choice("size_y", size(given.size_y), "\"10um\"",
+                                       "without it cells are square")),
+      fmt::arg("height_unit", key_or_choice("height_unit", text(given.height_unit), "\"nm\"",
+                                            "where the file names none")),
+      fmt::arg("detrend", key_or_choice("detrend", text(given.detrend), "\"plane\"",
+                                        fmt::format("{}", fmt::join(words_of<Detrend>(), ", ")))));
 }
 
 void run(Arguments arguments, Session& session) {

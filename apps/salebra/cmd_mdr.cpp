@@ -128,8 +128,7 @@ void run(const MdrArguments& arguments, Session& session) {
   require(arguments.friction_map.empty() || equal, "--friction-map", arguments.friction_map,
           "is over the phase; use --mode equal-frequency");
   const DampingResult result =
-      damping_of(law, AtIndentation{settled}, motion,
-                 {.hold = arguments.hold == "force" ? Hold::force : Hold::indentation});
+      damping_of(law, AtIndentation{settled}, motion, {.hold = *value_of<Hold>(arguments.hold)});
   if (!result.converged) throw NotConverged("mdr: the integral did not reach the tolerance");
   add_state(object, law, result.indentation);
   const bool followed = arguments.follow.friction_coefficient.has_value();
@@ -189,8 +188,7 @@ void add_mdr_command(Program& program) {
       ->group(position);
   add_quantity(command, "--normal-force", arguments->force, Dimension::force, "normal force")
       ->group(position);
-  add_choice(command, "--hold", arguments->hold, {"indentation", "force"},
-             "what stays fixed at finite amplitude")
+  add_choice<Hold>(command, "--hold", arguments->hold, "what stays fixed at finite amplitude")
       ->group(position);
   arguments->material.add_to(command);
   arguments->motion.add_to(command, true);

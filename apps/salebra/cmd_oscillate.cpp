@@ -177,8 +177,7 @@ void run(const OscillateArguments& arguments, Session& session) {
   contact.material = arguments.material.material_with_tangential_modulus();
   contact.body = arguments.shape.empty() ? file_of(arguments, session) : shape_of(arguments);
   Body& body = contact.body;
-  if (!arguments.boundary.empty())
-    body.boundary = arguments.boundary == "free" ? Boundary::free : Boundary::periodic;
+  body.boundary = value_of<Boundary>(arguments.boundary).value_or(body.boundary);
   contact.indentation =
       indentation_of(arguments, body, contact.material, {.boundary = body.boundary});
   contact.motion = motion_of(arguments.motion, body, contact.indentation);
@@ -259,8 +258,7 @@ void add_oscillate_command(Program& program) {
                "of the tangential motion against x; default 0");
   add_choice(command, "--lateral", arguments->lateral, {"held", "free"},
              "displacement across the motion: held at 0, or free of traction; default held");
-  add_choice(command, "--boundary", arguments->boundary, {"periodic", "free"},
-             "default: as the surface is");
+  add_choice<Boundary>(command, "--boundary", arguments->boundary, "default: as the surface is");
   add_choice(command, "--method", arguments->method, {"levels", "both"},
              "levels: contact sets at a few indentations; both: also step through the cycle; "
              "default both");

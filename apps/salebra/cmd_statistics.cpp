@@ -34,14 +34,6 @@ struct StatisticsArguments {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-Window window_of(const std::string& name) {
-  if (name == "none") return Window::none;
-  if (name == "hann") return Window::hann;
-  if (name == "blackman") return Window::blackman;
-  if (name == "radial-hann") return Window::radial_hann;
-  return Window::automatic;
-}
-
 std::vector<double> as_numbers(const std::vector<Index>& counts) {
   return {counts.begin(), counts.end()};
 }
@@ -112,7 +104,7 @@ void run(const StatisticsArguments& arguments, Session& session) {
   std::vector<std::string> names = spectrum_tables;
   names.insert(names.end(), other_tables.begin(), other_tables.end());
   require_tables(session, names);
-  const PsdConvention convention = psd_convention(arguments.convention);
+  const PsdConvention convention = *value_of<PsdConvention>(arguments.convention);
 
   const Surface surface = arguments.surface.read(session);
   const Index undefined = surface.undefined_points();
@@ -147,7 +139,7 @@ void run(const StatisticsArguments& arguments, Session& session) {
   fit.rolloff = fit.short_cutoff = {none, none, none};
   if (undefined == 0 || arguments.fill) {
     const Surface complete = filled(surface);
-    const Window window = window_of(arguments.window);
+    const Window window = *value_of<Window>(arguments.window);
     spectrum = power_spectrum(complete, window);
     const RadialSpectrum radial = radial_spectrum(*spectrum);
     fit = fit_self_affine(*spectrum);
@@ -199,12 +191,11 @@ void add_statistics_command(Program& program) {
       "heights, power spectral density with the fitted law, distribution of heights",
       OutputCheck::any_name);
   arguments->surface.add_to(command);
-  add_choice(command, "--window", arguments->window,
-             {"default", "none", "hann", "blackman", "radial-hann"},
-             "of the spectra; default none if periodic, hann if not");
-  add_choice(command, "--convention", arguments->convention,
-             {"salebra", "surface-topography", "gwyddion", "tamaas", "rfgen"},
-             "of the power spectral density; default salebra, rms_height^2 = integral of C d^2q");
+  add_choice<Window>(command, "--window", arguments->window,
+                     "of the spectra; default none if periodic, hann if not");
+  add_choice<PsdConvention>(
+      command, "--convention", arguments->convention,
+      "of the power spectral density; default salebra, rms_height^2 = integral of C d^2q");
   command.add_flag("--fill", arguments->fill,
                    "fill undefined points by the smoothest surface, for the spectra only");
   add_quantity(command, "--tip-radius", arguments->tip_radius, Dimension::length,

@@ -32,7 +32,7 @@ void run(const SweepArguments& arguments, Session& session) {
           "without --stiffness; give both");
   options.stiffness = arguments.stiffness;
   options.stick = arguments.stick;
-  options.contact.boundary = arguments.boundary == "free" ? Boundary::free : Boundary::periodic;
+  options.contact.boundary = *value_of<Boundary>(arguments.boundary);
   if (arguments.tolerance) options.contact.tolerance = *arguments.tolerance;
   options.contact.on_progress = session.progress();
   for (const double pressure : arguments.pressures) require_positive(pressure, "--pressures");
@@ -80,7 +80,7 @@ void add_sweep_command(Program& program) {
   command.add_flag("--stick", arguments->stick,
                    "with --stiffness: K_t by a stick solve on each contact");
   arguments->material.add_to(command);
-  add_choice(command, "--boundary", arguments->boundary, {"periodic", "free"}, "default periodic");
+  add_choice<Boundary>(command, "--boundary", arguments->boundary, "default periodic");
   add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
                "of the complementarity residual; default 1e-10");
 }

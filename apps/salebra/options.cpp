@@ -132,8 +132,7 @@ void SurfaceOptions::add_to(Command& app, bool needed, const std::string& field)
                  "such as nm, for files that do not name one; default m")
       ->type_name("UNIT")
       ->group(group);
-  add_choice(app, "--detrend", detrend, {"none", "mean", "plane", "quadratic"},
-             "default: plane if measured, mean if generated")
+  add_choice<Detrend>(app, "--detrend", detrend, "default: plane if measured, mean if generated")
       ->group(group);
 }
 
@@ -149,16 +148,8 @@ Surface SurfaceOptions::read(Session& session) const {
   Surface surface = read_surface(file, options);
   for (const auto& lines : {remarks, doubts_of_cells(surface.grid)})
     for (const std::string& line : lines) session.warn(line);
-  const Detrend method = detrend_method().value_or(customary_detrend(surface));
+  const Detrend method = value_of<Detrend>(detrend).value_or(customary_detrend(surface));
   return detrended(std::move(surface), method);
-}
-
-std::optional<Detrend> SurfaceOptions::detrend_method() const {
-  if (detrend == "none") return Detrend::none;
-  if (detrend == "mean") return Detrend::mean;
-  if (detrend == "plane") return Detrend::plane;
-  if (detrend == "quadratic") return Detrend::quadratic;
-  return {};
 }
 
 void PositionOptions::add_to(Command& app, bool with_indentation) {

@@ -8,6 +8,7 @@
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
+#include <salebra/results/words.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <string>
 #include <variant>
@@ -29,6 +30,14 @@ Option* add_values(Command& app, const std::string& name, std::vector<double>& t
 /// --name NAME out of a few; the target's present value is the default.
 Option* add_choice(Command& app, const std::string& name, std::string& target,
                    const std::vector<std::string>& choices, const std::string& help);
+/// The same out of the words of an enumeration.
+template <class Enum>
+Option* add_choice(Command& app, const std::string& name, std::string& target,
+                   const std::string& help) {
+  std::vector<std::string> words = words_of<Enum>();
+  for (std::string& word : words) std::ranges::replace(word, '_', '-');
+  return add_choice(app, name, target, words, help);
+}
 
 /// The value of an option that the other options make necessary.
 double required(const std::optional<double>& value, std::string_view option,
@@ -65,8 +74,6 @@ struct SurfaceOptions {
   /// field: "SURFACE", or "--surface" to make it an option.
   void add_to(Command& app, bool needed = true, const std::string& field = "SURFACE");
   bool given() const { return !file.empty(); }
-  /// What --detrend says; empty if it was not given.
-  std::optional<Detrend> detrend_method() const;
   /// Read and, with --detrend or else as is customary for its kind, detrended. Warns of cells and sizes that are most likely a slip.
   Surface read(Session& session) const;
 };

@@ -64,9 +64,10 @@ void StudyArguments::add_to(Command& command) {
   command.add_option("--levels", levels,
                      "intervals between contacts inside the oscillation, 4, 8, 16 or 32; default "
                      "8 for one surface, 4 for each of several");
-  add_choice(command, "--seam-error", seam_error, {"window", "free"},
-             "add the error of the seam of a scan that is continued: from its heights with a "
-             "window, or from the scan by itself on a half-space");
+  add_choice<SeamCheck>(
+      command, "--seam-error", seam_error,
+      "add the error of the seam of a scan that is continued: from its heights with a "
+      "window, or from the scan by itself on a half-space");
   command.add_flag("--no-stick", no_stick,
                    "K_t = (G*/E*)K in place of a stick solve on each contact: faster, exact at nu "
                    "= 0 without coupling");
@@ -168,8 +169,7 @@ StudyConfiguration StudyArguments::study() const {
             "must be 4, 8, 16 or 32");
     study.levels = levels;
   }
-  if (!seam_error.empty())
-    study.seam = seam_error == "window" ? SeamCheck::window : SeamCheck::free;
+  if (const auto seam = value_of<SeamCheck>(seam_error)) study.seam = seam;
   if (no_stick) study.stick = false;
   const ContactFacts facts = premises.facts({});
   for (double ContactFacts::*fact : {&ContactFacts::friction_coefficient, &ContactFacts::hardness,

@@ -151,7 +151,7 @@ Unless `converged`, the numbers describe the last iterate and must not be used a
   state.def_ro("grid", &BoundContact::grid, "Points and size.")
       .def_ro("contact_modulus", &BoundContact::contact_modulus, "E*, Pa, as given.")
       .def_prop_ro(
-          "boundary", [](const BoundContact& self) { return text_of(self.boundary); },
+          "boundary", [](const BoundContact& self) { return std::string(word_of(self.boundary)); },
           "\"periodic\" or \"free\", as given.")
       .def_ro("mean_pressure", &BoundContact::mean_pressure, "Nominal pressure, Pa.")
       .def_ro("force", &BoundContact::force, "N.")

@@ -63,14 +63,14 @@ table : list of (float, float)
       .def_ro("summit_rms", &SummitEnsemble::summit_rms, "σ_s, m.")
       .def_ro("mean_height", &SummitEnsemble::mean_height, "m")
       .def_prop_ro("distribution",
-                   [](const SummitEnsemble& self) { return text_of(self.distribution); })
+                   [](const SummitEnsemble& self) { return std::string(word_of(self.distribution)); })
       .def_ro("rms_height", &SummitEnsemble::rms_height, "m")
       .def("__repr__", [](const SummitEnsemble& self) {
         return describe("SummitEnsemble",
                         {{"summit_density", self.density},
                          {"radius", self.radius},
                          {"summit_rms", self.summit_rms}},
-                        "distribution='" + text_of(self.distribution) + "'");
+                        "distribution='" + std::string(word_of(self.distribution)) + "'");
       });
   m.def(
       "summit_ensemble",

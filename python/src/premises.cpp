@@ -40,16 +40,24 @@ void bind_facts(nb::module_& m) {
              double excursion, double contact_modulus, double dundurs, double loaded_size,
              double nominal_pressure, double largest_pressure, double mean_contact_pressure,
              double rms_slope) {
-            new (self) ContactFacts{
-                friction_coefficient, hardness,         density,          excursion,
-                contact_modulus,      dundurs,          loaded_size,      nominal_pressure,
-                largest_pressure,     mean_contact_pressure, rms_slope};
+            new (self) ContactFacts{friction_coefficient,
+                                    hardness,
+                                    density,
+                                    excursion,
+                                    contact_modulus,
+                                    dundurs,
+                                    loaded_size,
+                                    nominal_pressure,
+                                    largest_pressure,
+                                    mean_contact_pressure,
+                                    rms_slope};
           },
           nb::kw_only(), nb::arg("friction_coefficient") = ContactFacts::unknown,
           nb::arg("hardness") = ContactFacts::unknown, nb::arg("density") = ContactFacts::unknown,
           nb::arg("excursion") = ContactFacts::unknown,
           nb::arg("contact_modulus") = ContactFacts::unknown,
-          nb::arg("dundurs") = ContactFacts::unknown, nb::arg("loaded_size") = ContactFacts::unknown,
+          nb::arg("dundurs") = ContactFacts::unknown,
+          nb::arg("loaded_size") = ContactFacts::unknown,
           nb::arg("nominal_pressure") = ContactFacts::unknown,
           nb::arg("largest_pressure") = ContactFacts::unknown,
           nb::arg("mean_contact_pressure") = ContactFacts::unknown,
@@ -89,7 +97,8 @@ void bind_premise_classes(nb::module_& m) {
       .def_ro("tangential_amplitude", &LargestMotion::tangential_amplitude, "Case (a), m.")
       .def_ro("excursion", &LargestMotion::excursion, "Of a slow motion, m.");
   nb::class_<Premises> premises(
-      m, "Premises", "What a damping constant without slip takes for granted, each with a verdict.");
+      m, "Premises",
+      "What a damping constant without slip takes for granted, each with a verdict.");
   for (const PremiseName& name : premise_names())
     premises.def_prop_ro(
         name.key, [member = name.premise](const Premises& self) { return self.*member; },
@@ -98,7 +107,10 @@ void bind_premise_classes(nb::module_& m) {
       .def_ro("largest", &Premises::largest,
               "Largest motions, of the μ that is known or of 0.1, 0.3 and 1.")
       .def_prop_ro(
-          "objections", [](const Premises& self) { return objections({&self, 1}); },
+          "objections",
+          [](const Premises& self) {
+            return objections({&self, 1});
+          },
           "What is broken or doubtful, a line each; '' where nothing is.")
       .def("__repr__", [](const Premises& self) { return "Premises(" + verdicts(self) + ")"; });
   m.def(
@@ -116,8 +128,7 @@ void bind_premise_classes(nb::module_& m) {
         });
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
-      nb::arg("force") = nb::none(), nb::arg("facts") = nb::none(),
-      nb::arg("curve") = nb::none(),
+      nb::arg("force") = nb::none(), nb::arg("facts") = nb::none(), nb::arg("curve") = nb::none(),
       R"(The premises of relaxation_damping() for this contact and motion, with the limits at which the loss changes by 5 and 20 %.
 
 Parameters
@@ -170,8 +181,7 @@ void bind_steady_sliding(nb::module_& m) {
               "T̄/F̄: what a slow observer measures.")
       .def_ro("static_friction_coefficient", &SteadySliding::static_friction_coefficient,
               "μF(δ_min)/F̄, its limit as v → 0.")
-      .def_ro("critical_velocity", &SteadySliding::critical_velocity,
-              "From it on T̄ = μF̄, m/s.")
+      .def_ro("critical_velocity", &SteadySliding::critical_velocity, "From it on T̄ = μF̄, m/s.")
       .def_ro("low_speed_damping", &SteadySliding::low_speed_damping,
               "Γ of T̄ = μF(δ_min) + Γv + O(v^(3/2)), N s/m.")
       .def_ro("relaxation_damping", &SteadySliding::relaxation_damping,
@@ -189,7 +199,8 @@ void bind_steady_sliding(nb::module_& m) {
          std::optional<double> indentation, std::optional<double> force) {
         cite({"popov2015"});
         const Position position = position_of(indentation, force);
-        return unlocked([&] { return steady_sliding(law, position, motion, friction_coefficient); });
+        return unlocked(
+            [&] { return steady_sliding(law, position, motion, friction_coefficient); });
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("friction_coefficient"),
       nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),

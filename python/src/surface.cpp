@@ -105,8 +105,9 @@ True
 
 Parameters
 ----------
-method : {"plane", "mean", "quadratic", "none"}
-    What is subtracted: the least-squares plane a + b·x + c·y, the mean, the least-squares paraboloid, nothing.
+method : {"plane", "mean", "quadratic", "lines", "none"}
+    What is subtracted: the least-squares plane a + b·x + c·y, the mean, the least-squares paraboloid, of each scan line (along x) its
+    least-squares straight line, nothing.
 
 Returns
 -------
@@ -238,7 +239,7 @@ counts with (2 sin(q dx/2)/dx)² in place of q².
         "The surface less its trend, see :meth:`Surface.detrended`.");
   m.def(
       "customary_detrend",
-      [](const BoundSurface& surface) { return text_of(customary_detrend(surface.surface)); },
+      [](const BoundSurface& surface) { return std::string(word_of(customary_detrend(surface.surface))); },
       nb::arg("surface"),
       "\"plane\" for a measured surface, which carries the tilt of its stage; \"mean\" for a "
       "periodic one.");

@@ -12,6 +12,7 @@
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/cycle.hpp>
 #include <salebra/results/cycle_checkpoint.hpp>
+#include <salebra/results/words.hpp>
 
 namespace salebra {
 namespace {
@@ -210,7 +211,7 @@ CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
   add("steady_tolerance", options.steady_tolerance);
   add("tolerance", options.stick.tolerance);
   add("max_iterations", options.stick.max_iterations);
-  settings.emplace_back("boundary", options.stick.boundary == Boundary::free ? "free" : "periodic");
+  settings.emplace_back("boundary", word_of(options.stick.boundary));
   settings.emplace_back("lateral", options.stick.hold_lateral ? "held" : "free");
   return settings;
 }

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/results/words.hpp>
 #include <salebra/study/configuration.hpp>
 #include <unordered_set>
 
@@ -27,6 +27,12 @@ double required_positive(TomlTable& table, std::string_view key, Dimension dimen
   const double value = table.required_quantity(key, dimension);
   check_positive(table, key, value);
   return value;
+}
+
+template <class Enum>
+std::optional<Enum> enumerated(TomlTable& table, std::string_view key) {
+  const auto place = table.choice(key, words_of<Enum>());
+  return place ? std::optional(Words<Enum>::values[*place].first) : std::nullopt;
 }
 
 Grid2D read_grid(TomlTable& table) {
@@ -156,10 +162,7 @@ MeasuredSurface read_measured(TomlTable& table, const std::filesystem::path& fol
     if (*size) check_positive(table, key, **size);
   }
   surface.height_unit = table.text("height_unit").value_or("");
-  if (const auto choice = table.choice("detrend", {"none", "mean", "plane", "quadratic"})) {
-    surface.detrend =
-        std::array{Detrend::none, Detrend::mean, Detrend::plane, Detrend::quadratic}[*choice];
-  }
+  surface.detrend = enumerated<Detrend>(table, "detrend");
   return surface;
 }
 
@@ -279,9 +282,7 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
         .angular_frequency = *omega};
     configuration.motion = motion;
   }
-  if (const auto hold = table.choice("hold", {"indentation", "force"})) {
-    configuration.damping.hold = *hold == 0 ? Hold::indentation : Hold::force;
-  }
+  if (const auto hold = enumerated<Hold>(table, "hold")) configuration.damping.hold = *hold;
   if (const auto levels = table.quantity("levels", Dimension::dimensionless)) {
     table.check(*levels == 4 || *levels == 8 || *levels == 16 || *levels == 32, "levels",
                 fmt::format("{} must be 4, 8, 16 or 32", *levels));
@@ -292,8 +293,7 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
                 fmt::format("{} must lie between 0 and 1, such as \"5%\"", *error));
     configuration.relative_error = *error;
   }
-  if (const auto seam = table.choice("seam_error", {"window", "free"}))
-    configuration.seam = *seam == 0 ? SeamCheck::window : SeamCheck::free;
+  configuration.seam = enumerated<SeamCheck>(table, "seam_error");
   table.require_no_other_keys();
 }
 

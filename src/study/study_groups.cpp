@@ -8,6 +8,7 @@
 #include <salebra/results/damping.hpp>
 #include <salebra/results/quantity_group.hpp>
 #include <salebra/results/spectrum.hpp>
+#include <salebra/results/words.hpp>
 #include <salebra/study/study_premises.hpp>
 #include <set>
 
@@ -232,7 +233,7 @@ void write_damping(Table table, const StudyResult& result) {
   std::visit([&](const auto& motion) { table.attributes(motion); }, configuration.motion);
   group.attribute("mode",
                   std::holds_alternative<Drag>(configuration.motion) ? "drag" : "equal-frequency");
-  group.attribute("hold", configuration.damping.hold == Hold::force ? "force" : "indentation");
+  group.attribute("hold", std::string(word_of(configuration.damping.hold)));
   group.attribute("modulus_ratio", configuration.material.modulus_ratio());
   group.attribute("contact_modulus", configuration.material.contact_modulus);
 }

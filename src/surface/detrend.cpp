@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Removal of the mean, of a plane or of a quadratic surface by least squares.
+// Removal of the mean, of a plane, of a quadratic surface or of a straight line from each scan line, by least squares.
 #include <cmath>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/moments.hpp>
@@ -46,6 +46,31 @@ void subtract_fit(Surface& surface) {
           mean + trend.dot(terms_at<Terms>(centred(ix, nx), centred(iy, ny)));
 }
 
+/// Of each line along x; a line with one defined point loses its height, one without any keeps none.
+void subtract_lines(Surface& surface) {
+  const auto [nx, ny] = std::pair(surface.grid.nx, surface.grid.ny);
+  height_statistics(surface);  // refuses what has no heights
+  for (Index iy = 0; iy < ny; ++iy) {
+    double points = 0, sum_x = 0, sum = 0;
+    for (Index ix = 0; ix < nx; ++ix) {
+      const double height = surface.heights(ix, iy);
+      if (std::isnan(height)) continue;
+      ++points, sum_x += centred(ix, nx), sum += height;
+    }
+    if (points == 0) continue;
+    const double mean_x = sum_x / points, mean = sum / points;
+    double square = 0, product = 0;
+    for (Index ix = 0; ix < nx; ++ix) {
+      const double height = surface.heights(ix, iy), x = centred(ix, nx) - mean_x;
+      if (std::isnan(height)) continue;
+      square += x * x, product += x * (height - mean);
+    }
+    const double slope = square > 0 ? product / square : 0;
+    for (Index ix = 0; ix < nx; ++ix)
+      surface.heights(ix, iy) -= mean + slope * (centred(ix, nx) - mean_x);
+  }
+}
+
 }  // namespace
 
 Detrend customary_detrend(const Surface& surface) {
@@ -64,6 +89,9 @@ Surface detrended(Surface surface, Detrend method) {
       break;
     case Detrend::quadratic:
       subtract_fit<6>(surface);
+      break;
+    case Detrend::lines:
+      subtract_lines(surface);
       break;
   }
   return surface;

@@ -79,14 +79,4 @@ ConvertedPsd converted(const ProfilePsd& spectrum, PsdConvention convention) {
   return labelled(with(1), "rad/m", "m^3", "rms_height^2 = integral of C dq, all q");
 }
 
-PsdConvention psd_convention(const std::string& name) {
-  if (name == "salebra") return PsdConvention::salebra;
-  if (name == "surface-topography") return PsdConvention::surface_topography;
-  if (name == "gwyddion") return PsdConvention::gwyddion;
-  if (name == "tamaas") return PsdConvention::tamaas;
-  require(name == "rfgen", "convention", name,
-          "is none of salebra, surface-topography, gwyddion, tamaas, rfgen; give one of them");
-  return PsdConvention::rfgen;
-}
-
 }  // namespace salebra

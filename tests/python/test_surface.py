@@ -121,7 +121,7 @@ def test_a_plane_is_subtracted_and_undefined_points_are_kept() -> None:
     flat = salebra.Surface(heights, 1e-3, 1e-3).detrended("plane")
     assert flat.undefined_points == 1
     assert np.nanmax(np.abs(flat.heights)) < 1e-18
-    with pytest.raises(salebra.InvalidInput, match="method: 'plan' is none of none, mean, plane, quadratic"):
+    with pytest.raises(salebra.InvalidInput, match="method: 'plan' is none of none, mean, plane, quadratic, lines"):
         flat.detrended("plan")
 
 

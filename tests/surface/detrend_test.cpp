@@ -52,3 +52,27 @@ TEST_CASE("Nothing is subtracted from a surface without a defined height", "[det
   CHECK_THROWS_AS(detrended(surface, Detrend::mean), InvalidInput);
   CHECK_THROWS_AS(detrended(surface, Detrend::plane), InvalidInput);
 }
+
+TEST_CASE("Jumps and slopes of scan lines go, each line by itself", "[detrend]") {
+  // Even about the middle of each line, so that it has no slope of its own; of mean 0.
+  const auto wave = [](double x, double) { return std::cos(2 * 3.14159265358979 * (x - 0.5)); };
+  const Surface rough = sampled({64, 21, 1.0, 2.0}, false, wave);
+  Surface scanned = rough;
+  for (Index iy = 0; iy < 21; ++iy)
+    for (Index ix = 0; ix < 64; ++ix)
+      scanned.heights(ix, iy) += std::sin(5.0 * double(iy)) + 0.1 * double(iy) * double(ix);
+  scanned.heights.col(7).tail(60).setConstant(std::nan(""));  // four points are left
+  scanned.heights.col(8).setConstant(std::nan(""));
+  scanned.heights.col(9).tail(63).setConstant(std::nan(""));  // one
+  const Surface flat = detrended(scanned, Detrend::lines), alone = detrended(rough, Detrend::lines);
+  CHECK(flat.undefined_points() == 60 + 64 + 63);
+  CHECK(flat.heights(0, 9) == 0);
+  for (const Index iy : {Index{0}, Index{6}, Index{20}}) {
+    // Heights up to 100 m: round-off.
+    CHECK((flat.heights.col(iy) - alone.heights.col(iy)).abs().maxCoeff() < 1e-12);
+    double along_x = 0;
+    for (Index ix = 0; ix < 64; ++ix) along_x += flat.heights(ix, iy) * double(ix);
+    CHECK(std::abs(along_x) < 1e-9);
+    CHECK(std::abs(flat.heights.col(iy).sum()) < 1e-11);
+  }
+}

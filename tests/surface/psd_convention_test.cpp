@@ -56,8 +56,6 @@ TEST_CASE("The mean square height is the same in every convention", "[psd]") {
   CHECK(converted(spectrum, grid, PsdConvention::rfgen).wavenumber.front() == Approx(0.1));
   CHECK(converted(spectrum, grid, PsdConvention::tamaas).wavenumber.front() == Approx(10));
   CHECK_THROWS_AS(converted(spectrum, {100, 100, 2, 1}, PsdConvention::tamaas), InvalidInput);
-  CHECK(psd_convention("gwyddion") == PsdConvention::gwyddion);
-  CHECK_THROWS_AS(psd_convention("isotropic"), InvalidInput);
 }
 
 TEST_CASE("Profiles of a periodic surface: their spectrum is that of the surface summed across",

@@ -11,6 +11,9 @@ enum class Detrend {
   mean,       ///< the mean of the defined heights
   plane,      ///< the least-squares plane a + b·x + c·y through the defined heights
   quadratic,  ///< the least-squares paraboloid, with x², xy and y²: the bow of a scanner or of a lens
+  /// Of each line along x, as a microscope scans, its least-squares straight line: the jumps and the drift from line to line. What the
+  /// roughness itself has of them, its long waves along y, goes with them.
+  lines
 };
 
 /// The plane for a measured surface, which carries the tilt of its stage; the mean for a periodic

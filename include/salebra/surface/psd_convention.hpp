@@ -33,7 +33,4 @@ ConvertedPsd converted(const RadialSpectrum& spectrum, const Grid2D& grid,
 /// Throws InvalidInput for the others, which have none.
 ConvertedPsd converted(const ProfilePsd& spectrum, PsdConvention convention);
 
-/// "salebra", "surface-topography", "gwyddion", "tamaas", "rfgen". Throws InvalidInput for another name.
-PsdConvention psd_convention(const std::string& name);
-
 }  // namespace salebra
