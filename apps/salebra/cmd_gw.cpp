@@ -113,7 +113,7 @@ void add_gw_command(Program& program) {
        "exponential "
        "--separations 10nm,20nm,40nm --contact-modulus 115GPa"},
       [arguments](Session& session) { run(*arguments, session); },
-      "pressure over gap, area, stiffness", OutputCheck::any_name);
+      "pressure over gap, area, stiffness", OutputCheck::curve);
   arguments->surface.add_to(command, false);
   add_choice(command, "--summits", arguments->summits, {"moments", "deterministic"},
              "of a surface; default moments");

@@ -69,7 +69,7 @@ void add_sweep_command(Program& program) {
        "--stiffness -o curve.h5",
        "salebra sweep scan.txt --pressures 1MPa,5MPa,20MPa --young 70GPa --poisson 0.33 --json"},
       [arguments](Session& session) { run(*arguments, session); },
-      "pressure over gap, area, stiffness", OutputCheck::any_name);
+      "pressure over gap, area, stiffness", OutputCheck::curve);
   arguments->surface.add_to(command);
   add_values(command, "--pressures", arguments->pressures, Dimension::pressure, "nominal pressures")
       ->required();

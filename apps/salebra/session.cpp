@@ -9,6 +9,7 @@
 #include <csignal>
 #include <salebra/base/error.hpp>
 #include <salebra/base/printable.hpp>
+#include <salebra/results/force_curve_file.hpp>
 
 #include "option_words.hpp"
 #include "terminal.hpp"
@@ -41,7 +42,11 @@ Session::Session(CommonOptions options, std::string command_line, OutputCheck ch
       command_line_(std::move(command_line)),
       bar_(options_.progress == "always" ||
            (options_.progress == "auto" && !options_.quiet && isatty(STDERR_FILENO) != 0)) {
-  if (check != OutputCheck::any_name) require_result_name();
+  if (check == OutputCheck::curve) {
+    if (has_output()) require_curve_name(output());
+  } else if (check != OutputCheck::any_name) {
+    require_result_name();
+  }
   if (check != OutputCheck::by_command) require_free_output();
   if (has_plot()) require_plot(options_.plot, write_options());
 }

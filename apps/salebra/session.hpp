@@ -28,6 +28,7 @@ struct CommonOptions {
 /// What --output may name.
 enum class OutputCheck {
   results,     ///< an HDF5 file that is not there yet
+  curve,       ///< a file of a curve that is not there yet, as write_force_curve() knows them
   by_command,  ///< an HDF5 file; one that is in the way is a matter for the command itself
   any_name     ///< a file that is not there yet; the command knows formats of its own
 };

@@ -62,8 +62,9 @@ table : list of (float, float)
       .def_ro("radius", &SummitEnsemble::radius, "R, m.")
       .def_ro("summit_rms", &SummitEnsemble::summit_rms, "σ_s, m.")
       .def_ro("mean_height", &SummitEnsemble::mean_height, "m")
-      .def_prop_ro("distribution",
-                   [](const SummitEnsemble& self) { return std::string(word_of(self.distribution)); })
+      .def_prop_ro(
+          "distribution",
+          [](const SummitEnsemble& self) { return std::string(word_of(self.distribution)); })
       .def_ro("rms_height", &SummitEnsemble::rms_height, "m")
       .def("__repr__", [](const SummitEnsemble& self) {
         return describe("SummitEnsemble",

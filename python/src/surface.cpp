@@ -239,7 +239,9 @@ counts with (2 sin(q dx/2)/dx)² in place of q².
         "The surface less its trend, see :meth:`Surface.detrended`.");
   m.def(
       "customary_detrend",
-      [](const BoundSurface& surface) { return std::string(word_of(customary_detrend(surface.surface))); },
+      [](const BoundSurface& surface) {
+        return std::string(word_of(customary_detrend(surface.surface)));
+      },
       nb::arg("surface"),
       "\"plane\" for a measured surface, which carries the tilt of its stage; \"mean\" for a "
       "periodic one.");

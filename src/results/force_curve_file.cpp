@@ -99,20 +99,25 @@ ForceCurve read_force_curve(const ResultReader& reader, const std::string& group
 
 void write_force_curve(const std::filesystem::path& file, const ForceCurve& curve,
                        const Provenance& provenance, const WriteOptions& options) {
+  require_curve_name(file);
   const std::string extension = file.extension().string();
   if (extension == ".h5" || extension == ".hdf5") {
     ResultFile results(file, provenance, options);
     ResultGroup group = results.group("curve");
     write_force_curve(group, curve);
     results.commit();
-  } else if (extension == ".csv" || extension == ".txt") {
+  } else {
     detail::AtomicFile output(file, options);
     output.write(detail::text_of(curve, provenance));
     output.commit();
-  } else {
+  }
+}
+
+void require_curve_name(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  if (extension != ".h5" && extension != ".hdf5" && extension != ".csv" && extension != ".txt")
     throw InvalidInput(file.string() + ": has the extension '" + extension +
                        "', which names no format of a curve; use .h5 or .csv");
-  }
 }
 
 ForceCurve read_force_curve(const std::filesystem::path& file) {

@@ -207,6 +207,15 @@ TEST_CASE("An existing output is refused before any work, and replaced with --ov
   CHECK(test.run("info rough.h5").status == 0);
 }
 
+TEST_CASE("A curve's file that names no format is refused before the surface is read",
+          "[bad-input]") {
+  const ProgramTest test;
+  for (const char* command :
+       {"sweep absent.h5 --pressures 1:2MPa:4 --contact-modulus 1GPa -o x.dat",
+        "gw absent.h5 --pressures 1:2MPa:4 --contact-modulus 1GPa -o x.dat"})
+    check_refused(test.run(command), "x.dat: has the extension '.dat'");
+}
+
 TEST_CASE("All missing options are named at once", "[bad-input]") {
   const ProgramTest test;
   test.write("scan.txt", "1 2 3 4\n4 5 6 7\n7 8 9 5\n");

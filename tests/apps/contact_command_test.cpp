@@ -103,7 +103,8 @@ TEST_CASE("A hardness limits the pressure, and one that cannot carry the load is
   CHECK(plastic["max_pressure"] == 1.5e8);
   CHECK(plastic["pressure"].get<double>() == Approx(2e7).epsilon(1e-10));
   CHECK(plastic["indentation"] > elastic["indentation"]);
-  check_refused(test.run(press + "--hardness 20MPa"), "hardness");
+  check_refused(test.run(press + "--hardness 20MPa"),
+                "--hardness: 20 MPa must exceed the nominal pressure, ");
   check_refused(test.run(press + "--hardness -1MPa"), "--hardness");
 }
 

@@ -24,6 +24,9 @@ ForceCurve read_force_curve(const ResultReader& reader, const std::string& group
 void write_force_curve(const std::filesystem::path& file, const ForceCurve& curve,
                        const Provenance& provenance = {}, const WriteOptions& options = {});
 
+/// Throws InvalidInput for a name by which write_force_curve() knows no format.
+void require_curve_name(const std::filesystem::path& file);
+
 /// Reads a curve from an HDF5 file (group `curve`) or from text. Text is a table whose first line names the columns, after the
 /// members of ForceSample, each with a unit in brackets or parentheses unless it is SI:
 ///     # nominal_area: 1 mm^2

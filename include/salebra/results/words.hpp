@@ -71,8 +71,8 @@ struct Words<PsdConvention> {
 };
 template <>
 struct Words<Rms> {
-  static constexpr auto values =
-      std::to_array<std::pair<Rms, std::string_view>>({{Rms::height, "height"}, {Rms::slope, "slope"}});
+  static constexpr auto values = std::to_array<std::pair<Rms, std::string_view>>(
+      {{Rms::height, "height"}, {Rms::slope, "slope"}});
 };
 template <>
 struct Words<Exact> {

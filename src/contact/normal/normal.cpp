@@ -9,6 +9,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/base/units.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <vector>
 
@@ -274,8 +275,11 @@ NormalContactState press_to_pressure(const Surface& surface, double contact_modu
   require(nominal_pressure <= 1e12 * contact_modulus, "nominal_pressure", nominal_pressure,
           fmt::format("must not exceed 1e12 times the contact modulus, {} Pa; check the units",
                       contact_modulus));
-  require(nominal_pressure < options.hardness, "hardness", options.hardness,
-          "must exceed the nominal pressure: no contact carries more than its hardness");
+  require(
+      nominal_pressure < options.hardness, "hardness",
+      format_quantity(options.hardness, Dimension::pressure),
+      fmt::format("must exceed the nominal pressure, {}: no contact carries more than its hardness",
+                  format_quantity(nominal_pressure, Dimension::pressure)));
   const Depths depths(surface.heights);
   if (!(depths.rms > 0) && options.boundary == Boundary::periodic)
     return full_contact_of_plane(surface, nominal_pressure);
