@@ -168,6 +168,10 @@ function show(index) {
     localLengthFigure(body, point);
   });
   section(main, "contact", "Contact", null, (body) => {
+    if (point.picture?.gap) {
+      pressureMap(body, point);
+      gapMap(body, point);
+    }
     if (point.picture?.first_load) contactMap(body, point);
     else body.append(absent("a contact map"));
     spotsFigure(body, point);

@@ -156,6 +156,36 @@ function contactMap(parent, point) {
   });
 }
 
+/** A map of the state at one load in the middle of the curve: "contact_pressure" where it is not 0, or "gap". */
+function stateMap(parent, point, {key, id, title, unit, clip, colorscale, caption}) {
+  const picture = point.picture, place = mapAxes(picture), step = picture[`max_${key}`] / 32767;
+  const values = Array.from(decoded(picture[key], Int16Array), (v) => (key === "gap" || v > 0 ? v * step : null));
+  const seen = values.filter(known), at = quantiles(seen), shares = [0, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99, 1];
+  const scale = scaleFor([0, at(clip)], unit), load = quantity(point.pressure[picture.mapped_load], "Pa", 3);
+  addFigure(parent, {
+    id, title, axes: place.axes, height: mapHeight(),
+    alt: () => `Map of the ${title.toLowerCase()} at ${load}: half of the values are below ${quantity(at(0.5), unit, 3)}, the largest is ${quantity(at(1), unit, 3)}.`,
+    caption: `${caption(load)}${MAP_NOTE(picture)}`,
+    columns: () => [{label: "share of the points below", key: "share", unit: "1", values: shares}, {label: title.toLowerCase(), key, unit, values: shares.map((s) => Number(at(s).toPrecision(4))), digits: 3}],
+    csv: () => mapColumns(picture, place, key, unit, values.map((v) => (v === null ? null : Number(v.toPrecision(4))))),
+    plot: () => ({series: [{type: "heatmap", x: place.x, y: place.y, z: matrix(values, picture.nx, picture.ny, (v) => (v === null ? null : v * scale.factor)), colorscale,
+      zmin: 0, zmax: at(clip) * scale.factor, hoverongaps: false,
+      colorbar: {title: {text: `${title.toLowerCase()} (${scale.label})`, side: "right"}, thickness: 12, outlinewidth: 0, len: 0.95},
+      hovertemplate: `<i>x</i> = %{x:.4~g}, <i>y</i> = %{y:.4~g}<br>%{z:.4~g} ${scale.label}<extra></extra>`}],
+    layout: () => ({plot_bgcolor: color("sunken")})}),
+  });
+}
+
+function pressureMap(parent, point) {
+  stateMap(parent, point, {key: "contact_pressure", id: "pressure-map", title: "Contact pressure", unit: "Pa", clip: 0.99, colorscale: "Viridis",
+    caption: (load) => `Contact pressure at the nominal pressure ${load}, by boundary elements on the cells of the surface; points without contact are blank. The highest pressures depend on the size of the cells.`});
+}
+
+function gapMap(parent, point) {
+  stateMap(parent, point, {key: "gap", id: "gap-map", title: "Gap", unit: "m", clip: 0.99, colorscale: "Blues",
+    caption: (load) => `Gap between the deformed surfaces at the nominal pressure ${load}; 0 in contact. What lies in blue is open to fluids.`});
+}
+
 /** Number and size of the patches of contact. */
 function spotsFigure(parent, point) {
   const spots = point.spots ?? {}, count = spots.spot_count;

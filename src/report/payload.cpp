@@ -200,22 +200,35 @@ class Point {
     const std::vector<double> heights = part("picture/heights", 0, x.size() * y.size());
     const std::vector<double> loads = part("picture/first_load", 0, x.size() * y.size());
     const Index stride = std::max<Index>(1, (std::max(rows, columns) + map_side - 1) / map_side);
-    std::vector<float> map;
-    std::vector<std::int16_t> first_load;
-    for (Index i = 0; i < rows; i += stride) {
-      for (Index j = 0; j < columns; j += stride) {
-        map.push_back(float(heights[std::size_t(i * columns + j)]));
-        first_load.push_back(std::int16_t(loads[std::size_t(i * columns + j)]));
-      }
-    }
+    // of(value) at every stride-th point along either axis.
+    const auto reduced = [&](const std::vector<double>& values, const auto& of) {
+      std::vector<std::remove_cvref_t<decltype(of(values.front()))>> map;
+      for (Index i = 0; i < rows; i += stride)
+        for (Index j = 0; j < columns; j += stride)
+          map.push_back(of(values[std::size_t(i * columns + j)]));
+      return base64(map);
+    };
+    const auto whole = [](double value) { return std::int16_t(value); };
     json["nx"] = (rows + stride - 1) / stride;
     json["ny"] = (columns + stride - 1) / stride;
     json["step_x"] = number(rows > 1 ? double(stride) * (x[1] - x[0]) : 0);
     json["step_y"] = number(columns > 1 ? double(stride) * (y[1] - y[0]) : 0);
     json["stride"] =
         double(stride) * file_.number_attribute(where_ + "picture", "stride").value_or(1);
-    json["heights"] = base64(map);
-    json["first_load"] = base64(first_load);
+    json["heights"] = reduced(heights, [](double value) { return float(value); });
+    json["first_load"] = reduced(loads, whole);
+    if (const auto load = file_.number_attribute(where_ + "picture", "mapped_load")) {
+      json["mapped_load"] = *load;
+      for (const std::string name : {"contact_pressure", "gap"}) {
+        // In steps of 1/32767 of the largest, which is finer than any screen shows, and half as long.
+        const std::vector<double> values = part("picture/" + name, 0, x.size() * y.size());
+        const double most = std::ranges::max(values);
+        json["max_" + name] = number(most);
+        json[name] = reduced(values, [&](double value) {
+          return whole(most > 0 ? std::round(value / most * 32767) : 0);
+        });
+      }
+    }
     for (const char* name : {"origin", "law"})
       json[name] = file_.text_attribute(where_ + "picture", name).value_or("");
     for (const char* name : {"hurst", "hurst_low", "hurst_high"})

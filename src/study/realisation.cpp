@@ -294,7 +294,10 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
     realisation.ensemble = summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
     realisation.ensemble.rms_height = realisation.heights.rms_height;
   }
-  if (wants_picture(configuration, seed)) realisation.picture = picture_of(surface, configuration);
+  if (wants_picture(configuration, seed)) {
+    realisation.picture = picture_of(surface, configuration);
+    realisation.picture.mapped_load = Index(pressures.size() / 2);
+  }
 
   const std::vector<StudyModel> models = models_of(configuration);
   double cost = 0, spent = 0;

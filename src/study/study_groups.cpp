@@ -338,6 +338,11 @@ void write_picture(QuantityGroup group, const SurfacePicture& picture) {
   group.coordinate("y", positions(picture.ny, picture.step_y));
   group.dataset("heights", picture.heights, {"x", "y"});
   group.dataset("first_load", picture.first_load, {"x", "y"});
+  if (!picture.gap.empty()) {
+    group.dataset("contact_pressure", picture.contact_pressure, {"x", "y"});
+    group.dataset("gap", picture.gap, {"x", "y"});
+    group.plain().attribute("mapped_load", std::int64_t(picture.mapped_load));
+  }
   group.coordinate("wavenumber", picture.wavenumber);
   group.dataset("psd", picture.psd, {"wavenumber"});
   group.dataset("law_psd", picture.law_psd, {"wavenumber"});

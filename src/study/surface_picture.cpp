@@ -93,10 +93,15 @@ SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& conf
 }
 
 void SurfacePicture::add_contact(std::int16_t k, const NormalContactState& state) {
+  if (k == mapped_load) contact_pressure.clear(), gap.clear();
   std::size_t point = 0;
   for (Index ix = 0; ix < state.pressure.rows(); ix += stride) {
     for (Index iy = 0; iy < state.pressure.cols(); iy += stride, ++point) {
       std::int16_t& first = first_load[point];
+      if (k == mapped_load) {
+        contact_pressure.push_back(float(state.pressure(ix, iy)));
+        gap.push_back(float(state.gap(ix, iy)));
+      }
       if (state.pressure(ix, iy) > 0 && (first < 0 || k < first)) first = k;
     }
   }

@@ -92,7 +92,7 @@ function parsed(text) {
   return rows.map((row) => row.map((cell) => cell.replace(/,$/, "").replace(/^"|"$/g, "")));
 }
 
-const everyFigure = ["height-map", "profile", "spectrum", "distribution", "force-gap", "local-length", "contact-map", "spots", "area-load", "gap-load", "stiffness-load", "stiffness-ratio",
+const everyFigure = ["height-map", "profile", "spectrum", "distribution", "force-gap", "local-length", "pressure-map", "gap-map", "contact-map", "spots", "area-load", "gap-load", "stiffness-load", "stiffness-ratio",
   "damping-curve", "damping-deviation", "damping-models", "convergence"];
 
 const full = await open("full.html", {viewport: {width: 1280, height: 900}, colorScheme: "light"});

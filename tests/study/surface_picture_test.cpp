@@ -37,6 +37,19 @@ TEST_CASE("The picture of a study shows where its first surface touches under ea
         double(touching) / (64 * 64) ==
         Approx(first.of(ContactModel::bem).curve.samples[k].contact_area_fraction).epsilon(0.005));
   }
+  // The maps of one load, of every cell: their means are those of the contact, to the seven digits of floats.
+  const ForceSample& mapped =
+      first.of(ContactModel::bem).curve.samples[std::size_t(picture.mapped_load)];
+  REQUIRE(picture.mapped_load == Index(result.pressures.size() / 2));
+  REQUIRE(picture.gap.size() == 64 * 64);
+  double pressure = 0, gap = 0;
+  for (std::size_t i = 0; i < picture.gap.size(); ++i) {
+    pressure += double(picture.contact_pressure[i]) / (64 * 64);
+    gap += double(picture.gap[i]) / (64 * 64);
+    CHECK((picture.contact_pressure[i] == 0 || picture.gap[i] == 0));
+  }
+  CHECK(pressure == Approx(mapped.pressure).epsilon(1e-5));
+  CHECK(gap == Approx(mapped.mean_gap).epsilon(1e-5));
 }
 
 TEST_CASE("The law drawn with a random-phase surface is its spectrum", "[picture]") {

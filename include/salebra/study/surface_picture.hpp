@@ -23,7 +23,11 @@ struct SurfacePicture {
   double step_x = 0, step_y = 0;  ///< between points of the maps, m
   std::vector<float> heights;     ///< (nx, ny), y contiguous, less the mean of the surface, m
   std::vector<std::int16_t>
-      first_load;  ///< number of the least load at which a point touches; −1: none
+      first_load;         ///< number of the least load at which a point touches; −1: none
+  Index mapped_load = 0;  ///< number of the load of the next two
+  std::vector<float>
+      contact_pressure;    ///< (nx, ny), Pa; empty until boundary elements have solved that load
+  std::vector<float> gap;  ///< (nx, ny), of the deformed surfaces, m
 
   std::vector<double> wavenumber, psd;  ///< radial spectrum C, rad/m and m⁴
   std::vector<double> law_psd;          ///< NaN where the law does not reach
@@ -34,7 +38,7 @@ struct SurfacePicture {
   std::vector<double> height, height_density;  ///< histogram, m and 1/m
 
   bool empty() const { return stride == 0; }
-  /// Marks the points that carry pressure under load number k.
+  /// Marks the points that carry pressure under load number k, and takes the maps of one load.
   void add_contact(std::int16_t k, const NormalContactState& state);
 };
 
@@ -51,6 +55,10 @@ constexpr void describe(Visitor&& visit, std::type_identity<SurfacePicture>) {
   visit(&S::first_load,
         Kept{"first_load",
              "number of the least pressure of the curve at which the point touches; -1: none"});
+  visit(&S::mapped_load,
+        Kept{"mapped_load", "number of the pressure of the maps of pressure and gap"});
+  visit(&S::contact_pressure, Kept{"contact_pressure", "contact pressure at that load, Pa"});
+  visit(&S::gap, Kept{"gap", "gap of the deformed surfaces at that load, m"});
   visit(&S::wavenumber, Kept{"wavenumber", "wave number, rad/m"});
   visit(&S::psd, Kept{"psd", "power spectral density C, m^4"});
   visit(&S::law_psd, Kept{"law_psd", "C of the self-affine law, m^4"});
