@@ -16,6 +16,15 @@ Json to_json(const ForceCurve& curve) {
   });
   const auto nowhere = [](const ForceSample& sample) { return std::isnan(sample.separation); };
   if (std::ranges::all_of(curve.samples, nowhere)) object.erase("separation");
+  // What does not depend on the size of the surface.
+  const auto per_area = [&](const char* name, double ForceSample::*stiffness) {
+    std::vector<double> values = curve.column(stiffness);
+    for (double& value : values) value /= curve.nominal_area;
+    if (std::ranges::any_of(values, [](double value) { return std::isfinite(value); }))
+      object[name] = values;
+  };
+  per_area("normal_stiffness_per_area", &ForceSample::normal_stiffness);
+  per_area("tangential_stiffness_per_area", &ForceSample::tangential_stiffness);
   return object;
 }
 

@@ -62,6 +62,9 @@ constexpr std::array spellings{
     Spelling{pressure, "N/", "m", "\u00b2", 1, -2},
     Spelling{force, "", "N", ""},
     Spelling{stiffness, "", "N", "/m"},
+    Spelling{stiffness_per_area, "", "Pa", "/m"},
+    Spelling{stiffness_per_area, "", "Pa", "/um", 1e6},
+    Spelling{stiffness_per_area, "", "Pa", "/\u00b5m", 1e6},
     Spelling{force_curvature, "", "N", "/m^2"},
     Spelling{damping, "", "N", " s/m"},
     Spelling{damping, "", "N", "s/m"},
@@ -102,6 +105,7 @@ constexpr std::array abouts{
     About{pressure, "Pa", "115GPa", true},
     About{force, "N", "1mN", true},
     About{stiffness, "N/m", "1kN/m", true},
+    About{stiffness_per_area, "Pa/m", "1GPa/um", false},
     About{force_curvature, "N/m^2", "1N/m^2", false},
     About{damping, "N s/m", "1Ns/m", true},
     About{mass, "kg", "1kg", false},
@@ -244,6 +248,9 @@ std::vector<double> parse_values(std::string_view text, Dimension dimension,
 
 std::string format_quantity(double value, Dimension dimension, int digits) {
   if (std::isnan(value)) return "n/a";
+  // The unit of this field, which has two prefixes.
+  if (dimension == stiffness_per_area)
+    return fmt::format("{:.{}g} GPa/\u00b5m", value / 1e15, digits);
   const std::string_view unit = si_unit(dimension);
   if (!about(dimension).takes_prefix || value == 0 || std::isinf(value)) {
     return unit == "1" ? fmt::format("{:.{}g}", value, digits)

@@ -211,9 +211,15 @@ TEST_CASE("A sweep leads to a curve, its fit and a damping constant", "[sweep][f
   REQUIRE(swept.status == 0);
   const auto curve = swept.json()["curve"];
   CHECK(keys(swept.json()) == std::set<std::string>{"curve"});
-  CHECK(keys(curve) == std::set<std::string>{"pressure", "force", "mean_gap", "indentation",
-                                             "contact_area_fraction", "normal_stiffness",
-                                             "tangential_stiffness", "converged"});
+  CHECK(keys(curve) == std::set<std::string>{
+                           "pressure", "force", "mean_gap", "indentation", "contact_area_fraction",
+                           "normal_stiffness", "tangential_stiffness", "converged",
+                           "normal_stiffness_per_area", "tangential_stiffness_per_area"});
+  // Area: force over pressure.
+  CHECK(curve["normal_stiffness_per_area"][3].get<double>() ==
+        Approx(curve["normal_stiffness"][3].get<double>() * curve["pressure"][3].get<double>() /
+               curve["force"][3].get<double>())
+            .epsilon(1e-12));
   for (const auto& column : curve) CHECK(column.size() == 8);
   // One elastic body: G*/E* = 2(1 − ν)/(2 − ν).
   CHECK(curve["tangential_stiffness"][3].get<double>() ==

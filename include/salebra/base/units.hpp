@@ -20,6 +20,7 @@ enum class Dimension {
   pressure,                ///< Pa
   force,                   ///< N
   stiffness,               ///< N/m
+  stiffness_per_area,      ///< Pa/m; printed in GPa/µm
   force_curvature,         ///< N/m², F''
   damping,                 ///< N s/m
   mass,                    ///< kg
