@@ -2,11 +2,13 @@
 // Tangential force and loss of a contact law along any path, from the turning points it remembers.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/tangential_contact.hpp>
 #include <sstream>
 #include <vector>
 
+#include "contact/quadrature.hpp"
 #include "stiffness_table.hpp"
 
 namespace salebra {
@@ -44,7 +46,8 @@ struct TangentialContact::State {
 
   State(const ContactLaw& law, double low, double high, double lowest_of_motion,
         const TangentialContactOptions& given)
-      : table(law, low, high, given.table_tolerance),
+      : table(
+            std::make_shared<const detail::StiffnessTable>(law, low, high, given.table_tolerance)),
         permanent_below(lowest_of_motion),
         permanent_stiffness(law.tangential_stiffness(lowest_of_motion)),
         slope_limit(given.friction_coefficient / law.modulus_ratio()),
@@ -52,17 +55,17 @@ struct TangentialContact::State {
         slack(1e-9 * (high - lowest_of_motion) + 1e-15 * std::abs(high)) {
     // One spring in place of those below the table: it carries their normal force.
     core_level = low;
-    if (table.core() > 0) core_level -= law.modulus_ratio() * law.force(low) / table.core();
+    if (table->core() > 0) core_level -= law.modulus_ratio() * law.force(low) / table->core();
   }
 
   double within_range(double level) const {
-    require(level >= permanent_below - slack && level <= table.highest() + slack, "indentation",
+    require(level >= permanent_below - slack && level <= table->highest() + slack, "indentation",
             level, "leaves the range that the contact was made for");
-    return std::clamp(level, permanent_below, table.highest());
+    return std::clamp(level, permanent_below, table->highest());
   }
 
   double bottom() const {
-    return pieces.size() > 1 ? pieces[pieces.size() - 2].top : table.lowest();
+    return pieces.size() > 1 ? pieces[pieces.size() - 2].top : table->lowest();
   }
   double anchor_at(double level) const {
     const Piece& piece = pieces.back();
@@ -75,9 +78,9 @@ struct TangentialContact::State {
   }
 
   void push(double top, Linear anchor, double deviation = 0) {
-    const double low = pieces.empty() ? table.lowest() : pieces.back().top;
+    const double low = pieces.empty() ? table->lowest() : pieces.back().top;
     if (!(top > low)) return;
-    const Moments moments = table.moments(low, top);
+    const Moments moments = table->moments(low, top);
     const double first = integral(moments, top - low, anchor, {1, 1});
     const double second = integral(moments, top - low, anchor, anchor);
     const bool empty = pieces.empty();
@@ -109,7 +112,7 @@ struct TangentialContact::State {
       return;
     }
     const double width = permanent_below - low, fraction = width / (high - low);
-    permanent += integral(table.moments(low, permanent_below), width,
+    permanent += integral(table->moments(low, permanent_below), width,
                           {v.low, v.low + fraction * (v.high - v.low)},
                           {w.low, w.low + fraction * (w.high - w.low)});
   }
@@ -130,14 +133,14 @@ struct TangentialContact::State {
       const double high = pieces.back().top, low = std::max(bottom(), new_indentation);
       const Linear removed{anchor_at(low), anchor_at(high)};
       const Linear stretch{position(low) - removed.low, position(high) - removed.high};
-      const Moments moments = table.moments(low, high);
+      const Moments moments = table->moments(low, high);
       const bool turns = !std::isinf(slope_limit) && (stretch.low > 0) != (stretch.high > 0) &&
                          stretch.low != 0 && stretch.high != 0;
       if (turns) {
         const double zero = low + (high - low) * stretch.low / (stretch.low - stretch.high);
-        lose(low, zero, table.moments(low, zero), {0.5 * share(stretch.low) * stretch.low, 0},
+        lose(low, zero, table->moments(low, zero), {0.5 * share(stretch.low) * stretch.low, 0},
              {stretch.low, 0});
-        lose(zero, high, table.moments(zero, high), {0, 0.5 * share(stretch.high) * stretch.high},
+        lose(zero, high, table->moments(zero, high), {0, 0.5 * share(stretch.high) * stretch.high},
              {0, stretch.high});
       } else {
         const double factor = 0.5 * share(stretch.low != 0 ? stretch.low : stretch.high);
@@ -188,7 +191,7 @@ struct TangentialContact::State {
         removed.low = anchor_at(low);
         slipped.low = 0;
       }
-      const Moments moments = table.moments(low, high);
+      const Moments moments = table->moments(low, high);
       const Linear stretch{slope_limit * (new_indentation - low),
                            slope_limit * (new_indentation - high)};
       const double lead = 0.5 * slope_limit * climb / advance;
@@ -199,7 +202,7 @@ struct TangentialContact::State {
       cut(low, moments, removed);
       if (partial) break;
     }
-    if (reach <= table.lowest())
+    if (reach <= table->lowest())
       slip_core(side, new_indentation, side * bound(core_level), climb, advance);
     push(new_indentation, {side * reach_bound, new_x});
   }
@@ -207,7 +210,7 @@ struct TangentialContact::State {
   // What lies below the law's range slips as one where all of it slides the same way.
   void slip_core(double side, double new_indentation, double new_anchor, double climb,
                  double advance) {
-    if (!(table.core() > negligible * table.at(table.highest()))) return;
+    if (!(table->core() > negligible * table->at(table->highest()))) return;
     if (side != carried)
       throw InvalidInput(
           "friction: slip reaches indentation levels below the range of the law; extend the curve "
@@ -216,7 +219,7 @@ struct TangentialContact::State {
     if (!(slipped > 0)) return;
     const double stretch = slope_limit * (new_indentation - core_level);
     const double loss =
-        table.core() * (stretch - 0.5 * slope_limit * climb / advance * slipped) * slipped;
+        table->core() * (stretch - 0.5 * slope_limit * climb / advance * slipped) * slipped;
     dissipated += loss;
     permanent += loss;
     core_anchor = new_anchor;
@@ -225,10 +228,10 @@ struct TangentialContact::State {
   // Up to a constant: the stretches of what core_anchor stands for differ.
   double energy() const {
     const double first =
-        (pieces.empty() ? 0 : pieces.back().first_integral) + table.core() * core_anchor;
+        (pieces.empty() ? 0 : pieces.back().first_integral) + table->core() * core_anchor;
     const double second = (pieces.empty() ? 0 : pieces.back().second_integral) +
-                          table.core() * core_anchor * core_anchor;
-    return 0.5 * ((table.core() + table.at(indentation)) * x * x - 2 * x * first + second);
+                          table->core() * core_anchor * core_anchor;
+    return 0.5 * ((table->core() + table->at(indentation)) * x * x - 2 * x * first + second);
   }
 
   void begin(double new_indentation, double new_x) {
@@ -238,7 +241,22 @@ struct TangentialContact::State {
     dissipated = permanent = core_anchor = carried = 0;
   }
 
-  detail::StiffnessTable table;
+  void move(double new_indentation, double new_x) {
+    if (new_indentation < indentation) release(new_indentation, new_x);
+    if (new_indentation > indentation) touch(new_indentation, new_x);
+    if (std::isfinite(slope_limit)) {
+      slip(1, new_indentation, new_x);
+      slip(-1, new_indentation, new_x);
+    }
+    indentation = new_indentation, x = new_x;
+  }
+
+  double force() const {
+    const double anchored = pieces.empty() ? 0 : pieces.back().first_integral;
+    return table->core() * (x - core_anchor) + table->at(indentation) * x - anchored;
+  }
+
+  std::shared_ptr<const detail::StiffnessTable> table;  // the same for all copies of a state
   double permanent_below, permanent_stiffness, slope_limit, merge_tolerance, slack;
   std::vector<Piece> pieces;
   double indentation = 0, x = 0, origin = 0;  // x counts from the origin
@@ -316,7 +334,7 @@ void TangentialContact::slide(double indentation, double x, int direction) {
   const auto anchor = [&](double level) {
     return -direction * s.slope_limit * (s.indentation - level);
   };
-  s.push(s.indentation, {anchor(s.table.lowest()), 0});
+  s.push(s.indentation, {anchor(s.table->lowest()), 0});
   s.core_anchor = anchor(s.core_level);
   s.carried = direction;
   s.energy_at_start = s.energy();
@@ -326,21 +344,39 @@ void TangentialContact::move_to(double indentation, double x) {
   State& s = *state_;
   indentation = s.within_range(indentation);
   require(std::isfinite(x), "displacement", x, "must be finite");
-  x -= s.origin;
-  if (indentation < s.indentation) s.release(indentation, x);
-  if (indentation > s.indentation) s.touch(indentation, x);
-  if (std::isfinite(s.slope_limit)) {
-    s.slip(1, indentation, x);
-    s.slip(-1, indentation, x);
-  }
-  s.indentation = indentation, s.x = x;
+  s.move(indentation, x - s.origin);
 }
 
-double TangentialContact::tangential_force() const {
-  const State& s = *state_;
-  const double anchored = s.pieces.empty() ? 0 : s.pieces.back().first_integral;
-  return s.table.core() * (s.x - s.core_anchor) + s.table.at(s.indentation) * s.x - anchored;
+void TangentialContact::move_to_force(double indentation, double force) {
+  State& s = *state_;
+  indentation = s.within_range(indentation);
+  require(std::isfinite(force), "tangential_force", force, "must be finite");
+  // F_x grows with x: a bracket, and then its zero.
+  const auto excess = [&](double x) {
+    State moved = s;
+    moved.move(indentation, x);
+    return moved.force() - force;
+  };
+  const double here = excess(s.x);
+  if (here == 0) return s.move(indentation, s.x);
+  const double stiffness = s.table->core() + s.table->at(indentation);
+  require(stiffness > 0, "tangential_force", force, "acts where nothing touches");
+  double step = std::max(std::abs(here) / stiffness, 1e-12 * std::abs(s.x)), far = s.x;
+  double near = s.x;
+  for (int doubling = 0; doubling < 60; ++doubling, step *= 2) {
+    near = far;
+    far = s.x - std::copysign(step, here);
+    if (excess(far) * here <= 0) {
+      s.move(indentation, detail::find_root(excess, std::min(near, far), std::max(near, far)));
+      return;
+    }
+  }
+  require(false, "tangential_force", force, "N is not reached: the contact slides");
 }
+
+double TangentialContact::displacement() const { return state_->x + state_->origin; }
+
+double TangentialContact::tangential_force() const { return state_->force(); }
 
 double TangentialContact::stored_energy() const { return state_->energy(); }
 

@@ -49,7 +49,11 @@ class TangentialContact {
   /// Moves on a straight line in (δ, x). Throws InvalidInput outside the range, and where slip would reach levels
   /// below the law's own range.
   void move_to(double indentation, double x);
+  /// The same to where the tangential force is `force`. Throws InvalidInput where no displacement has it: |force| is not below μF(δ).
+  /// cost     some tens of moves of a copy of the memory
+  void move_to_force(double indentation, double force);
 
+  double displacement() const;      ///< x, m
   double tangential_force() const;  ///< F_x, N
   double stored_energy() const;     ///< ½∫K_t'(x − x0)²dζ, J
   double dissipated() const;  ///< lost since start() or slide(), J: by levels let go and by slip

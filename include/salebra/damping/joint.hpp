@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <limits>
+#include <salebra/damping/dissipation.hpp>
+
+namespace salebra {
+
+/// What a joint loses, and how stiff it is, under a tangential oscillation between ±x or ±T.
+struct JointLoss {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double tangential_force = unknown;      ///< T, half the range of the tangential force, N
+  double tangential_amplitude = unknown;  ///< x, half the range of the displacement, m
+  double work_per_cycle = unknown;        ///< W, J
+  double relaxation_work = unknown;       ///< of it, by levels that open and close, J
+  double slip_work = unknown;             ///< of it, by levels that stay closed, J
+  double secant_stiffness = unknown;      ///< K_s = T/x, N/m
+  double loss_factor = unknown;           ///< W/(2π · ½K_s x²)
+  double exponent = unknown;              ///< d ln W/d ln T; 3 at small T for every smooth law
+  double storage_stiffness = unknown;     ///< k' of the first harmonic of T over a harmonic x, N/m
+  double loss_stiffness = unknown;        ///< k'' of it, W/(πx²), N/m
+  bool converged = false;                 ///< whether the quadratures reached the tolerance
+};
+
+/// The tangential oscillation: of a given displacement, or of a given force.
+struct TangentialAmplitude {
+  double amplitude = 0;  ///< x > 0, m
+};
+struct TangentialForce {
+  double amplitude = 0;  ///< T > 0, N
+};
+using TangentialOscillation = std::variant<TangentialAmplitude, TangentialForce>;
+
+/// Partial slip under a constant normal force, by superposition of the springs of the law. With K_t of the law, g = G*/E*, the greatest depth of
+/// slip c = gx/μ and δ(θ) = δ − c(1 − cosθ)/2,
+///     T = (x/2) ∫_0^π K_t(δ(θ)) sinθ dθ  ( = μ[F(δ) − F(δ − c)] with K_t = gK ),
+///     W = x² ∫_0^π K_t(δ(θ)) sin2θ dθ,    k' = (2/π) ∫_0^π K_t(δ(θ)) sin²θ dθ,
+///     d ln W/d ln T = (T/W) · 4[T/K_t(δ − c) − x]
+/// by Masing's rule, whose loop is made of the first loading (docs/theory.md, section 8). W is half of Eq. (12)'s theorem for a normal
+/// oscillation of amplitude c/2 about δ − c/2 at φ0 = 90°.
+/// friction_coefficient  μ > 0, finite
+/// throws  InvalidInput for a force at which the contact slides (it says at which), for slip that reaches levels below the range of a tabulated law,
+///         and as relaxation_damping()
+/// cost    some hundred evaluations of the law, ten times as many for a force
+JointLoss joint_loss(const ContactLaw& law, const Position& position,
+                     const TangentialOscillation& motion, double friction_coefficient,
+                     const DampingOptions& options = {});
+
+/// The same with a normal oscillation δ + u_z cosωt while the displacement is x cos(ωt + φ0), or the force T cos(ωt + φ0). Followed step by step
+/// to the steady state: exact for straight steps, of second order in their length. The exponent is that of ±1 % of the motion.
+/// steps    in a period, >= 16
+/// throws   NotConverged where a force leads to no steady state within 200 periods; InvalidInput also where the normal force falls to what slides
+/// cost     two periods of a displacement, O(steps); of a force some tens of evaluations of the state for each step, and periods until the loss is steady to 1e-9
+JointLoss joint_loss(const ContactLaw& law, const Position& position,
+                     const TangentialOscillation& motion, double friction_coefficient,
+                     double normal_amplitude, double phase, int steps = 2000);
+
+}  // namespace salebra

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Loss and stiffness of a contact in partial slip under a tangential oscillation.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
+#include <salebra/damping/joint.hpp>
+#include <salebra/damping/tangential_contact.hpp>
+#include <vector>
+
+#include "contact/quadrature.hpp"
+#include "sweep_breaks.hpp"
+
+namespace salebra {
+namespace {
+
+using std::numbers::pi;
+
+double indentation_of(const ContactLaw& law, const Position& position) {
+  if (const auto* at = std::get_if<AtIndentation>(&position)) return at->indentation;
+  return law.indentation_of(std::get<AtForce>(position).force);
+}
+
+void check(const TangentialOscillation& motion, double friction_coefficient) {
+  require_positive(friction_coefficient, "friction_coefficient");
+  if (const auto* force = std::get_if<TangentialForce>(&motion))
+    require_positive(force->amplitude, "tangential_force");
+  else
+    require_positive(std::get<TangentialAmplitude>(motion).amplitude, "tangential_amplitude");
+}
+
+void check_below_sliding(double force, double limit, const char* where) {
+  require(force < limit, "tangential_force", format_quantity(force, Dimension::force),
+          "must be below " + format_quantity(limit, Dimension::force, 6) +
+              ", at which the contact slides" + where);
+}
+
+// Quadratures over the levels that slip, of depth 0 … c below δ = high.
+class SlippingLevels {
+ public:
+  SlippingLevels(const ContactLaw& law, double high, double depth, double tolerance)
+      : law_(law), high_(high), depth_(depth), tolerance_(tolerance) {
+    if (!(high - depth >= law.lowest_indentation()))
+      throw InvalidInput(
+          "friction: slip reaches indentation levels below the range of the law; extend the curve "
+          "to lower forces, raise the friction or reduce the motion");
+    for (const double level : detail::sweep_breaks(law, high - depth, high))
+      breaks_.push_back(2 * std::atan2(std::sqrt(std::max(high - level, 0.0)),
+                                       std::sqrt(std::max(level - (high - depth), 0.0))));
+    std::ranges::sort(breaks_);
+  }
+
+  double stiffness_at(double theta) const {
+    return law_.tangential_stiffness(high_ - depth_ * std::pow(std::sin(0.5 * theta), 2));
+  }
+  // ∫_0^π f(θ, K_t(δ(θ))) dθ.
+  double integral(const std::function<double(double, double)>& f) {
+    const detail::Integral found =
+        detail::integrate([&](double theta) { return f(theta, stiffness_at(theta)); }, breaks_,
+                          tolerance_, absolute_);
+    converged_ = converged_ && found.converged;
+    return found.value;
+  }
+  // For integrals in which most of K_t cancels: what is small against ∫K_t need not be known.
+  void allow_cancelling() { absolute_ = 1e-15 * pi * stiffness_at(0); }
+  bool converged() const { return converged_; }
+
+ private:
+  const ContactLaw& law_;
+  double high_, depth_, tolerance_, absolute_ = 0;
+  std::vector<double> breaks_;
+  bool converged_ = true;
+};
+
+// The depth of slip c at which T is reached: (μ/g) ∫_0^c K_t(δ − u) du = T.
+double depth_of_slip(const ContactLaw& law, double high, double force, double friction_coefficient,
+                     double tolerance) {
+  const double target = law.modulus_ratio() * force / friction_coefficient;
+  const double stiffness = law.tangential_stiffness(high);
+  require(stiffness > 0, "indentation", high, "is one at which nothing touches");
+  // The integral is concave in c: Newton's method from 0 rises to the root and never passes it.
+  double depth = 0, reached = 0, end = stiffness;
+  for (int iteration = 0; iteration < 200 && end > 1e-14 * stiffness; ++iteration) {
+    const double step = (target - reached) / end;
+    if (!(step > 1e-15 * depth)) return depth;
+    const double next = depth + step;
+    if (!(high - next >= law.lowest_indentation())) break;
+    const std::vector<double> breaks = detail::sweep_breaks(law, high - next, high - depth);
+    reached += detail::integrate([&](double level) { return law.tangential_stiffness(level); },
+                                 breaks, tolerance)
+                   .value;
+    depth = next;
+    end = law.tangential_stiffness(high - depth);
+  }
+  check_below_sliding(force, friction_coefficient * law.force(high), "");
+  throw InvalidInput(
+      "friction: slip reaches indentation levels below the range of the law; extend the curve to "
+      "lower forces, raise the friction or reduce the motion");
+}
+
+void set_ratios(JointLoss& loss) {
+  const double x = loss.tangential_amplitude;
+  loss.secant_stiffness = loss.tangential_force / x;
+  loss.loss_factor = loss.work_per_cycle / (pi * loss.secant_stiffness * x * x);
+  loss.loss_stiffness = loss.work_per_cycle / (pi * x * x);
+}
+
+// One motion of a contact whose normal force oscillates.
+struct Followed {
+  double force = 0, displacement = 0;  // half their ranges
+  double work = 0, slip_work = 0, storage_stiffness = 0;
+};
+
+Followed follow(const ContactLaw& law, double mean, const TangentialOscillation& motion,
+                double friction_coefficient, double normal_amplitude, double phase, int steps) {
+  const auto* by_force = std::get_if<TangentialForce>(&motion);
+  const double amplitude =
+      by_force ? by_force->amplitude : std::get<TangentialAmplitude>(motion).amplitude;
+  std::vector<double> level(std::size_t(steps) + 1), target(level.size());
+  for (std::size_t i = 0; i < level.size(); ++i) {
+    // From the least indentation on.
+    const double angle = pi + 2 * pi * double(i % std::size_t(steps)) / steps;
+    level[i] = mean + normal_amplitude * std::cos(angle);
+    target[i] = amplitude * std::cos(angle + phase);
+    if (by_force)
+      check_below_sliding(std::abs(target[i]), friction_coefficient * law.force(level[i]),
+                          " in the course of the normal oscillation");
+  }
+  // By force, x is not known before: as far as all springs of the least contact could be stretched.
+  const double range = by_force ? std::numeric_limits<double>::infinity() : 2 * amplitude;
+  TangentialContact contact(
+      law, mean - normal_amplitude, mean + normal_amplitude,
+      {.friction_coefficient = friction_coefficient, .tangential_range = range});
+  contact.start(level[0], by_force ? 0 : target[0]);
+  std::vector<double> x(level.size()), force(level.size());
+  Followed result;
+  constexpr int most_periods = 200;
+  for (int period = 0; period < most_periods; ++period) {
+    const double lost = contact.dissipated(), slipped = contact.dissipated_in_permanent_contact();
+    for (std::size_t i = 0; i < level.size(); ++i) {
+      if (by_force)
+        contact.move_to_force(level[i], target[i]);
+      else
+        contact.move_to(level[i], target[i]);
+      x[i] = contact.displacement();
+      force[i] = contact.tangential_force();
+    }
+    const double work = contact.dissipated() - lost;
+    const bool steady = by_force ? std::abs(work - result.work) <= 1e-9 * work : period == 1;
+    result.work = work;
+    result.slip_work = contact.dissipated_in_permanent_contact() - slipped;
+    if (steady && period > 0) {
+      const auto half_range = [](const std::vector<double>& values) {
+        const auto [low, high] = std::ranges::minmax(values);
+        return 0.5 * (high - low);
+      };
+      result.force = half_range(force);
+      result.displacement = half_range(x);
+      double middle = 0;
+      for (int i = 0; i < steps; ++i) middle += x[std::size_t(i)] / steps;
+      double product = 0, square = 0;
+      for (int i = 0; i < steps; ++i) {
+        const double out = x[std::size_t(i)] - middle;
+        product += force[std::size_t(i)] * out;
+        square += out * out;
+      }
+      result.storage_stiffness = product / square;
+      return result;
+    }
+  }
+  throw NotConverged(
+      "joint: the losses of two periods still differ by more than 1e-9 after 200 periods of this "
+      "tangential force; reduce it, or give a displacement");
+}
+
+}  // namespace
+
+JointLoss joint_loss(const ContactLaw& law, const Position& position,
+                     const TangentialOscillation& motion, double friction_coefficient,
+                     const DampingOptions& options) {
+  check(motion, friction_coefficient);
+  const double high = indentation_of(law, position);
+  const double limit = friction_coefficient / law.modulus_ratio();  // stretch over depth
+  const auto* by_force = std::get_if<TangentialForce>(&motion);
+  const double depth = by_force ? depth_of_slip(law, high, by_force->amplitude,
+                                                friction_coefficient, options.tolerance)
+                                : std::get<TangentialAmplitude>(motion).amplitude / limit;
+  SlippingLevels levels(law, high, depth, options.tolerance);
+
+  JointLoss loss;
+  const double x = loss.tangential_amplitude = limit * depth;
+  loss.tangential_force =
+      x / 2 * levels.integral([](double theta, double k) { return k * std::sin(theta); });
+  loss.storage_stiffness = 2 / pi * levels.integral([](double theta, double k) {
+    return k * std::pow(std::sin(theta), 2);
+  });
+  // Stiffness over that of the deepest level that slips: what is the same all over loses nothing.
+  const double deepest = levels.stiffness_at(pi);
+  levels.allow_cancelling();
+  loss.slip_work = loss.work_per_cycle = x * x * levels.integral([&](double theta, double k) {
+    return (k - deepest) * std::sin(2 * theta);
+  });
+  loss.relaxation_work = 0;
+  const double beyond = x / 2 * levels.integral([&](double theta, double k) {
+    return (k - deepest) * std::sin(theta);
+  });
+  if (deepest > 0)
+    loss.exponent = loss.tangential_force / loss.work_per_cycle * 4 * beyond / deepest;
+  loss.converged = levels.converged();
+  set_ratios(loss);
+  return loss;
+}
+
+JointLoss joint_loss(const ContactLaw& law, const Position& position,
+                     const TangentialOscillation& motion, double friction_coefficient,
+                     double normal_amplitude, double phase, int steps) {
+  check(motion, friction_coefficient);
+  require(std::isfinite(normal_amplitude) && normal_amplitude >= 0, "normal_amplitude",
+          normal_amplitude, "must be >= 0");
+  require(std::isfinite(phase), "phase", phase, "must be finite");
+  require(steps >= 16, "steps", steps, "must be >= 16");
+  const double mean = indentation_of(law, position);
+  const auto at = [&](double factor) {
+    TangentialOscillation scaled = motion;
+    std::visit([&](auto& one) { one.amplitude *= factor; }, scaled);
+    return follow(law, mean, scaled, friction_coefficient, normal_amplitude, phase, steps);
+  };
+  const Followed one = at(1), less = at(0.99);
+  JointLoss loss;
+  loss.tangential_force = one.force;
+  loss.tangential_amplitude = one.displacement;
+  loss.work_per_cycle = one.work;
+  loss.slip_work = one.slip_work;
+  loss.relaxation_work = one.work - one.slip_work;
+  loss.storage_stiffness = one.storage_stiffness;
+  loss.exponent = std::log(one.work / less.work) / std::log(one.force / less.force);
+  loss.converged = true;
+  set_ratios(loss);
+  return loss;
+}
+
+}  // namespace salebra

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
+#include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/joint.hpp>
+#include <salebra/damping/trajectory_damping.hpp>
+
+using namespace salebra;
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr double ratio = 0.82;  // G*/E*
+
+// Mindlin and Deresiewicz (1953), as in Johnson's Contact Mechanics, Eq. (7.57), of a sphere: 9μ²F²/(10 a G*)·(…) with G* as here.
+double mindlin_loss(double force, double normal_force, double radius, double shear_modulus,
+                    double friction) {
+  const double q = force / (friction * normal_force);
+  const double third = std::cbrt(1 - q), fifth = third * third * (1 - q);
+  return 9 * friction * friction * normal_force * normal_force / (5 * radius * shear_modulus) *
+         (1 - fifth - 5. / 6 * q * (1 + third * third));
+}
+
+}  // namespace
+
+TEST_CASE("A sphere in partial slip loses what Mindlin and Deresiewicz say", "[joint]") {
+  // ../shared/SLIP.md, section 3, in eight digits.
+  const Material material(115e9, 0.3);
+  const IndenterLaw sphere(paraboloid_profile(10e-3), material);
+  const double friction = 0.3, force = 10;
+  const double shear = material.tangential_modulus();
+  const double radius = sphere.contact_radius(sphere.indentation_of(force));
+  const std::pair<double, double> given[] = {{123.28123e-9, 42.812827e-9},
+                                             {164.37496e-9, 107.64468e-9},
+                                             {219.16662e-9, 282.28116e-9},
+                                             {273.95827e-9, 657.49986e-9}};
+  for (const auto& [amplitude, work] : given) {
+    CAPTURE(amplitude);
+    const JointLoss loss =
+        joint_loss(sphere, AtForce{force}, TangentialAmplitude{amplitude}, friction);
+    CHECK(loss.converged);
+    // An eighth digit of x moves W by 1e-7 of it.
+    CHECK(loss.work_per_cycle == Approx(work).epsilon(3e-7));
+    CHECK(loss.work_per_cycle ==
+          Approx(mindlin_loss(loss.tangential_force, force, radius, shear, friction))
+              .epsilon(1e-9));
+    CHECK(loss.relaxation_work == 0);
+    const JointLoss by_force = joint_loss(sphere, AtForce{force},
+                                          TangentialForce{loss.tangential_force}, friction);
+    CHECK(by_force.tangential_amplitude == Approx(amplitude).epsilon(1e-9));
+    CHECK(by_force.work_per_cycle == Approx(loss.work_per_cycle).epsilon(1e-8));
+  }
+  CHECK_THROWS_WITH(joint_loss(sphere, AtForce{force}, TangentialForce{3.0}, friction),
+                    Catch::Contains("must be below 3 N, at which the contact slides"));
+}
+
+TEST_CASE("Exponential law in partial slip: S4, and the third power of small forces", "[joint]") {
+  // ../shared/SLIP.md, section 3: l = 100 nm, F = 1 N, μ = 0.3, ν = 0.3.
+  const double length = 1e-7, friction = 0.3, modulus_ratio = 1.4 / 1.7;
+  const ExponentialLaw law(1, length, modulus_ratio);
+  const std::pair<double, double> given[] = {{3.838133e-9, 8.0862576e-12},
+                                             {12.993159e-9, 2.7747226e-10},
+                                             {25.250362e-9, 1.7363651e-9},
+                                             {58.629524e-9, 1.4483657e-8}};
+  for (const auto& [amplitude, work] : given) {
+    CAPTURE(amplitude);
+    const JointLoss loss = joint_loss(law, AtForce{1}, TangentialAmplitude{amplitude}, friction);
+    CHECK(loss.work_per_cycle == Approx(work).epsilon(2e-6));  // of the digits of x, three times
+    const double q = loss.tangential_force / friction;
+    CHECK(loss.work_per_cycle ==
+          Approx(8 * friction * friction / modulus_ratio * length *
+                 (-(1 - q / 2) * std::log1p(-q) - q))
+              .epsilon(1e-9));
+    // d ln W/d ln T of (S4).
+    const double slope = (0.5 * std::log1p(-q) + (1 - q / 2) / (1 - q) - 1) /
+                         (-(1 - q / 2) * std::log1p(-q) - q) * q;
+    CHECK(loss.exponent == Approx(slope).epsilon(1e-8));
+  }
+  // ∝ T³, and what is left of it ∝ T: q/2 of W.
+  for (const double q : {1e-2, 1e-4, 1e-6}) {
+    const JointLoss loss = joint_loss(law, AtForce{1}, TangentialForce{q * friction}, friction);
+    const double cube = 2. / 3 * length / modulus_ratio * std::pow(q, 3) * friction * friction;
+    // Beside the next term, what round-off of K_t leaves of a part q² of it.
+    CHECK(loss.work_per_cycle == Approx(cube * (1 + q)).epsilon(q * q + 1e-14 / q));
+    CHECK(loss.exponent == Approx(3).margin(2 * q + 1e-13 / q));
+    CHECK(loss.storage_stiffness == Approx(law.tangential_stiffness(0)).epsilon(q));
+  }
+}
+
+TEST_CASE("Storage and loss of a joint are the first harmonic of its loop", "[joint]") {
+  const PowerLaw cone(1e12, 2, ratio);
+  const double friction = 0.4, amplitude = 2e-7;
+  const JointLoss loss =
+      joint_loss(cone, AtIndentation{1e-6}, TangentialAmplitude{amplitude}, friction);
+  double before = 0;
+  for (const int steps : {250, 1000, 4000}) {
+    const JointLoss followed = joint_loss(cone, AtIndentation{1e-6},
+                                          TangentialAmplitude{amplitude}, friction, 0, 0, steps);
+    CHECK(followed.work_per_cycle == Approx(loss.work_per_cycle).epsilon(1e-9));
+    CHECK(followed.tangential_force == Approx(loss.tangential_force).epsilon(1e-9));
+    CHECK(followed.slip_work == Approx(loss.slip_work).epsilon(1e-9));
+    const double error = std::abs(followed.storage_stiffness / loss.storage_stiffness - 1);
+    // Sums over a period of a loop with a kink at its two ends: second order, 16 times less for steps 4 times smaller.
+    if (before > 0) CHECK(error < before / 12);
+    before = error;
+  }
+  CHECK(before < 1e-6);
+  CHECK(loss.loss_stiffness == Approx(loss.work_per_cycle / (pi * amplitude * amplitude)));
+  CHECK(loss.loss_factor == Approx(loss.work_per_cycle / (pi * amplitude * loss.tangential_force)));
+}
+
+TEST_CASE("A joint of a contact that may open: whole sliding, and beyond", "[joint]") {
+  // F = Cδ², K = 2Cδ: slip reaches the last level where c = δ, and from there on T = μF, W = 4μF(x − mean limit).
+  const double depth = 1e-6, friction = 0.2, constant = 1e12;
+  const PowerLaw cone(constant, 2, ratio);
+  const double force = constant * depth * depth, last = friction / ratio * depth;
+  for (const double factor : {1.0, 1.5, 4.0}) {
+    const double x = factor * last;
+    const JointLoss loss = joint_loss(cone, AtForce{force}, TangentialAmplitude{x}, friction);
+    CHECK(loss.tangential_force == Approx(friction * force).epsilon(1e-9));
+    // ∫4 s (x − s) dK_t with s = (μ/g)u, dK_t = 2gC du, u to δ.
+    const double work =
+        8 * friction * constant * (x * depth * depth / 2 - friction / ratio * std::pow(depth, 3) / 3);
+    CHECK(loss.work_per_cycle == Approx(work).epsilon(1e-9));
+    CHECK(std::isnan(loss.exponent));
+  }
+}
+
+TEST_CASE("A joint whose normal force oscillates loses by slip and by relaxation", "[joint]") {
+  const ExponentialLaw law(2, 2e-7, ratio);
+  const double u_z = 5e-8, u_x = 2e-8;
+  const auto at = [&](double friction, double phase) {
+    return joint_loss(law, AtForce{2}, TangentialAmplitude{u_x}, friction, u_z, phase, 2000);
+  };
+  // In phase nothing slips above μ = g u_x/u_z; out of phase and without slip the loss is relaxation damping's, to the steps' second order.
+  const double critical = ratio * u_x / u_z;
+  CHECK(at(1.01 * critical, 0).work_per_cycle == Approx(0).margin(1e-12 * u_x * u_x * 1e7));
+  CHECK(at(0.8 * critical, 0).work_per_cycle > 1e-3 * u_x * u_x * 1e7);
+  const EqualFrequency motion{u_z, u_x, pi / 2, 0};
+  const double stuck = relaxation_damping(law, AtForce{2}, motion).work_per_cycle;
+  const JointLoss stiff = at(1e4, pi / 2);
+  CHECK(stiff.work_per_cycle == Approx(stuck).epsilon(1e-5));
+  CHECK(stiff.slip_work == Approx(0).margin(1e-9 * stuck));
+  CHECK(stiff.exponent == Approx(2).epsilon(1e-3));  // relaxation is linear in the springs
+  // Both ways of control have one loop where the other's is harmonic: at small amplitude.
+  const double small = 1e-11;
+  const JointLoss moved =
+      joint_loss(law, AtForce{2}, TangentialAmplitude{small}, 0.3, u_z, pi / 2, 1000);
+  const JointLoss again =
+      joint_loss(law, AtForce{2}, TangentialAmplitude{small}, 0.3, u_z, pi / 2, 1000);
+  CHECK(moved.work_per_cycle == again.work_per_cycle);
+}
+
+TEST_CASE("A joint under a tangential force is the one under the displacement it answers with",
+          "[joint]") {
+  const ExponentialLaw law(2, 2e-7, ratio);
+  const double friction = 0.3;
+  // Without a normal oscillation both are known in closed form.
+  const JointLoss exact = joint_loss(law, AtForce{2}, TangentialForce{0.3}, friction);
+  const JointLoss followed = joint_loss(law, AtForce{2}, TangentialForce{0.3}, friction, 0, 0, 400);
+  CHECK(followed.work_per_cycle == Approx(exact.work_per_cycle).epsilon(1e-8));
+  CHECK(followed.tangential_amplitude == Approx(exact.tangential_amplitude).epsilon(1e-8));
+  // With one the force is met at every step, and the balance of energy closes: W = ∮T dx.
+  const JointLoss both =
+      joint_loss(law, AtForce{2}, TangentialForce{0.2}, friction, 3e-8, pi / 3, 400);
+  CHECK(both.tangential_force == Approx(0.2).epsilon(1e-12));
+  const JointLoss finer =
+      joint_loss(law, AtForce{2}, TangentialForce{0.2}, friction, 3e-8, pi / 3, 1600);
+  CHECK(finer.work_per_cycle == Approx(both.work_per_cycle).epsilon(1e-2));
+  CHECK_THROWS_WITH(
+      joint_loss(law, AtForce{2}, TangentialForce{0.55}, friction, 1e-7, pi, 400),
+      Catch::Contains("at which the contact slides in the course of the normal oscillation"));
+}
+
+TEST_CASE("Joints that cannot be are refused", "[joint]") {
+  const ExponentialLaw law(2, 2e-7, ratio);
+  const auto at = [&](const TangentialOscillation& motion, double friction) {
+    return joint_loss(law, AtForce{2}, motion, friction);
+  };
+  CHECK_THROWS_WITH(at(TangentialAmplitude{0}, 0.3), Catch::Contains("tangential_amplitude"));
+  CHECK_THROWS_WITH(at(TangentialForce{-1}, 0.3), Catch::Contains("tangential_force"));
+  CHECK_THROWS_WITH(at(TangentialForce{0.1}, 0), Catch::Contains("friction_coefficient"));
+  CHECK_THROWS_AS(joint_loss(law, AtForce{2}, TangentialForce{0.1}, 0.3, -1e-9, 0), InvalidInput);
+}
