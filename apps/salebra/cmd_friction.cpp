@@ -36,19 +36,6 @@ double angular_frequency_of(const FrictionArguments& arguments) {
                              : *arguments.angular_frequency;
 }
 
-// The contact slides: slip is what is computed here, not what is left out. Judged is what else the answer supposes.
-PremiseReport premises_without_slip(const FrictionArguments& arguments,
-                                    const LawOptions::Contact& contact, double indentation,
-                                    const Drag& motion) {
-  const ContactFacts facts = at_state(arguments.premises.facts(arguments.material), *contact.law,
-                                      contact.curve ? &*contact.curve : nullptr, indentation);
-  Premises premises = premises_of(*contact.law, indentation, motion, facts);
-  premises.slip_of_opening_levels.verdict = premises.slip_of_closed_levels.verdict = Verdict::holds;
-  premises.slip_of_opening_levels.needs = premises.slip_of_closed_levels.needs = {};
-  premises.largest.clear();
-  return {{premises}};
-}
-
 Figure sliding_figure(const std::vector<SteadySliding>& sliding,
                       const std::vector<double>& velocities, double friction) {
   PlotCurve mean{.name = "computed", .x = velocities},
@@ -127,7 +114,9 @@ void run(const FrictionArguments& arguments, Session& session) {
   for (const std::string& line : contact.doubts) session.warn(line);
   write_answer(session, "friction", object);
   session.plot(sliding_figure(sliding, arguments.velocities, friction));
-  premises_without_slip(arguments, contact, any.indentation, motion).answer(session, object);
+  const ContactFacts facts = at_state(arguments.premises.facts(arguments.material), *contact.law,
+                                      contact.curve ? &*contact.curve : nullptr, any.indentation);
+  premises_beside_slip(*contact.law, any.indentation, motion, facts).answer(session, object);
 }
 
 }  // namespace

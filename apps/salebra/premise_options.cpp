@@ -161,4 +161,13 @@ void PremiseReport::answer(Session& session, Json object) const {
   answer(session, std::move(object), text);
 }
 
+PremiseReport premises_beside_slip(const ContactLaw& law, double indentation,
+                                   const Oscillation& motion, const ContactFacts& facts) {
+  Premises premises = premises_of(law, indentation, motion, facts);
+  premises.slip_of_opening_levels.verdict = premises.slip_of_closed_levels.verdict = Verdict::holds;
+  premises.slip_of_opening_levels.needs = premises.slip_of_closed_levels.needs = {};
+  premises.largest.clear();
+  return {{premises}};
+}
+
 }  // namespace salebra::cli

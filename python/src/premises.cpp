@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bindings of the premises behind a damping constant, of the loss with slip, and of steady sliding.
+// Bindings of the premises behind a damping constant, of the loss with slip, of steady sliding, and of joints.
 #include <fmt/format.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <salebra/damping/joint.hpp>
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 
@@ -208,6 +209,53 @@ void bind_steady_sliding(nb::module_& m) {
       "under a normal oscillation; indentation (m) or force (N), one of the two.");
 }
 
+void bind_joint(nb::module_& m) {
+  nb::class_<JointLoss>(m, "JointLoss",
+                        "What a joint loses, and how stiff it is, under a tangential oscillation; "
+                        "NaN is unknown.")
+      .def_ro("tangential_force", &JointLoss::tangential_force, "T, half its range, N.")
+      .def_ro("tangential_amplitude", &JointLoss::tangential_amplitude, "x, half its range, m.")
+      .def_ro("work_per_cycle", &JointLoss::work_per_cycle, "W, J.")
+      .def_ro("relaxation_work", &JointLoss::relaxation_work,
+              "Of it, by levels that open and close, J.")
+      .def_ro("slip_work", &JointLoss::slip_work, "Of it, by levels that stay closed, J.")
+      .def_ro("secant_stiffness", &JointLoss::secant_stiffness, "T/x, N/m.")
+      .def_ro("loss_factor", &JointLoss::loss_factor, "W/(2π ½ K_s x²).")
+      .def_ro("exponent", &JointLoss::exponent, "d ln W/d ln T.")
+      .def_ro("storage_stiffness", &JointLoss::storage_stiffness,
+              "k' of the first harmonic of T over a harmonic x, N/m.")
+      .def_ro("loss_stiffness", &JointLoss::loss_stiffness, "k'', W/(π x²), N/m.")
+      .def_ro("converged", &JointLoss::converged, "False: do not use the numbers.");
+  m.def(
+      "joint_loss",
+      [](const ContactLaw& law, double friction_coefficient,
+         std::optional<double> tangential_amplitude, std::optional<double> tangential_force,
+         std::optional<double> indentation, std::optional<double> force, double normal_amplitude,
+         double phase, int steps) {
+        require(tangential_amplitude.has_value() != tangential_force.has_value(),
+                "tangential_force", tangential_force.value_or(0),
+                "and tangential_amplitude were both given, or neither; give exactly one of them");
+        const Position position = position_of(indentation, force);
+        const TangentialOscillation motion =
+            tangential_force ? TangentialOscillation(TangentialForce{*tangential_force})
+                             : TangentialOscillation(TangentialAmplitude{*tangential_amplitude});
+        return unlocked([&] {
+          return normal_amplitude == 0 ? joint_loss(law, position, motion, friction_coefficient)
+                                       : joint_loss(law, position, motion, friction_coefficient,
+                                                    normal_amplitude, phase, steps);
+        });
+      },
+      nb::arg("law"), nb::kw_only(), nb::arg("friction_coefficient"),
+      nb::arg("tangential_amplitude") = nb::none(), nb::arg("tangential_force") = nb::none(),
+      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
+      nb::arg("normal_amplitude") = 0.0, nb::arg("phase") = 0.0, nb::arg("steps") = 2000,
+      R"(Loss and stiffness in partial slip under a tangential oscillation, by displacement (m) or by force (N).
+
+The normal force is constant, and the answer a quadrature; with a normal_amplitude u_z (m) the indentation oscillates, with the phase (rad)
+of the tangential motion against it, and the springs of the law are followed step by step.
+)");
+}
+
 }  // namespace
 
 void bind_premises(nb::module_& m) {
@@ -215,6 +263,7 @@ void bind_premises(nb::module_& m) {
   bind_premise_classes(m);
   bind_loss_with_slip(m);
   bind_steady_sliding(m);
+  bind_joint(m);
 }
 
 }  // namespace salebra::python

@@ -16,6 +16,7 @@
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/friction_map.hpp>
+#include <salebra/damping/joint.hpp>
 #include <salebra/damping/level_quadrature.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/stress_map.hpp>
@@ -131,8 +132,8 @@ void bind_values(nb::module_& m) {
                 StickStiffness, PunchStiffness, PartialSlipReport, RoughnessShell,
                 PerssonTheory::Asymptote, SummitEnsemble, AsperityContact, MonteCarloCurve>();
   value_classes<EqualFrequency, Drag, TwoFrequencies, SampledMotion, BoundDamping, ContactFacts,
-                Premise, LargestMotion, Premises, LossWithSlip, SteadySliding, SurfaceDamping,
-                OscillatorDecay, DamperMap, FrictionMap, StressMap, AsperityDamping,
+                Premise, LargestMotion, Premises, LossWithSlip, JointLoss, SteadySliding,
+                SurfaceDamping, OscillatorDecay, DamperMap, FrictionMap, StressMap, AsperityDamping,
                 TrajectoryDamping, ContactSetAt, CycleResult, LevelQuadratureResult>();
   value_classes<StudyConfiguration, DampingPoint, SpotStatistics, SurfacePicture, ModelResult,
                 Realisation, EnsembleMean, StudyFlag, StudyResult, Check, Report>();

@@ -45,12 +45,12 @@ TEST_CASE("A sphere in partial slip loses what Mindlin and Deresiewicz say", "[j
     CHECK(loss.converged);
     // An eighth digit of x moves W by 1e-7 of it.
     CHECK(loss.work_per_cycle == Approx(work).epsilon(3e-7));
-    CHECK(loss.work_per_cycle ==
-          Approx(mindlin_loss(loss.tangential_force, force, radius, shear, friction))
-              .epsilon(1e-9));
+    CHECK(
+        loss.work_per_cycle ==
+        Approx(mindlin_loss(loss.tangential_force, force, radius, shear, friction)).epsilon(1e-9));
     CHECK(loss.relaxation_work == 0);
-    const JointLoss by_force = joint_loss(sphere, AtForce{force},
-                                          TangentialForce{loss.tangential_force}, friction);
+    const JointLoss by_force =
+        joint_loss(sphere, AtForce{force}, TangentialForce{loss.tangential_force}, friction);
     CHECK(by_force.tangential_amplitude == Approx(amplitude).epsilon(1e-9));
     CHECK(by_force.work_per_cycle == Approx(loss.work_per_cycle).epsilon(1e-8));
   }
@@ -71,10 +71,9 @@ TEST_CASE("Exponential law in partial slip: S4, and the third power of small for
     const JointLoss loss = joint_loss(law, AtForce{1}, TangentialAmplitude{amplitude}, friction);
     CHECK(loss.work_per_cycle == Approx(work).epsilon(2e-6));  // of the digits of x, three times
     const double q = loss.tangential_force / friction;
-    CHECK(loss.work_per_cycle ==
-          Approx(8 * friction * friction / modulus_ratio * length *
-                 (-(1 - q / 2) * std::log1p(-q) - q))
-              .epsilon(1e-9));
+    CHECK(loss.work_per_cycle == Approx(8 * friction * friction / modulus_ratio * length *
+                                        (-(1 - q / 2) * std::log1p(-q) - q))
+                                     .epsilon(1e-9));
     // d ln W/d ln T of (S4).
     const double slope = (0.5 * std::log1p(-q) + (1 - q / 2) / (1 - q) - 1) /
                          (-(1 - q / 2) * std::log1p(-q) - q) * q;
@@ -98,8 +97,8 @@ TEST_CASE("Storage and loss of a joint are the first harmonic of its loop", "[jo
       joint_loss(cone, AtIndentation{1e-6}, TangentialAmplitude{amplitude}, friction);
   double before = 0;
   for (const int steps : {250, 1000, 4000}) {
-    const JointLoss followed = joint_loss(cone, AtIndentation{1e-6},
-                                          TangentialAmplitude{amplitude}, friction, 0, 0, steps);
+    const JointLoss followed = joint_loss(cone, AtIndentation{1e-6}, TangentialAmplitude{amplitude},
+                                          friction, 0, 0, steps);
     CHECK(followed.work_per_cycle == Approx(loss.work_per_cycle).epsilon(1e-9));
     CHECK(followed.tangential_force == Approx(loss.tangential_force).epsilon(1e-9));
     CHECK(followed.slip_work == Approx(loss.slip_work).epsilon(1e-9));
@@ -123,8 +122,8 @@ TEST_CASE("A joint of a contact that may open: whole sliding, and beyond", "[joi
     const JointLoss loss = joint_loss(cone, AtForce{force}, TangentialAmplitude{x}, friction);
     CHECK(loss.tangential_force == Approx(friction * force).epsilon(1e-9));
     // ∫4 s (x − s) dK_t with s = (μ/g)u, dK_t = 2gC du, u to δ.
-    const double work =
-        8 * friction * constant * (x * depth * depth / 2 - friction / ratio * std::pow(depth, 3) / 3);
+    const double work = 8 * friction * constant *
+                        (x * depth * depth / 2 - friction / ratio * std::pow(depth, 3) / 3);
     CHECK(loss.work_per_cycle == Approx(work).epsilon(1e-9));
     CHECK(std::isnan(loss.exponent));
   }

@@ -282,3 +282,14 @@ def test_measured_surface_to_damping_constant(measured: Path) -> None:
     # With (G*/E*)K for K_t: `salebra study --no-stick`.
     assert salebra.relaxation_damping(law, DRAG, force=force).converged
     assert {"popov2015", "polonsky_keer1999"} <= {citation.key for citation in salebra.citations()}
+
+
+def test_a_sphere_in_partial_slip_is_mindlins() -> None:
+    law = salebra.IndenterLaw(salebra.paraboloid_profile(10e-3), salebra.Material(115e9, poisson=0.3))
+    # ../shared/SLIP.md, section 3.
+    loss = salebra.joint_loss(law, friction_coefficient=0.3, tangential_amplitude=219.16662e-9, force=10.0)
+    assert loss.work_per_cycle == pytest.approx(282.28116e-9, rel=3e-7)
+    again = salebra.joint_loss(law, friction_coefficient=0.3, tangential_force=loss.tangential_force, force=10.0)
+    assert again.tangential_amplitude == pytest.approx(219.16662e-9, rel=1e-8)
+    with pytest.raises(salebra.InvalidInput, match="give exactly one"):
+        salebra.joint_loss(law, friction_coefficient=0.3, force=10.0)

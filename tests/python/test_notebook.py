@@ -83,6 +83,7 @@ def makers() -> dict[str, Callable[[], Any]]:
         "HurstEstimate": lambda: salebra.estimate_hurst(psd),
         "IndenterLaw": lambda: law,
         "IndenterProfile": lambda: salebra.cone_profile(0.1),
+        "JointLoss": lambda: salebra.joint_loss(law, friction_coefficient=0.3, tangential_force=0.1, force=1.0),
         "LargestMotion": lambda: salebra.premises_of(law, DRAG, indentation=1e-6).largest[0],
         "LocalDecayLength": lambda: salebra.local_decay_length(curve),
         "LossWithSlip": lambda: salebra.loss_with_slip(law, EQUAL, 1e-6, friction_coefficient=0.3),

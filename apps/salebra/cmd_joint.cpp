@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra joint`: partial slip under a tangential oscillation.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <salebra/base/error.hpp>
+#include <salebra/damping/joint.hpp>
+#include <salebra/damping/trajectory_damping.hpp>
+
+#include "figures.hpp"
+#include "law_options.hpp"
+#include "options.hpp"
+#include "premise_options.hpp"
+#include "program.hpp"
+#include "result_tables.hpp"
+
+namespace salebra::cli {
+namespace {
+
+struct JointArguments {
+  LawOptions law;
+  MaterialOptions material;
+  std::vector<double> tangential_forces, tangential_amplitudes;
+  std::optional<double> normal_amplitude, phase, nominal_area;
+  int steps = 2000;
+  PremiseOptions premises;
+};
+
+// Columns of JointLoss; what has a form per nominal area has its name.
+struct Column {
+  const char* name;
+  double JointLoss::*member;
+  const char* per_area = nullptr;
+};
+constexpr Column columns[]{
+    {"tangential_force", &JointLoss::tangential_force, "tangential_force_per_area"},
+    {"tangential_amplitude", &JointLoss::tangential_amplitude},
+    {"work_per_cycle", &JointLoss::work_per_cycle, "work_per_cycle_per_area"},
+    {"relaxation_work", &JointLoss::relaxation_work},
+    {"slip_work", &JointLoss::slip_work},
+    {"secant_stiffness", &JointLoss::secant_stiffness, "secant_stiffness_per_area"},
+    {"loss_factor", &JointLoss::loss_factor},
+    {"exponent", &JointLoss::exponent},
+    {"storage_stiffness", &JointLoss::storage_stiffness, "storage_stiffness_per_area"},
+    {"loss_stiffness", &JointLoss::loss_stiffness, "loss_stiffness_per_area"},
+};
+
+ResultTable table_of(const std::vector<JointLoss>& losses, double nominal_area) {
+  ResultTable table{.name = "loss", .columns = {}};
+  for (const Column& column : columns) {
+    std::vector<double> values;
+    for (const JointLoss& one : losses) values.push_back(one.*column.member);
+    table.columns.push_back({column.name, values});
+    if (column.per_area == nullptr || !(nominal_area > 0)) continue;
+    for (double& value : values) value /= nominal_area;
+    table.columns.push_back({column.per_area, values});
+  }
+  return table;
+}
+
+Figure joint_figure(const std::vector<JointLoss>& losses, const SampledMotion& path,
+                    const TrajectoryDamping& loop) {
+  std::vector<double> force, amplitude, work;
+  for (const JointLoss& one : losses) {
+    force.push_back(one.tangential_force);
+    amplitude.push_back(one.tangential_amplitude);
+    work.push_back(one.work_per_cycle);
+  }
+  Figure figure;
+  figure.columns = 2;
+  figure.panels.push_back({.title = "Energy dissipated in a cycle",
+                           .x = axis_of("tangential_force", spans_decades(force)),
+                           .y = {.label = "W", .unit = "J", .logarithmic = spans_decades(work)},
+                           .curves = {{.name = "W", .x = force, .y = work}}});
+  figure.panels.push_back(
+      {.title = "Loop of the largest motion, and backbone",
+       .x = {.label = "x", .unit = "m"},
+       .y = {.label = "T", .unit = "N"},
+       .curves = {{.name = "loop", .x = path.displacement, .y = loop.tangential_force},
+                  {.name = "backbone", .x = amplitude, .y = force, .style = PlotStyle::dashed}},
+       .legend = PlotLegend::top_left});
+  return figure;
+}
+
+void run(const JointArguments& arguments, Session& session) {
+  require_tables(session, {"loss"});
+  std::vector<std::string> missing;
+  if (!arguments.premises.friction_coefficient) missing.emplace_back("--friction-coefficient");
+  if (arguments.tangential_forces.empty() && arguments.tangential_amplitudes.empty())
+    missing.emplace_back("--tangential-forces or --tangential-amplitudes");
+  require_options(missing, "a joint");
+  require(arguments.tangential_forces.empty() || arguments.tangential_amplitudes.empty(),
+          "--tangential-amplitudes", "given", "beside --tangential-forces; give one of them");
+  require(!arguments.phase || arguments.normal_amplitude, "--phase", arguments.phase.value_or(0),
+          "is that of a normal oscillation; give --normal-amplitude");
+  if (arguments.nominal_area) require_positive(*arguments.nominal_area, "--nominal-area");
+  const double friction = *arguments.premises.friction_coefficient;
+  require_positive(friction, "--friction-coefficient");
+  const LawOptions::Contact contact = arguments.law.contact(arguments.material);
+  require(contact.positions.size() == 1, "--normal-force",
+          fmt::format("{} positions", contact.positions.size()),
+          "are given; joint takes one, and several tangential forces or amplitudes");
+  const Position& position = contact.positions.front();
+  const ContactLaw& law = *contact.law;
+  for (const std::string& line : contact.doubts) session.warn(line);
+
+  const bool oscillates = arguments.normal_amplitude && *arguments.normal_amplitude != 0;
+  const double phase = arguments.phase.value_or(0);
+  std::vector<TangentialOscillation> motions;
+  for (const double force : arguments.tangential_forces) motions.emplace_back(TangentialForce{force});
+  for (const double amplitude : arguments.tangential_amplitudes)
+    motions.emplace_back(TangentialAmplitude{amplitude});
+  std::vector<JointLoss> losses;
+  const Progress progress = session.progress();
+  for (const TangentialOscillation& motion : motions) {
+    losses.push_back(oscillates ? joint_loss(law, position, motion, friction,
+                                             *arguments.normal_amplitude, phase, arguments.steps)
+                                : joint_loss(law, position, motion, friction));
+    if (!progress({"joint", double(losses.size()) / double(motions.size()), int(losses.size()), 0}))
+      throw Interrupted("joint: stopped before all motions were done");
+  }
+  if (const auto lost = std::ranges::count(losses, false, &JointLoss::converged); lost > 0)
+    throw NotConverged(fmt::format("joint: {} of {} integrals did not reach the tolerance", lost,
+                                   losses.size()));
+
+  const double indentation = std::holds_alternative<AtIndentation>(position)
+                                 ? std::get<AtIndentation>(position).indentation
+                                 : law.indentation_of(std::get<AtForce>(position).force);
+  const double area = arguments.nominal_area.value_or(contact.curve ? contact.curve->nominal_area : 0);
+  Json answer = {{"force", law.force(indentation)},
+                 {"indentation", indentation},
+                 {"normal_stiffness", law.normal_stiffness(indentation)},
+                 {"tangential_stiffness", law.tangential_stiffness(indentation)}};
+  const ResultTable table = table_of(losses, area);
+  write_tables(session, "joint", answer, {table});
+  for (const ResultColumn& column : table.columns) answer[column.name] = column.values;
+
+  const JointLoss& largest =
+      *std::ranges::max_element(losses, {}, &JointLoss::tangential_amplitude);
+  const EqualFrequency motion{arguments.normal_amplitude.value_or(0), largest.tangential_amplitude,
+                              phase, 0};
+  if (session.has_plot()) {
+    const SampledMotion path = sample(motion, indentation, arguments.steps);
+    session.plot(joint_figure(
+        losses, path, trajectory_damping(law, path, {.friction_coefficient = friction})));
+  }
+  const ContactFacts facts =
+      at_state(arguments.premises.facts(arguments.material), law,
+               contact.curve ? &*contact.curve : nullptr, indentation);
+  premises_beside_slip(law, indentation, motion, facts).answer(session, answer);
+}
+
+}  // namespace
+
+void add_joint_command(Program& program) {
+  auto arguments = std::make_shared<JointArguments>();
+  Command& command = program.add_command(
+      "joint", "partial slip under a tangential oscillation",
+      {"salebra joint --law parabola --radius 10mm --normal-force 10 --contact-modulus 115GPa "
+       "--poisson 0.3 --friction-coefficient 0.3 --tangential-forces 0.1:2.9N:12 --plot joint.png",
+       "salebra joint --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+       "--friction-coefficient 0.3 --tangential-amplitudes 1:50nm:8 --nominal-area 1mm2 -o joint.csv"},
+      [arguments](Session& session) { run(*arguments, session); },
+      "loss over force, loop and backbone", OutputCheck::any_name);
+  arguments->law.add_to(command);
+  arguments->material.add_to(command);
+  const std::string motion = "Motion";
+  add_values(command, "--tangential-forces", arguments->tangential_forces, Dimension::force,
+             "T of an oscillation between -T and T: one, a list or a range")
+      ->group(motion);
+  add_values(command, "--tangential-amplitudes", arguments->tangential_amplitudes,
+             Dimension::length, "x of an oscillation between -x and x, instead")
+      ->group(motion);
+  add_quantity(command, "--normal-amplitude", arguments->normal_amplitude, Dimension::length,
+               "u_z; without it the normal force is constant")
+      ->group(motion);
+  add_quantity(command, "--phase", arguments->phase, Dimension::angle,
+               "of the tangential motion against the normal one; default 0")
+      ->group(motion);
+  command.add_option("--steps", arguments->steps, "in a cycle with a normal oscillation; default 2000")
+      ->range(16, 10000000)
+      ->group(motion);
+  add_quantity(command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,
+               "for results per area too; default: that of --curve");
+  arguments->premises.add_to(command);
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+
+#include "run_program.hpp"
+
+namespace {
+
+const std::string law =
+    "joint --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+    "--friction-coefficient 0.3 ";
+
+}  // namespace
+
+TEST_CASE("joint gives the loss over tangential amplitudes and forces", "[joint]") {
+  const ProgramTest test;
+  const auto answer =
+      test.run(law + "--tangential-amplitudes 3.838133nm,58.629524nm --json").json();
+  CHECK(keys(answer) ==
+        std::set<std::string>{"premises", "largest_motion", "force", "indentation",
+                              "normal_stiffness", "tangential_stiffness", "tangential_force",
+                              "tangential_amplitude", "work_per_cycle", "relaxation_work",
+                              "slip_work", "secant_stiffness", "loss_factor", "exponent",
+                              "storage_stiffness", "loss_stiffness"});
+  // ../shared/SLIP.md, section 3; a seventh digit of x moves W by 3e-7 of it.
+  CHECK(answer["work_per_cycle"][0].get<double>() == Approx(8.0862576e-12).epsilon(2e-6));
+  CHECK(answer["work_per_cycle"][1].get<double>() == Approx(1.4483657e-8).epsilon(2e-6));
+  CHECK(answer["premises"]["slip_of_closed_levels"]["verdict"] == "holds");
+  const double force = answer["tangential_force"][1];
+  const auto again =
+      test.run(law + "--json --nominal-area 4mm2 --tangential-forces " + std::to_string(force))
+          .json();
+  CHECK(again["tangential_amplitude"][0].get<double>() == Approx(58.629524e-9).epsilon(1e-4));
+  CHECK(again["work_per_cycle_per_area"][0].get<double>() ==
+        Approx(again["work_per_cycle"][0].get<double>() / 4e-6).epsilon(1e-12));
+}
+
+TEST_CASE("The table of joint is a CSV file with units in its header", "[joint]") {
+  const ProgramTest test;
+  REQUIRE(test.run(law + "--tangential-forces 10:250mN:4 -o j.csv --plot j.svg").status == 0);
+  CHECK(test.files() == std::set<std::string>{"j.csv", "j.loss.csv", "j.svg"});
+  const std::string table = test.read("j.loss.csv");
+  CHECK_THAT(table, Catch::Contains("tangential_force") && Catch::Contains("[N]") &&
+                        Catch::Contains("[N/m]"));
+  REQUIRE(test.run(law + "--tangential-forces 10:250mN:4 -o j.h5").status == 0);
+}
+
+TEST_CASE("A joint whose normal force oscillates", "[joint]") {
+  const ProgramTest test;
+  const auto loss = [&](const std::string& options) {
+    return test.run(law + "--tangential-amplitudes 5nm --normal-amplitude 20nm --json " + options)
+        .json();
+  };
+  const auto out = loss("--phase 90deg");
+  CHECK(out["relaxation_work"][0].get<double>() > 0);
+  // In phase above the critical friction nothing is lost: g u_x/u_z = 0.206.
+  CHECK(loss("")["work_per_cycle"][0].get<double>() <
+        1e-9 * out["work_per_cycle"][0].get<double>());
+}
+
+TEST_CASE("Bad input of joint is refused by its option", "[joint][input]") {
+  const ProgramTest test;
+  check_refused(test.run(law), "--tangential-forces");
+  check_refused(test.run(law + "--tangential-forces 0.4"), "at which the contact slides");
+  check_refused(test.run(law + "--tangential-forces 0.1 --tangential-amplitudes 1nm"),
+                "--tangential-amplitudes");
+  check_refused(test.run(law + "--tangential-forces 0.1 --phase 90deg"), "--normal-amplitude");
+  check_refused(test.run(law + "--tangential-amplitudes 0nm"), "tangential");
+  check_refused(test.run(law + "--tangential-forces 0.1 --nominal-area 0mm2"), "--nominal-area");
+}
