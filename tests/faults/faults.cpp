@@ -114,6 +114,15 @@ std::vector<Case> all_cases() {
        {},
        "damper --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--normal-amplitude 10nm,20nm --frequency 20kHz,30kHz -o out.h5"},
+      {"friction",
+       {},
+       "friction --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+       "--friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz --velocities "
+       "1um/s,1mm/s -o out.h5"},
+      {"joint",
+       {},
+       "joint --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+       "--friction-coefficient 0.3 --tangential-forces 10mN,100mN -o out.csv"},
       {"figure3", {}, "figure3 --points 16 --steps 8 -o out.h5" + material},
       // Resumable from the start: the file holds its command line.
       {"study", {}, study + " --no-report --resume", {}, study + " --no-report --resume"},
