@@ -156,8 +156,9 @@ Followed follow(const ContactLaw& law, double mean, const TangentialOscillation&
         const auto [low, high] = std::ranges::minmax(values);
         return 0.5 * (high - low);
       };
-      result.force = half_range(force);
-      result.displacement = half_range(x);
+      // What is given need not have its greatest value at a step.
+      result.force = by_force ? amplitude : half_range(force);
+      result.displacement = by_force ? half_range(x) : amplitude;
       double middle = 0;
       for (int i = 0; i < steps; ++i) middle += x[std::size_t(i)] / steps;
       double product = 0, square = 0;
