@@ -45,10 +45,12 @@ TEST_CASE("A sphere in partial slip loses what Mindlin and Deresiewicz say", "[j
     CHECK(loss.converged);
     // An eighth digit of x moves W by 1e-7 of it.
     CHECK(loss.work_per_cycle == Approx(work).epsilon(3e-7));
+    CHECK(loss.relaxation_work == 0);
+    // The last of them is where the whole contact begins to slide: there neither T nor W tells x.
+    if (loss.tangential_force > 0.999 * friction * force) continue;
     CHECK(
         loss.work_per_cycle ==
         Approx(mindlin_loss(loss.tangential_force, force, radius, shear, friction)).epsilon(1e-9));
-    CHECK(loss.relaxation_work == 0);
     const JointLoss by_force =
         joint_loss(sphere, AtForce{force}, TangentialForce{loss.tangential_force}, friction);
     CHECK(by_force.tangential_amplitude == Approx(amplitude).epsilon(1e-9));
