@@ -108,7 +108,8 @@ void run(const JointArguments& arguments, Session& session) {
   const bool oscillates = arguments.normal_amplitude && *arguments.normal_amplitude != 0;
   const double phase = arguments.phase.value_or(0);
   std::vector<TangentialOscillation> motions;
-  for (const double force : arguments.tangential_forces) motions.emplace_back(TangentialForce{force});
+  for (const double force : arguments.tangential_forces)
+    motions.emplace_back(TangentialForce{force});
   for (const double amplitude : arguments.tangential_amplitudes)
     motions.emplace_back(TangentialAmplitude{amplitude});
   std::vector<JointLoss> losses;
@@ -121,13 +122,14 @@ void run(const JointArguments& arguments, Session& session) {
       throw Interrupted("joint: stopped before all motions were done");
   }
   if (const auto lost = std::ranges::count(losses, false, &JointLoss::converged); lost > 0)
-    throw NotConverged(fmt::format("joint: {} of {} integrals did not reach the tolerance", lost,
-                                   losses.size()));
+    throw NotConverged(
+        fmt::format("joint: {} of {} integrals did not reach the tolerance", lost, losses.size()));
 
   const double indentation = std::holds_alternative<AtIndentation>(position)
                                  ? std::get<AtIndentation>(position).indentation
                                  : law.indentation_of(std::get<AtForce>(position).force);
-  const double area = arguments.nominal_area.value_or(contact.curve ? contact.curve->nominal_area : 0);
+  const double area =
+      arguments.nominal_area.value_or(contact.curve ? contact.curve->nominal_area : 0);
   Json answer = {{"force", law.force(indentation)},
                  {"indentation", indentation},
                  {"normal_stiffness", law.normal_stiffness(indentation)},
@@ -142,12 +144,11 @@ void run(const JointArguments& arguments, Session& session) {
                               phase, 0};
   if (session.has_plot()) {
     const SampledMotion path = sample(motion, indentation, arguments.steps);
-    session.plot(joint_figure(
-        losses, path, trajectory_damping(law, path, {.friction_coefficient = friction})));
+    session.plot(joint_figure(losses, path,
+                              trajectory_damping(law, path, {.friction_coefficient = friction})));
   }
-  const ContactFacts facts =
-      at_state(arguments.premises.facts(arguments.material), law,
-               contact.curve ? &*contact.curve : nullptr, indentation);
+  const ContactFacts facts = at_state(arguments.premises.facts(arguments.material), law,
+                                      contact.curve ? &*contact.curve : nullptr, indentation);
   premises_beside_slip(law, indentation, motion, facts).answer(session, answer);
 }
 
@@ -160,7 +161,8 @@ void add_joint_command(Program& program) {
       {"salebra joint --law parabola --radius 10mm --normal-force 10 --contact-modulus 115GPa "
        "--poisson 0.3 --friction-coefficient 0.3 --tangential-forces 0.1:2.9N:12 --plot joint.png",
        "salebra joint --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
-       "--friction-coefficient 0.3 --tangential-amplitudes 1:50nm:8 --nominal-area 1mm2 -o joint.csv"},
+       "--friction-coefficient 0.3 --tangential-amplitudes 1:50nm:8 --nominal-area 1mm2 -o "
+       "joint.csv"},
       [arguments](Session& session) { run(*arguments, session); },
       "loss over force, loop and backbone", OutputCheck::any_name);
   arguments->law.add_to(command);
@@ -178,7 +180,8 @@ void add_joint_command(Program& program) {
   add_quantity(command, "--phase", arguments->phase, Dimension::angle,
                "of the tangential motion against the normal one; default 0")
       ->group(motion);
-  command.add_option("--steps", arguments->steps, "in a cycle with a normal oscillation; default 2000")
+  command
+      .add_option("--steps", arguments->steps, "in a cycle with a normal oscillation; default 2000")
       ->range(16, 10000000)
       ->group(motion);
   add_quantity(command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,

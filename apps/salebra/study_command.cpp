@@ -140,8 +140,9 @@ StudyConfiguration StudyArguments::study() const {
     study.relative_pressures = true;
   }
   if (surface.given()) {
-    study = with_surface(std::move(study), {surface.file, surface.size_x, surface.size_y,
-                                            surface.detrend_method(), surface.height_unit});
+    study =
+        with_surface(std::move(study), {surface.file, surface.size_x, surface.size_y,
+                                        value_of<Detrend>(surface.detrend), surface.height_unit});
   }
   if (!from_file || material.given()) study.material = material.material_with_tangential_modulus();
   if (!from_file || motion.given()) {
