@@ -149,7 +149,11 @@ void run(const JointArguments& arguments, Session& session) {
   }
   const ContactFacts facts = at_state(arguments.premises.facts(arguments.material), law,
                                       contact.curve ? &*contact.curve : nullptr, indentation);
-  premises_beside_slip(law, indentation, motion, facts).answer(session, answer);
+  // A constant normal force is the limit of small normal amplitudes.
+  EqualFrequency judged = motion;
+  if (!oscillates)
+    judged.normal_amplitude = 1e-6 * law.force(indentation) / law.normal_stiffness(indentation);
+  premises_beside_slip(law, indentation, judged, facts).answer(session, answer);
 }
 
 }  // namespace
