@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
@@ -22,7 +23,7 @@ struct JointArguments {
   LawOptions law;
   MaterialOptions material;
   std::vector<double> tangential_forces, tangential_amplitudes;
-  std::optional<double> normal_amplitude, phase, nominal_area;
+  std::optional<double> normal_amplitude, phase, nominal_area, frequency;
   int steps = 2000;
   PremiseOptions premises;
 };
@@ -94,6 +95,7 @@ void run(const JointArguments& arguments, Session& session) {
           "--tangential-amplitudes", "given", "beside --tangential-forces; give one of them");
   require(!arguments.phase || arguments.normal_amplitude, "--phase", arguments.phase.value_or(0),
           "is that of a normal oscillation; give --normal-amplitude");
+  if (arguments.frequency) require_positive(*arguments.frequency, "--frequency");
   if (arguments.nominal_area) require_positive(*arguments.nominal_area, "--nominal-area");
   const double friction = *arguments.premises.friction_coefficient;
   require_positive(friction, "--friction-coefficient");
@@ -141,7 +143,7 @@ void run(const JointArguments& arguments, Session& session) {
   const JointLoss& largest =
       *std::ranges::max_element(losses, {}, &JointLoss::tangential_amplitude);
   const EqualFrequency motion{arguments.normal_amplitude.value_or(0), largest.tangential_amplitude,
-                              phase, 0};
+                              phase, 2 * std::numbers::pi * arguments.frequency.value_or(0)};
   if (session.has_plot()) {
     const SampledMotion path = sample(motion, indentation, arguments.steps);
     session.plot(joint_figure(losses, path,
@@ -187,6 +189,9 @@ void add_joint_command(Program& program) {
   command
       .add_option("--steps", arguments->steps, "in a cycle with a normal oscillation; default 2000")
       ->range(16, 10000000)
+      ->group(motion);
+  add_quantity(command, "--frequency", arguments->frequency, Dimension::frequency,
+               "in Hz, to judge inertia")
       ->group(motion);
   add_quantity(command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,
                "for results per area too; default: that of --curve");
