@@ -24,7 +24,7 @@ int main(int argc, char** argv) try {
 
   // 1. The heights, whatever the format, less the tilt of the stage.
   const Surface raw = read_surface(argv[1]);
-  const Surface surface = detrended(raw, customary_detrend(raw));
+  const Surface surface = detrended(raw, default_detrend(raw));
   const SpectralMoments moments = surface_moments(surface);
   const double rms_slope = moments.rms_slope();
   std::printf("%lld x %lld points, %s x %s, rms height %s, rms slope %.4f\n",

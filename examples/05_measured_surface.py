@@ -17,7 +17,7 @@ contact_modulus = float(sys.argv[2]) if len(sys.argv) > 2 else 115e9  # Pa
 
 # 1. The heights, whatever the format, less the tilt of the stage.
 raw = salebra.read_surface(sys.argv[1])
-surface = raw.detrended(salebra.customary_detrend(raw))
+surface = raw.detrended(salebra.default_detrend(raw))
 moments = surface.moments
 print(
     f"{surface.nx} x {surface.ny} points, {format_quantity(surface.size_x, 'size_x')} x {format_quantity(surface.size_y, 'size_y')}, "

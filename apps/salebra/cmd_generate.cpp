@@ -101,7 +101,7 @@ std::optional<HeightDistribution> distribution_of(const GenerateArguments& argum
     return johnson_heights(arguments.skewness.value_or(0),
                            required(arguments.kurtosis, "--kurtosis", "--skewness needs it"));
   const Surface measured = read_unsized(arguments.heights_from);
-  return sampled_heights(BearingCurve(detrended(measured, customary_detrend(measured))).heights());
+  return sampled_heights(BearingCurve(detrended(measured, default_detrend(measured))).heights());
 }
 
 void report_memory(const Grid2D& grid, std::size_t bytes, Session& session) {

@@ -148,7 +148,7 @@ Surface SurfaceOptions::read(Session& session) const {
   Surface surface = read_surface(file, options);
   for (const auto& lines : {remarks, doubts_of_cells(surface.grid)})
     for (const std::string& line : lines) session.warn(line);
-  const Detrend method = value_of<Detrend>(detrend).value_or(customary_detrend(surface));
+  const Detrend method = value_of<Detrend>(detrend).value_or(default_detrend(surface));
   return detrended(std::move(surface), method);
 }
 

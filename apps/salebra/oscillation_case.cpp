@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/generators/shapes.hpp>
@@ -190,7 +191,15 @@ Json to_json(const OscillationOutcome& outcome) {
     object["contact_area_min"] = cycle.contact_area_min;
     object["contact_area_max"] = cycle.contact_area_max;
     object["fft_count"] = cycle.fft_count + levels.fft_count;
-    object["time_in_periods"] = column(cycle, &CycleSample::t);
+    std::vector<double> time = column(cycle, &CycleSample::t);
+    object["time_in_periods"] = time;
+    const double omega =
+        std::visit([](const auto& motion) { return motion.angular_frequency; }, outcome.run.motion);
+    // Unknown without a frequency.
+    for (double& moment : time)
+      moment = omega > 0 ? moment * 2 * std::numbers::pi / omega
+                         : std::numeric_limits<double>::quiet_NaN();
+    object["time"] = time;
     object["work"] = column(cycle, &CycleSample::work);
   } else {
     const auto& samples = levels.curve.samples;

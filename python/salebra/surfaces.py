@@ -31,7 +31,7 @@ from ._core import (
     core_parameters as core_parameters,
     correlation_map as correlation_map,
     crop_surface as crop_surface,
-    customary_detrend as customary_detrend,
+    default_detrend as default_detrend,
     detrended as detrended,
     difference_moments as difference_moments,
     estimate_hurst as estimate_hurst,

@@ -238,9 +238,9 @@ counts with (2 sin(q dx/2)/dx)² in place of q².
   m.def("detrended", &detrended_surface, nb::arg("surface"), nb::arg("method") = "plane",
         "The surface less its trend, see :meth:`Surface.detrended`.");
   m.def(
-      "customary_detrend",
+      "default_detrend",
       [](const BoundSurface& surface) {
-        return std::string(word_of(customary_detrend(surface.surface)));
+        return std::string(word_of(default_detrend(surface.surface)));
       },
       nb::arg("surface"),
       "\"plane\" for a measured surface, which carries the tilt of its stage; \"mean\" for a "

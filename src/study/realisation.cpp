@@ -36,7 +36,7 @@ Surface read(const MeasuredSurface& recipe) {
   options.height_unit = recipe.height_unit;
   Surface surface = read_surface(recipe.file, options);
   surface.require_complete("a study");
-  const Detrend trend = recipe.detrend.value_or(customary_detrend(surface));
+  const Detrend trend = recipe.detrend.value_or(default_detrend(surface));
   return detrended(std::move(surface), trend);
 }
 

@@ -73,7 +73,7 @@ void subtract_lines(Surface& surface) {
 
 }  // namespace
 
-Detrend customary_detrend(const Surface& surface) {
+Detrend default_detrend(const Surface& surface) {
   return surface.periodic ? Detrend::mean : Detrend::plane;
 }
 

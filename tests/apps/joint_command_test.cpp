@@ -17,12 +17,12 @@ TEST_CASE("joint gives the loss over tangential amplitudes and forces", "[joint]
   const ProgramTest test;
   const auto answer =
       test.run(law + "--tangential-amplitudes 3.838133nm,58.629524nm --json").json();
-  CHECK(keys(answer) ==
-        std::set<std::string>{"premises", "largest_motion", "force", "indentation",
-                              "normal_stiffness", "tangential_stiffness", "tangential_force",
-                              "tangential_amplitude", "work_per_cycle", "relaxation_work",
-                              "slip_work", "secant_stiffness", "loss_factor", "exponent",
-                              "storage_stiffness", "loss_stiffness"});
+  CHECK(keys(answer) == std::set<std::string>{"premises", "largest_motion", "force", "indentation",
+                                              "normal_stiffness", "tangential_stiffness",
+                                              "tangential_force", "tangential_amplitude",
+                                              "work_per_cycle", "relaxation_work", "slip_work",
+                                              "secant_stiffness", "loss_factor", "exponent",
+                                              "storage_stiffness", "loss_stiffness"});
   // ../shared/SLIP.md, section 3; a seventh digit of x moves W by 3e-7 of it.
   CHECK(answer["work_per_cycle"][0].get<double>() == Approx(8.0862576e-12).epsilon(2e-6));
   CHECK(answer["work_per_cycle"][1].get<double>() == Approx(1.4483657e-8).epsilon(2e-6));

@@ -69,6 +69,7 @@ TEST_CASE("oscillate reproduces the paper's experiment by the name of a shape", 
         Approx(answer["work_per_cycle"].get<double>()).epsilon(1e-6));
   CHECK(answer["time_in_periods"].size() == 25);
   CHECK(answer["time_in_periods"].back() == 1);
+  CHECK(answer["time"].size() == 25);
   // The loop of equal frequencies closes: all work of the period is lost.
   CHECK(answer["work"].back().get<double>() ==
         Approx(answer["work_per_cycle"].get<double>()).epsilon(1e-9));

@@ -35,7 +35,7 @@ struct GeneratedSurfaces {
 struct MeasuredSurface {
   std::filesystem::path file;
   std::optional<double> size_x, size_y;  ///< m, for files that do not state their size
-  std::optional<Detrend> detrend;        ///< empty: as is customary for the kind of surface
+  std::optional<Detrend> detrend;        ///< empty: default_detrend() of the surface
   std::string height_unit;               ///< such as "nm", for files that do not name one; empty: m
 };
 

@@ -18,7 +18,7 @@ enum class Detrend {
 
 /// The plane for a measured surface, which carries the tilt of its stage; the mean for a periodic
 /// one, where a plane would break the period.
-Detrend customary_detrend(const Surface& surface);
+Detrend default_detrend(const Surface& surface);
 
 /// The surface less its trend. Undefined points stay undefined and take no part in the fit; where
 /// they, or a grid of one row, leave the trend undetermined, the smallest one that fits is
