@@ -281,7 +281,7 @@ class Point {
     const auto midpoints = column("local/midpoint");
     if (!midpoints || bem() == models_.size()) return json;
     const std::size_t count = realisations(), points = midpoints->size();
-    for (const char* name : {"mean_gap", "decay_length"}) {
+    for (const char* name : {"mean_gap", "local_decay_length"}) {
       const auto values =
           part(std::string("local/") + name, bem() * count * points, count * points);
       for (std::size_t r = 0; r < std::min(count, most_single_curves); ++r)
