@@ -260,6 +260,8 @@ TEST_CASE("Greenwood-Williamson curves come from a surface or from parameters", 
                                          "contact_area_fraction",
                                          "normal_stiffness",
                                          "tangential_stiffness",
+                                         "normal_stiffness_per_area",
+                                         "tangential_stiffness_per_area",
                                          "converged"};
   for (const std::string summits : {"moments", "deterministic"}) {
     const auto result =

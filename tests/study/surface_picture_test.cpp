@@ -46,7 +46,8 @@ TEST_CASE("The picture of a study shows where its first surface touches under ea
   for (std::size_t i = 0; i < picture.gap.size(); ++i) {
     pressure += double(picture.contact_pressure[i]) / (64 * 64);
     gap += double(picture.gap[i]) / (64 * 64);
-    CHECK((picture.contact_pressure[i] == 0 || picture.gap[i] == 0));
+    // Where it touches the solver leaves what its tolerance allows.
+    CHECK((picture.contact_pressure[i] == 0 || picture.gap[i] < 1e-4 * mapped.mean_gap));
   }
   CHECK(pressure == Approx(mapped.pressure).epsilon(1e-5));
   CHECK(gap == Approx(mapped.mean_gap).epsilon(1e-5));
