@@ -101,7 +101,7 @@ TEST_CASE("A table that is wider than the text comes in parts with its first col
   };
   CHECK(count(wide.out, "indentation") == 1);
   CHECK(count(narrow.out, "indentation") >= 2);
-  for (const char* column : {"mean_gap", "pressure", "normal_stiffness", "converged"})
+  for (const char* column : {"mean_gap", "pressure", "contact_area_fraction", "converged"})
     CHECK(count(narrow.out, column) == 1);
 }
 
