@@ -97,6 +97,11 @@ constexpr std::array descriptions{
         "mean friction over velocity, the velocity from which nothing sticks, and the damping\n"
         "constant of slow sliding beside that of relaxation without slip."},
     CommandHelp{
+        "joint", damping,
+        "A contact under a tangential force or displacement that oscillates: what partial slip\n"
+        "loses, secant, storage and loss stiffness, with a constant or an oscillating normal "
+        "force."},
+    CommandHelp{
         "oscillate", damping,
         "The direct experiment in three dimensions: a contact is moved through its cycle and the\n"
         "work is counted, by time steps or by contact levels; with finite friction and with\n"

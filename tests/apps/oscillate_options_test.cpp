@@ -168,7 +168,7 @@ TEST_CASE("The file of oscillate holds what its answer says", "[oscillate]") {
   const auto attribute = [&](const char* group, const char* name) {
     return file.number_attribute(group, name).value();
   };
-  CHECK(file.numbers("cycle/time") == numbers(answer, "time"));
+  CHECK(file.numbers("cycle/time_in_periods") == numbers(answer, "time_in_periods"));
   CHECK(file.numbers("cycle/work") == numbers(answer, "work"));
   CHECK(file.numbers("cycle/dissipated").back() == number(answer, "dissipated"));
   CHECK(attribute("cycle", "work_per_cycle") == number(answer, "work_per_cycle"));
@@ -176,7 +176,7 @@ TEST_CASE("The file of oscillate holds what its answer says", "[oscillate]") {
   CHECK(attribute("levels", "error_estimate") == number(answer, "work_by_levels_error"));
   CHECK(attribute("levels", "work_by_whole_cells") == number(answer, "work_by_whole_cells"));
   // The map of the cells: 2 always in contact, 1 sometimes.
-  const Field map = file.field("cycle/contact");
+  const Field map = file.field("cycle/contact_map");
   const double cell = 1e-6 / static_cast<double>(map.size());
   CHECK(static_cast<double>((map == 2).count()) * cell ==
         Approx(number(answer, "contact_area_min")));
