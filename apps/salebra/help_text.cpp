@@ -14,110 +14,110 @@ constexpr std::string_view start = "Start here", surfaces = "Surfaces", contact 
 constexpr std::array descriptions{
     CommandHelp{
         "init", start,
-        "Writes a study file in which every key is explained: of generated surfaces, or of the\n"
+        "Writes a study file in which every key is explained: of generated surfaces, or of the "
         "measured one that --surface names. It runs as it is; edit it to ask your own question.\n\n"
         "Next: salebra study FILE --dry-run tells what it will cost, salebra study FILE runs it."},
     CommandHelp{
         "study", start,
-        "Takes each surface of a study file (or one measured surface) through statistics,\n"
-        "boundary elements, Greenwood-Williamson, the fit of F ~ exp(-gap/l) and relaxation\n"
-        "damping, and gives means with 95 % intervals. Surfaces run side by side, one on each\n"
+        "Takes each surface of a study file (or one measured surface) through statistics, "
+        "boundary elements, Greenwood-Williamson, the fit of F ~ exp(-gap/l) and relaxation "
+        "damping, and gives means with 95 % intervals. Surfaces run side by side, one on each "
         "thread; with --output a run that was stopped goes on with --resume.\n\n"
         "New here? salebra init writes a file to begin with, --dry-run tells the cost."},
     CommandHelp{
         "report", start,
         "Makes one offline HTML page of the results of a study: figures, tables, settings."},
     CommandHelp{"verify", start,
-                "Solves problems whose solutions are known and compares: a few seconds after an\n"
+                "Solves problems whose solutions are known and compares: a few seconds after an "
                 "installation or an update. Exit status 1 where one is off."},
     CommandHelp{
         "generate", surfaces,
-        "Makes a rough surface with a given power spectrum, a profile, or an analytic shape. One\n"
-        "seed gives one surface on any grid and any number of threads. It tells what was asked\n"
-        "for, what the grid holds in the mean, and what came out, and warns where a grid cannot\n"
+        "Makes a rough surface with a given power spectrum, a profile, or an analytic shape. One "
+        "seed gives one surface on any grid and any number of threads. It tells what was asked "
+        "for, what the grid holds in the mean, and what came out, and warns where a grid cannot "
         "carry the spectrum.\n\n"
         "Next: salebra info and statistics measure it, salebra sweep presses it."},
     CommandHelp{
         "info", surfaces,
-        "Size, roughness, moments, summits and Hurst exponent of a surface in any readable file.\n"
+        "Size, roughness, moments, summits and Hurst exponent of a surface in any readable file. "
         "A file that does not state its size needs --size-x and --size-y.\n\n"
         "Next: salebra statistics for spectra and ISO 25178-2 parameters."},
     CommandHelp{
         "statistics", surfaces,
-        "Power spectra, correlation, structure function, slope and curvature by scale, bearing\n"
-        "curve, ISO 25178-2 parameters, and the self-affine law fitted to the spectrum, with the\n"
-        "shortest wavelength that the instrument leaves reliable. Nothing but the trend\n"
+        "Power spectra, correlation, structure function, slope and curvature by scale, bearing "
+        "curve, ISO 25178-2 parameters, and the self-affine law fitted to the spectrum, with the "
+        "shortest wavelength that the instrument leaves reliable. Nothing but the trend "
         "(--detrend) is removed, and holes are filled on request only (--fill)."},
     CommandHelp{"convert", surfaces,
-                "Reads a surface and writes it in the format that the extension of OUT names.\n"
+                "Reads a surface and writes it in the format that the extension of OUT names. "
                 "docs/formats.md tells what each format keeps."},
     CommandHelp{
         "contact", contact,
-        "Presses one surface by boundary elements to a pressure, a mean gap, an indentation or a\n"
-        "force: area, gap, pressure, energy, and the stiffness on request. Periodic surfaces fill\n"
+        "Presses one surface by boundary elements to a pressure, a mean gap, an indentation or a "
+        "force: area, gap, pressure, energy, and the stiffness on request. Periodic surfaces fill "
         "the plane; --boundary free takes a surface by itself.\n\n"
         "Next: salebra sweep for a whole force-gap curve."},
     CommandHelp{
         "sweep", contact,
-        "The force-gap curve of a surface by boundary elements, over a range of pressures, each\n"
+        "The force-gap curve of a surface by boundary elements, over a range of pressures, each "
         "solved independently. With --stiffness also K and K_t, which damping needs.\n\n"
         "Next: salebra fit for the decay length, salebra damping --curve for the damping."},
     CommandHelp{
         "gw", contact,
-        "The force-gap curve of Greenwood and Williamson, of a surface's moments, of its own\n"
-        "summits, or of parameters. Fast, and good at light loads only: salebra compare tells\n"
+        "The force-gap curve of Greenwood and Williamson, of a surface's moments, of its own "
+        "summits, or of parameters. Fast, and good at light loads only: salebra compare tells "
         "how good on your surface."},
     CommandHelp{
         "fit", contact,
-        "The decay length l of p = p0 exp(-gap/l) of a curve in a file, with its interval, and\n"
+        "The decay length l of p = p0 exp(-gap/l) of a curve in a file, with its interval, and "
         "whether the law holds at all."},
     CommandHelp{
         "compare", contact,
-        "Boundary elements, four kinds of Greenwood-Williamson and Persson's theory on the same\n"
+        "Boundary elements, four kinds of Greenwood-Williamson and Persson's theory on the same "
         "surfaces, from the force-gap curve to the damping constant, with intervals. It takes "
-        "what\n"
+        "what "
         "study takes, and about twice its time: --dry-run tells."},
     CommandHelp{
         "damping", damping,
-        "Relaxation damping of any contact law or curve: the energy that a contact without slip\n"
+        "Relaxation damping of any contact law or curve: the energy that a contact without slip "
         "loses in a cycle, by Eqs (12), (15), (16) for small amplitudes and by the theorem at "
-        "any.\n"
+        "any. "
         "One quantity may be a range, and is then drawn by --plot."},
     CommandHelp{
         "mdr", damping,
-        "An axisymmetric contact by the method of dimensionality reduction: force, stiffness,\n"
+        "An axisymmetric contact by the method of dimensionality reduction: force, stiffness, "
         "stresses, and losses with and without friction, along any trajectory."},
     CommandHelp{
         "damper", damping,
-        "The contact as a damper that one tunes by its amplitude: decay of an oscillator, and\n"
+        "The contact as a damper that one tunes by its amplitude: decay of an oscillator, and "
         "sliding that it keeps from stick-slip."},
     CommandHelp{
         "friction", damping,
-        "A contact that slides at constant velocity while it oscillates in the normal direction:\n"
-        "mean friction over velocity, the velocity from which nothing sticks, and the damping\n"
+        "A contact that slides at constant velocity while it oscillates in the normal direction: "
+        "mean friction over velocity, the velocity from which nothing sticks, and the damping "
         "constant of slow sliding beside that of relaxation without slip."},
     CommandHelp{
         "joint", damping,
-        "A contact under a tangential force or displacement that oscillates: what partial slip\n"
+        "A contact under a tangential force or displacement that oscillates: what partial slip "
         "loses, secant, storage and loss stiffness, with a constant or an oscillating normal "
         "force."},
     CommandHelp{
         "oscillate", damping,
-        "The direct experiment in three dimensions: a contact is moved through its cycle and the\n"
-        "work is counted, by time steps or by contact levels; with finite friction and with\n"
+        "The direct experiment in three dimensions: a contact is moved through its cycle and the "
+        "work is counted, by time steps or by contact levels; with finite friction and with "
         "coupled directions where asked. Minutes, not seconds."},
     CommandHelp{
         "figure3", damping,
         "The paper's Fig. 3 in one run: the direct simulation of four shapes beside Eq. (12)."},
     CommandHelp{
         "completion", shell,
-        "Prints the script that lets a shell complete commands, options, and their choices with\n"
+        "Prints the script that lets a shell complete commands, options, and their choices with "
         "the Tab key. An installed package has it in place; for a build of your own:\n"
         "  bash: source <(salebra completion bash)\n"
         "  zsh:  salebra completion zsh > \"${fpath[1]}/_salebra\""},
     CommandHelp{
         "manual", shell,
-        "Prints a manual page in roff: of the program, or of the command that is named. It says\n"
+        "Prints a manual page in roff: of the program, or of the command that is named. It says "
         "what --help says."},
 };
 
