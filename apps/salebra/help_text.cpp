@@ -89,8 +89,8 @@ constexpr std::array descriptions{
         "stresses, and losses with and without friction, along any trajectory."},
     CommandHelp{
         "damper", damping,
-        "The contact as a damper that one tunes by its amplitude: decay of an oscillator, and "
-        "sliding that it keeps from stick-slip."},
+        "The contact as a damper that one tunes by its amplitude: decay of an oscillator, and an "
+        "estimate of the amplitude that keeps a slider from stick-slip."},
     CommandHelp{
         "friction", damping,
         "A contact that slides at constant velocity while it oscillates in the normal direction: "

@@ -172,14 +172,17 @@ void MotionOptions::add_to(Command& app, bool with_two_frequencies) {
   const std::string group = "Motion (one quantity may be a range from:to:count or a list)";
   std::vector<std::string> modes = {"drag", "equal-frequency"};
   if (with_two_frequencies) modes.push_back("two-frequencies");
-  add_choice(app, "--mode", mode, modes, "default drag")->group(group);
+  add_choice(app, "--mode", mode, modes, "drag (default): slow tangential oscillation")
+      ->group(group);
   add_values(app, "--normal-amplitude", normal_amplitude, Dimension::length, "u_z")->group(group);
   add_values(app, "--tangential-amplitude", tangential_amplitude, Dimension::length,
              "u_x, not with drag")
       ->group(group);
   add_values(app, "--phase", phase, Dimension::angle, "phase of x at a maximum of z, not with drag")
       ->group(group);
-  add_values(app, "--drag-velocity", drag_velocity, Dimension::velocity, "v, drag")->group(group);
+  add_values(app, "--drag-velocity", drag_velocity, Dimension::velocity,
+             "v of the slow oscillation, drag")
+      ->group(group);
   add_values(app, "--frequency", frequency, Dimension::frequency, "of the normal motion, in Hz")
       ->group(group);
   add_values(app, "--angular-frequency", angular_frequency, Dimension::angular_frequency,

@@ -58,9 +58,10 @@ Forecast forecast(const Grid2D& grid, const Spectrum& spectrum, const Progress& 
   const double shortest = 2 * std::numbers::pi / spectrum.highest_wavenumber();
   const double cells = shortest / std::max(grid.dx(), grid.dy());
   if (cells < 8 * (1 - 1e-9))
-    result.warnings.push_back(
-        sentence("the shortest wavelength has ", cells,
-                 " cells; contact areas need at least 8 (with 4 they are about 15 % too large)"));
+    result.warnings.push_back(sentence(
+        "the shortest wavelength has ", cells,
+        " cells; contact areas need at least 8 (with 4 they are 13 to 27 % too large, most "
+        "at light loads)"));
   const double ratio = result.lattice.rms_height() / result.target.rms_height();
   if (std::abs(ratio - 1) > 0.05)
     result.warnings.push_back(

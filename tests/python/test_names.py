@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 import pathlib
 import re
@@ -14,7 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 
 # Properties that have the name of a quantity and are another thing: an interval's or a sample's mean, statistics of heights, a part
 # of the mean square slope.
-OTHERS = {("EnsembleMean", "mean"), ("MonteCarloCurve", "mean"), ("Realisation", "heights"), ("RoughnessShell", "power")}
+OTHERS = {("EnsembleMean", "mean"), ("ConvertedPsd", "wavenumber"), ("ConvertedPsd", "psd"), ("MonteCarloCurve", "mean"), ("Realisation", "heights"), ("RoughnessShell", "power")}
 OLD = re.compile(r"curvature|customary|coefficient|density_unit|law_density|(least|greatest)_.*|released_work")
 
 
@@ -47,11 +48,14 @@ def test_properties_have_the_unit_of_the_quantity_of_their_name() -> None:
 
 
 def test_messages_name_arguments_of_python() -> None:
-    texts = [(getattr(value, "__doc__", None) or "") for value in vars(salebra).values()]
+    callables = [value for value in vars(salebra).values() if callable(value)]
     for cls in vars(_core).values():
         if inspect.isclass(cls):
-            texts += [member.__doc__ or "" for member in vars(cls).values()]
-    arguments = set(re.findall(r"[(,\s](\w+): ", "\n".join(texts)))
+            callables += [member for member in vars(cls).values() if callable(member)]
+    arguments = set()
+    for value in callables:
+        with contextlib.suppress(TypeError, ValueError):  # what has no signature takes no argument of ours
+            arguments |= set(inspect.signature(value).parameters)
     named = set()
     for file in (ROOT / "src").rglob("*.cpp"):
         for literal in re.findall(r'"(?:[^"\\]|\\.)*"', file.read_text(encoding="utf-8")):

@@ -33,7 +33,7 @@ def makers() -> dict[str, Callable[[], Any]]:
     state = salebra.press_to_pressure(surface, MATERIAL, 1e6)
     spectrum = salebra.SelfAffineSpectrum(hurst=0.8, rolloff=2.5e-4, short_cutoff=1.25e-4, rms_height=1e-6)
     summits = salebra.find_summits(surface)
-    ensemble = salebra.SummitEnsemble(density=1e9, radius=1e-5, summit_rms=1e-7)
+    ensemble = salebra.SummitEnsemble(summit_density=1e9, radius=1e-5, summit_rms=1e-7)
     model = salebra.StatisticalSummits(ensemble, MATERIAL, 1e-6)
     law = salebra.IndenterLaw(salebra.paraboloid_profile(1e-2), MATERIAL)
     contact = state.pressure > 0
