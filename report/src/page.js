@@ -57,7 +57,7 @@ function conclusion(main, point) {
       const shown = known(curve?.mean[i]) ? curve : law;
       const limits = interval({low: shown.low?.[i], high: shown.high?.[i]}, "N s/m");
       const lawName = isDrag(point) ? "Eq. (16)" : "Eq. (12)";
-      body.append(finding("Damping constant", quantity(shown.mean[i], "N s/m", 3), [limits ? `95 %: ${limits}` : "", `at ‹F› = ${quantity(damping.force[i], "N", 3)}, ‹p› = ${quantity(point.pressure[i], "Pa", 3)}`],
+      body.append(finding("Damping constant", quantity(shown.mean[i], "N s/m", 3), [limits ? `95 %: ${limits}` : "", known(shown.error?.[i]) ? `numerical error ${percent(shown.error[i] / shown.mean[i])}` : "", `at ‹F› = ${quantity(damping.force[i], "N", 3)}, ‹p› = ${quantity(point.pressure[i], "Pa", 3)}`],
         known(curve?.mean[i]) && known(law?.mean[i]) ? `${lawName} gives ${quantity(law.mean[i], "N s/m", 3)}, ${percent(law.mean[i] / curve.mean[i] - 1)}` : ""));
     }
     const verdict = lawVerdict(point);
