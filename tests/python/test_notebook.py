@@ -36,7 +36,7 @@ def makers() -> dict[str, Callable[[], Any]]:
     ensemble = salebra.SummitEnsemble(summit_density=1e9, radius=1e-5, summit_rms=1e-7)
     model = salebra.StatisticalSummits(ensemble, MATERIAL, 1e-6)
     law = salebra.IndenterLaw(salebra.paraboloid_profile(1e-2), MATERIAL)
-    contact = state.pressure > 0
+    contact = state.contact_pressure > 0
     free = salebra.paraboloid_surface(GRID, 10e-3, salebra.off_grid_center(GRID))
     levels = salebra.boundary_element_levels(free, MATERIAL, boundary="free", tolerance=1e-8)
     study = salebra.run_study(salebra.parse_study_configuration(STUDY))
