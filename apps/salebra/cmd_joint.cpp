@@ -48,7 +48,7 @@ constexpr Column columns[]{
 };
 
 ResultTable table_of(const std::vector<JointLoss>& losses, double nominal_area) {
-  ResultTable table{.name = "loss", .columns = {}};
+  ResultTable table{.name = "motions", .columns = {}};
   for (const Column& column : columns) {
     std::vector<double> values;
     for (const JointLoss& one : losses) values.push_back(one.*column.member);
@@ -85,7 +85,7 @@ Figure joint_figure(const std::vector<JointLoss>& losses, const SampledMotion& p
 }
 
 void run(const JointArguments& arguments, Session& session) {
-  require_tables(session, {"loss"});
+  require_tables(session, {"motions"});
   std::vector<std::string> missing;
   if (!arguments.premises.friction_coefficient) missing.emplace_back("--friction-coefficient");
   if (arguments.tangential_forces.empty() && arguments.tangential_amplitudes.empty())

@@ -39,8 +39,8 @@ TEST_CASE("joint gives the loss over tangential amplitudes and forces", "[joint]
 TEST_CASE("The table of joint is a CSV file with units in its header", "[joint]") {
   const ProgramTest test;
   REQUIRE(test.run(law + "--tangential-forces 10:250mN:4 -o j.csv --plot j.svg").status == 0);
-  CHECK(test.files() == std::set<std::string>{"j.csv", "j.loss.csv", "j.svg"});
-  const std::string table = test.read("j.loss.csv");
+  CHECK(test.files() == std::set<std::string>{"j.csv", "j.motions.csv", "j.svg"});
+  const std::string table = test.read("j.motions.csv");
   CHECK_THAT(table, Catch::Contains("# tangential_force in N") &&
                         Catch::Contains("# secant_stiffness in N/m"));
   REQUIRE(test.run(law + "--tangential-forces 10:250mN:4 -o j.h5").status == 0);
