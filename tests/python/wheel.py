@@ -64,4 +64,4 @@ if not any(name.startswith("libgomp") for name in brought):
     sys.exit(f"the wheel brings {brought}, no OpenMP among them")
 reports = "a report" if salebra.can_report() else "no report: it was built without plotly.js"
 print(f"salebra {salebra.__version__}, Python {sys.version_info.major}.{sys.version_info.minor}: "
-      f"damping constant {damping.damping_constant:.4g} N s/m, {reports}, {len(brought)} libraries of the wheel")  # fmt: skip
+      f"damping constant {damping.damping_constant:.4g} N s/m, {reports}; libraries of the wheel: {len(brought)}")  # fmt: skip
