@@ -58,13 +58,13 @@ Figure sliding_figure(const std::vector<SteadySliding>& sliding,
   figure.panels.push_back({.title = "Friction coefficient of steady sliding",
                            .x = x,
                            .y = {.label = "mean tangential over mean normal force"},
-                           .curves = {mean, slow},
                            .legend = PlotLegend::top_left});
+  figure.panels.back().curves = {mean, slow};
   figure.panels.push_back({.title = "Energy dissipated in a normal cycle",
                            .x = x,
                            .y = {.label = "W", .unit = "J", .logarithmic = spans_decades(total.y)},
-                           .curves = {total, opening},
                            .legend = PlotLegend::top_left});
+  figure.panels.back().curves = {total, opening};
   return figure;
 }
 
@@ -113,7 +113,7 @@ void run(const FrictionArguments& arguments, Session& session) {
   column("slip_work", &SteadySliding::slip_work);
   for (const std::string& line : contact.doubts) session.warn(line);
   write_answer(session, "friction", object);
-  session.plot(sliding_figure(sliding, arguments.velocities, friction));
+  if (session.has_plot()) session.plot(sliding_figure(sliding, arguments.velocities, friction));
   const ContactFacts facts = at_state(arguments.premises.facts(arguments.material), *contact.law,
                                       contact.curve ? &*contact.curve : nullptr, any.indentation);
   premises_beside_slip(*contact.law, any.indentation, motion, facts).answer(session, object);

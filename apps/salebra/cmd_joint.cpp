@@ -72,15 +72,15 @@ Figure joint_figure(const std::vector<JointLoss>& losses, const SampledMotion& p
   figure.columns = 2;
   figure.panels.push_back({.title = "Energy dissipated in a cycle",
                            .x = axis_of("tangential_force", spans_decades(force)),
-                           .y = {.label = "W", .unit = "J", .logarithmic = spans_decades(work)},
-                           .curves = {{.name = "W", .x = force, .y = work}}});
-  figure.panels.push_back(
-      {.title = "Loop of the largest motion, and backbone",
-       .x = {.label = "x", .unit = "m"},
-       .y = {.label = "T", .unit = "N"},
-       .curves = {{.name = "loop", .x = path.displacement, .y = loop.tangential_force},
-                  {.name = "backbone", .x = amplitude, .y = force, .style = PlotStyle::dashed}},
-       .legend = PlotLegend::top_left});
+                           .y = {.label = "W", .unit = "J", .logarithmic = spans_decades(work)}});
+  figure.panels.back().curves = {{.name = "W", .x = force, .y = work}};
+  figure.panels.push_back({.title = "Loop of the largest motion, and backbone",
+                           .x = {.label = "x", .unit = "m"},
+                           .y = {.label = "T", .unit = "N"},
+                           .legend = PlotLegend::top_left});
+  figure.panels.back().curves = {
+      {.name = "loop", .x = path.displacement, .y = loop.tangential_force},
+      {.name = "backbone", .x = amplitude, .y = force, .style = PlotStyle::dashed}};
   return figure;
 }
 

@@ -134,18 +134,18 @@ Figure contact_figure(const IndenterLaw& law, double indentation) {
   figure.panels.push_back({.title = "(a) contact with the half-space",
                            .x = {.label = "r", .unit = "m"},
                            .y = height,
-                           .curves = {surface, body},
                            .legend = PlotLegend::bottom_right});
+  figure.panels.back().curves = {surface, body};
   figure.panels.push_back(
       {.title = "(b) one-dimensional image, Eq. (3)",
        .x = {.label = "x", .unit = "m"},
        .y = {.label = "height", .unit = "m", .low = -1.5 * indentation, .high = 1.8 * indentation},
-       .curves = {coils, springs, image},
        .legend = PlotLegend::top_left});
+  figure.panels.back().curves = {coils, springs, image};
   figure.panels.push_back({.title = "(c) pressure",
                            .x = {.label = "r", .unit = "m"},
-                           .y = {.label = "p", .unit = "Pa", .low = 0},
-                           .curves = {pressure}});
+                           .y = {.label = "p", .unit = "Pa", .low = 0}});
+  figure.panels.back().curves = {pressure};
   PlotCurve force{.x = {}, .y = {}};
   const double most = std::min(1.5 * indentation, law.highest_indentation());
   for (int i = 0; i <= 200; ++i) {
@@ -154,12 +154,10 @@ Figure contact_figure(const IndenterLaw& law, double indentation) {
   }
   figure.panels.push_back({.title = "(d) force",
                            .x = {.label = "indentation δ", .unit = "m"},
-                           .y = {.label = "F", .unit = "N"},
-                           .curves = {force,
-                                      {.x = {indentation},
-                                       .y = {law.force(indentation)},
-                                       .style = PlotStyle::points,
-                                       .color = 1}}});
+                           .y = {.label = "F", .unit = "N"}});
+  figure.panels.back().curves = {
+      force,
+      {.x = {indentation}, .y = {law.force(indentation)}, .style = PlotStyle::points, .color = 1}};
   return figure;
 }
 
@@ -170,8 +168,8 @@ Figure cycle_figure(const SampledMotion& path, const TrajectoryDamping& loss) {
   figure.panels.push_back(
       {.title = "Loop: its area is the loss",
        .x = roomy({.label = "x", .unit = "m"}, path.displacement),
-       .y = roomy({.label = "tangential force F_x", .unit = "N"}, loss.tangential_force),
-       .curves = {{.x = path.displacement, .y = loss.tangential_force, .color = 1}}});
+       .y = roomy({.label = "tangential force F_x", .unit = "N"}, loss.tangential_force)});
+  figure.panels.back().curves = {{.x = path.displacement, .y = loss.tangential_force, .color = 1}};
   PlotPanel& work = figure.panels.emplace_back();
   work.title = "Energy lost, W = " + format_quantity(loss.work_per_cycle, Dimension::energy, 4) +
                " a period";
@@ -201,18 +199,18 @@ Figure damping_figure(const std::string& quantity, const std::vector<double>& va
   figure.panels.push_back({.title = "Energy dissipated in a cycle",
                            .x = x,
                            .y = {.label = "W", .unit = "J", .logarithmic = spans_decades(exact.y)},
-                           .curves = {exact, small},
                            .legend = PlotLegend::top_left});
-  figure.panels.push_back({.title = "Small-amplitude form against W",
-                           .x = x,
-                           .y = {.label = "deviation (%)"},
-                           .curves = {ratio}});
-  if (std::ranges::any_of(constant.y, [](double value) { return std::isfinite(value); }))
+  figure.panels.back().curves = {exact, small};
+  figure.panels.push_back(
+      {.title = "Small-amplitude form against W", .x = x, .y = {.label = "deviation (%)"}});
+  figure.panels.back().curves = {ratio};
+  if (std::ranges::any_of(constant.y, [](double value) { return std::isfinite(value); })) {
     figure.panels.push_back(
         {.title = "Damping constant",
          .x = x,
-         .y = {.label = "γ", .unit = "N s/m", .logarithmic = spans_decades(constant.y)},
-         .curves = {constant}});
+         .y = {.label = "γ", .unit = "N s/m", .logarithmic = spans_decades(constant.y)}});
+    figure.panels.back().curves = {constant};
+  }
   return figure;
 }
 

@@ -131,7 +131,16 @@ std::vector<Case> all_cases() {
       {"report", {"study small.toml -o study.h5 --no-report"}, "report IN/study.h5 -o out.html"},
       {"init", {}, "init out.toml"},
       {"completion", {}, "completion bash -o out.bash"},
-      {"plot", in, "info IN/s.h5 --plot out.svg"}};
+      {"plot", in, "info IN/s.h5 --plot out.svg"},
+      {"plot_friction",
+       {},
+       "friction --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+       "--friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz --velocities "
+       "1um/s,1mm/s --plot out.svg"},
+      {"plot_damping",
+       {},
+       "damping --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+       "--normal-amplitude 1nm,2nm --drag-velocity 1um/s --frequency 20kHz --plot out.svg"}};
   for (const char* format : {"h5", "nc", "x3p", "gwy", "gsf", "gxyzf", "xyz", "txt"})
     cases.push_back({std::string("convert_") + format,
                      {surface + " -o s.npy"},
