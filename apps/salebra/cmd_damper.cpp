@@ -129,7 +129,7 @@ PremiseReport premises_of_map(const DamperArguments& arguments, const LawOptions
 }
 
 void run(const DamperArguments& arguments, Session& session) {
-  const LawOptions::Contact contact = arguments.law.contact(arguments.material);
+  const LawOptions::Contact contact = arguments.law.contact(arguments.material, session);
   for (const std::string& line : contact.doubts) session.warn(line);
   require(contact.positions.size() == 1, "--normal-force",
           fmt::format("{} positions", contact.positions.size()),

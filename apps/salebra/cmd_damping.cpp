@@ -8,6 +8,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/surface_damping.hpp>
 
 #include "answer_file.hpp"
 #include "figures.hpp"
@@ -113,6 +114,57 @@ Premises premises_of_case(const LawOptions::Contact& contact, const Case& one,
                     motion);
 }
 
+// Of a surface nothing is interpolated between loads: contacts inside the oscillation give W and its error. Returns the errors of γ.
+std::vector<double> resolve_on_surface(const DampingArguments& arguments,
+                                       const LawOptions::Contact& contact, const Motion& motion,
+                                       const DampingOptions& options, Session& session,
+                                       std::vector<DampingResult>& results) {
+  const Oscillation one = std::holds_alternative<Drag>(motion)
+                              ? Oscillation(std::get<Drag>(motion))
+                              : Oscillation(std::get<EqualFrequency>(motion));
+  const double omega = std::visit([](const auto& m) { return m.angular_frequency; }, one);
+  // The place of a load, whose pressure came back with round-off.
+  const auto place_of = [](const ForceCurve& curve, double pressure) {
+    const auto nearest = std::ranges::min_element(
+        curve.samples, {},
+        [&](const ForceSample& sample) { return std::abs(sample.pressure - pressure); });
+    return std::size_t(nearest - curve.samples.begin());
+  };
+  // Each load with its neighbours, from which K_t/K has its slope.
+  const ForceCurve& all = *contact.curve;
+  ForceCurve loads = all;
+  loads.samples.clear();
+  for (std::size_t k = 0; k < all.samples.size(); ++k)
+    if (std::ranges::any_of(arguments.law.pressure, [&](double pressure) {
+          const std::size_t asked = place_of(all, pressure);
+          return k + 1 >= asked && k <= asked + 1;
+        }))
+      loads.samples.push_back(all.samples[k]);
+  const std::vector<SurfaceDamping> found = surface_damping(
+      *contact.surface, arguments.material.material_with_tangential_modulus(), one, loads,
+      {.hold = options.hold, .amplitude = options.amplitude, .on_progress = session.progress()});
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const double pressure = arguments.law.pressure[i];
+    const SurfaceDamping& load = found[place_of(loads, pressure)];
+    DampingResult& result = results[i];
+    errors.push_back(load.damping_constant_error());
+    result.work_per_cycle = load.work_per_cycle;
+    result.damping_constant = load.damping_constant;
+    result.error_estimate = load.error;
+    result.converged = load.converged;
+    if (!(load.error < std::abs(load.work_per_cycle))) {
+      session.warn(
+          fmt::format("the error of the loss at {} exceeds the loss, which is not given; "
+                      "salebra study --surface with --relative-error halves the cells further",
+                      format_quantity(pressure, Dimension::pressure)));
+      result.work_per_cycle = result.damping_constant = DampingResult::unknown;
+    }
+    if (omega > 0) result.power = result.work_per_cycle * omega / (2 * std::numbers::pi);
+  }
+  return errors;
+}
+
 void follow_motion(const DampingArguments& arguments, const LawOptions::Contact& contact,
                    const Case& one, const DampingOptions& options, Session& session) {
   const ContactLaw& law = *contact.law;
@@ -156,7 +208,7 @@ void run(const DampingArguments& arguments, Session& session) {
   }
   const auto [quantity, values] = varied(arguments);
   const std::vector<Motion> motions = motions_of(arguments);
-  const LawOptions::Contact contact = arguments.law.contact(arguments.material);
+  const LawOptions::Contact contact = arguments.law.contact(arguments.material, session);
   for (const std::string& line : contact.doubts) session.warn(line);
   const ContactLaw& law = *contact.law;
   const auto& positions = contact.positions;
@@ -180,6 +232,11 @@ void run(const DampingArguments& arguments, Session& session) {
     return;
   }
 
+  if (contact.surface)
+    require(motions.size() == 1 && arguments.force_amplitude.empty() &&
+                arguments.motion.mode != "two-frequencies",
+            "--surface", arguments.law.surface.file,
+            "takes one motion of equal frequencies or drag; give several --pressure, or a --curve");
   std::vector<DampingResult> results;
   const Progress progress = session.progress();
   for (std::size_t i = 0; i < count; ++i) {
@@ -188,6 +245,9 @@ void run(const DampingArguments& arguments, Session& session) {
                    static_cast<int>(i + 1), 0}))
       throw Interrupted("damping: stopped before all cases were done");
   }
+  std::vector<double> errors;
+  if (contact.surface)
+    errors = resolve_on_surface(arguments, contact, motions.front(), options, session, results);
   const ContactFacts facts = arguments.premises.facts(arguments.material);
   PremiseReport premises{.list = !one};
   for (std::size_t i = 0; i < count; ++i)
@@ -218,6 +278,10 @@ void run(const DampingArguments& arguments, Session& session) {
   object["work_per_cycle"] = quantity_of(&DampingResult::work_per_cycle);
   object["power"] = quantity_of(&DampingResult::power);
   object["damping_constant"] = quantity_of(&DampingResult::damping_constant);
+  if (contact.surface) {
+    object["damping_constant_error"] = column([&](std::size_t i) { return errors[i]; });
+    object["error_estimate"] = quantity_of(&DampingResult::error_estimate);
+  }
   object["force_curvature"] = quantity_of(&DampingResult::curvature);
   if (quantity != "force") object["force"] = quantity_of(&DampingResult::force);
   object["mean_force"] = quantity_of(&DampingResult::mean_force);

@@ -78,7 +78,7 @@ void run(const FrictionArguments& arguments, Session& session) {
   for (const double velocity : arguments.velocities) require_positive(velocity, "--velocities");
   const double friction = *arguments.premises.friction_coefficient;
   require_positive(friction, "--friction-coefficient");
-  const LawOptions::Contact contact = arguments.law.contact(arguments.material);
+  const LawOptions::Contact contact = arguments.law.contact(arguments.material, session);
   require(contact.positions.size() == 1, "--normal-force",
           fmt::format("{} positions", contact.positions.size()),
           "are given; friction takes one, and several --velocities");

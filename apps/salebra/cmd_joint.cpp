@@ -99,7 +99,7 @@ void run(const JointArguments& arguments, Session& session) {
   if (arguments.nominal_area) require_positive(*arguments.nominal_area, "--nominal-area");
   const double friction = *arguments.premises.friction_coefficient;
   require_positive(friction, "--friction-coefficient");
-  const LawOptions::Contact contact = arguments.law.contact(arguments.material);
+  const LawOptions::Contact contact = arguments.law.contact(arguments.material, session);
   require(contact.positions.size() == 1, "--normal-force",
           fmt::format("{} positions", contact.positions.size()),
           "are given; joint takes one, and several tangential forces or amplitudes");

@@ -9,6 +9,7 @@
 #include <map>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
+#include <salebra/contact/sweep.hpp>
 #include <salebra/results/force_curve_file.hpp>
 #include <utility>
 
@@ -129,17 +130,48 @@ std::vector<std::string> doubts_of_moduli(const ForceCurve& curve, double modulu
                   modulus_ratio, low)};
 }
 
+/// Pressures about those that are asked for, which are among them: from a sixth to six times, close enough for a smooth law.
+std::vector<double> pressures_about(std::vector<double> asked) {
+  constexpr double factor = 1.35;
+  std::ranges::sort(asked);
+  std::vector<double> all = asked;
+  const auto is_new = [&](double pressure) {
+    return std::ranges::none_of(
+        all, [&](double known) { return std::abs(std::log(pressure / known)) < 0.1; });
+  };
+  for (const double pressure : asked)
+    for (int k = -6; k <= 6; ++k)
+      if (const double one = pressure * std::pow(factor, k); is_new(one)) all.push_back(one);
+  std::ranges::sort(all);
+  return all;
+}
+
+ForceCurve curve_of_surface(const Surface& surface, const Material& material,
+                            const std::vector<double>& pressures, Session& session) {
+  SweepOptions options;
+  options.stick = true;
+  options.contact.on_progress = session.progress();
+  ForceCurve curve = sweep_pressures(surface, material, pressures_about(pressures), options);
+  if (interrupted()) throw Interrupted("interrupted; nothing was written");
+  if (const auto lost = std::ranges::count(curve.samples, false, &ForceSample::converged); lost > 0)
+    throw NotConverged(
+        fmt::format("--surface: {} of {} contacts did not converge", lost, curve.samples.size()));
+  return curve;
+}
+
 }  // namespace
 
 void LawOptions::require_own_parameters() const {
-  const std::string chosen = curve.empty() ? "--law " + law : "--curve";
+  const std::string chosen = surface.given() ? "--surface"
+                             : curve.empty() ? "--law " + law
+                                             : "--curve";
   for (const auto& [option, value, owner] :
        {std::tuple{"--decay-length", &decay_length, "exponential"},
         {"--angle", &angle, "cone"},
         {"--radius", &radius, "parabola"},
         {"--exponent", &exponent, "power"},
         {"--coefficient", &coefficient, "power"}})
-    require(!*value || (curve.empty() && law == owner), option, "given,",
+    require(!*value || (law == owner && curve.empty() && !surface.given()), option, "given,",
             fmt::format("but {} has none; leave it out", chosen));
 }
 
@@ -151,6 +183,7 @@ void LawOptions::add_to(Command& command) {
       .add_option("--curve", curve, "file of sweep, gw or a study of one surface, instead of --law")
       ->type_name("FILE")
       ->group(group);
+  surface.add_to(command, false, "--surface");
   add_quantity(command, "--decay-length", decay_length, Dimension::length,
                "l of the exponential law")
       ->group(group);
@@ -167,15 +200,18 @@ void LawOptions::add_to(Command& command) {
   add_values(command, "--normal-force", force, Dimension::force, "normal force")->group(position);
   add_values(command, "--indentation", indentation, Dimension::length, "from first touch")
       ->group(position);
-  add_values(command, "--pressure", pressure, Dimension::pressure, "nominal pressure, of a curve")
+  add_values(command, "--pressure", pressure, Dimension::pressure,
+             "nominal pressure, of a curve or a surface")
       ->group(position);
   add_values(command, "--mean-gap", mean_gap, Dimension::length, "mean gap, of a curve")
       ->group(position);
 }
 
 std::unique_ptr<ContactLaw> LawOptions::law_alone(const MaterialOptions& material) const {
+  require(!surface.given(), "--surface", surface.file,
+          "has no law for a path of indentations; sweep it and give its --curve");
   require(law.empty() != curve.empty(), "--law", law.empty() ? "missing;" : "given beside --curve;",
-          "give exactly one of --law and --curve");
+          "give exactly one of --law, --curve and --surface");
   require_own_parameters();
   if (!curve.empty())
     return std::make_unique<TabulatedLaw>(read_force_curve(curve), material.modulus_ratio());
@@ -184,7 +220,20 @@ std::unique_ptr<ContactLaw> LawOptions::law_alone(const MaterialOptions& materia
                                        material.material_with_tangential_modulus());
 }
 
-LawOptions::Contact LawOptions::contact(const MaterialOptions& material) const {
+LawOptions::Contact LawOptions::contact(const MaterialOptions& material, Session& session) const {
+  if (surface.given()) {
+    require(law.empty() && curve.empty(), "--surface", surface.file,
+            "is given beside --law or --curve; give one of them");
+    require_own_parameters();
+    const std::vector<double> values = position_of(*this, {"pressure"}).second;
+    for (const double value : values) require_positive(value, "--pressure");
+    Surface body = surface.read(session);
+    ForceCurve samples =
+        curve_of_surface(body, material.material_with_tangential_modulus(), values, session);
+    auto table = std::make_unique<TabulatedLaw>(samples, material.modulus_ratio());
+    auto positions = positions_on_curve(*this, samples);
+    return {std::move(table), std::move(positions), std::move(samples), {}, std::move(body)};
+  }
   if (!curve.empty() && law.empty()) {
     require_own_parameters();
     ForceCurve samples = read_force_curve(curve);

@@ -13,9 +13,10 @@
 
 namespace salebra::cli {
 
-/// A force law, or a curve from a file, and where the contact stands on it.
+/// A force law, a curve from a file, or a surface, and where the contact stands on it.
 struct LawOptions {
   std::string law, curve;
+  SurfaceOptions surface;
   std::vector<double> force, indentation, pressure, mean_gap;
   std::optional<double> decay_length, angle, radius, exponent, coefficient;
 
@@ -24,13 +25,15 @@ struct LawOptions {
     std::vector<Position> positions;
     std::optional<ForceCurve> curve = {};  ///< that the law was made from
     std::vector<std::string> doubts = {};  ///< remarks on the options, for people
+    std::optional<Surface> surface = {};   ///< that the curve was computed of
   };
 
   void add_to(Command& command);
   /// Throws InvalidInput naming the option that is missing or one too many.
   /// The law alone, for a motion that brings its own indentations. The exponential law's --normal-force is F at indentation 0.
   std::unique_ptr<ContactLaw> law_alone(const MaterialOptions& material) const;
-  Contact contact(const MaterialOptions& material) const;
+  /// Of a surface after some ten contacts at pressures about those that were given.
+  Contact contact(const MaterialOptions& material, Session& session) const;
 
  private:
   /// Throws InvalidInput for a parameter of another law than the one that was chosen.

@@ -166,6 +166,7 @@ const Quantity others[] = {
     Quantity{"closed_form", energy, "energy dissipated in a cycle, closed form"},
     Quantity{"power", Dimension::power, "mean dissipated power"},
     Quantity{"damping_constant", damping, "damping constant P/v^2"},
+    Quantity{"damping_constant_error", damping, "numerical error of the damping constant"},
     Quantity{"damping_constant_with_slip", damping, "damping constant P/v^2 with friction"},
     Quantity{"contact_radius", length, "contact radius"},
     Quantity{"min_contact_radius", length, "contact radius at the minimum indentation"},

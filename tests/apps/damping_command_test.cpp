@@ -348,3 +348,51 @@ TEST_CASE("A slow motion that passes a contact patch in one normal cycle is told
   CHECK_THAT(test.run(curve + "--drag-velocity 1m/s").err, Catch::Contains("2 pi v/w = 1 mm"));
   CHECK(test.run(curve + "--drag-velocity 1mm/s").err.empty());
 }
+
+TEST_CASE("Damping of a surface is that of a study, with its error", "[damping]") {
+  const ProgramTest test;
+  REQUIRE(test.run("generate --points 32 --size-x 1mm --hurst 0.8 --rolloff 0.5mm --short-cutoff "
+                   "0.25mm --rms-height 1um -o rough.h5")
+              .status == 0);
+  const std::string motion =
+      " --contact-modulus 1GPa --poisson 0.3 --normal-amplitude 10nm --drag-velocity 1um/s "
+      "--frequency 20kHz --json --quiet ";
+  const auto one =
+      test.run("damping --surface rough.h5 --pressure 1MPa" + motion + "-o damping.h5").json();
+  // The same loads on both sides, from which K_t/K has its slope.
+  test.write("study.toml", R"([surface]
+file = "rough.h5"
+[material]
+contact_modulus = "1GPa"
+poisson = 0.3
+[contact]
+pressures = ["740740.7407407408Pa", "1MPa", "1.35MPa", "1.8225MPa"]
+[damping]
+mode = "drag"
+normal_amplitude = "10nm"
+drag_velocity = "1um/s"
+frequency = "20kHz"
+)");
+  const auto study = test.run("study study.toml --no-report --json --quiet").json();
+  const auto& constant = study["damping"]["damping_constant"];
+  CHECK(one["damping_constant"].get<double>() ==
+        Approx(constant["mean"][1].get<double>()).epsilon(1e-9));
+  CHECK(one["damping_constant_error"].get<double>() ==
+        Approx(constant["error"][1].get<double>()).epsilon(1e-6));
+  CHECK(one["error_estimate"].get<double>() / one["work_per_cycle"].get<double>() ==
+        Approx(one["damping_constant_error"].get<double>() / one["damping_constant"].get<double>())
+            .epsilon(1e-12));
+  const auto two = test.run("damping --surface rough.h5 --pressure 1MPa,3MPa" + motion).json();
+  CHECK(two["damping_constant"][0].get<double>() ==
+        Approx(one["damping_constant"].get<double>()).epsilon(0.01));
+  check_refused(test.run("damping --surface rough.h5 --normal-force 1" + motion), "pressure");
+  check_refused(test.run("damping --surface rough.h5 --law cone --pressure 1MPa" + motion),
+                "--surface");
+  check_refused(test.run("damping --surface rough.h5 --pressure 1MPa --contact-modulus 1GPa "
+                         "--poisson 0.3 --normal-amplitude 1:10nm:3 --drag-velocity 1um/s "
+                         "--frequency 20kHz"),
+                "--surface");
+  CHECK(test.run("joint --surface rough.h5 --pressure 1MPa --contact-modulus 1GPa --poisson 0.3 "
+                 "--friction-coefficient 0.3 --tangential-forces 10mN")
+            .status == 0);
+}
