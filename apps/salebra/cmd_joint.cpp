@@ -127,9 +127,7 @@ void run(const JointArguments& arguments, Session& session) {
     throw NotConverged(
         fmt::format("joint: {} of {} integrals did not reach the tolerance", lost, losses.size()));
 
-  const double indentation = std::holds_alternative<AtIndentation>(position)
-                                 ? std::get<AtIndentation>(position).indentation
-                                 : law.indentation_of(std::get<AtForce>(position).force);
+  const double indentation = losses.front().indentation;
   const double area =
       arguments.nominal_area.value_or(contact.curve ? contact.curve->nominal_area : 0);
   Json answer = {{"force", law.force(indentation)},

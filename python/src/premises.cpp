@@ -213,6 +213,7 @@ void bind_joint(nb::module_& m) {
   nb::class_<JointLoss>(m, "JointLoss",
                         "What a joint loses, and how stiff it is, under a tangential oscillation; "
                         "NaN is unknown.")
+      .def_ro("indentation", &JointLoss::indentation, "Mean indentation of the cycle, m.")
       .def_ro("tangential_force", &JointLoss::tangential_force, "T, half its range, N.")
       .def_ro("tangential_amplitude", &JointLoss::tangential_amplitude, "x, half its range, m.")
       .def_ro("work_per_cycle", &JointLoss::work_per_cycle, "W, J.")

@@ -37,15 +37,18 @@ void check_below_sliding(double force, double limit, const char* where) {
               ", at which the contact slides" + where);
 }
 
+[[noreturn]] void refuse_deep_slip() {
+  throw InvalidInput(
+      "friction: slip reaches indentation levels below the range of the law; extend the curve to "
+      "lower forces, raise the friction or reduce the motion");
+}
+
 // Quadratures over the levels that slip, of depth 0 … c below δ = high.
 class SlippingLevels {
  public:
   SlippingLevels(const ContactLaw& law, double high, double depth, double tolerance)
       : law_(law), high_(high), depth_(depth), tolerance_(tolerance) {
-    if (!(high - depth >= law.lowest_indentation()))
-      throw InvalidInput(
-          "friction: slip reaches indentation levels below the range of the law; extend the curve "
-          "to lower forces, raise the friction or reduce the motion");
+    if (!(high - depth >= law.lowest_indentation())) refuse_deep_slip();
     for (const double level : detail::sweep_breaks(law, high - depth, high))
       breaks_.push_back(2 * std::atan2(std::sqrt(std::max(high - level, 0.0)),
                                        std::sqrt(std::max(level - (high - depth), 0.0))));
@@ -95,9 +98,7 @@ double depth_of_slip(const ContactLaw& law, double high, double force, double fr
     end = law.tangential_stiffness(high - depth);
   }
   check_below_sliding(force, friction_coefficient * law.force(high), "");
-  throw InvalidInput(
-      "friction: slip reaches indentation levels below the range of the law; extend the curve to "
-      "lower forces, raise the friction or reduce the motion");
+  refuse_deep_slip();
 }
 
 void set_ratios(JointLoss& loss) {
@@ -191,6 +192,7 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
   SlippingLevels levels(law, high, depth, options.tolerance);
 
   JointLoss loss;
+  loss.indentation = high;
   const double x = loss.tangential_amplitude = limit * depth;
   loss.tangential_force =
       x / 2 * levels.integral([](double theta, double k) { return k * std::sin(theta); });
@@ -230,6 +232,7 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
   };
   const Followed one = at(1), less = at(0.99);
   JointLoss loss;
+  loss.indentation = mean;
   loss.tangential_force = one.force;
   loss.tangential_amplitude = one.displacement;
   loss.work_per_cycle = one.work;

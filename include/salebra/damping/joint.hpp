@@ -9,6 +9,7 @@ namespace salebra {
 /// What a joint loses, and how stiff it is, under a tangential oscillation between ±x or ±T.
 struct JointLoss {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double indentation = unknown;           ///< δ, or its mean over the cycle, m
   double tangential_force = unknown;      ///< T, half the range of the tangential force, N
   double tangential_amplitude = unknown;  ///< x, half the range of the displacement, m
   double work_per_cycle = unknown;        ///< W, J
