@@ -3,6 +3,7 @@
 #include "dense_systems.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 
@@ -29,6 +30,10 @@ Eigen::Vector2d positive_solution(const Eigen::Matrix2d& a, const Eigen::Vector2
 
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a) {
   return a.completeOrthogonalDecomposition().pseudoInverse();
+}
+Modes symmetric_modes(const Eigen::MatrixXd& a) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
+  return {solver.eigenvalues(), solver.eigenvectors()};
 }
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& a) { return a.inverse(); }
 Eigen::Matrix2d inverse(const Eigen::Matrix2d& a) { return a.inverse(); }

@@ -20,6 +20,13 @@ Eigen::Vector2d positive_solution(const Eigen::Matrix2d& a, const Eigen::Vector2
 /// Moore and Penrose's, of any shape and rank.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
 
+/// A = V diag(values) Vᵀ of a symmetric A.
+struct Modes {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;  // V
+};
+Modes symmetric_modes(const Eigen::MatrixXd& a);
+
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);
 Eigen::Matrix2d inverse(const Eigen::Matrix2d& a);
 

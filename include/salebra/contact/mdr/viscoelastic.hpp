@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <complex>
+#include <salebra/contact/mdr/mdr.hpp>
+#include <span>
+#include <vector>
+
+/// Axisymmetric contact of a linearly viscoelastic half-space with a rigid indenter, by the method of dimensionality reduction.
+namespace salebra {
+
+/// One term G exp(−t/τ) of a Prony series.
+struct PronyTerm {
+  double modulus = 0;          ///< G > 0, Pa
+  double relaxation_time = 0;  ///< τ > 0, s
+};
+
+/// Shear relaxation modulus of an isotropic material, G(t) = G∞ + Σ G_i exp(−t/τ_i): one term is the standard linear solid, none is
+/// elastic. Poisson's ratio is taken as constant; 1/2 is the incompressible material.
+struct PronySeries {
+  double relaxed_modulus = 0;  ///< G∞ > 0, Pa
+  std::vector<PronyTerm> terms;
+
+  /// The series of one body against a rigid one, from E* and G* of the relaxed state: 1 − ν = g/(2 − g), g = G*/E*, and G∞ = E*(1 − ν)/2.
+  static PronySeries of_body(const Material& relaxed, std::vector<PronyTerm> terms);
+
+  double unrelaxed_modulus() const;  ///< G(0) = G∞ + Σ G_i, Pa
+  /// G' + iG'' = G∞ + Σ G_i iωτ_i/(1 + iωτ_i), Pa.
+  std::complex<double> complex_modulus(double angular_frequency) const;
+  /// Throws InvalidInput that names the term unless all moduli and times are finite and > 0.
+  void validate() const;
+};
+
+/// The contact along a path, and the springs of the foundation at its end.
+struct ViscoelasticIndentation {
+  std::vector<double> force;            ///< F at the samples, N
+  std::vector<double> contact_radius;   ///< a at the samples, m; 0 without contact
+  std::vector<double> spring_position;  ///< x of the springs, m, increasing
+  std::vector<double>
+      spring_load;  ///< q_z(x) of both sides at the last sample, N/m; 0 outside the contact
+  std::vector<double>
+      spring_displacement;  ///< w(x) at the last sample, m, > δ − g(x) outside the contact
+};
+
+/// A body at rest, never touched before, is indented along δ(t), straight between the samples. Each spring of the foundation obeys
+///     q = E*∞ [w + Σ (G_i/G∞) y_i],    y_i' = w' − y_i/τ_i;
+/// in contact w = δ − g(x) and q >= 0; it leaves where q falls to 0, then recovers with q = 0, and is met again where δ − g(x) reaches w.
+/// Exact for every path of any axisymmetric profile with rising image, for positive terms (docs/theory.md, section 9). Growing
+/// contacts are those of the correspondence principle (Lee and Radok 1960), and one rise and fall is Ting's solution (1966).
+/// law          of the relaxed body: E* = 2G∞/(1 − ν); only the ratios G_i/G∞ of the series enter
+/// time         s, strictly increasing; indentation: m, as many, at least two; δ < 0 is above the body, and δ > 0 at the first sample is reached
+///              at once
+/// springs      over the largest contact radius; both errors are of second order, in the steps and in the springs
+/// throws       InvalidInput for arguments that are not so, and where δ leaves the profile
+/// cost         samples × springs × terms
+ViscoelasticIndentation viscoelastic_indentation(const IndenterLaw& law, const PronySeries& prony,
+                                                 std::span<const double> time,
+                                                 std::span<const double> indentation,
+                                                 int springs = 400);
+
+}  // namespace salebra

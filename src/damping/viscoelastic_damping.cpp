@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Losses of a viscoelastic contact in its periodic state: of the material, and of springs that are let go.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <salebra/base/error.hpp>
+#include <salebra/damping/viscoelastic_damping.hpp>
+
+#include "base/dense_systems.hpp"
+#include "contact/mdr/viscoelastic_spring.hpp"
+
+namespace salebra {
+namespace {
+
+using detail::Branches;
+using detail::MaxwellSpring;
+using detail::NormalSpring;
+using detail::SpringPath;
+
+// In contact or above it during a share of a step.
+struct Part {
+  bool closed;
+  std::size_t step;
+  double share;
+};
+
+Eigen::MatrixXd decay_matrix(const MaxwellSpring& spring, double duration) {
+  return spring.stretching(duration).decay.matrix().asDiagonal();
+}
+
+// One period of a spring in the normal direction, from given anchors.
+struct NormalPeriod {
+  Branches end;
+  Eigen::MatrixXd derivative;  // of `end` by the anchors at the start
+  double work = 0;
+  bool opens = false, closes = false;
+  std::vector<Part> parts;
+  std::vector<double> force;  // at the samples
+};
+
+NormalPeriod normal_period(const MaxwellSpring& spring, const SpringPath& path, double level,
+                           const Branches& start) {
+  NormalPeriod period;
+  period.derivative = Eigen::MatrixXd::Identity(spring.terms(), spring.terms());
+  NormalSpring state(spring, level);
+  state.start(path.indentation[0], start);
+  period.force.push_back(state.force(path.indentation[0]));
+  // The anchors' velocity is continuous at touch and release: that these move changes nothing at first order.
+  double stay = 0;
+  bool stays_closed = state.closed();
+  const auto end_of_stay = [&] {
+    period.derivative = (stays_closed ? decay_matrix(spring, stay) : spring.anchor_recovery(stay)) *
+                        period.derivative;
+    stay = 0;
+  };
+  for (std::size_t step = 0; step < path.steps(); ++step) {
+    state.advance(path, step, [&](bool closed, double share, double work) {
+      if (closed != stays_closed) end_of_stay();
+      stays_closed = closed;
+      stay += share * path.duration[step];
+      (closed ? period.closes : period.opens) = true;
+      period.work += work;
+      period.parts.push_back({closed, step, share});
+    });
+    period.force.push_back(state.force(path.indentation[step + 1]));
+  }
+  end_of_stay();
+  period.end = state.anchors(path.indentation.back());
+  return period;
+}
+
+// Newton's method for the anchors that a period returns to. They are a convex and rising function of those at the start, so that it
+// converges monotonically after its first step.
+bool find_periodic(const MaxwellSpring& spring, const SpringPath& path, double level, double range,
+                   Branches& start, NormalPeriod& period) {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(spring.terms(), spring.terms());
+  double last = range;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    period = normal_period(spring, path, level, start);
+    if (spring.terms() == 0) return true;
+    const Branches change =
+        detail::least_squares(one - period.derivative, (period.end - start).matrix()).array();
+    const double distance = change.abs().maxCoeff();
+    // Round-off of one period, over the share of a branch that it decays by, may be all that is left.
+    if (distance <= 1e-11 * range || (distance <= 1e-5 * range && distance >= 0.5 * last))
+      return true;
+    last = distance;
+    start += change;
+  }
+  return false;
+}
+
+// A spring that never leaves contact: periodic up to a drift.
+struct PermanentPeriod {
+  Branches start;
+  double work = 0;                   // of the branches
+  std::vector<double> branch_force;  // at the samples
+};
+
+PermanentPeriod permanent_period(const MaxwellSpring& spring, const SpringPath& path,
+                                 const std::vector<double>& moves) {
+  PermanentPeriod period;
+  Branches branches = Branches::Zero(spring.terms());
+  double duration = 0;
+  const auto follow = [&] {
+    for (std::size_t step = 0; step < path.steps(); ++step) {
+      const detail::Stretching& part = path.stretching[step];
+      period.branch_force.push_back(spring.force(0, branches));
+      period.work += moves[step] * spring.mean_branch_force(part, branches, moves[step]);
+      branches = part.decay * branches + moves[step] * part.gain;
+      duration += path.duration[step];
+    }
+    period.branch_force.push_back(spring.force(0, branches));
+  };
+  follow();
+  branches /= spring.lost_share(duration);
+  period = {.start = branches, .work = 0, .branch_force = {}};
+  follow();
+  return period;
+}
+
+struct TangentialLoss {
+  double material = 0, relaxation = 0;
+};
+
+// A spring whose stays in contact are known, so that a period is an affine map of its state: w, then the branches.
+class OpeningSpring {
+ public:
+  OpeningSpring(const MaxwellSpring& spring, const SpringPath& path,
+                const std::vector<double>& moves, const std::vector<Part>& parts)
+      : spring_(spring), path_(path), moves_(moves), parts_(parts) {}
+
+  TangentialLoss loss() const {
+    const Index size = spring_.terms() + 1;
+    Eigen::VectorXd forced = Eigen::VectorXd::Zero(size);
+    follow(forced);
+    Eigen::VectorXd state =
+        detail::least_squares(Eigen::MatrixXd::Identity(size, size) - derivative(), forced);
+    return follow(state);
+  }
+
+ private:
+  bool begins_stay(std::size_t i) const {
+    // The period may begin in the middle of one.
+    return parts_[i].closed != parts_[i > 0 ? i - 1 : parts_.size() - 1].closed;
+  }
+  bool ends_stay(std::size_t i) const {
+    return i + 1 == parts_.size() || parts_[i].closed != parts_[i + 1].closed;
+  }
+
+  TangentialLoss follow(Eigen::VectorXd& state) const {
+    double w = state[0], work = 0, in_air = 0;
+    Branches branches = state.tail(spring_.terms()).array();
+    TangentialLoss lost;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const Part& part = parts_[i];
+      const double duration = part.share * path_.duration[part.step];
+      if (part.closed) {
+        if (begins_stay(i)) lost.relaxation -= spring_.energy(w, branches);
+        const double move = part.share * moves_[part.step];
+        detail::Stretching partial;
+        if (part.share < 1) partial = spring_.stretching(duration);
+        const detail::Stretching& step = part.share < 1 ? partial : path_.stretching[part.step];
+        work += spring_.work(step, w, branches, move);
+        branches = step.decay * branches + move * step.gain;
+        w += move;
+        continue;
+      }
+      if (begins_stay(i)) {
+        lost.relaxation += spring_.energy(w, branches);
+        // The force falls to 0 at once, in the unrelaxed spring.
+        const double jump = spring_.force(w, branches) / spring_.unrelaxed_stiffness();
+        w -= jump;
+        branches -= jump;
+      }
+      in_air += duration;
+      if (!ends_stay(i)) continue;
+      branches = spring_.recovered(branches, in_air);
+      w = spring_.free_displacement(branches);
+      in_air = 0;
+    }
+    lost.material = work - lost.relaxation;
+    state[0] = w;
+    state.tail(spring_.terms()) = branches.matrix();
+    return lost;
+  }
+
+  // Of the state at the end by that at the start: the same maps without motion.
+  Eigen::MatrixXd derivative() const {
+    const Index terms = spring_.terms();
+    const Eigen::RowVectorXd ratios = spring_.ratios().matrix().transpose();
+    Eigen::MatrixXd all = Eigen::MatrixXd::Identity(terms + 1, terms + 1);
+    double stay = 0;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      if (!parts_[i].closed && begins_stay(i)) {
+        const Eigen::RowVectorXd jump =
+            (all.row(0) + ratios * all.bottomRows(terms)) / spring_.unrelaxed_stiffness();
+        all.rowwise() -= jump;
+      }
+      stay += parts_[i].share * path_.duration[parts_[i].step];
+      if (!ends_stay(i)) continue;
+      all.bottomRows(terms) =
+          ((parts_[i].closed ? decay_matrix(spring_, stay) : spring_.recovery(stay)) *
+           all.bottomRows(terms))
+              .eval();
+      if (!parts_[i].closed) all.row(0) = -ratios * all.bottomRows(terms);
+      stay = 0;
+    }
+    return all;
+  }
+
+  const MaxwellSpring& spring_;
+  const SpringPath& path_;
+  const std::vector<double>& moves_;
+  const std::vector<Part>& parts_;
+};
+
+std::vector<double> differences(const std::vector<double>& values) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < values.size(); ++i) steps.push_back(values[i] - values[i - 1]);
+  return steps;
+}
+
+}  // namespace
+
+ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeries& prony,
+                                         const SampledMotion& trajectory, int springs) {
+  trajectory.validate();
+  require(springs >= 8, "springs", springs, "must be >= 8");
+  const MaxwellSpring spring(prony);
+  const SpringPath path(spring, trajectory.time, trajectory.indentation);
+  const std::vector<double> normal_moves = differences(trajectory.indentation);
+  const std::vector<double> moves = differences(trajectory.displacement);
+  const auto [lowest, highest] = std::ranges::minmax(trajectory.indentation);
+
+  ViscoelasticDamping result;
+  result.converged = true;
+  const std::size_t samples = trajectory.time.size();
+  result.force.resize(samples);
+  result.max_contact_radius = law.contact_radius(highest);
+  const PermanentPeriod normal = permanent_period(spring, path, normal_moves);
+  const PermanentPeriod tangential = permanent_period(spring, path, moves);
+  // A spring never leaves while its force stays > 0.
+  double permanent_level = highest;
+  for (std::size_t i = 0; i < samples; ++i)
+    permanent_level = std::min(permanent_level, trajectory.indentation[i] + normal.branch_force[i]);
+  result.min_contact_radius =
+      std::min(law.contact_radius(permanent_level), result.max_contact_radius);
+
+  const double stiffness = 2 * law.contact_modulus(), ratio = law.modulus_ratio();
+  const double core = stiffness * result.min_contact_radius;
+  result.normal_material_work = core * normal.work;
+  result.tangential_material_work = ratio * core * tangential.work;
+  const double lifted = stiffness * law.profile().image_integral(result.min_contact_radius);
+  for (std::size_t i = 0; i < samples; ++i)
+    result.force[i] = core * (trajectory.indentation[i] + normal.branch_force[i]) - lifted;
+
+  const detail::SpringLayout ring(law.profile(), result.min_contact_radius,
+                                  result.max_contact_radius, springs);
+  // Each spring starts from the state of the one within it; the first from that of a spring that never leaves.
+  Branches start = trajectory.indentation.front() - permanent_level - normal.start;
+  for (const detail::SpringLayout::Cell& cell : ring.cells) {
+    NormalPeriod period;
+    result.converged = find_periodic(spring, path, cell.level, highest - lowest, start, period) &&
+                       result.converged;
+    const double share = stiffness * cell.width;
+    result.normal_material_work += share * period.work;
+    for (std::size_t i = 0; i < samples; ++i) result.force[i] += share * period.force[i];
+    if (!period.opens) {
+      result.tangential_material_work += ratio * share * tangential.work;
+    } else if (period.closes) {
+      const TangentialLoss lost = OpeningSpring(spring, path, moves, period.parts).loss();
+      result.tangential_material_work += ratio * share * lost.material;
+      result.relaxation_work += ratio * share * lost.relaxation;
+    }
+  }
+
+  const double duration = trajectory.period();
+  double square_velocity = 0;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    square_velocity += moves[i] * moves[i] / path.duration[i] / duration;
+    result.mean_force +=
+        0.5 * (result.force[i] + result.force[i + 1]) * path.duration[i] / duration;
+  }
+  const double tangential_work = result.tangential_material_work + result.relaxation_work;
+  result.work_per_cycle = result.normal_material_work + tangential_work;
+  result.power = result.work_per_cycle / duration;
+  result.damping_constant = square_velocity > 0 ? tangential_work / duration / square_velocity
+                                                : std::numeric_limits<double>::quiet_NaN();
+  return result;
+}
+
+}  // namespace salebra
