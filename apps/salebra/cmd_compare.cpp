@@ -99,6 +99,7 @@ Json comparison_json(const StudyResult& result, const StudyPremises& premises) {
                  {"spots", spots},
                  {"flags", flags_json(result)},
                  {"interval_method", result.interval_method()}};
+  add_first_loading(answer, result);
   add_premises(answer, premises);
   return answer;
 }

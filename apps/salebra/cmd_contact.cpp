@@ -2,15 +2,20 @@
 // `salebra contact`: one contact by boundary elements.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/normal/normal.hpp>
+#include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/io/surface_formats.hpp>
+#include <salebra/io/write_surface.hpp>
 #include <salebra/results/quantity_group.hpp>
 
 #include "curve_figure.hpp"
+#include "first_loading.hpp"
 #include "grid_axes.hpp"
 #include "options.hpp"
 #include "plausibility.hpp"
@@ -25,7 +30,7 @@ struct ContactArguments {
   PositionOptions position;
   std::string boundary = "periodic", precision = "mixed";
   std::optional<double> tolerance, hardness;
-  std::string initial;
+  std::string initial, residual;
   bool stiffness = false;
   int max_iterations = NormalContactOptions().max_iterations;
 };
@@ -75,6 +80,23 @@ void write_contact(const Session& session, const Grid2D& grid, const NormalConta
   file.commit();
 }
 
+/// Bad names are refused before the work.
+void check_residual(const ContactArguments& arguments, const Session& session) {
+  if (arguments.residual.empty()) return;
+  require(arguments.hardness.has_value(), "--residual", arguments.residual,
+          "is what a plastic contact leaves; give --hardness");
+  const std::string extension = std::filesystem::path(arguments.residual).extension().string();
+  const bool known = std::ranges::any_of(surface_formats(), [&](const SurfaceFormat& format) {
+    return !format.written.empty() &&
+           std::ranges::find(format.extensions, extension) != format.extensions.end();
+  });
+  require(known, "--residual", arguments.residual,
+          "has an extension that names no format; use one of " + written_extensions());
+  require(arguments.residual != session.output(), "--residual", arguments.residual,
+          "is the --output too; name another file");
+  require_output(arguments.residual, session.write_options());
+}
+
 void run(const ContactArguments& arguments, Session& session) {
   require(arguments.position.count() == 1, "--pressure", arguments.position.count(),
           "positions are given; give exactly one of --pressure, --mean-gap, --normal-force, "
@@ -85,6 +107,7 @@ void run(const ContactArguments& arguments, Session& session) {
   if (arguments.position.indentation)
     require_positive(*arguments.position.indentation, "--indentation");
   if (arguments.hardness) require_positive(*arguments.hardness, "--hardness");
+  check_residual(arguments, session);
   const double contact_modulus = arguments.material.material().contact_modulus;
   if (arguments.material.contact_modulus && !arguments.material.poisson.empty())
     session.warn(
@@ -113,6 +136,14 @@ void run(const ContactArguments& arguments, Session& session) {
     write_contact(session, surface.grid, state);
   }
   if (state.converged && session.has_plot()) session.plot(pressure_figure(surface.grid, state));
+  std::optional<FirstLoading> first_loading;
+  if (arguments.hardness && state.converged) {
+    const ResidualSurface residual = residual_surface(surface, contact_modulus, state, options);
+    first_loading = residual.first_loading;
+    if (!arguments.residual.empty())
+      write_surface(arguments.residual, residual.surface, session.provenance(),
+                    session.write_options());
+  }
   Json answer = {{"pressure", state.mean_pressure},
                  {"force", state.force},
                  {"contact_area_fraction", state.contact_area_fraction},
@@ -125,6 +156,7 @@ void run(const ContactArguments& arguments, Session& session) {
                  {"residual", state.residual},
                  {"converged", state.converged},
                  {"seconds", elapsed.count()}};
+  add_first_loading(answer, first_loading);
   if (arguments.stiffness && state.converged)
     answer["normal_stiffness"] = normal_stiffness(state, surface.grid, contact_modulus, options);
   if (interrupted()) throw Interrupted("contact: interrupted; the stiffness was not computed");
@@ -154,6 +186,12 @@ void add_contact_command(Program& program) {
   add_choice<Boundary>(command, "--boundary", arguments->boundary, "default periodic");
   add_quantity(command, "--hardness", arguments->hardness, Dimension::pressure,
                "largest pressure: cells saturate there and sink in; default none");
+  command
+      .add_option(
+          "--residual", arguments->residual,
+          "with --hardness: write the surface that unloading leaves, whose later contacts up "
+          "to this load are elastic; read it back with --detrend none")
+      ->type_name("FILE");
   command.add_flag("--stiffness", arguments->stiffness,
                    "K of the contact set too, as normal_stiffness in N/m; null in full contact of "
                    "a periodic surface, where "

@@ -11,6 +11,7 @@
 #include <salebra/results/quantity_group.hpp>
 
 #include "figures.hpp"
+#include "first_loading.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
 #include "premise_options.hpp"
@@ -121,15 +122,17 @@ PremiseReport premises_of_map(const DamperArguments& arguments, const LawOptions
     const double indentation =
         relaxation_damping(*contact.law, contact.positions.front(), motion, options).indentation;
     motion.drag_velocity = arguments.drag_velocity.value_or(ContactFacts::unknown);
-    report.cases.push_back(premises_of(
-        *contact.law, indentation, motion,
-        at_state(facts, *contact.law, contact.curve ? &*contact.curve : nullptr, indentation)));
+    report.cases.push_back(
+        premises_of(*contact.law, indentation, motion, contact.facts_at(facts, indentation)));
   }
   return report;
 }
 
 void run(const DamperArguments& arguments, Session& session) {
-  const LawOptions::Contact contact = arguments.law.contact(arguments.material, session);
+  const auto& amplitudes = arguments.normal_amplitude;
+  const LawOptions::Contact contact =
+      arguments.law.contact(arguments.material, session, arguments.premises.hardness,
+                            amplitudes.empty() ? 0 : std::ranges::max(amplitudes));
   for (const std::string& line : contact.doubts) session.warn(line);
   require(contact.positions.size() == 1, "--normal-force",
           fmt::format("{} positions", contact.positions.size()),
@@ -187,6 +190,7 @@ void run(const DamperArguments& arguments, Session& session) {
             "is no picture; give a range, --mass, or --falling-slope with several frequencies");
     session.plot(figure);
   }
+  add_first_loading(object, contact.first_loading);
   const bool pairs = map.normal_amplitude.size() > 1 && map.angular_frequency.size() > 1;
   const std::string text = pairs ? text_of(object, map) : to_text(object);
   if (premises.cases.empty()) return session.answer(object, text);

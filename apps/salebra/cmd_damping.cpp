@@ -12,6 +12,7 @@
 
 #include "answer_file.hpp"
 #include "figures.hpp"
+#include "first_loading.hpp"
 #include "follow.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
@@ -108,8 +109,7 @@ Premises premises_of_case(const LawOptions::Contact& contact, const Case& one,
     std::visit(
         [&](auto& m) { m.normal_amplitude = *one.force_amplitude / result.normal_stiffness; },
         motion);
-  const ContactFacts known =
-      at_state(facts, law, contact.curve ? &*contact.curve : nullptr, result.indentation);
+  const ContactFacts known = contact.facts_at(facts, result.indentation);
   return std::visit([&](const auto& m) { return premises_of(law, result.indentation, m, known); },
                     motion);
 }
@@ -179,6 +179,7 @@ void follow_motion(const DampingArguments& arguments, const LawOptions::Contact&
   object["force_curvature"] = full_stick.curvature;
   object["force"] = full_stick.force;
   object["indentation"] = full_stick.indentation;
+  add_first_loading(object, contact.first_loading);
   const PremiseReport premises{{premises_of_case(
       contact, one, full_stick,
       arguments.premises.facts(arguments.material, arguments.follow.friction_coefficient))}};
@@ -208,7 +209,12 @@ void run(const DampingArguments& arguments, Session& session) {
   }
   const auto [quantity, values] = varied(arguments);
   const std::vector<Motion> motions = motions_of(arguments);
-  const LawOptions::Contact contact = arguments.law.contact(arguments.material, session);
+  double largest = 0;
+  for (const Motion& motion : motions)
+    largest =
+        std::max(largest, std::visit([](const auto& m) { return m.normal_amplitude; }, motion));
+  const LawOptions::Contact contact =
+      arguments.law.contact(arguments.material, session, arguments.premises.hardness, largest);
   for (const std::string& line : contact.doubts) session.warn(line);
   const ContactLaw& law = *contact.law;
   const auto& positions = contact.positions;
@@ -291,6 +297,7 @@ void run(const DampingArguments& arguments, Session& session) {
     return 1 / small_over_exact(results[i], cases[i].motion);
   };
   object["ratio"] = column(ratio);
+  add_first_loading(object, contact.first_loading);
   if (arguments.motion.mode == "two-frequencies") {
     const auto period = [&](std::size_t i) {
       return common_period(std::get<TwoFrequencies>(cases[i].motion));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
@@ -10,6 +11,7 @@
 
 #include "answer_file.hpp"
 #include "figures.hpp"
+#include "first_loading.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
 #include "premise_options.hpp"
@@ -78,7 +80,9 @@ void run(const FrictionArguments& arguments, Session& session) {
   for (const double velocity : arguments.velocities) require_positive(velocity, "--velocities");
   const double friction = *arguments.premises.friction_coefficient;
   require_positive(friction, "--friction-coefficient");
-  const LawOptions::Contact contact = arguments.law.contact(arguments.material, session);
+  const LawOptions::Contact contact =
+      arguments.law.contact(arguments.material, session, arguments.premises.hardness,
+                            std::abs(*arguments.normal_amplitude));
   require(contact.positions.size() == 1, "--normal-force",
           fmt::format("{} positions", contact.positions.size()),
           "are given; friction takes one, and several --velocities");
@@ -112,10 +116,11 @@ void run(const FrictionArguments& arguments, Session& session) {
   column("relaxation_work", &SteadySliding::relaxation_work);
   column("slip_work", &SteadySliding::slip_work);
   for (const std::string& line : contact.doubts) session.warn(line);
+  add_first_loading(object, contact.first_loading);
   write_answer(session, "friction", object);
   if (session.has_plot()) session.plot(sliding_figure(sliding, arguments.velocities, friction));
-  const ContactFacts facts = at_state(arguments.premises.facts(arguments.material), *contact.law,
-                                      contact.curve ? &*contact.curve : nullptr, any.indentation);
+  const ContactFacts facts =
+      contact.facts_at(arguments.premises.facts(arguments.material), any.indentation);
   premises_beside_slip(*contact.law, any.indentation, motion, facts).answer(session, object);
 }
 

@@ -62,7 +62,8 @@ constexpr std::string_view rest = R"(
 contact_modulus = "115GPa"   # E* of both bodies together: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2; this is steel on steel
 poisson = 0.3                # of one elastic body on a rigid one, for G*
 # tangential_modulus = "95GPa"  # G*, instead of poisson
-# friction_coefficient = 0.3    # to judge slip, and for the loss with it; likewise hardness = "7GPa", density = 7800 (kg/m^3)
+# friction_coefficient = 0.3    # to judge slip, and for the loss with it; likewise density = 7800 (kg/m^3), to judge inertia
+# hardness = "7GPa"             # the surface is first loaded to the largest pressure, and flows where the local one reaches this
 # young = ["210GPa", "70GPa"]   # instead of contact_modulus; then poisson = [0.3, 0.33]
 
 [contact]

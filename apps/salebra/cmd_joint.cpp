@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
@@ -10,6 +11,7 @@
 #include <salebra/damping/trajectory_damping.hpp>
 
 #include "figures.hpp"
+#include "first_loading.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
 #include "premise_options.hpp"
@@ -99,7 +101,9 @@ void run(const JointArguments& arguments, Session& session) {
   if (arguments.nominal_area) require_positive(*arguments.nominal_area, "--nominal-area");
   const double friction = *arguments.premises.friction_coefficient;
   require_positive(friction, "--friction-coefficient");
-  const LawOptions::Contact contact = arguments.law.contact(arguments.material, session);
+  const LawOptions::Contact contact =
+      arguments.law.contact(arguments.material, session, arguments.premises.hardness,
+                            std::abs(arguments.normal_amplitude.value_or(0)));
   require(contact.positions.size() == 1, "--normal-force",
           fmt::format("{} positions", contact.positions.size()),
           "are given; joint takes one, and several tangential forces or amplitudes");
@@ -147,8 +151,9 @@ void run(const JointArguments& arguments, Session& session) {
     session.plot(joint_figure(losses, path,
                               trajectory_damping(law, path, {.friction_coefficient = friction})));
   }
-  const ContactFacts facts = at_state(arguments.premises.facts(arguments.material), law,
-                                      contact.curve ? &*contact.curve : nullptr, indentation);
+  add_first_loading(answer, contact.first_loading);
+  const ContactFacts facts =
+      contact.facts_at(arguments.premises.facts(arguments.material), indentation);
   // A constant normal force is the limit of small normal amplitudes.
   EqualFrequency judged = motion;
   if (!oscillates)

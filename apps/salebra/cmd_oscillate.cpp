@@ -7,10 +7,12 @@
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 
+#include "first_loading.hpp"
 #include "friction_run.hpp"
 #include "options.hpp"
 #include "oscillation_case.hpp"
@@ -59,23 +61,60 @@ Body file_of(const OscillateArguments& arguments, Session& session) {
   return body;
 }
 
+/// By the position that was given, or at the indentation.
+NormalContactState contact_at(const PositionOptions& position, const Body& body,
+                              double contact_modulus, double indentation,
+                              const NormalContactOptions& options) {
+  NormalContactState state;
+  if (position.mean_gap)
+    state = press_to_mean_gap(body.surface, contact_modulus, *position.mean_gap, options);
+  else if (position.pressure || position.force)
+    state = press_to_pressure(
+        body.surface, contact_modulus,
+        position.pressure ? *position.pressure : *position.force / body.surface.grid.area(),
+        options);
+  else
+    state = press_to_indentation(body.surface, contact_modulus, indentation, options);
+  if (!state.converged)
+    throw NotConverged("oscillate: the contact at the mean position did not converge");
+  return state;
+}
+
 double indentation_of(const OscillateArguments& arguments, const Body& body,
                       const Material& material, const NormalContactOptions& options) {
   const PositionOptions& position = arguments.position;
   require(position.count() <= 1, "--indentation", "given", "beside another position; give one");
-  const double area = body.surface.grid.area();
   if (position.count() == 0) return body.indentation;
   if (position.indentation) return *position.indentation;
-  NormalContactState state;
-  if (position.mean_gap)
-    state = press_to_mean_gap(body.surface, material.contact_modulus, *position.mean_gap, options);
-  else
-    state =
-        press_to_pressure(body.surface, material.contact_modulus,
-                          position.pressure ? *position.pressure : *position.force / area, options);
-  if (!state.converged)
-    throw NotConverged("oscillate: the contact at the mean position did not converge");
-  return state.indentation;
+  return contact_at(position, body, material.contact_modulus, body.indentation, options)
+      .indentation;
+}
+
+/// First loading to the mean position with --hardness. Where it flows, the contact stands on the residual surface, at the same load.
+void load_plastically(const OscillateArguments& arguments, OscillationCase& contact,
+                      Session& session) {
+  const std::optional<double>& hardness = arguments.premises.hardness;
+  if (!hardness) return;
+  const double modulus = contact.material.contact_modulus;
+  const NormalContactOptions elastic{.boundary = contact.body.boundary,
+                                     .on_progress = session.progress()};
+  NormalContactOptions plastic = elastic;
+  plastic.hardness = *hardness;
+  const double pressure =
+      contact_at(arguments.position, contact.body, modulus, contact.indentation, plastic)
+          .mean_pressure;
+  Body residual = contact.body;
+  contact.first_loading = load_first(
+      residual.surface, hardness, modulus, pressure, elastic,
+      std::visit([](const auto& motion) { return motion.normal_amplitude; }, contact.motion));
+  if (!contact.first_loading->yielded()) return;
+  require(arguments.shape.empty() || !arguments.relative_error, "--hardness",
+          format_quantity(*hardness, Dimension::pressure),
+          "is reached, and a shape that flowed has no finer cells; leave out --relative-error");
+  contact.body = std::move(residual);
+  PositionOptions same_load;
+  same_load.pressure = pressure;
+  contact.indentation = contact_at(same_load, contact.body, modulus, 0, elastic).indentation;
 }
 
 Oscillation motion_of(MotionOptions motion, const Body& body, double indentation) {
@@ -182,6 +221,7 @@ void run(const OscillateArguments& arguments, Session& session) {
       indentation_of(arguments, body, contact.material, {.boundary = body.boundary});
   contact.motion = motion_of(arguments.motion, body, contact.indentation);
   arguments.friction.check(contact.motion, contact.indentation);
+  load_plastically(arguments, contact, session);
 
   OscillationRoutes routes;
   routes.levels.levels = arguments.levels;

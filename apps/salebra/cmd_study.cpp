@@ -41,6 +41,7 @@ Json study_json(const StudyResult& result, const StudyPremises& premises, const 
                  {"realisations", result.realisations.size()},
                  {"flags", flags_json(result)},
                  {"files", files.json()}};
+  add_first_loading(answer, result);
   add_premises(answer, premises);
   return answer;
 }

@@ -10,6 +10,7 @@
 
 #include "curve_figure.hpp"
 #include "curve_json.hpp"
+#include "first_loading.hpp"
 #include "options.hpp"
 #include "plausibility.hpp"
 #include "program.hpp"
@@ -23,7 +24,7 @@ struct SweepArguments {
   std::vector<double> pressures;
   bool stiffness = false, stick = false;
   std::string boundary = "periodic";
-  std::optional<double> tolerance;
+  std::optional<double> tolerance, hardness;
 };
 
 void run(const SweepArguments& arguments, Session& session) {
@@ -44,13 +45,17 @@ void run(const SweepArguments& arguments, Session& session) {
     session.warn("--poisson: has no effect without --stiffness, which K_t needs");
   for (const std::string& line : doubts_of_pressures(pressures, material.contact_modulus))
     session.warn(line);
-  const ForceCurve curve =
-      sweep_pressures(arguments.surface.read(session), material, pressures, options);
+  Surface surface = arguments.surface.read(session);
+  const std::optional<FirstLoading> first_loading = load_first(
+      surface, arguments.hardness, material.contact_modulus, pressures.back(), options.contact);
+  const ForceCurve curve = sweep_pressures(surface, material, pressures, options);
   if (interrupted()) throw Interrupted("sweep: interrupted; nothing was written");
   if (session.has_output())
     write_force_curve(session.output(), curve, session.provenance(), session.write_options());
   if (session.has_plot()) session.plot(curve_figure(curve));
-  session.answer(Json{{"curve", to_json(curve)}});
+  Json answer = {{"curve", to_json(curve)}};
+  add_first_loading(answer, first_loading);
+  session.answer(answer);
   const auto lost = std::ranges::count(curve.samples, false, &ForceSample::converged);
   if (lost > 0) {
     throw NotConverged(
@@ -81,6 +86,10 @@ void add_sweep_command(Program& program) {
                    "with --stiffness: K_t by a stick solve on each contact");
   arguments->material.add_to(command);
   add_choice<Boundary>(command, "--boundary", arguments->boundary, "default periodic");
+  add_quantity(
+      command, "--hardness", arguments->hardness, Dimension::pressure,
+      "of the softer body: the surface is first loaded to the largest pressure, with local "
+      "pressures up to the hardness, and the curve is that of unloading; default none");
   add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
                "of the complementarity residual; default 1e-10");
 }

@@ -13,6 +13,8 @@
 #include <salebra/results/force_curve_file.hpp>
 #include <utility>
 
+#include "first_loading.hpp"
+
 namespace salebra::cli {
 namespace {
 
@@ -220,7 +222,16 @@ std::unique_ptr<ContactLaw> LawOptions::law_alone(const MaterialOptions& materia
                                        material.material_with_tangential_modulus());
 }
 
-LawOptions::Contact LawOptions::contact(const MaterialOptions& material, Session& session) const {
+ContactFacts LawOptions::Contact::facts_at(ContactFacts facts, double indentation) const {
+  facts = at_state(facts, *law, curve ? &*curve : nullptr, indentation);
+  if (first_loading && first_loading->yielded())
+    facts.first_load = first_loading->pressure * curve->nominal_area;
+  return facts;
+}
+
+LawOptions::Contact LawOptions::contact(const MaterialOptions& material, Session& session,
+                                        const std::optional<double>& hardness,
+                                        double normal_amplitude) const {
   if (surface.given()) {
     require(law.empty() && curve.empty(), "--surface", surface.file,
             "is given beside --law or --curve; give one of them");
@@ -228,11 +239,15 @@ LawOptions::Contact LawOptions::contact(const MaterialOptions& material, Session
     const std::vector<double> values = position_of(*this, {"pressure"}).second;
     for (const double value : values) require_positive(value, "--pressure");
     Surface body = surface.read(session);
+    const std::optional<FirstLoading> first_loading =
+        load_first(body, hardness, material.material().contact_modulus, std::ranges::max(values),
+                   {.on_progress = session.progress()}, normal_amplitude);
     ForceCurve samples =
         curve_of_surface(body, material.material_with_tangential_modulus(), values, session);
     auto table = std::make_unique<TabulatedLaw>(samples, material.modulus_ratio());
     auto positions = positions_on_curve(*this, samples);
-    return {std::move(table), std::move(positions), std::move(samples), {}, std::move(body)};
+    return {std::move(table), std::move(positions), std::move(samples), {},
+            std::move(body),  first_loading};
   }
   if (!curve.empty() && law.empty()) {
     require_own_parameters();

@@ -10,6 +10,7 @@
 #include <salebra/generators/shapes.hpp>
 #include <salebra/results/cycle.hpp>
 
+#include "first_loading.hpp"
 #include "grid_axes.hpp"
 
 namespace salebra::cli {
@@ -207,6 +208,7 @@ Json to_json(const OscillationOutcome& outcome) {
     object["contact_area_max"] = samples.back().contact_area_fraction * grid.area();
     object["fft_count"] = levels.fft_count;
   }
+  add_first_loading(object, outcome.run.first_loading);
   object["converged"] = outcome.converged();
   return object;
 }
@@ -221,6 +223,8 @@ Premises premises_of(const OscillationOutcome& outcome, ContactFacts facts) {
   facts.mean_contact_pressure = curve.samples.back().force / contact;
   facts.loaded_size = spot ? std::sqrt(contact / std::numbers::pi) : grid.lx;
   facts.nominal_pressure = outcome.levels.force / (spot ? contact : grid.area());
+  if (run.first_loading && run.first_loading->yielded())
+    facts.first_load = run.first_loading->pressure * grid.area();
   const auto touching = std::ranges::count_if(curve.samples, [](const ForceSample& sample) {
     return sample.converged && sample.force > 0;
   });

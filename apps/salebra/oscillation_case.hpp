@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/damping/adaptive_quadrature.hpp>
 #include <salebra/damping/premises.hpp>
 #include <salebra/io/plot.hpp>
@@ -32,7 +33,8 @@ struct OscillationCase {
   Body body;
   Material material;
   Oscillation motion;
-  double indentation = 0;  ///< mean
+  double indentation = 0;                          ///< mean
+  std::optional<FirstLoading> first_loading = {};  ///< of which the body is the residual surface
 };
 
 struct OscillationRoutes {

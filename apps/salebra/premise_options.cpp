@@ -9,6 +9,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/coupling.hpp>
 
+#include "first_loading.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {
@@ -39,9 +40,7 @@ void PremiseOptions::add_to(Command& command) {
   add_quantity(command, "--friction-coefficient", friction_coefficient, Dimension::dimensionless,
                "of the two bodies, to judge slip")
       ->group(group);
-  add_quantity(command, "--hardness", hardness, Dimension::pressure,
-               "of the softer body, to judge plasticity")
-      ->group(group);
+  add_quantity(command, "--hardness", hardness, Dimension::pressure, hardness_help)->group(group);
   add_quantity(command, "--density", density, Dimension::mass_density,
                "of the elastic body, to judge inertia")
       ->group(group);

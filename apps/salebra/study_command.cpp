@@ -340,16 +340,29 @@ std::string describe_motion(const Oscillation& motion) {
                      frequency(equal.angular_frequency));
 }
 
+void add_first_loading(Json& answer, const StudyResult& result) {
+  if (std::isnan(result.configuration.known.hardness)) return;
+  Json& object = answer["first_loading"] = Json::object();
+  for_each_number<FirstLoading>(
+      [&](const NumberOf<FirstLoading>& number, const Quantity& quantity) {
+        object[std::string(quantity.name)] =
+            to_json(result.mean([&](const Realisation& r) { return number(r.first_loading); }));
+      });
+}
+
 std::string heading(const StudyResult& result) {
   const Grid2D& grid = result.grid;
   const Material& material = result.configuration.material;
   const auto count = result.realisations.size();
+  const bool flowed = std::ranges::any_of(
+      result.realisations, [](const Realisation& r) { return r.first_loading.yielded(); });
   return fmt::format(
-      "surface     {} x {} points, {} x {}, {}\nrms height  {}\nrms slope   {}\nE*, G*      {}, "
+      "surface     {} x {} points, {} x {}, {}{}\nrms height  {}\nrms slope   {}\nE*, G*      {}, "
       "{}\n\n",
       grid.nx, grid.ny, format_quantity(grid.lx, Dimension::length),
       format_quantity(grid.ly, Dimension::length),
       count == 1 ? "1 surface" : fmt::format("{} surfaces", count),
+      flowed ? ", as the first loading left it" : "",
       format_quantity(result.mean([](const auto& r) { return r.heights.rms_height; }).mean,
                       Dimension::length),
       format_quantity(result.mean([](const auto& r) { return r.moments.rms_slope(); }).mean,

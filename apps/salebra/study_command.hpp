@@ -102,6 +102,8 @@ std::string law_verdict(const StudyResult& result);
 std::string ensemble_remarks(const StudyResult& result);
 Json flags_json(const StudyResult& result);
 
+/// Adds `first_loading`, where a hardness is known.
+void add_first_loading(Json& answer, const StudyResult& result);
 /// Adds `premises`, `largest_motion` and, with a coefficient of friction, `with_slip` to an answer with a list of pressures.
 void add_premises(Json& answer, const StudyPremises& found);
 

@@ -11,12 +11,15 @@
 #include <memory>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
+#include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/sweep.hpp>
+#include <salebra/results/contact.hpp>
 
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -268,6 +271,75 @@ Infinite for a periodic cell in full contact, NaN where the solve did not conver
 )");
 }
 
+void bind_first_loading(nb::module_& m) {
+  described_class<FirstLoading>(m, "FirstLoading",
+                                "What a plastic first loading did; NaN where there was none.")
+      .def_prop_ro("yielded", &FirstLoading::yielded, "Whether any of the surface flowed.");
+  m.def(
+      "after_first_loading",
+      [](const BoundSurface& surface, const MaterialArgument& material, double nominal_pressure,
+         double hardness, double normal_amplitude, double tolerance, int max_iterations,
+         const Choice<Boundary>& boundary,
+         const ProgressArgument& progress) -> nb::typed<nb::tuple, BoundSurface, FirstLoading> {
+        const double contact_modulus = material.material().contact_modulus;
+        NormalContactOptions options{.tolerance = tolerance,
+                                     .max_iterations = max_iterations,
+                                     .boundary = boundary.value("boundary"),
+                                     .hardness = hardness};
+        ResidualSurface residual = interruptible(progress, [&](Progress told) {
+          options.on_progress = std::move(told);
+          return after_first_loading(surface.surface, contact_modulus, nominal_pressure, options,
+                                     normal_amplitude);
+        });
+        if (residual.interrupted) throw Interrupted("after_first_loading: interrupted");
+        if (!residual.converged)
+          throw NotConverged("after_first_loading: the contact did not reach its tolerance");
+        return nb::borrow<nb::typed<nb::tuple, BoundSurface, FirstLoading>>(nb::make_tuple(
+            nb::cast(new_surface(std::move(residual.surface)), nb::rv_policy::take_ownership),
+            residual.first_loading));
+      },
+      nb::arg("surface"), nb::arg("material"), nb::arg("nominal_pressure"), nb::kw_only(),
+      nb::arg("hardness"), nb::arg("normal_amplitude") = 0.0, nb::arg("tolerance") = 1e-10,
+      nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
+      nb::arg("progress") = false,
+      R"(The surface that a first loading leaves, whose pressures rise to the hardness and no further.
+
+Where the pressure is the hardness, the surface sinks in for good. Unloading, and every later cycle below the first load, is the
+elastic contact of the surface that is returned.
+
+Parameters
+----------
+surface : Surface
+material : Material or float
+    Or E* > 0 alone, Pa.
+nominal_pressure : float
+    Largest, > 0, Pa, below the hardness.
+hardness : float
+    > 0, Pa.
+normal_amplitude : float
+    u_z >= 0, m: the first loading ends at the largest pressure of an oscillation about the nominal one.
+tolerance, max_iterations, boundary, progress
+    As for :func:`press_to_pressure`.
+
+Returns
+-------
+(Surface, FirstLoading)
+    What is left, and what flowed.
+
+Raises
+------
+InvalidInput
+    For a hardness that is not above the mean pressure.
+NotConverged
+    Where a contact did not reach its tolerance.
+
+References
+----------
+A. Almqvist, F. Sahlin, R. Larsson, S. Glavatskih, Tribology International 40 (2007) 574; K. L. Johnson, Contact Mechanics
+(Cambridge, 1985), section 6.4.
+)");
+}
+
 void bind_spots(nb::module_& m) {
   nb::class_<ContactSpot>(m, "ContactSpot", "A connected patch of contact.")
       .def_ro("area", &ContactSpot::area, "m²")
@@ -301,6 +373,7 @@ void bind_contact(nb::module_& m) {
   bind_material(m);
   bind_state(m);
   bind_presses(m);
+  bind_first_loading(m);
   bind_spots(m);
 }
 

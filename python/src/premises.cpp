@@ -40,7 +40,7 @@ void bind_facts(nb::module_& m) {
           [](ContactFacts* self, double friction_coefficient, double hardness, double density,
              double excursion, double contact_modulus, double dundurs, double loaded_size,
              double nominal_pressure, double largest_pressure, double mean_contact_pressure,
-             double rms_slope) {
+             double rms_slope, double first_load) {
             new (self) ContactFacts{friction_coefficient,
                                     hardness,
                                     density,
@@ -51,7 +51,8 @@ void bind_facts(nb::module_& m) {
                                     nominal_pressure,
                                     largest_pressure,
                                     mean_contact_pressure,
-                                    rms_slope};
+                                    rms_slope,
+                                    first_load};
           },
           nb::kw_only(), nb::arg("friction_coefficient") = ContactFacts::unknown,
           nb::arg("hardness") = ContactFacts::unknown, nb::arg("density") = ContactFacts::unknown,
@@ -62,7 +63,8 @@ void bind_facts(nb::module_& m) {
           nb::arg("nominal_pressure") = ContactFacts::unknown,
           nb::arg("largest_pressure") = ContactFacts::unknown,
           nb::arg("mean_contact_pressure") = ContactFacts::unknown,
-          nb::arg("rms_slope") = ContactFacts::unknown)
+          nb::arg("rms_slope") = ContactFacts::unknown,
+          nb::arg("first_load") = ContactFacts::unknown)
       .def_ro("friction_coefficient", &ContactFacts::friction_coefficient, "Coulomb's μ.")
       .def_ro("hardness", &ContactFacts::hardness, "H of the softer body, Pa.")
       .def_ro("density", &ContactFacts::density, "ρ of the elastic body, kg/m³.")
@@ -76,7 +78,9 @@ void bind_facts(nb::module_& m) {
       .def_ro("largest_pressure", &ContactFacts::largest_pressure, "Pa.")
       .def_ro("mean_contact_pressure", &ContactFacts::mean_contact_pressure,
               "F over the true contact area, Pa.")
-      .def_ro("rms_slope", &ContactFacts::rms_slope, "h' of a rough surface.");
+      .def_ro("rms_slope", &ContactFacts::rms_slope, "h' of a rough surface.")
+      .def_ro("first_load", &ContactFacts::first_load,
+              "F of a plastic first loading, whose residual surface the law is of, N.");
 }
 
 void bind_premise_classes(nb::module_& m) {

@@ -8,6 +8,7 @@
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
+#include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/contact/normal/punch.hpp>
 #include <salebra/contact/tangential/sliding_contact.hpp>
 #include <salebra/contact/tangential/stick.hpp>
@@ -129,7 +130,7 @@ void bind_values(nb::module_& m) {
                 Anisotropy, Forecast>();
   value_classes<ForceCurve, PressureWindow, ExponentialFit, ExponentialTest, WindowSensitivity,
                 LocalDecayLength, ElasticBody, Material, BoundContact, ContactSpot, ContactSpots,
-                StickStiffness, PunchStiffness, PartialSlipReport, RoughnessShell,
+                FirstLoading, StickStiffness, PunchStiffness, PartialSlipReport, RoughnessShell,
                 PerssonTheory::Asymptote, SummitEnsemble, AsperityContact, MonteCarloCurve>();
   value_classes<EqualFrequency, Drag, TwoFrequencies, SampledMotion, BoundDamping, ContactFacts,
                 Premise, LargestMotion, Premises, LossWithSlip, JointLoss, SteadySliding,

@@ -363,9 +363,10 @@ void check(const ContactFacts& facts) {
                                      {facts.density, "density"},
                                      {facts.excursion, "excursion"},
                                      {facts.contact_modulus, "contact_modulus"},
-                                     {facts.loaded_size, "loaded_size"}})
+                                     {facts.loaded_size, "loaded_size"},
+                                     {facts.first_load, "first_load"}})
     if (!std::isnan(value)) require_positive(value, field);
-  if (facts.nominal_pressure > facts.hardness)
+  if (facts.nominal_pressure > facts.hardness && std::isnan(facts.first_load))
     require(false, "hardness", facts.hardness,
             "Pa is below the mean pressure of the contact, where all of it would flow; reduce the "
             "load or give the hardness in Pa");
@@ -374,7 +375,16 @@ void check(const ContactFacts& facts) {
 // Poisson's ratio of one elastic body with this G*/E* = 2(1 − ν)/(2 − ν).
 double poisson_of(double modulus_ratio) { return (2 - 2 * modulus_ratio) / (2 - modulus_ratio); }
 
-Premise plasticity_of(const ContactFacts& facts) {
+Premise plasticity_of(const ContactFacts& facts, double mean_force) {
+  if (!std::isnan(facts.first_load)) {
+    constexpr double round_off = 1e-6;
+    const double share = mean_force / facts.first_load;
+    Premise premise{.value = std::abs(share - 1) < round_off ? 1 : share,
+                    .limit_5_percent = 1,
+                    .limit_20_percent = 1};
+    judge(premise);
+    return premise;
+  }
   // Flow begins below a paraboloid's centre at 1.6 yield stresses, H is 2.8 of them.
   Premise premise{.limit_5_percent = 0.6, .limit_20_percent = 1};
   // Of a paraboloid.
@@ -472,7 +482,7 @@ Premises all_premises(const ContactLaw& given, const Case& motion, const Contact
   require_positive(amplitude, "normal_amplitude");
   const double length = length_of(law, motion.mean, amplitude);
   Premises premises;
-  premises.plasticity = plasticity_of(facts);
+  premises.plasticity = plasticity_of(facts, law.force(motion.mean));
   premises.coupling = coupling_of(law, facts);
   Premise& opening = premises.slip_of_opening_levels;
   Premise& closed = premises.slip_of_closed_levels;

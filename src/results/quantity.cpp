@@ -230,9 +230,9 @@ std::vector<Quantity> columns_of() {
 const Quantity* entry_of(std::string_view name) {
   static const std::vector<Quantity> quantities =
       columns_of<Grid2D, HeightStatistics, SpectralMoments, SummitStatistics, SummitEnsemble,
-                 SelfAffineParameters, Material, ForceCurve, ForceSample, ExponentialFit,
-                 ExponentialTest, WindowSensitivity, LocalDecayLength, CycleSample, EqualFrequency,
-                 Drag>();
+                 SelfAffineParameters, Material, ForceCurve, ForceSample, FirstLoading,
+                 ExponentialFit, ExponentialTest, WindowSensitivity, LocalDecayLength, CycleSample,
+                 EqualFrequency, Drag>();
   const auto found = std::ranges::find(quantities, name, &Quantity::name);
   return found != quantities.end() ? &*found : nullptr;
 }

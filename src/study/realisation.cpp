@@ -160,6 +160,29 @@ void require_converged(const ForceCurve& curve, const StudyConfiguration& config
                     converged, curve.samples.size(), configuration.tolerance));
 }
 
+/// The surface that the models press: after the first loading, where a hardness is known.
+ResidualSurface surface_to_press(const StudyConfiguration& configuration, std::uint64_t seed,
+                                 double largest_pressure, const Progress& progress) {
+  const Progress part = [&](const ProgressReport&) {
+    return !progress || progress({.stage = "realisation"});
+  };
+  Surface surface = study_surface(configuration, seed, part);
+  if (std::isnan(configuration.known.hardness)) return {.surface = std::move(surface)};
+  NormalContactOptions options;
+  options.tolerance = configuration.tolerance;
+  options.hardness = configuration.known.hardness;
+  options.on_progress = part;
+  ResidualSurface residual = after_first_loading(
+      std::move(surface), configuration.material.contact_modulus, largest_pressure, options,
+      std::visit([](const auto& motion) { return motion.normal_amplitude; }, configuration.motion));
+  if (residual.interrupted) throw Interrupted("study: interrupted");
+  if (!residual.converged)
+    throw NotConverged(
+        fmt::format("contact: the first loading did not converge to {}; allow a larger tolerance",
+                    configuration.tolerance));
+  return residual;
+}
+
 /// What can be said of a model's curve. One that has too few samples in the window has no decay length, and no loss by Eq. (16).
 void analyse(ModelResult& result, const StudyConfiguration& configuration, double scale) {
   constexpr double unknown = ForceSample::unknown;
@@ -275,11 +298,11 @@ std::vector<double> study_pressures(const StudyConfiguration& configuration) {
 
 Realisation analyse_realisation(const StudyConfiguration& configuration, std::uint64_t seed,
                                 const std::vector<double>& pressures, const Progress& progress) {
-  const Surface surface = study_surface(configuration, seed, [&](const ProgressReport&) {
-    return !progress || progress({.stage = "realisation"});
-  });
+  const ResidualSurface loaded = surface_to_press(configuration, seed, pressures.back(), progress);
+  const Surface& surface = loaded.surface;
   Realisation realisation;
   realisation.seed = seed;
+  realisation.first_loading = loaded.first_loading;
   realisation.grid = surface.grid;
   realisation.heights = height_statistics(surface);
   realisation.periodic = surface.periodic;

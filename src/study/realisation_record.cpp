@@ -18,7 +18,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view magic = "salebra realisation 5\n";
+constexpr std::string_view magic = "salebra realisation 6\n";
 
 /// Appends the bytes of numbers, and of lists and texts after their lengths.
 class Writer {
@@ -103,12 +103,13 @@ static_assert(describes_all<Realisation>() && describes_all<Grid2D>() &&
               describes_all<SummitStatistics>() && describes_all<SummitEnsemble>() &&
               describes_all<HeightDensityPoint>() && describes_all<ModelResult>() &&
               describes_all<ForceCurve>() && describes_all<ForceSample>() &&
-              describes_all<ExponentialFit>() && describes_all<ExponentialTest>() &&
-              describes_all<WindowSensitivity>() && describes_all<PressureWindow>() &&
-              describes_all<LocalDecayLength>() && describes_all<DampingPoint>() &&
-              describes_all<SpotStatistics>() && describes_all<SurfacePicture>() &&
-              describes_all<SelfAffineParameters>() && describes_all<Material>() &&
-              describes_all<EqualFrequency>() && describes_all<Drag>());
+              describes_all<FirstLoading>() && describes_all<ExponentialFit>() &&
+              describes_all<ExponentialTest>() && describes_all<WindowSensitivity>() &&
+              describes_all<PressureWindow>() && describes_all<LocalDecayLength>() &&
+              describes_all<DampingPoint>() && describes_all<SpotStatistics>() &&
+              describes_all<SurfacePicture>() && describes_all<SelfAffineParameters>() &&
+              describes_all<Material>() && describes_all<EqualFrequency>() &&
+              describes_all<Drag>());
 
 /// Empty where there is no such file.
 std::string contents(const std::filesystem::path& file) {
@@ -152,7 +153,7 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
            measured.size_y, measured.detrend, measured.height_unit);
   }
   writer(point.material, point.pressures, point.relative_pressures, point.tolerance, point.stick,
-         point.window, point.models, point.motion.index());
+         point.window, point.models, point.known.hardness, point.motion.index());
   std::visit([&](const auto& motion) { writer(motion); }, point.motion);
   writer(point.damping.hold, point.damping.amplitude, point.damping.tolerance);
   // Of several surfaces the first states the error of all.
@@ -167,7 +168,7 @@ std::uint64_t study_key(const std::vector<StudyConfiguration>& points) {
     for (const std::uint64_t seed : seeds_of(point)) writer(realisation_key(point, seed));
     writer(point.target_precision, point.min_realisations);
     const ContactFacts& known = point.known;
-    writer(known.friction_coefficient, known.hardness, known.density, known.excursion);
+    writer(known.friction_coefficient, known.density, known.excursion);
   }
   return checksum(writer.bytes);
 }

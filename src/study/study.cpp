@@ -8,6 +8,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/base/units.hpp>
 #include <salebra/study/cost.hpp>
 #include <salebra/study/study.hpp>
 
@@ -72,6 +73,18 @@ void warn(StudyResult& result) {
 constexpr double least_waves_in_cell = 16, least_cells_in_wave = 8, least_spots = 50;
 
 void flag(StudyResult& result) {
+  const auto of_loading = [&](double FirstLoading::*member) {
+    return result.mean([&](const Realisation& r) { return r.first_loading.*member; }).mean;
+  };
+  if (const double area = of_loading(&FirstLoading::yielded_area_fraction); area > 0)
+    result.flags.push_back(
+        {"first_loading",
+         fmt::format(
+             "plastic first loading: at {} pressures reached the hardness, {}, on {:.2g} % of the "
+             "area, which sank in by up to {}; all numbers are of the surface that unloading left",
+             format_quantity(of_loading(&FirstLoading::pressure), Dimension::pressure),
+             format_quantity(result.configuration.known.hardness, Dimension::pressure), 100 * area,
+             format_quantity(of_loading(&FirstLoading::max_plastic_depth), Dimension::length))});
   if (const auto* recipe = std::get_if<GeneratedSurfaces>(&result.configuration.surfaces)) {
     const SelfAffineParameters& spectrum = recipe->spectrum;
     const double size = std::min(result.grid.lx, result.grid.ly);

@@ -45,6 +45,10 @@ StudyPremises premises_of(const StudyResult& result) {
   facts.contact_modulus = configuration.material.contact_modulus;
   facts.loaded_size = std::max(result.grid.lx, result.grid.ly);
   facts.rms_slope = result.mean([](const Realisation& r) { return r.moments.rms_slope(); }).mean;
+  for (const Realisation& realisation : result.realisations)
+    if (realisation.first_loading.yielded())
+      facts.first_load =
+          std::fmin(facts.first_load, realisation.first_loading.pressure * result.grid.area());
   for (std::size_t k = 0; k < count; ++k) {
     const ForceSample& sample = curve.samples[k];
     if (!sample.converged) continue;

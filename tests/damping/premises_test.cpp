@@ -281,6 +281,25 @@ TEST_CASE("Premises name what they need, and refuse facts that cannot be", "[pre
                   InvalidInput);
 }
 
+TEST_CASE("After a first loading the plasticity is the load over the first load", "[premises]") {
+  const ExponentialLaw law(1, 1e-7, ratio);
+  const Drag motion{1e-9, 1e-6, 1e5};
+  // Pressures of the residual surface reach the hardness where the first loading did, and no further.
+  ContactFacts facts{.hardness = 1e9, .mean_contact_pressure = 9e8, .rms_slope = 1};
+  facts.contact_modulus = 1e11;
+  CHECK(premises_of(law, 0, motion, facts).plasticity.verdict == Verdict::broken);
+  facts.first_load = 1.25;
+  const Premise below = premises_of(law, 0, motion, facts).plasticity;
+  CHECK(below.value == Approx(0.8));
+  CHECK(below.verdict == Verdict::holds);
+  facts.first_load = 1;
+  CHECK(premises_of(law, 0, motion, facts).plasticity.verdict == Verdict::holds);
+  facts.first_load = 0.99;
+  CHECK(premises_of(law, 0, motion, facts).plasticity.verdict == Verdict::broken);
+  facts.first_load = -1;
+  CHECK_THROWS_AS(premises_of(law, 0, motion, facts), InvalidInput);
+}
+
 TEST_CASE("A sampled path has the premises of the motion that it samples", "[premises]") {
   const PowerLaw law(1e7, 1.5, ratio);
   const ContactFacts facts{.friction_coefficient = 0.3};

@@ -153,3 +153,21 @@ def test_a_plastic_limit_caps_the_pressure() -> None:
     state = salebra.press_to_pressure(generated(), 1e9, 2e5, hardness=1e7)
     assert state.converged
     assert state.contact_pressure.max() <= 1e7
+
+
+def test_what_flowed_carries_the_first_load_by_elasticity_alone() -> None:
+    surface = generated()
+    plastic = salebra.press_to_pressure(surface, 1e9, 2e5, hardness=1e7)
+    residual, loading = salebra.after_first_loading(surface, 1e9, 2e5, hardness=1e7)
+    assert loading.yielded
+    assert loading.first_loading_pressure == pytest.approx(2e5)
+    assert loading.max_plastic_depth == pytest.approx((surface.heights - residual.heights).max())
+    elastic = salebra.press_to_pressure(residual, 1e9, 2e5)
+    # The tolerance of 1e-10 holds for gaps, its root for pressures.
+    assert elastic.mean_gap == pytest.approx(plastic.mean_gap, rel=1e-6)
+    assert elastic.contact_pressure.max() == pytest.approx(1e7, rel=1e-3)
+    same, nothing = salebra.after_first_loading(surface, 1e9, 2e5, hardness=1e12)
+    assert np.array_equal(same.heights, surface.heights)
+    assert not nothing.yielded
+    with pytest.raises(salebra.InvalidInput, match="hardness"):
+        salebra.after_first_loading(surface, 1e9, 2e5, hardness=1e5)

@@ -73,6 +73,7 @@ def makers() -> dict[str, Callable[[], Any]]:
         "ExponentialLaw": lambda: salebra.ExponentialLaw(0.1, 3e-7, 0.8),
         "ExponentialTest": lambda: salebra.test_exponential(curve, (1e5, 5e6)),
         "ForceCurve": lambda: curve,
+        "FirstLoading": lambda: salebra.after_first_loading(surface, MATERIAL, 1e6, hardness=2e7)[1],
         "Forecast": lambda: salebra.forecast(GRID, spectrum),
         "FrictionMap": lambda: salebra.friction_map(law, 1e-6, 1e-7, 1e-7, [0.5, 1.0], [0.5, 1.0], steps=64),
         "GreenwoodWilliamsonLaw": lambda: salebra.GreenwoodWilliamsonLaw(model),

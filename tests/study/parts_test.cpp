@@ -142,6 +142,7 @@ TEST_CASE("The key of a realisation changes with what decides it, and with nothi
       {"pressures", [](StudyConfiguration& c) { c.pressures.back() *= 2; }},
       {"relative", [](StudyConfiguration& c) { c.relative_pressures = false; }},
       {"tolerance", [](StudyConfiguration& c) { c.tolerance = 1e-9; }},
+      {"hardness", [](StudyConfiguration& c) { c.known.hardness = 1e9; }},
       {"stick", [](StudyConfiguration& c) { c.stick = false; }},
       {"window",
        [](StudyConfiguration& c) {

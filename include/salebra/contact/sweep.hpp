@@ -27,7 +27,8 @@ struct SweepOptions {
 
 /// Force–gap curve of a surface by boundary elements, one independent solve for each pressure, in parallel over loads: a solve
 /// that starts from its own coarse grids is not slower than one that starts from the neighbouring load.
-/// pressures: > 0, Pa, increasing. Samples that did not converge are kept and marked.
+/// pressures: > 0, Pa, increasing. Samples that did not converge are kept and marked. With a hardness this is the curve of first loading;
+/// that of unloading is the elastic sweep of after_first_loading() (contact/normal/first_loading.hpp).
 /// throws InvalidInput before any work
 ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                            const std::vector<double>& pressures, const SweepOptions& options = {});

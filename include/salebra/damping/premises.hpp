@@ -30,6 +30,9 @@ struct ContactFacts {
   double largest_pressure = unknown;  ///< Pa
   double mean_contact_pressure = unknown;  ///< F over the true contact area, Pa
   double rms_slope = unknown;              ///< h' of a rough surface
+  /// F up to which the surface was loaded before with pressures up to its hardness, N; the law is that of its residual surface
+  /// (contact/normal/first_loading.hpp).
+  double first_load = unknown;
 };
 
 /// Adds what an indenter, or the curve that the law is made of, says of the contact at an indentation: E*, pressures and size. curve may
@@ -88,6 +91,7 @@ struct Premises {
   Premise amplitude;
   /// value  the largest that is known of: largest pressure/H, 1.5 mean pressure of the contact/H (a paraboloid's), E*h'/H.
   /// limits estimated: 0.6 (flow begins below the surface at 1.6 yield stresses, H = 2.8; Greenwood and Williamson's ψ) and 1.
+  /// After a first loading: the mean force over the first load, which both limits are: below it the residual surface is elastic.
   Premise plasticity;
   /// value  ω a/c_s, c_s = √(G/ρ) of one elastic body with the law's G*/E*.
   /// limits estimated: a stuck circle has the impedance K(1 + 0.58i ωa/c_s), so that 0.55 and 1.1 change |K| by 5 and 20 %; in case (a)

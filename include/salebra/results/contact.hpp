@@ -5,6 +5,7 @@
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/law/force_curve.hpp>
+#include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/results/describe.hpp>
 
 namespace salebra {
@@ -65,6 +66,22 @@ constexpr void describe(Visitor&& visit, std::type_identity<ForceCurve>) {
   visit(&ForceCurve::nominal_area, Quantity{"nominal_area", length_squared, "nominal area"});
   visit(&ForceCurve::rms_height, Quantity{"rms_height", length, "root mean square height"});
   visit(&ForceCurve::samples, Kept{"samples", "from the lowest force to the highest"});
+}
+
+template <class Visitor>
+constexpr void describe(Visitor&& visit, std::type_identity<FirstLoading>) {
+  using enum Dimension;
+  using S = FirstLoading;
+  visit(&S::pressure, Quantity{"first_loading_pressure", Dimension::pressure,
+                               "largest nominal pressure of the plastic first loading"});
+  visit(&S::yielded_area_fraction,
+        Quantity{"yielded_area_fraction", dimensionless,
+                 "area that carried the hardness in the first loading over nominal area"});
+  visit(&S::mean_plastic_depth,
+        Quantity{"mean_plastic_depth", length,
+                 "depth that the first loading left, mean over the nominal area"});
+  visit(&S::max_plastic_depth,
+        Quantity{"max_plastic_depth", length, "largest depth that the first loading left"});
 }
 
 template <class Visitor>

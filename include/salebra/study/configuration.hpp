@@ -78,7 +78,8 @@ struct StudyConfiguration {
   bool has(ContactModel model) const;
   Oscillation motion;
   DampingOptions damping;
-  /// Friction, hardness, density and excursion, for the premises of the damping.
+  /// Friction, hardness, density and excursion, for the premises of the damping. With a hardness each surface is first loaded to the
+  /// largest pressure, after_first_loading(), and the study is of the residual surface.
   ContactFacts known;
   /// Intervals between the contacts inside the oscillation, SurfaceDampingOptions::levels; 0: 8 for one surface, doubled where they do
   /// not suffice, 4 for each of several.

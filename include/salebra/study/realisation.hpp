@@ -8,6 +8,7 @@
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/law/force_curve.hpp>
+#include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/results/contact.hpp>
 #include <salebra/results/surface.hpp>
 #include <salebra/study/configuration.hpp>
@@ -203,6 +204,8 @@ struct Realisation {
   Grid2D grid;
   bool periodic = true;
   double seam_step = 0;  ///< rms difference of opposite edges over rms height
+  /// Where a hardness is known. All below is of the residual surface.
+  FirstLoading first_loading;
   HeightStatistics heights;
   SpectralMoments moments;
   SummitStatistics summits;
@@ -234,6 +237,7 @@ constexpr void describe(Visitor&& visit, std::type_identity<Realisation>) {
   visit(&S::periodic, Kept{"periodic", "whether the surface is"});
   visit(&S::seam_step,
         Quantity{"seam_step", dimensionless, "rms difference of opposite edges over rms height"});
+  visit(&S::first_loading, Part{"first_loading", "plastic first loading"});
   visit(&S::heights, Part{"heights", "statistics of heights"});
   visit(&S::moments, Part{"moments", "spectral moments"});
   visit(&S::summits, Part{"summits", "statistics of summits"});
@@ -271,8 +275,9 @@ double contact_scale(const StudyConfiguration& configuration);
 std::vector<double> study_pressures(const StudyConfiguration& configuration);
 
 /// Surface → statistics → contact models → exponential law → damping for one surface of the configuration, whose ensemble lists
-/// are empty. progress: of this surface, "realisation"; a stop throws Interrupted.
-/// Throws NotConverged where fewer than four contacts of a sweep converged.
+/// are empty. With a hardness the surface is first loaded to the largest pressure and by the oscillation about it, and all that
+/// follows is of the residual surface. progress: of this surface, "realisation"; a stop throws Interrupted.
+/// Throws NotConverged where fewer than four contacts of a sweep converged, or the first loading did not.
 Realisation analyse_realisation(const StudyConfiguration& configuration, std::uint64_t seed,
                                 const std::vector<double>& pressures,
                                 const Progress& progress = {});

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Residual surface of a first loading with a hardness.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/base/units.hpp>
+#include <salebra/contact/normal/first_loading.hpp>
+#include <utility>
+
+namespace salebra {
+namespace {
+
+/// Lowers the heights by w and returns what was done.
+FirstLoading sink_in(Field& heights, const Field& displacement, const NormalContactState& state,
+                     double hardness) {
+  const double highest = heights.maxCoeff();
+  struct Sums {
+    double cells = 0, depth = 0, deepest = 0;
+  };
+  Sums total;
+  for (const Sums& part : parallel::map_slabs<Sums>(
+           heights.rows(),
+           [&](Index begin, Index end) {
+             Sums sums;
+             for (Index k = begin * heights.cols(); k < end * heights.cols(); ++k) {
+               if (state.pressure.data()[k] < hardness) continue;
+               double& height = heights.data()[k];
+               // Within the solver's tolerance, a saturated cell may stand off the plane.
+               const double depth =
+                   std::max(0.0, height - highest + state.indentation - displacement.data()[k]);
+               height -= depth;
+               sums.cells += 1;
+               sums.depth += depth;
+               sums.deepest = std::max(sums.deepest, depth);
+             }
+             return sums;
+           },
+           heights.size())) {
+    total.cells += part.cells;
+    total.depth += part.depth;
+    total.deepest = std::max(total.deepest, part.deepest);
+  }
+  const auto cells = static_cast<double>(heights.size());
+  return {.pressure = state.mean_pressure,
+          .yielded_area_fraction = total.cells / cells,
+          .mean_plastic_depth = total.depth / cells,
+          .max_plastic_depth = total.deepest};
+}
+
+// Of the load: the oscillation passes the hardness by no more than this.
+constexpr double load_tolerance = 1e-3;
+constexpr int most_loadings = 20;
+
+/// The highest load of an oscillation about a contact of the residual surface, without further flow; none where the contact is full.
+std::optional<NormalContactState> at_top(const Surface& residual, double contact_modulus,
+                                         double nominal_pressure, double normal_amplitude,
+                                         const Field& start, NormalContactOptions options) {
+  options.hardness = std::numeric_limits<double>::infinity();
+  options.initial_pressure = &start;
+  const NormalContactState mean =
+      press_to_pressure(residual, contact_modulus, nominal_pressure, options);
+  if (!mean.converged) return mean;
+  const double top = mean.indentation + normal_amplitude;
+  if (options.boundary == Boundary::periodic &&
+      top >= (residual.heights.maxCoeff() - residual.heights).mean())
+    return {};
+  options.initial_pressure = &mean.pressure;
+  return press_to_indentation(residual, contact_modulus, top, options);
+}
+
+}  // namespace
+
+ResidualSurface residual_surface(Surface surface, double contact_modulus,
+                                 const NormalContactState& state,
+                                 const NormalContactOptions& options) {
+  require(state.pressure.rows() == surface.grid.nx && state.pressure.cols() == surface.grid.ny,
+          "pressure", state.pressure.size(), "points do not fill the grid");
+  ResidualSurface residual{.surface = std::move(surface),
+                           .first_loading = {},
+                           .converged = state.converged,
+                           .interrupted = state.interrupted};
+  if (!state.converged) return residual;
+  if ((state.pressure < options.hardness).all()) {
+    residual.first_loading = {.pressure = state.mean_pressure,
+                              .yielded_area_fraction = 0,
+                              .mean_plastic_depth = 0,
+                              .max_plastic_depth = 0};
+    return residual;
+  }
+  const Grid2D& grid = residual.surface.grid;
+  require_memory(grid, 3 * sizeof(double) * static_cast<double>(grid.points()),
+                 "a residual surface");
+  Field displacement(grid.nx, grid.ny);
+  normal_compliance<double>(grid, contact_modulus, options.boundary)
+      .apply(state.pressure.data(), displacement.data());
+  residual.first_loading = sink_in(residual.surface.heights, displacement, state, options.hardness);
+  return residual;
+}
+
+ResidualSurface after_first_loading(Surface surface, double contact_modulus,
+                                    double nominal_pressure, const NormalContactOptions& options,
+                                    double normal_amplitude) {
+  require(normal_amplitude >= 0 && normal_amplitude < std::numeric_limits<double>::infinity(),
+          "normal_amplitude", normal_amplitude, "must be finite and >= 0");
+  NormalContactState state = press_to_pressure(surface, contact_modulus, nominal_pressure, options);
+  if (normal_amplitude == 0)
+    return residual_surface(std::move(surface), contact_modulus, state, options);
+  ResidualSurface residual = residual_surface(surface, contact_modulus, state, options);
+  for (int loading = 1; residual.converged; ++loading) {
+    const std::optional<NormalContactState> top =
+        at_top(residual.surface, contact_modulus, nominal_pressure, normal_amplitude,
+               state.pressure, options);
+    if (!top) return residual;
+    residual.converged = top->converged && loading < most_loadings;
+    residual.interrupted = top->interrupted;
+    if (!residual.converged) return residual;
+    const double load = top->mean_pressure;
+    if (!residual.first_loading.yielded() && (top->pressure < options.hardness).all()) {
+      residual.first_loading.pressure = load;
+      return residual;
+    }
+    if (load <= (1 + load_tolerance) * residual.first_loading.pressure) return residual;
+    require(load < options.hardness, "hardness",
+            format_quantity(options.hardness, Dimension::pressure),
+            fmt::format("must exceed the largest mean pressure of the oscillation, {}; reduce the "
+                        "load or the normal amplitude",
+                        format_quantity(load, Dimension::pressure)));
+    NormalContactOptions further = options;
+    further.initial_pressure = &top->pressure;
+    state = press_to_pressure(surface, contact_modulus, load, further);
+    residual = residual_surface(surface, contact_modulus, state, options);
+  }
+  return residual;
+}
+
+}  // namespace salebra
