@@ -102,6 +102,11 @@ constexpr std::array descriptions{
         "loses, secant, storage and loss stiffness, with a constant or an oscillating normal "
         "force."},
     CommandHelp{
+        "viscoelastic", damping,
+        "An axisymmetric indenter that oscillates on a viscoelastic body without slip: what the "
+        "material loses by the normal and by the tangential motion, and what relaxation damping "
+        "loses, over frequency or another quantity."},
+    CommandHelp{
         "oscillate", damping,
         "The direct experiment in three dimensions: a contact is moved through its cycle and the "
         "work is counted, by time steps or by contact levels; with finite friction and with "
@@ -142,6 +147,7 @@ std::string_view first_steps() {
          "                           its damping for any motion           damping --curve\n"
          "  a sphere, cone, punch    force, stresses, losses, slip        mdr\n"
          "                           the same in three dimensions         oscillate, figure3\n"
+         "                           losses on rubber and polymers        viscoelastic\n"
          "  a slider or oscillator   the amplitude that steadies it       damper\n"
          "                           its friction under vibration         friction\n"
          "  several contact models   which one holds for your surface     compare, gw\n"

@@ -262,6 +262,13 @@ def _(result: _core.TrajectoryDamping, ax: Axes | None = None, **keywords: Any) 
     return _line(ax, (step, "step of the period", "1"), (result.tangential_force, "tangential force F_x", "N"), "", keywords)
 
 
+@plot.register(_core.ViscoelasticDamping)
+@plot.register(_core.ViscoelasticIndentation)
+def _(result: _core.ViscoelasticDamping | _core.ViscoelasticIndentation, ax: Axes | None = None, **keywords: Any) -> Axes:
+    step = np.arange(len(result.force))
+    return _line(ax, (step, "step of the path", "1"), (result.force, "normal force F", "N"), "", keywords)
+
+
 @plot.register(_core.NonGaussianSurface)
 def _(result: _core.NonGaussianSurface, ax: Axes | None = None, **keywords: Any) -> Axes:
     return plot(result.surface, ax, **keywords)

@@ -26,6 +26,7 @@ from ._core import (
     TangentialContact as TangentialContact,
     TrajectoryDamping as TrajectoryDamping,
     TwoFrequencies as TwoFrequencies,
+    ViscoelasticDamping as ViscoelasticDamping,
     asperity_damping as asperity_damping,
     boundary_element_levels as boundary_element_levels,
     common_period as common_period,
@@ -50,4 +51,5 @@ from ._core import (
     stress_map as stress_map,
     surface_damping as surface_damping,
     trajectory_damping as trajectory_damping,
+    viscoelastic_damping as viscoelastic_damping,
 )

@@ -23,6 +23,7 @@
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
+#include <salebra/damping/viscoelastic_damping.hpp>
 #include <salebra/generators/anisotropic_spectrum.hpp>
 #include <salebra/generators/forecast.hpp>
 #include <salebra/generators/profile.hpp>
@@ -135,7 +136,8 @@ void bind_values(nb::module_& m) {
   value_classes<EqualFrequency, Drag, TwoFrequencies, SampledMotion, BoundDamping, ContactFacts,
                 Premise, LargestMotion, Premises, LossWithSlip, JointLoss, SteadySliding,
                 SurfaceDamping, OscillatorDecay, DamperMap, FrictionMap, StressMap, AsperityDamping,
-                TrajectoryDamping, ContactSetAt, CycleResult, LevelQuadratureResult>();
+                TrajectoryDamping, PronySeries, ViscoelasticIndentation, ViscoelasticDamping,
+                ContactSetAt, CycleResult, LevelQuadratureResult>();
   value_classes<StudyConfiguration, DampingPoint, SpotStatistics, SurfacePicture, ModelResult,
                 Realisation, EnsembleMean, StudyFlag, StudyResult, Check, Report>();
   value_class<Grid2D>([](const Grid2D& self) { return self; },
@@ -146,8 +148,9 @@ void bind_values(nb::module_& m) {
 
   drawn_classes<ForceCurve, ExponentialFit, ContactSpots, SummitList, PowerSpectrum, CorrelationMap,
                 ConvertedPsd, Profile, MonteCarloCurve, AsperityDamping, TrajectoryDamping,
-                ContactSetAt, SampledMotion, SpotStatistics, SurfacePicture, ModelResult,
-                Realisation, StudyResult, BearingCurve>();
+                ViscoelasticDamping, ViscoelasticIndentation, ContactSetAt, SampledMotion,
+                SpotStatistics, SurfacePicture, ModelResult, Realisation, StudyResult,
+                BearingCurve>();
   table_classes<ForceCurve, LocalDecayLength, ContactSpots, SummitList, RadialSpectrum, ProfilePsd,
                 ConvertedPsd, Correlation, ScaleDependence, HeightHistogram, Profile,
                 MonteCarloCurve, AsperityDamping, TrajectoryDamping, CycleResult, SampledMotion>();

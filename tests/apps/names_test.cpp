@@ -293,6 +293,10 @@ TEST_CASE("Every number that the program writes has the name, unit and meaning o
            "joint --friction-coefficient 0.3 --tangential-amplitudes 5nm,10nm --nominal-area 1mm2 "
            "-o joint.h5" +
                law,
+           "viscoelastic --profile parabola --radius 5mm --indentation 20um --prony "
+           "1MPa:1ms,2MPa:20ms --normal-amplitude 2um --drag-velocity 1um/s --frequency 10,100 "
+           "--steps 64 -o viscoelastic.h5" +
+               body,
            shape + "--friction 0.5 --coupled --fields fields --field-steps 4 -o cycle.h5",
            "study study.toml --no-report -o study.h5",
            "compare study.toml --no-report -o compare.h5"}) {
@@ -317,7 +321,7 @@ TEST_CASE("Every option that is a quantity has its unit", "[names]") {
   int known = 0;
   for (const char* command :
        {"generate", "statistics", "contact", "sweep", "gw", "fit", "damping", "mdr", "damper",
-        "friction", "joint", "oscillate", "figure3", "study", "compare"}) {
+        "friction", "joint", "viscoelastic", "oscillate", "figure3", "study", "compare"}) {
     const std::string help = test.run(std::string(command) + " --help").out;
     for (std::sregex_iterator found(help.begin(), help.end(), line), end; found != end; ++found) {
       std::string name = (*found)[1];

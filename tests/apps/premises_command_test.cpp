@@ -184,6 +184,10 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
       {"damper", law + drag},
       {"friction", law + drag + "--friction-coefficient 0.3 --velocities 1um/s"},
       {"joint", law + "--friction-coefficient 0.3 --tangential-amplitudes 5nm"},
+      {"viscoelastic",
+       "--profile parabola --radius 1mm --indentation 100nm --drag-velocity 1um/s --prony "
+       "3GPa:1ms" +
+           body + drag},
       {"oscillate", "--shape parabola --points 32 --method levels" + body},
       {"figure3", "--points 32 --steps 16" + body},
       {"study", "study.toml --no-stick --no-report -o study.h5"},
@@ -195,9 +199,10 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
       {"manual", ""}};
   const std::string help = test.run("--help").out;
   int with_loss = 0;
-  for (const std::string name : {"generate", "info", "convert", "statistics", "contact", "sweep",
-                                 "gw", "fit", "damping", "mdr", "damper", "friction", "joint",
-                                 "oscillate", "figure3", "study", "compare", "verify"}) {
+  for (const std::string name :
+       {"generate", "info", "convert", "statistics", "contact", "sweep", "gw", "fit", "damping",
+        "mdr", "damper", "friction", "joint", "viscoelastic", "oscillate", "figure3", "study",
+        "compare", "verify"}) {
     INFO(name);
     const auto run = test.run(name + " " + commands.at(name) + " --json");
     INFO(run.err);
@@ -210,7 +215,7 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
     else
       check_premises(answer);
   }
-  CHECK(with_loss == 9);
+  CHECK(with_loss == 10);
   // A command that is new has to be listed above.
   std::istringstream lines(help);
   for (std::string line; std::getline(lines, line);) {

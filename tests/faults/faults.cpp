@@ -123,6 +123,12 @@ std::vector<Case> all_cases() {
        {},
        "joint --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--friction-coefficient 0.3 --tangential-forces 10mN,100mN -o out.csv"},
+      {"viscoelastic",
+       {},
+       "viscoelastic --profile cone --angle 10deg --indentation 1um --prony 1GPa:1ms "
+       "--normal-amplitude 0.1um --drag-velocity 1um/s --frequency 100 --steps 32 --springs 16 -o "
+       "out.csv" +
+           material},
       {"figure3", {}, "figure3 --points 16 --steps 8 -o out.h5" + material},
       // Resumable from the start: the file holds its command line.
       {"study", {}, study + " --no-report --resume", {}, study + " --no-report --resume"},

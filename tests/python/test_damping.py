@@ -293,3 +293,22 @@ def test_a_sphere_in_partial_slip_is_mindlins() -> None:
     assert again.tangential_amplitude == pytest.approx(219.16662e-9, rel=1e-8)
     with pytest.raises(salebra.InvalidInput, match="give exactly one"):
         salebra.joint_loss(law, friction_coefficient=0.3, force=10.0)
+
+
+def test_losses_on_rubber_are_told_apart() -> None:
+    law = salebra.IndenterLaw(salebra.cone_profile(0.2), salebra.Material(4e6, poisson=0.5))
+    prony = salebra.PronySeries.of_body(salebra.Material(4e6, poisson=0.5), [(3e6, 0.02)])
+    assert prony.relaxed_modulus == pytest.approx(1e6)
+    assert prony.complex_modulus(50.0) == pytest.approx(2.5e6 + 1.5e6j)
+    slow = salebra.EqualFrequency(normal_amplitude=1e-6, tangential_amplitude=5e-7, phase=1.5, angular_frequency=5e-3)
+    loss = salebra.viscoelastic_damping(law, prony, salebra.sample(slow, 2e-5, 256))
+    assert loss.converged
+    # First order in ωτ = 1e-4, and 256 steps.
+    assert loss.relaxation_work == pytest.approx(salebra.relaxation_damping(law, slow, indentation=2e-5).work_per_cycle, rel=2e-3)
+    assert loss.work_per_cycle == pytest.approx(loss.normal_material_work + loss.tangential_material_work + loss.relaxation_work)
+    time = np.linspace(0, 1e-6, 50)
+    pressed = salebra.viscoelastic_indentation(law, prony, time, 2e-5 * time / time[-1])
+    # At once: four times the relaxed force, to the springs and t/τ.
+    assert pressed.force[-1] == pytest.approx(4 * law.force(2e-5), rel=1e-4)
+    with pytest.raises(salebra.InvalidInput, match="term 2"):
+        salebra.PronySeries(1e6, [(1e6, 1.0), (-1e6, 1.0)])

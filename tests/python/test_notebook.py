@@ -38,6 +38,7 @@ def makers() -> dict[str, Callable[[], Any]]:
     law = salebra.IndenterLaw(salebra.paraboloid_profile(1e-2), MATERIAL)
     contact = state.contact_pressure > 0
     free = salebra.paraboloid_surface(GRID, 10e-3, salebra.off_grid_center(GRID))
+    prony = salebra.PronySeries.of_body(MATERIAL, [(1e9, 1e-4)])
     levels = salebra.boundary_element_levels(free, MATERIAL, boundary="free", tolerance=1e-8)
     study = salebra.run_study(salebra.parse_study_configuration(STUDY))
     psd = salebra.power_spectrum(surface)
@@ -103,6 +104,7 @@ def makers() -> dict[str, Callable[[], Any]]:
         "Premises": lambda: salebra.premises_of(law, DRAG, indentation=1e-6),
         "PressureWindow": lambda: salebra.fit_exponential(curve, (1e5, 5e6)).window,
         "ProfilePsd": lambda: salebra.profile_psd(surface),
+        "PronySeries": lambda: prony,
         "PunchStiffness": lambda: salebra.punch_stiffness(contact, surface.grid, MATERIAL),
         "RadialSpectrum": lambda: salebra.radial_spectrum(psd),
         "Realisation": lambda: study.realisations[0],
@@ -130,6 +132,8 @@ def makers() -> dict[str, Callable[[], Any]]:
         "TwoFrequencies": lambda: salebra.TwoFrequencies(
             normal_amplitude=1e-9, tangential_amplitude=1e-9, phase=0.0, normal_angular_frequency=1e5,
             tangential_angular_frequency=1e4),
+        "ViscoelasticDamping": lambda: salebra.viscoelastic_damping(law, prony, salebra.sample(EQUAL, 1e-6, 32), springs=8),
+        "ViscoelasticIndentation": lambda: salebra.viscoelastic_indentation(law, prony, [0.0, 1e-3], [0.0, 1e-6], springs=8),
         "WindowSensitivity": lambda: salebra.window_sensitivity(curve, (1e5, 5e6)),
     }
 

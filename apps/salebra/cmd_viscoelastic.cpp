@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra viscoelastic`: losses of material and of relaxation damping on a viscoelastic body.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
+#include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/viscoelastic_damping.hpp>
+
+#include "figures.hpp"
+#include "indenter_options.hpp"
+#include "options.hpp"
+#include "premise_options.hpp"
+#include "program.hpp"
+#include "result_tables.hpp"
+
+namespace salebra::cli {
+namespace {
+
+struct ViscoelasticArguments {
+  IndenterOptions indenter;
+  MaterialOptions material;
+  MotionOptions motion;
+  std::optional<double> indentation, force;
+  std::string prony;
+  int steps = 512, springs = 200;
+  PremiseOptions premises;
+};
+
+/// "G1:tau1,G2:tau2".
+std::vector<PronyTerm> parse_terms(const std::string& text) {
+  std::vector<PronyTerm> terms;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string term = text.substr(begin, end - begin);
+    const std::size_t colon = term.find(':');
+    require(colon != term.npos, "--prony", '\'' + term + '\'',
+            "is not MODULUS:TIME; give for example 10MPa:1ms,2MPa:0.1s");
+    terms.push_back({parse_quantity(term.substr(0, colon), Dimension::pressure, "--prony"),
+                     parse_quantity(term.substr(colon + 1), Dimension::time, "--prony")});
+    begin = end + 1;
+  }
+  return terms;
+}
+
+struct Case {
+  double angular_frequency = 0, elastic_work = 0;
+  ViscoelasticDamping loss;
+};
+
+double angular_frequency_of(const Oscillation& motion) {
+  return std::visit([](const auto& m) { return m.angular_frequency; }, motion);
+}
+
+ResultTable table_of(const std::vector<Case>& cases, const PronySeries& prony,
+                     const std::pair<std::string, std::vector<double>>& varied) {
+  ResultTable table{.name = "motions", .columns = {}};
+  const auto column = [&](const char* name, const auto& value_of) {
+    std::vector<double> values;
+    for (const Case& one : cases) values.push_back(value_of(one));
+    table.columns.push_back({name, values});
+  };
+  if (!varied.second.empty() && varied.first != "angular_frequency")
+    table.columns.push_back({varied.first, varied.second});
+  column("angular_frequency", [](const Case& one) { return one.angular_frequency; });
+  column("storage_modulus",
+         [&](const Case& one) { return prony.complex_modulus(one.angular_frequency).real(); });
+  column("loss_modulus",
+         [&](const Case& one) { return prony.complex_modulus(one.angular_frequency).imag(); });
+  const auto member = [&](const char* name, double ViscoelasticDamping::*of) {
+    column(name, [of](const Case& one) { return one.loss.*of; });
+  };
+  member("work_per_cycle", &ViscoelasticDamping::work_per_cycle);
+  member("normal_material_work", &ViscoelasticDamping::normal_material_work);
+  member("tangential_material_work", &ViscoelasticDamping::tangential_material_work);
+  member("relaxation_work", &ViscoelasticDamping::relaxation_work);
+  column("elastic_work", [](const Case& one) { return one.elastic_work; });
+  member("power", &ViscoelasticDamping::power);
+  member("damping_constant", &ViscoelasticDamping::damping_constant);
+  member("mean_force", &ViscoelasticDamping::mean_force);
+  member("min_contact_radius", &ViscoelasticDamping::min_contact_radius);
+  member("max_contact_radius", &ViscoelasticDamping::max_contact_radius);
+  return table;
+}
+
+Figure loss_figure(const ResultTable& table) {
+  const auto values = [&](const char* name) {
+    return std::ranges::find(table.columns, std::string(name), &ResultColumn::name)->values;
+  };
+  const ResultColumn& along = table.columns.front();
+  const PlotAxis x = axis_of(along.name, spans_decades(along.values));
+  Figure figure;
+  figure.columns = 2;
+  figure.panels.push_back({.title = "Energy dissipated in a cycle",
+                           .x = x,
+                           .y = {.label = "W", .unit = "J", .logarithmic = true},
+                           .legend = PlotLegend::top_left});
+  std::vector<PlotCurve>& losses = figure.panels.back().curves;
+  for (const auto& [name, title] : {std::pair{"normal_material_work", "material, normal"},
+                                    {"tangential_material_work", "material, tangential"},
+                                    {"relaxation_work", "relaxation"}})
+    losses.push_back({.name = title, .x = along.values, .y = values(name)});
+  losses.push_back({.name = "elastic, relaxed modulus",
+                    .x = along.values,
+                    .y = values("elastic_work"),
+                    .style = PlotStyle::dashed});
+  figure.panels.push_back({.title = "Complex shear modulus",
+                           .x = x,
+                           .y = {.label = "modulus", .unit = "Pa", .logarithmic = true},
+                           .legend = PlotLegend::top_left});
+  figure.panels.back().curves = {
+      {.name = "storage", .x = along.values, .y = values("storage_modulus")},
+      {.name = "loss", .x = along.values, .y = values("loss_modulus")}};
+  return figure;
+}
+
+void run(const ViscoelasticArguments& arguments, Session& session) {
+  require_tables(session, {"motions"});
+  std::vector<std::string> missing = arguments.motion.missing();
+  if (arguments.prony.empty()) missing.insert(missing.begin(), "--prony");
+  if (arguments.motion.mode != "drag" && arguments.motion.frequency.empty() &&
+      arguments.motion.angular_frequency.empty())
+    missing.emplace_back("--frequency (or --angular-frequency)");
+  require_options(missing, "the loss on a viscoelastic body");
+  require(arguments.material.young.size() <= 1, "--young", arguments.material.young.size(),
+          "bodies are given; the indenter is rigid, give the relaxed modulus of the other body");
+  const Material material = arguments.material.material_with_tangential_modulus();
+  const PronySeries prony = PronySeries::of_body(material, parse_terms(arguments.prony));
+  prony.validate();
+  const IndenterLaw law(arguments.indenter.indenter(), material);
+  require(arguments.indentation.has_value() != arguments.force.has_value(), "--indentation",
+          arguments.indentation ? "given beside" : "and --normal-force are both missing;",
+          arguments.indentation ? "--normal-force; give one of them" : "give one of them");
+  if (arguments.indentation) require_positive(*arguments.indentation, "--indentation");
+  const double indentation =
+      arguments.indentation ? *arguments.indentation : law.indentation_of(*arguments.force);
+  const ContactFacts facts =
+      at_state(arguments.premises.facts(arguments.material), law, nullptr, indentation);
+
+  std::vector<Case> cases;
+  PremiseReport premises{.list = true};
+  const std::vector<Oscillation> motions = arguments.motion.motions();
+  const Progress progress = session.progress();
+  for (const Oscillation& motion : motions) {
+    Case& one = cases.emplace_back();
+    one.angular_frequency = angular_frequency_of(motion);
+    // Refuses what lies outside the law, before the longer computation.
+    one.elastic_work = relaxation_damping(law, AtIndentation{indentation}, motion).work_per_cycle;
+    one.loss = viscoelastic_damping(law, prony, sample(motion, indentation, arguments.steps),
+                                    arguments.springs);
+    premises.cases.push_back(premises_of(law, indentation, motion, facts));
+    if (!progress(
+            {"viscoelastic", double(cases.size()) / double(motions.size()), int(cases.size()), 0}))
+      throw Interrupted("viscoelastic: stopped before all motions were done");
+  }
+  if (const auto lost =
+          std::ranges::count(cases, false, [](const Case& one) { return one.loss.converged; });
+      lost > 0)
+    throw NotConverged(fmt::format(
+        "viscoelastic: {} of {} steady states were not found; relaxation times beyond 1e9 periods "
+        "belong to the relaxed modulus or are left out",
+        lost, cases.size()));
+
+  Json answer = {{"indentation", indentation},
+                 {"force", law.force(indentation)},
+                 {"normal_stiffness", law.normal_stiffness(indentation)},
+                 {"tangential_stiffness", law.tangential_stiffness(indentation)},
+                 {"relaxed_modulus", prony.relaxed_modulus},
+                 {"unrelaxed_modulus", prony.unrelaxed_modulus()}};
+  const ResultTable table = table_of(cases, prony, arguments.motion.varied());
+  write_tables(session, "viscoelastic", answer, {table});
+  for (const ResultColumn& column : table.columns) answer[column.name] = column.values;
+  if (session.has_plot()) session.plot(loss_figure(table));
+  premises.answer(session, answer);
+}
+
+}  // namespace
+
+void add_viscoelastic_command(Program& program) {
+  auto arguments = std::make_shared<ViscoelasticArguments>();
+  Command& command = program.add_command(
+      "viscoelastic", "losses of an indenter that oscillates on rubber or a polymer",
+      {"salebra viscoelastic --profile sphere --radius 5mm --indentation 20um --contact-modulus "
+       "4MPa --poisson 0.5 --prony 3MPa:20ms --mode equal-frequency --normal-amplitude 2um "
+       "--tangential-amplitude 1um --phase 90deg --frequency 0.1Hz:1kHz:25 --plot losses.png",
+       "salebra viscoelastic --profile cone --angle 10deg --normal-force 0.1 --young 3MPa "
+       "--poisson 0.5 --prony 2MPa:1ms,1MPa:50ms --normal-amplitude 1um --drag-velocity 10um/s "
+       "--frequency 10Hz:1kHz:9 -o losses.csv"},
+      [arguments](Session& session) { run(*arguments, session); },
+      "losses and complex modulus over the quantity that varies", OutputCheck::any_name);
+  arguments->indenter.add_to(command);
+  const std::string position = "Position";
+  add_quantity(command, "--indentation", arguments->indentation, Dimension::length,
+               "mean, from first touch")
+      ->group(position);
+  add_quantity(command, "--normal-force", arguments->force, Dimension::force,
+               "of the relaxed contact at rest")
+      ->group(position);
+  arguments->material.add_to(command);
+  command
+      .add_option("--prony", arguments->prony,
+                  "terms G1:T1,G2:T2,... of the shear relaxation modulus, added to the relaxed one "
+                  "of the other options: 3MPa:20ms")
+      ->type_name("LIST")
+      ->group("Material");
+  arguments->motion.add_to(command);
+  command.add_option("--steps", arguments->steps, "straight steps of a cycle; default 512")
+      ->range(16, 1000000);
+  command
+      .add_option("--springs", arguments->springs, "in the ring that opens and closes; default 200")
+      ->range(8, 1000000);
+  arguments->premises.add_to(command);
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of contacts on viscoelastic bodies.
+#include <nanobind/stl/complex.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/vector.h>
+
+#include <salebra/damping/viscoelastic_damping.hpp>
+
+#include "bindings.hpp"
+#include "interop/arrays.hpp"
+#include "interop/citations.hpp"
+#include "interop/running.hpp"
+
+namespace salebra::python {
+namespace {
+
+using Terms = std::vector<std::pair<double, double>>;
+
+std::vector<PronyTerm> terms_of(const Terms& pairs) {
+  std::vector<PronyTerm> terms;
+  for (const auto& [modulus, time] : pairs) terms.push_back({modulus, time});
+  return terms;
+}
+
+void bind_series(nb::module_& m) {
+  nb::class_<PronySeries>(
+      m, "PronySeries",
+      R"(Shear relaxation modulus of an isotropic material with a constant Poisson's ratio.
+
+.. math:: G(t) = G_\infty + \sum_i G_i\,e^{-t/\tau_i}
+
+Parameters
+----------
+relaxed_modulus : float
+    G∞, Pa.
+terms : list of (float, float)
+    G_i, Pa, and τ_i, s; one is the standard linear solid.
+)")
+      .def(
+          "__init__",
+          [](PronySeries* self, double relaxed_modulus, const Terms& terms) {
+            PronySeries series{relaxed_modulus, terms_of(terms)};
+            series.validate();
+            new (self) PronySeries(std::move(series));
+          },
+          nb::arg("relaxed_modulus"), nb::arg("terms"))
+      .def_static(
+          "of_body",
+          [](const Material& relaxed, const Terms& terms) {
+            PronySeries series = PronySeries::of_body(relaxed, terms_of(terms));
+            series.validate();
+            return series;
+          },
+          nb::arg("relaxed"), nb::arg("terms"),
+          "With the G∞ of a Material: one body in its relaxed state against a rigid one.")
+      .def_ro("relaxed_modulus", &PronySeries::relaxed_modulus, "G∞, Pa.")
+      .def_prop_ro("unrelaxed_modulus", &PronySeries::unrelaxed_modulus, "G(0), Pa.")
+      .def_prop_ro(
+          "terms",
+          [](const PronySeries& self) {
+            Terms terms;
+            for (const PronyTerm& term : self.terms)
+              terms.emplace_back(term.modulus, term.relaxation_time);
+            return terms;
+          },
+          "Pairs of G_i, Pa, and τ_i, s.")
+      .def("complex_modulus", &PronySeries::complex_modulus, nb::arg("angular_frequency"),
+           "G' + iG'', Pa, at ω, rad/s.");
+}
+
+void bind_indentation(nb::module_& m) {
+  nb::class_<ViscoelasticIndentation> path(
+      m, "ViscoelasticIndentation",
+      "An indenter on a viscoelastic body along a path, and the springs at its end.");
+  view_property(path, "force", &ViscoelasticIndentation::force, "F at the samples, N.");
+  view_property(path, "contact_radius", &ViscoelasticIndentation::contact_radius,
+                "a at the samples, m.");
+  view_property(path, "spring_position", &ViscoelasticIndentation::spring_position,
+                "x of the springs, m.");
+  view_property(path, "spring_load", &ViscoelasticIndentation::spring_load,
+                "q_z(x) of both sides at the last sample, N/m.");
+  view_property(path, "spring_displacement", &ViscoelasticIndentation::spring_displacement,
+                "w(x) at the last sample, m.");
+  m.def(
+      "viscoelastic_indentation",
+      [](const IndenterLaw& law, const PronySeries& prony, const Values& time,
+         const Values& indentation, int springs) {
+        cite({"popov_hess2015"});
+        return unlocked([&] {
+          return viscoelastic_indentation(law, prony, time.values, indentation.values, springs);
+        });
+      },
+      nb::arg("law"), nb::arg("prony"), nb::arg("time"), nb::arg("indentation"), nb::kw_only(),
+      nb::arg("springs") = 400,
+      R"(Normal force and contact radius of an indenter on a body that was never touched, along δ(t).
+
+Straight between the samples; the contact may grow, recede and be made again.
+
+Parameters
+----------
+law : IndenterLaw
+    Of the relaxed body.
+prony : PronySeries
+time, indentation : array_like
+    s and m, from first touch.
+springs : int
+    Over the largest contact radius; second order.
+)");
+}
+
+void bind_damping_of_period(nb::module_& m) {
+  using Damping = ViscoelasticDamping;
+  nb::class_<Damping> damping(m, "ViscoelasticDamping",
+                              "What a viscoelastic contact that sticks loses in a period.");
+  damping.def_ro("work_per_cycle", &Damping::work_per_cycle, "All of it, J.")
+      .def_ro("normal_material_work", &Damping::normal_material_work,
+              "By the material under the normal motion, J.")
+      .def_ro("tangential_material_work", &Damping::tangential_material_work,
+              "By the material in contact under the tangential motion, J.")
+      .def_ro("relaxation_work", &Damping::relaxation_work,
+              "By springs that are let go stretched, J.")
+      .def_ro("power", &Damping::power, "work_per_cycle over the period, W.")
+      .def_ro("damping_constant", &Damping::damping_constant,
+              "Of the tangential losses over ⟨ẋ²⟩, N s/m.")
+      .def_ro("mean_force", &Damping::mean_force, "Of the normal force over the period, N.")
+      .def_ro("min_contact_radius", &Damping::min_contact_radius, "Of what never opens, m.")
+      .def_ro("max_contact_radius", &Damping::max_contact_radius, "m")
+      .def_ro("converged", &Damping::converged, "False: do not use the losses.");
+  view_property(damping, "force", &Damping::force, "F at the samples of the trajectory, N.");
+  m.def(
+      "viscoelastic_damping",
+      [](const IndenterLaw& law, const PronySeries& prony, const SampledMotion& trajectory,
+         int springs) {
+        cite({"popov2015", "popov_hess2015"});
+        return unlocked([&] { return viscoelastic_damping(law, prony, trajectory, springs); });
+      },
+      nb::arg("law"), nb::arg("prony"), nb::arg("trajectory"), nb::kw_only(),
+      nb::arg("springs") = 200,
+      R"(Losses of an indenter on a viscoelastic body in the steady state of a periodic motion without slip.
+
+Parameters
+----------
+law : IndenterLaw
+    Of the relaxed body.
+prony : PronySeries
+trajectory : SampledMotion
+    One period, as of `sample()`.
+springs : int
+    In the ring that opens and closes; second order.
+)");
+}
+
+}  // namespace
+
+void bind_viscoelastic(nb::module_& m) {
+  bind_series(m);
+  bind_indentation(m);
+  bind_damping_of_period(m);
+}
+
+}  // namespace salebra::python
