@@ -53,7 +53,10 @@ MonotoneHermite::MonotoneHermite(std::vector<double> x, std::vector<double> y,
 
 MonotoneHermite::Point MonotoneHermite::at(double x) const {
   const auto above = std::upper_bound(x_.begin() + 1, x_.end() - 1, x);
-  const std::size_t i = static_cast<std::size_t>(above - x_.begin()) - 1;
+  return on(static_cast<std::size_t>(above - x_.begin()) - 1, x);
+}
+
+MonotoneHermite::Point MonotoneHermite::on(std::size_t i, double x) const {
   const double width = x_[i + 1] - x_[i], t = (x - x_[i]) / width;
   const double rise = y_[i + 1] - y_[i], m0 = slopes_[i] * width, m1 = slopes_[i + 1] * width;
   const double quadratic = 3 * rise - 2 * m0 - m1, cubic = m0 + m1 - 2 * rise;

@@ -11,8 +11,8 @@
 #include <salebra/damping/level_quadrature.hpp>
 #include <vector>
 
-#include "base/dense_systems.hpp"
 #include "phase_quadrature.hpp"
+#include "surface/dense_systems.hpp"
 
 namespace salebra {
 namespace {
@@ -75,7 +75,7 @@ Series fit(const FitData& data, int degree) {
   }
   Series series;
   series.coefficients = detail::least_squares(basis, right);
-  series.normal_inverse = detail::inverse(Eigen::MatrixXd(basis.transpose() * basis));
+  series.normal_inverse = detail::pseudo_inverse(basis.transpose() * basis);
   const double freedom = std::max<double>(1, static_cast<double>(rows - degree - 1));
   series.scatter = (right - basis * series.coefficients).norm() / std::sqrt(freedom);
   return series;

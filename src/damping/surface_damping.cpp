@@ -17,9 +17,9 @@
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/surface/refine.hpp>
 
-#include "base/dense_systems.hpp"
 #include "contact/normal/contact_memory.hpp"
 #include "phase_quadrature.hpp"
+#include "surface/dense_systems.hpp"
 
 namespace salebra {
 namespace {

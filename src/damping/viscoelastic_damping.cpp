@@ -6,8 +6,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 
-#include "base/dense_systems.hpp"
 #include "contact/mdr/viscoelastic_spring.hpp"
+#include "surface/dense_systems.hpp"
 
 namespace salebra {
 namespace {

@@ -4,7 +4,7 @@
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/moments.hpp>
 
-#include "base/dense_systems.hpp"
+#include "surface/dense_systems.hpp"
 
 namespace salebra {
 namespace {
@@ -39,7 +39,7 @@ void subtract_fit(Surface& surface) {
       right += terms * (height - mean);
     }
   }
-  const Eigen::Vector<double, Terms> trend = detail::shortest_solution(normal, right);
+  const Eigen::Vector<double, Terms> trend = detail::least_squares(normal, right);
   for (Index ix = 0; ix < nx; ++ix)
     for (Index iy = 0; iy < ny; ++iy)
       surface.heights(ix, iy) -=

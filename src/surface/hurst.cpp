@@ -9,7 +9,7 @@
 #include <salebra/surface/spectrum.hpp>
 #include <vector>
 
-#include "base/dense_systems.hpp"
+#include "surface/dense_systems.hpp"
 
 namespace salebra {
 namespace {
@@ -154,7 +154,7 @@ Eigen::Vector2d fit_power_law(const std::vector<Mode>& modes, const Eigen::Matri
       score += mode.weight * excess * Eigen::Vector2d(1, mode.x);
     }
     // A far start overshoots; a step of more than one unit is shortened.
-    Eigen::Vector2d step = detail::positive_solution(information, score);
+    Eigen::Vector2d step = detail::least_squares(information, score);
     step /= std::max(1.0, step.norm());
     law += step;
     if (step.norm() < 1e-10) break;
@@ -210,7 +210,7 @@ HurstEstimate estimate_hurst(const PowerSpectrum& spectrum) {
   // A window makes neighbouring modes alike: rings that happen to scatter less than that are luck, not knowledge.
   const double dispersion =
       std::max(scatter / freedom, spectrum.windowed ? spectrum.correlated_modes : 0);
-  const double error = std::sqrt(dispersion * detail::inverse(information)(1, 1)) / 2;
+  const double error = std::sqrt(dispersion * detail::pseudo_inverse(information)(1, 1)) / 2;
   const double half_width = gsl_cdf_tdist_Pinv(0.975, freedom) * error;
   Index all = 0;
   for (const Mode& mode : modes) all += static_cast<Index>(2 * mode.weight);

@@ -9,7 +9,7 @@
 #include <salebra/surface/self_affine_fit.hpp>
 #include <vector>
 
-#include "base/dense_systems.hpp"
+#include "surface/dense_systems.hpp"
 
 namespace salebra {
 namespace {
@@ -82,7 +82,7 @@ double deviance(const std::vector<Ring>& rings, double kink) {
       gradient += ring.weight * (1 - ratio) * terms;
       curvature += ring.weight * std::max(ratio, 1e-3) * terms * terms.transpose();
     }
-    Eigen::Vector2d step = detail::shortest_solution<2>(curvature, -gradient);
+    Eigen::Vector2d step = detail::least_squares(curvature, -gradient);
     double next = value(law + step);
     for (int halving = 0; next > best && halving < 40; ++halving) {
       step /= 2;

@@ -43,8 +43,8 @@ TEST_CASE("mdr gives Hertz's contact and its losses at any amplitude", "[mdr]") 
 TEST_CASE("mdr reads profiles and trajectories from files", "[mdr]") {
   const ProgramTest test;
   std::string profile = "r, f\n", path = "# time indentation x\n";
-  for (int i = 0; i <= 200; ++i) {
-    const double r = 1e-6 * i;
+  for (int i = 0; i <= 50; ++i) {
+    const double r = 4e-6 * i;
     profile += std::to_string(r * 1e6) + "e-6, " + std::to_string(r * r / 0.02 * 1e12) + "e-12\n";
   }
   for (int i = 0; i <= 400; ++i) {

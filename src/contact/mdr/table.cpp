@@ -13,26 +13,38 @@
 namespace salebra {
 namespace {
 
+template <int Pairs>
+struct GaussRule {
+  double node[Pairs], weight[Pairs];  // of the half above the middle
+};
+constexpr GaussRule<2> four_points{{0.3399810435848563, 0.8611363115940526},
+                                   {0.6521451548625461, 0.3478548451374538}};
+constexpr GaussRule<4> eight_points{
+    {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363},
+    {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763}};
+
 // Σ over the pieces of f below x of ∫ integrand(r, f', f'') dφ, r = x sinφ. On each piece f' is a parabola in r,
-// hence smooth in φ, and eight Gauss points are exact to round-off.
+// hence smooth in φ. Its eighth derivative in φ is at most 2⁷x²f''' ≈ 2⁷f'/w² on a piece of width w, and four Gauss
+// points leave 5.6e-10 w⁸ of it: less than round-off for w < 0.05. Eight points are exact to round-off on any piece.
 template <class Integrand>
 double sum_of_pieces(const detail::MonotoneHermite& f, double x, const Integrand& integrand) {
-  constexpr double node[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
-                              0.9602898564975363};
-  constexpr double weight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                                0.1012285362903763};
   const std::vector<double>& radii = f.nodes();
   double sum = 0, from = 0;
   for (std::size_t i = 1; i < radii.size() && from < std::numbers::pi / 2; ++i) {
     const double to = radii[i] < x ? std::asin(radii[i] / x) : std::numbers::pi / 2;
     const double half = 0.5 * (to - from), middle = 0.5 * (to + from);
-    for (int j = 0; j < 4; ++j)
-      for (const double side : {-1.0, 1.0}) {
-        const double angle = middle + side * half * node[j];
-        const double r = x * std::sin(angle);
-        const auto point = f.at(std::min(r, radii.back()));
-        sum += weight[j] * half * integrand(angle, r, point);
-      }
+    const auto add = [&]<int Pairs>(const GaussRule<Pairs>& rule) {
+      for (int j = 0; j < Pairs; ++j)
+        for (const double side : {-1.0, 1.0}) {
+          const double angle = middle + side * half * rule.node[j];
+          const double r = std::min(x * std::sin(angle), radii.back());
+          sum += rule.weight[j] * half * integrand(angle, r, f.on(i - 1, r));
+        }
+    };
+    if (half < 0.025)
+      add(four_points);
+    else
+      add(eight_points);
     from = to;
   }
   return sum;

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "base/dense_systems.hpp"
+#include "surface/dense_systems.hpp"
 #include "viscoelastic_spring.hpp"
 
 namespace salebra {
