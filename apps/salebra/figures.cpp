@@ -166,7 +166,7 @@ Figure cycle_figure(const SampledMotion& path, const TrajectoryDamping& loss) {
   figure.columns = 3;
   figure.panels.push_back(path_panel(path));
   figure.panels.push_back(
-      {.title = "Loop: its area is the loss",
+      {.title = loss.transverse_force.empty() ? "Loop: its area is the loss" : "Loop along x",
        .x = roomy({.label = "x", .unit = "m"}, path.displacement),
        .y = roomy({.label = "tangential force F_x", .unit = "N"}, loss.tangential_force)});
   figure.panels.back().curves = {{.x = path.displacement, .y = loss.tangential_force, .color = 1}};

@@ -26,7 +26,7 @@ void FollowOptions::add_to(Command& app) {
       ->range(8, 10000000)
       ->group(group);
   app.add_option("--trajectory", trajectory,
-                 "follow one period from a file of time, indentation, displacement (SI)")
+                 "follow one period from a file of time, indentation, x and, without slip, y (SI)")
       ->type_name("FILE")
       ->group(group);
 }
@@ -68,15 +68,27 @@ void add_losses(Json& object, const TrajectoryDamping& loss) {
 
 void follow_file(const FollowOptions& options, const ContactLaw& law, const ContactFacts& facts,
                  Session& session) {
-  const auto columns = read_number_table(options.trajectory, 3);
+  const auto columns = read_number_table(options.trajectory, 3, 4);
   const SampledMotion path{columns[0], columns[1], columns[2]};
+  const bool transverse = columns.size() > 3;
+  require(!transverse || !options.friction_coefficient, "--friction",
+          options.friction_coefficient.value_or(0),
+          "cannot be combined with a trajectory in two directions, whose slip is not followed; "
+          "leave it out, or the fourth column");
   const TrajectoryDamping loss =
-      trajectory_damping(law, path, {.friction_coefficient = options.coefficient()});
+      transverse ? trajectory_damping(law, path, columns[3])
+                 : trajectory_damping(law, path, {.friction_coefficient = options.coefficient()});
   Json object;
   add_losses(object, loss);
   const double middle =
       0.5 * (std::ranges::min(path.indentation) + std::ranges::max(path.indentation));
-  const PremiseReport premises{{premises_of(law, path, at_state(facts, law, nullptr, middle))}};
+  PremiseReport premises{{premises_of(law, path, at_state(facts, law, nullptr, middle))}};
+  if (transverse) {
+    // Slip is judged along x alone, where it is one of the vector.
+    Premises& judged = premises.cases.front();
+    judged.slip_of_opening_levels = judged.slip_of_closed_levels = {};
+    judged.largest.clear();
+  }
   if (session.has_output()) {
     ResultFile file(session.output(), session.provenance(), session.write_options());
     QuantityGroup group(file.group("trajectory"));
@@ -84,6 +96,10 @@ void follow_file(const FollowOptions& options, const ContactLaw& law, const Cont
     group.dataset("indentation", path.indentation, {"time"});
     group.dataset("tangential", path.displacement, {"time"});
     group.dataset("tangential_force", loss.tangential_force, {"time"});
+    if (transverse) {
+      group.dataset("transverse", columns[3], {"time"});
+      group.dataset("transverse_force", loss.transverse_force, {"time"});
+    }
     group.dataset("dissipated", loss.dissipated, {"time"});
     file.commit();
   }

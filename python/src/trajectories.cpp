@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bindings of the tangential contact along a path and its damping.
+#include <nanobind/stl/optional.h>
+
 #include <limits>
+#include <optional>
+#include <salebra/base/error.hpp>
 #include <salebra/damping/tangential_contact.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 
@@ -81,19 +85,28 @@ void bind_damping_of_trajectory(nb::module_& m) {
       .def_ro("memory", &TrajectoryDamping::memory, "Most pieces of history held at a time.");
   view_property(damping, "tangential_force", &TrajectoryDamping::tangential_force,
                 "F_x at the samples, N.");
+  view_property(damping, "transverse_force", &TrajectoryDamping::transverse_force,
+                "F_y at the samples, N; empty where nothing moves along y.");
   view_property(damping, "dissipated", &TrajectoryDamping::dissipated,
                 "Energy lost since the first sample, J.");
   m.def(
       "trajectory_damping",
-      [](const ContactLaw& law, const SampledMotion& trajectory, double friction_coefficient) {
+      [](const ContactLaw& law, const SampledMotion& trajectory, double friction_coefficient,
+         const std::optional<Values>& transverse) {
         cite({"popov2015"});
-        return unlocked(
-            [&] { return trajectory_damping(law, trajectory, {friction_coefficient}); });
+        require(!transverse || friction_coefficient == infinite, "friction_coefficient",
+                friction_coefficient,
+                "cannot be combined with transverse, whose slip is not followed; leave one out");
+        return unlocked([&] {
+          return transverse ? trajectory_damping(law, trajectory, transverse->values)
+                            : trajectory_damping(law, trajectory, {friction_coefficient});
+        });
       },
       nb::arg("law"), nb::arg("trajectory"), nb::kw_only(),
-      nb::arg("friction_coefficient") = infinite,
+      nb::arg("friction_coefficient") = infinite, nb::arg("transverse") = nb::none(),
       "Steady state of a periodic trajectory; exact for its straight steps. "
-      "friction_coefficient: μ, infinite for full stick.");
+      "friction_coefficient: μ, infinite for full stick; transverse: y at the samples, m, of a "
+      "motion in two directions without slip.");
 }
 
 }  // namespace

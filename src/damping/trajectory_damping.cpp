@@ -5,6 +5,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
+#include <utility>
 
 namespace salebra {
 namespace {
@@ -23,26 +24,40 @@ double mean_product(const SampledMotion& path, const std::vector<double>& a,
   return sum / path.period();
 }
 
-void set_means(TrajectoryDamping& result, const SampledMotion& path, bool drifts) {
-  double square_velocity = 0;
-  for (std::size_t i = 1; i < path.time.size(); ++i) {
-    const double step = path.displacement[i] - path.displacement[i - 1];
-    square_velocity += step * step / (path.time[i] - path.time[i - 1]);
+// A direction of the motion, and the force in it.
+struct Direction {
+  const std::vector<double>&displacement, &force;
+};
+
+void set_means(TrajectoryDamping& result, const SampledMotion& path,
+               std::span<const Direction> directions, bool drifts) {
+  double square_velocity = 0, variance = 0, in_phase = 0;
+  const std::vector<double> ones(path.time.size(), 1);
+  for (const Direction& one : directions) {
+    std::vector<double> x = one.displacement;
+    for (std::size_t i = 1; i < path.time.size(); ++i) {
+      const double step = x[i] - x[i - 1];
+      square_velocity += step * step / (path.time[i] - path.time[i - 1]);
+    }
+    const double mean = mean_product(path, x, ones);
+    for (double& value : x) value -= mean;
+    variance += mean_product(path, x, x);
+    in_phase += mean_product(path, one.force, x);
   }
   square_velocity /= path.period();
   result.power = result.work_per_cycle / path.period();
   result.damping_constant = square_velocity > 0 ? result.power / square_velocity : unknown;
   result.storage_stiffness = result.loss_factor = unknown;
-  if (drifts) return;
-  const std::vector<double> ones(path.time.size(), 1);
-  std::vector<double> x = path.displacement;
-  const double mean = mean_product(path, x, ones);
-  for (double& value : x) value -= mean;
-  const double variance = mean_product(path, x, x);
-  if (!(variance > 0)) return;
-  result.storage_stiffness = mean_product(path, result.tangential_force, x) / variance;
+  if (drifts || !(variance > 0)) return;
+  result.storage_stiffness = in_phase / variance;
   result.loss_factor =
       result.work_per_cycle / (2 * std::numbers::pi * result.storage_stiffness * variance);
+}
+
+// A closed path may end where it began only to round-off.
+bool moves_on(const SampledMotion& path) {
+  const auto [low, high] = std::ranges::minmax(path.displacement);
+  return std::abs(path.drift()) > 1e-9 * (high - low);
 }
 
 }  // namespace
@@ -52,8 +67,7 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
   path.validate();
   const auto [low_x, high_x] = std::ranges::minmax(path.displacement);
   const bool stick = std::isinf(options.friction_coefficient);
-  // A closed path may end where it began only to round-off.
-  const bool drifts = std::abs(path.drift()) > 1e-9 * (high_x - low_x);
+  const bool drifts = moves_on(path);
   const double drift = drifts ? path.drift() : 0;
   // A spring between two limits follows a periodic motion from its second period on. With drift it has to be at the limit of its
   // stretch somewhere in each period: one that begins at that limit is never behind the periodic state and joins it there.
@@ -106,7 +120,27 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
   }
   result.tangential_force[count] = force[0];
   result.dissipated[count] = result.work_per_cycle;
-  set_means(result, path, drifts);
+  const Direction along[]{{path.displacement, result.tangential_force}};
+  set_means(result, path, along, drifts);
+  return result;
+}
+
+TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& path,
+                                     std::span<const double> transverse) {
+  require(transverse.size() == path.time.size(), "transverse", transverse.size(),
+          "positions do not match the times; give one for each");
+  const SampledMotion across{path.time, path.indentation, {transverse.begin(), transverse.end()}};
+  TrajectoryDamping result = trajectory_damping(law, path);
+  TrajectoryDamping other = trajectory_damping(law, across);
+  result.work_per_cycle += other.work_per_cycle;
+  result.relaxation_work += other.relaxation_work;
+  for (std::size_t i = 0; i < result.dissipated.size(); ++i)
+    result.dissipated[i] += other.dissipated[i];
+  result.memory = std::max(result.memory, other.memory);
+  result.transverse_force = std::move(other.tangential_force);
+  const Direction directions[]{{path.displacement, result.tangential_force},
+                               {across.displacement, result.transverse_force}};
+  set_means(result, path, directions, moves_on(path) || moves_on(across));
   return result;
 }
 

@@ -11,7 +11,7 @@
 namespace salebra {
 
 std::vector<std::vector<double>> read_number_table(const std::filesystem::path& file,
-                                                   std::size_t columns) {
+                                                   std::size_t columns, std::size_t most) {
   const std::string content = detail::file_content(file);
   std::vector<std::vector<double>> table(columns);
   std::optional<detail::NumberFormat> format;
@@ -30,6 +30,11 @@ std::vector<std::vector<double>> read_number_table(const std::filesystem::path& 
     detail::settle_format(file, line, lines.number(), format);
     values.clear();
     detail::append_numbers(file, line, lines.number(), *format, values);
+    const bool first = table.front().empty();
+    if (first && values.size() > columns && values.size() <= most) {
+      columns = values.size();
+      table.resize(columns);
+    }
     if (values.size() != columns)
       throw InvalidInput(place + " holds " + std::to_string(values.size()) +
                          " values; give the same " + std::to_string(columns) + " in each line");

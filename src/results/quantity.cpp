@@ -203,6 +203,8 @@ const Quantity others[] = {
     Quantity{"stable", dimensionless, "steady sliding is stable"},
     Quantity{"friction_number", dimensionless, "M = mu E* u_z/(G* u_x)"},
     Quantity{"tangential_force", force, "tangential force"},
+    Quantity{"transverse", length, "displacement along y"},
+    Quantity{"transverse_force", force, "tangential force along y"},
     Quantity{"velocity", velocity, "sliding velocity"},
     Quantity{"mean_tangential_force", force, "tangential force, mean over a cycle"},
     Quantity{"static_friction_coefficient", dimensionless, "friction coefficient as v -> 0"},

@@ -69,6 +69,30 @@ TEST_CASE("mdr reads profiles and trajectories from files", "[mdr]") {
         Approx(exact["work_per_cycle"].get<double>()).epsilon(1e-3));
   CHECK(followed["loss_factor"].get<double>() > 0);
 
+  // With y a quarter of a turn of the phase away; each direction by itself makes the sum.
+  std::string both = "t, indentation, x, y\n", across;
+  for (int i = 0; i <= 400; ++i) {
+    const double angle = 2 * pi * i / 400;
+    const std::string place =
+        std::to_string(i) + " " + std::to_string(1000 - 300 * std::cos(angle)) + "e-9 ";
+    const std::string y = std::to_string(100 * std::cos(angle - pi / 6)) + "e-9\n";
+    both += place + std::to_string(200 * std::cos(angle + pi / 3)) + "e-9 " + y;
+    across += place + y;
+  }
+  test.write("both.txt", both);
+  test.write("across.txt", across);
+  const std::string follow = "mdr --profile parabola --radius 10mm --trajectory ";
+  const auto planar = test.run(follow + "both.txt -o both.h5 --plot both.svg --json " + body);
+  INFO(planar.err);
+  REQUIRE(planar.status == 0);
+  CHECK(
+      planar.json()["work_per_cycle"].get<double>() ==
+      Approx(followed["work_per_cycle"].get<double>() +
+             test.run(follow + "across.txt --json " + body).json()["work_per_cycle"].get<double>())
+          .epsilon(1e-9));
+  CHECK(planar.json()["premises"]["slip_of_opening_levels"]["verdict"] == "unknown");
+  check_refused(test.run(follow + "both.txt --friction 0.3 " + body), "--friction");
+
   test.write("open.txt", "0 1e-6 0\n1 2e-6 0\n2 1.5e-6 0\n");
   check_refused(test.run("mdr --profile parabola --radius 10mm --trajectory open.txt " + body),
                 "one whole period");

@@ -312,3 +312,15 @@ def test_losses_on_rubber_are_told_apart() -> None:
     assert pressed.force[-1] == pytest.approx(4 * law.force(2e-5), rel=1e-4)
     with pytest.raises(salebra.InvalidInput, match="term 2"):
         salebra.PronySeries(1e6, [(1e6, 1.0), (-1e6, 1.0)])
+
+
+def test_motion_in_two_directions_loses_the_sum_of_both() -> None:
+    law = salebra.IndenterLaw(salebra.paraboloid_profile(10e-3), salebra.Material(1e9, poisson=0.3))
+    along = salebra.sample(salebra.EqualFrequency(normal_amplitude=3e-7, tangential_amplitude=2e-7, phase=1.0), 1e-6, 400)
+    across = salebra.sample(salebra.EqualFrequency(normal_amplitude=3e-7, tangential_amplitude=1e-7, phase=2.0), 1e-6, 400)
+    both = salebra.trajectory_damping(law, along, transverse=across.displacement)
+    alone = [salebra.trajectory_damping(law, path) for path in (along, across)]
+    assert both.work_per_cycle == pytest.approx(sum(one.work_per_cycle for one in alone), rel=1e-12)
+    assert np.array_equal(both.transverse_force, alone[1].tangential_force)
+    with pytest.raises(salebra.InvalidInput, match="friction_coefficient"):
+        salebra.trajectory_damping(law, along, transverse=across.displacement, friction_coefficient=0.3)

@@ -3,6 +3,7 @@
 
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/tangential_contact.hpp>
+#include <span>
 #include <vector>
 
 namespace salebra {
@@ -29,8 +30,9 @@ struct TrajectoryDamping {
   std::vector<double>
       tangential_force;  ///< F_x, N; with drift without the permanent levels' share, which grows for
                          ///< ever in full stick
-  std::vector<double> dissipated;  ///< energy lost since the first sample, J
-  std::size_t memory = 0;          ///< most pieces of history held at a time
+  std::vector<double> transverse_force;  ///< F_y, N, likewise; empty where nothing moves along y
+  std::vector<double> dissipated;        ///< energy lost since the first sample, J
+  std::size_t memory = 0;                ///< most pieces of history held at a time
 };
 
 /// Steady state of a periodic trajectory, by a TangentialContact. Without drift it is reached in the second period. With drift and friction
@@ -39,5 +41,12 @@ struct TrajectoryDamping {
 /// that is not valid or leaves the law's range, and for friction < 0. Cost: O(samples).
 TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& trajectory,
                                      const TrajectoryDampingOptions& options = {});
+
+/// The same in full stick for a motion in two tangential directions, x of the trajectory and y. The stretch s that a level is let go with
+/// is a vector, and ½K_t'|s|² is lost: the sum of both directions' losses, for a law whose K_t is the same in all of them. Means are of
+/// the vectors: damping constant P/⟨ẋ² + ẏ²⟩, storage stiffness by F_x x + F_y y. With friction the limit of slip is one of |s|: not here.
+/// transverse   y at the samples, m; may have moved on at the end of the period. Throws InvalidInput unless there is one for each, finite.
+TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& trajectory,
+                                     std::span<const double> transverse);
 
 }  // namespace salebra
