@@ -102,9 +102,9 @@ void PronySeries::validate() const {
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const std::string which = " of term " + std::to_string(i + 1) + " of the series must be ";
     require(std::isfinite(terms[i].modulus) && terms[i].modulus > 0, "prony", terms[i].modulus,
-            "Pa, the modulus" + which + "> 0");
+            "Pa, the modulus" + which + "> 0; leave the term out");
     require(std::isfinite(terms[i].relaxation_time) && terms[i].relaxation_time > 0, "prony",
-            terms[i].relaxation_time, "s, the relaxation time" + which + "> 0");
+            terms[i].relaxation_time, "s, the relaxation time" + which + "> 0; leave the term out");
   }
 }
 
