@@ -119,8 +119,8 @@ void run(const FrictionArguments& arguments, Session& session) {
   add_first_loading(object, contact.first_loading);
   write_answer(session, "friction", object);
   if (session.has_plot()) session.plot(sliding_figure(sliding, arguments.velocities, friction));
-  const ContactFacts facts =
-      contact.facts_at(arguments.premises.facts(arguments.material), any.indentation);
+  const ContactFacts facts = at_state(arguments.premises.facts(arguments.material), *contact.law,
+                                      contact.curve ? &*contact.curve : nullptr, any.indentation);
   premises_beside_slip(*contact.law, any.indentation, motion, facts).answer(session, object);
 }
 
