@@ -122,9 +122,8 @@ PremiseReport premises_of_map(const DamperArguments& arguments, const LawOptions
     const double indentation =
         relaxation_damping(*contact.law, contact.positions.front(), motion, options).indentation;
     motion.drag_velocity = arguments.drag_velocity.value_or(ContactFacts::unknown);
-    report.cases.push_back(premises_of(
-        *contact.law, indentation, motion,
-        at_state(facts, *contact.law, contact.curve ? &*contact.curve : nullptr, indentation)));
+    report.cases.push_back(
+        premises_of(*contact.law, indentation, motion, contact.facts_at(facts, indentation)));
   }
   return report;
 }

@@ -109,8 +109,7 @@ Premises premises_of_case(const LawOptions::Contact& contact, const Case& one,
     std::visit(
         [&](auto& m) { m.normal_amplitude = *one.force_amplitude / result.normal_stiffness; },
         motion);
-  const ContactFacts known =
-      at_state(facts, law, contact.curve ? &*contact.curve : nullptr, result.indentation);
+  const ContactFacts known = contact.facts_at(facts, result.indentation);
   return std::visit([&](const auto& m) { return premises_of(law, result.indentation, m, known); },
                     motion);
 }

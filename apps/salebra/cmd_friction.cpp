@@ -90,12 +90,11 @@ void run(const FrictionArguments& arguments, Session& session) {
   DampingOptions options;
   options.hold = *value_of<Hold>(arguments.hold);
 
-  Drag motion{*arguments.normal_amplitude, 0, angular_frequency_of(arguments)};
-  std::vector<SteadySliding> sliding;
-  for (const double velocity : arguments.velocities) {
-    motion.drag_velocity = velocity;
-    sliding.push_back(steady_sliding(*contact.law, position, motion, friction, options));
-  }
+  const Drag motion{*arguments.normal_amplitude, arguments.velocities.back(),
+                    angular_frequency_of(arguments)};
+  const std::vector<SteadySliding> sliding = steady_sliding(
+      *contact.law, position, NormalOscillation{motion.normal_amplitude, motion.angular_frequency},
+      arguments.velocities, friction, options);
   if (const auto lost = std::ranges::count(sliding, false, &SteadySliding::converged); lost > 0)
     throw NotConverged(fmt::format("friction: {} of {} integrals did not reach the tolerance", lost,
                                    sliding.size()));
@@ -113,14 +112,15 @@ void run(const FrictionArguments& arguments, Session& session) {
   };
   column("mean_tangential_force", &SteadySliding::mean_tangential_force);
   column("friction_coefficient", &SteadySliding::friction_coefficient);
+  column("sliding_damping", &SteadySliding::sliding_damping);
   column("relaxation_work", &SteadySliding::relaxation_work);
   column("slip_work", &SteadySliding::slip_work);
   for (const std::string& line : contact.doubts) session.warn(line);
   add_first_loading(object, contact.first_loading);
   write_answer(session, "friction", object);
   if (session.has_plot()) session.plot(sliding_figure(sliding, arguments.velocities, friction));
-  const ContactFacts facts = at_state(arguments.premises.facts(arguments.material), *contact.law,
-                                      contact.curve ? &*contact.curve : nullptr, any.indentation);
+  const ContactFacts facts =
+      contact.facts_at(arguments.premises.facts(arguments.material), any.indentation);
   premises_beside_slip(*contact.law, any.indentation, motion, facts).answer(session, object);
 }
 

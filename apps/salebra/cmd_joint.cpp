@@ -152,8 +152,8 @@ void run(const JointArguments& arguments, Session& session) {
                               trajectory_damping(law, path, {.friction_coefficient = friction})));
   }
   add_first_loading(answer, contact.first_loading);
-  const ContactFacts facts = at_state(arguments.premises.facts(arguments.material), law,
-                                      contact.curve ? &*contact.curve : nullptr, indentation);
+  const ContactFacts facts =
+      contact.facts_at(arguments.premises.facts(arguments.material), indentation);
   // A constant normal force is the limit of small normal amplitudes.
   EqualFrequency judged = motion;
   if (!oscillates)

@@ -48,9 +48,7 @@ void run(const SweepArguments& arguments, Session& session) {
   Surface surface = arguments.surface.read(session);
   const std::optional<FirstLoading> first_loading = load_first(
       surface, arguments.hardness, material.contact_modulus, pressures.back(), options.contact);
-  ForceCurve curve = sweep_pressures(surface, material, pressures, options);
-  if (first_loading && first_loading->yielded())
-    curve.first_loading_pressure = first_loading->pressure;
+  const ForceCurve curve = sweep_pressures(surface, material, pressures, options);
   if (interrupted()) throw Interrupted("sweep: interrupted; nothing was written");
   if (session.has_output())
     write_force_curve(session.output(), curve, session.provenance(), session.write_options());

@@ -222,6 +222,13 @@ std::unique_ptr<ContactLaw> LawOptions::law_alone(const MaterialOptions& materia
                                        material.material_with_tangential_modulus());
 }
 
+ContactFacts LawOptions::Contact::facts_at(ContactFacts facts, double indentation) const {
+  facts = at_state(facts, *law, curve ? &*curve : nullptr, indentation);
+  if (first_loading && first_loading->yielded())
+    facts.first_load = first_loading->pressure * curve->nominal_area;
+  return facts;
+}
+
 LawOptions::Contact LawOptions::contact(const MaterialOptions& material, Session& session,
                                         const std::optional<double>& hardness,
                                         double normal_amplitude) const {
@@ -237,8 +244,6 @@ LawOptions::Contact LawOptions::contact(const MaterialOptions& material, Session
                    {.on_progress = session.progress()}, normal_amplitude);
     ForceCurve samples =
         curve_of_surface(body, material.material_with_tangential_modulus(), values, session);
-    if (first_loading && first_loading->yielded())
-      samples.first_loading_pressure = first_loading->pressure;
     auto table = std::make_unique<TabulatedLaw>(samples, material.modulus_ratio());
     auto positions = positions_on_curve(*this, samples);
     return {std::move(table), std::move(positions), std::move(samples), {},

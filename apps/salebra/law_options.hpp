@@ -7,6 +7,7 @@
 #include <salebra/contact/law/law.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/premises.hpp>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct LawOptions {
     std::vector<std::string> doubts = {};            ///< remarks on the options, for people
     std::optional<Surface> surface = {};             ///< that the curve was computed of
     std::optional<FirstLoading> first_loading = {};  ///< whose residual surface it is
+
+    /// The facts at an indentation, with what the law, the curve and the first loading say.
+    ContactFacts facts_at(ContactFacts facts, double indentation) const;
   };
 
   void add_to(Command& command);

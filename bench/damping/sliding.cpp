@@ -9,6 +9,7 @@
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/steady_sliding.hpp>
+#include <vector>
 
 int main(int argc, char** argv) {
   using namespace salebra;
@@ -31,12 +32,13 @@ int main(int argc, char** argv) {
   };
 
   std::clock_t start = std::clock();  // CPU time: the machine may be busy
+  std::vector<double> velocities;
+  for (int i = 0; i < states; ++i)
+    velocities.push_back(critical * std::pow(10, -4 + 4.5 * i / states));
   double sum = 0;
-  for (int i = 0; i < states; ++i) {
-    const double velocity = critical * std::pow(10, -4 + 4.5 * i / states);
-    sum += steady_sliding(law, AtIndentation{5e-7}, {amplitude, velocity, omega}, friction)
-               .friction_coefficient;
-  }
+  for (const SteadySliding& one :
+       steady_sliding(law, AtIndentation{5e-7}, {amplitude, omega}, velocities, friction))
+    sum += one.friction_coefficient;
   std::printf("%d states of sliding, law of %d samples: %.3f s, mean friction %.6f\n", states,
               samples, seconds_since(start), sum / states);
 

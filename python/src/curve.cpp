@@ -91,8 +91,6 @@ model : str
       std::type_identity<ForceSample>{});
   curve.def_ro("model", &ForceCurve::model, "\"bem\", \"greenwood-williamson\", …")
       .def_ro("nominal_area", &ForceCurve::nominal_area, "A0, m².")
-      .def_ro("first_loading_pressure", &ForceCurve::first_loading_pressure,
-              "Of the unloading curve of a surface that flowed, Pa; NaN: elastic.")
       .def_ro("rms_height", &ForceCurve::rms_height, "h_rms of the surface, m.")
       .def("__len__", [](const ForceCurve& self) { return self.samples.size(); })
       .def("__repr__", [](const ForceCurve& self) {

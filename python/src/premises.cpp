@@ -189,6 +189,8 @@ void bind_steady_sliding(nb::module_& m) {
       .def_ro("critical_velocity", &SteadySliding::critical_velocity, "From it on T̄ = μF̄, m/s.")
       .def_ro("low_speed_damping", &SteadySliding::low_speed_damping,
               "Γ of T̄ = μF(δ_min) + Γv + O(v^(3/2)), N s/m.")
+      .def_ro("sliding_damping", &SteadySliding::sliding_damping,
+              "dT̄/dv at this velocity, N s/m: Γ as v → 0.")
       .def_ro("relaxation_damping", &SteadySliding::relaxation_damping,
               "γ of case (b) without slip, N s/m.")
       .def_ro("relaxation_work", &SteadySliding::relaxation_work,

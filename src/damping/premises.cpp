@@ -571,7 +571,6 @@ ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurv
   if (curve == nullptr || !(curve->nominal_area > 0)) return facts;
   facts.loaded_size = std::sqrt(curve->nominal_area);
   facts.nominal_pressure = force / curve->nominal_area;
-  facts.first_load = curve->first_loading_pressure * curve->nominal_area;
   // Area and force grow almost in proportion: that of the nearest load will do.
   const ForceSample& nearest = nearest_load(*curve, force);
   facts.mean_contact_pressure =

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mean friction of a contact that slides steadily under a normal oscillation.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/steady_sliding.hpp>
+#include <span>
 #include <vector>
 
-#include "contact/quadrature.hpp"
 #include "sweep_breaks.hpp"
 
 namespace salebra {
@@ -24,23 +26,30 @@ class Period {
   double sticks_from() const { return sticks_from_; }
   double sticks_to() const { return pi - sticks_from_; }
 
+  double ratio() const { return ratio_; }
+
   // The phase at which a level that sticks from `start` on begins to slip: −cosφ − rφ is there what it was.
   double slips_at(double start) const {
+    const double high = 2 * pi - start;
+    return slips_at(start, high - (high - start) * std::min(ratio_, 0.5));
+  }
+
+  // The same by Newton's method from a guess, held between bounds.
+  double slips_at(double start, double guess) const {
     const auto lead = [&](double phase) {
       return 2 * std::sin(0.5 * (phase + start)) * std::sin(0.5 * (phase - start)) -
              ratio_ * (phase - start);
     };
-    double low = sticks_to(), high = 2 * pi - start;
+    double low = sticks_to(), high = 2 * pi - start, phase = guess;
     if (!(lead(low) > 0)) return low;
-    // Newton's method from a point on the falling branch, held between bounds.
-    double phase = high - (high - start) * std::min(ratio_, 0.5);
     for (int iteration = 0; iteration < 100; ++iteration) {
       if (!(phase > low && phase < high)) phase = 0.5 * (low + high);
       const double value = lead(phase);
       (value > 0 ? low : high) = phase;
-      const double step = value / (std::sin(phase) - ratio_);
+      const double slope = std::sin(phase) - ratio_, step = value / slope;
       phase -= step;
-      if (!(std::abs(step) > 1e-15 * phase) || !(high - low > 1e-15 * high)) break;
+      // What a step leaves is at most step²/2|slope|, for the second derivative is a cosine.
+      if (!(step * step > 1e-16 * std::abs(slope)) || !(high - low > 1e-15 * high)) break;
     }
     return std::clamp(phase, low, high);
   }
@@ -59,72 +68,237 @@ class Period {
   double ratio_, sticks_from_;
 };
 
+// K and K_t at a phase of the oscillation.
+struct Node {
+  double phase, sine, normal_stiffness, tangential_stiffness;
+};
+
+// Gauss–Kronrod rule of 7 points, exact for polynomials of degree 11, and the weights of its Gauss rule of 3.
+constexpr int rule_points = 7;
+constexpr double rule_point[rule_points] = {
+    -0.960491268708020283, -0.774596669241483377, -0.434243749346802558, 0,
+    0.434243749346802558,  0.774596669241483377,  0.960491268708020283};
+constexpr double rule_weight[rule_points] = {
+    0.104656226026467265, 0.268488089868333440, 0.401397414775962222, 0.450916538658474142,
+    0.401397414775962222, 0.268488089868333440, 0.104656226026467265};
+constexpr double gauss_weight[rule_points] = {0, 5.0 / 9, 0, 8.0 / 9, 0, 5.0 / 9, 0};
+
+// The law over one half of the oscillation δ = δ_min + u_z(1 − cosφ), at nodes that all velocities share.
+class HalfPeriod {
+ public:
+  HalfPeriod(const ContactLaw& law, double low, double amplitude)
+      : law_(law), low_(low), amplitude_(amplitude) {
+    breaks_.push_back(0);
+    // By half angles: arccos loses half the digits at both ends.
+    const double high = low + 2 * amplitude;
+    for (const double point : detail::sweep_breaks(law, low, high)) {
+      const double phase = 2 * std::atan2(std::sqrt(std::max(point - low, 0.0)),
+                                          std::sqrt(std::max(high - point, 0.0)));
+      if (phase > breaks_.back()) breaks_.push_back(phase);
+    }
+    if (pi > breaks_.back()) breaks_.push_back(pi);
+    for (std::size_t i = 1; i < breaks_.size(); ++i)
+      for (const Node& node : nodes_between(breaks_[i - 1], breaks_[i])) nodes_.push_back(node);
+  }
+
+  // Calls add(nodes, from, to) for the pieces between breaks of the law and a velocity's two phases.
+  template <class Add>
+  void for_each_piece(const Period& period, const Add& add) const {
+    for (std::size_t i = 1; i < breaks_.size(); ++i) {
+      const double begin = breaks_[i - 1], end = breaks_[i];
+      double from = begin;
+      for (const double cut : {period.sticks_from(), period.sticks_to()})
+        if (cut > from && cut < end) {
+          add(nodes_between(from, cut), from, cut);
+          from = cut;
+        }
+      if (from == begin)
+        add(std::span(nodes_).subspan((i - 1) * rule_points, rule_points), begin, end);
+      else
+        add(nodes_between(from, end), from, end);
+    }
+  }
+
+  std::array<Node, rule_points> nodes_between(double from, double to) const {
+    std::array<Node, rule_points> nodes;
+    for (std::size_t j = 0; j < rule_points; ++j) {
+      const double phase = 0.5 * (from + to) + 0.5 * (to - from) * rule_point[j];
+      const double level = low_ + 2 * amplitude_ * std::pow(std::sin(0.5 * phase), 2);
+      nodes[j] = {phase, std::sin(phase), law_.normal_stiffness(level),
+                  law_.tangential_stiffness(level)};
+    }
+    return nodes;
+  }
+
+ private:
+  const ContactLaw& law_;
+  double low_, amplitude_;
+  std::vector<double> breaks_;
+  std::vector<Node> nodes_;
+};
+
+// Of one node: the force above μF(δ_min) and its derivative by v, both times 2π.
+struct Share {
+  double force, damping;
+};
+
+Share share_of(const Node& node, const Period& period, double slips_at, double limit_scale,
+               double velocity, double omega) {
+  const double limit = limit_scale * node.normal_stiffness * node.sine;
+  if (!(node.phase > period.sticks_from() && node.phase < period.sticks_to()))
+    return {limit * 2 * (pi - node.phase), 0};
+  const double stuck = slips_at - node.phase, r = period.ratio();
+  return {
+      limit * (2 * pi - node.phase - slips_at) +
+          velocity / omega * node.tangential_stiffness * stuck,
+      node.tangential_stiffness / omega * stuck * (1 + (node.sine - r) / (r - std::sin(slips_at)))};
+}
+
+struct Force {
+  double value = 0, error = 0, damping = 0;
+  bool converged = true;
+};
+
+// ∫_0^π of the shares over 2π. Pieces of the law first, at their shared nodes; then the worst piece is halved until the sum of errors
+// reaches the tolerance. Near φ = 0 a slow sliding has φ_e ≈ 2π − √(φ² + 4πr), which bends more than any law.
+Force force_above_least(const HalfPeriod& half, const Period& period, double limit_scale,
+                        double velocity, double omega, double tolerance) {
+  struct Piece {
+    double from, to, value, error, damping;
+  };
+  const auto rated = [&](std::span<const Node> nodes, double from, double to) {
+    double values[rule_points], kronrod = 0, gauss = 0, damping = 0, before = 0, slipped = 0;
+    for (int j = 0; j < rule_points; ++j) {
+      const Node& node = nodes[static_cast<std::size_t>(j)];
+      double slips = 0;
+      if (node.phase > period.sticks_from() && node.phase < period.sticks_to()) {
+        // From the second on along the slope dφ_e/dφ.
+        slips = before > 0 ? period.slips_at(node.phase,
+                                             slipped + (std::sin(before) - period.ratio()) /
+                                                           (std::sin(slipped) - period.ratio()) *
+                                                           (node.phase - before))
+                           : period.slips_at(node.phase);
+        before = node.phase, slipped = slips;
+      }
+      const Share share = share_of(node, period, slips, limit_scale, velocity, omega);
+      values[j] = share.force;
+      kronrod += rule_weight[j] * share.force;
+      gauss += gauss_weight[j] * share.force;
+      damping += rule_weight[j] * share.damping;
+    }
+    double spread = 0;
+    for (int j = 0; j < rule_points; ++j)
+      spread += rule_weight[j] * std::abs(values[j] - 0.5 * kronrod);
+    // The rules differ by the error of the lower order; its power 3/2 relative to the spread is that of the higher (QUADPACK).
+    const double part = spread > 0 ? 200 * std::abs(kronrod - gauss) / spread : 0;
+    const double half_width = 0.5 * (to - from);
+    return Piece{from, to, half_width * kronrod,
+                 half_width * spread * std::min(1.0, part * std::sqrt(part)), half_width * damping};
+  };
+
+  std::vector<Piece> pieces;
+  half.for_each_piece(period, [&](std::span<const Node> nodes, double from, double to) {
+    pieces.push_back(rated(nodes, from, to));
+  });
+  std::ranges::make_heap(pieces, {}, &Piece::error);
+  Force force;
+  double size = 0;
+  for (const Piece& piece : pieces) size += std::abs(piece.value), force.error += piece.error;
+  constexpr std::size_t most_pieces = 10'000;
+  while (force.error > tolerance * size && pieces.size() < most_pieces) {
+    std::ranges::pop_heap(pieces, {}, &Piece::error);
+    const Piece worst = pieces.back();
+    pieces.pop_back();
+    force.error -= worst.error;
+    const double middle = 0.5 * (worst.from + worst.to);
+    for (const auto& [from, to] : {std::pair(worst.from, middle), std::pair(middle, worst.to)}) {
+      pieces.push_back(rated(half.nodes_between(from, to), from, to));
+      force.error += pieces.back().error;
+      std::ranges::push_heap(pieces, {}, &Piece::error);
+    }
+  }
+  force.error = 0;
+  for (const Piece& piece : pieces) {
+    force.value += piece.value;
+    force.error += piece.error;
+    force.damping += piece.damping;
+  }
+  force.converged = force.error <= tolerance * size;
+  return {force.value / (2 * pi), force.error / (2 * pi), force.damping / (2 * pi),
+          force.converged};
+}
+
 }  // namespace
 
-SteadySliding steady_sliding(const ContactLaw& law, const Position& position, const Drag& motion,
-                             double friction_coefficient, const DampingOptions& options) {
+std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const Position& position,
+                                          const NormalOscillation& normal,
+                                          std::span<const double> velocities,
+                                          double friction_coefficient,
+                                          const DampingOptions& options) {
   require(std::isfinite(friction_coefficient) && friction_coefficient >= 0, "friction_coefficient",
           friction_coefficient, "must be finite and >= 0");
-  require_positive(motion.drag_velocity, "drag_velocity");
+  for (const double velocity : velocities) require_positive(velocity, "drag_velocity");
+  if (velocities.empty()) return {};
+  const double amplitude = normal.normal_amplitude, omega = normal.angular_frequency;
   DampingOptions exact = options;
   exact.amplitude = Amplitude::finite;
-  const DampingResult stuck = relaxation_damping(law, position, motion, exact);
+  const DampingResult stuck =
+      relaxation_damping(law, position, Drag{amplitude, velocities.front(), omega}, exact);
 
-  const double amplitude = motion.normal_amplitude, omega = motion.angular_frequency;
-  const double velocity = motion.drag_velocity;
-  const double low = stuck.indentation - amplitude, high = stuck.indentation + amplitude;
+  const double low = stuck.indentation - amplitude;
   // A cycle may have its middle where nothing touches.
   const double stiffness_ratio =
       stuck.normal_stiffness > 0
           ? law.tangential_stiffness(stuck.indentation) / stuck.normal_stiffness
           : law.modulus_ratio();
-
-  SteadySliding result;
-  result.indentation = stuck.indentation;
-  result.mean_force = stuck.mean_force;
-  result.relaxation_damping = stuck.damping_constant;
-  result.critical_velocity = friction_coefficient / stiffness_ratio * amplitude * omega;
+  SteadySliding common;
+  common.indentation = stuck.indentation;
+  common.mean_force = stuck.mean_force;
+  common.relaxation_damping = stuck.damping_constant;
+  common.critical_velocity = friction_coefficient / stiffness_ratio * amplitude * omega;
   const double least_friction = friction_coefficient * law.force(low);
-  result.static_friction_coefficient = least_friction / result.mean_force;
+  common.static_friction_coefficient = least_friction / common.mean_force;
   if (amplitude > 0)
-    result.low_speed_damping =
-        result.relaxation_damping + pi * law.tangential_stiffness(low) / omega;
+    common.low_speed_damping =
+        common.relaxation_damping + pi * law.tangential_stiffness(low) / omega;
 
-  if (velocity >= result.critical_velocity) {
-    result.mean_tangential_force = friction_coefficient * result.mean_force;
-    result.error_estimate = 1e-12 * result.mean_tangential_force;
-    result.converged = true;
-  } else {
-    const Period period(velocity / result.critical_velocity);
-    std::vector<double> breaks{period.sticks_from(), period.sticks_to()};
-    // By half angles: arccos loses half the digits at both ends.
-    for (const double point : detail::sweep_breaks(law, low, high))
-      breaks.push_back(2 * std::atan2(std::sqrt(std::max(point - low, 0.0)),
-                                      std::sqrt(std::max(high - point, 0.0))));
-    std::ranges::sort(breaks);
-    const auto share = [&](double phase) {
-      const double level = low + 2 * amplitude * std::pow(std::sin(0.5 * phase), 2);
-      const bool sticks = phase > period.sticks_from() && phase < period.sticks_to();
-      const double limit =
-          friction_coefficient * amplitude * law.normal_stiffness(level) * std::sin(phase);
-      if (!sticks) return limit * 2 * (pi - phase);
-      const double end = period.slips_at(phase);
-      return limit * (2 * pi - phase - end) +
-             velocity / omega * law.tangential_stiffness(level) * (end - phase);
-    };
-    const detail::Integral integral = detail::integrate(share, breaks, options.tolerance);
-    result.mean_tangential_force = least_friction + integral.value / (2 * pi);
-    result.error_estimate = integral.error / (2 * pi);
-    result.converged = integral.converged && stuck.converged;
+  std::optional<HalfPeriod> half;
+  std::vector<SteadySliding> all;
+  all.reserve(velocities.size());
+  for (const double velocity : velocities) {
+    SteadySliding& result = all.emplace_back(common);
+    const Period period(velocity / common.critical_velocity);
+    if (velocity >= common.critical_velocity) {
+      result.mean_tangential_force = friction_coefficient * common.mean_force;
+      result.sliding_damping = 0;
+      result.error_estimate = 1e-12 * result.mean_tangential_force;
+      result.converged = stuck.converged;
+    } else {
+      if (!half) half.emplace(law, low, amplitude);
+      const Force force = force_above_least(*half, period, friction_coefficient * amplitude,
+                                            velocity, omega, options.tolerance);
+      result.mean_tangential_force = least_friction + force.value;
+      result.sliding_damping = force.damping;
+      result.error_estimate = force.error;
+      result.converged = force.converged && stuck.converged;
+    }
+    const double travel = 2 * pi * velocity / omega;
+    const double rise = amplitude > 0 ? amplitude * period.mean_rise() : 0;
+    result.slip_work =
+        travel * (least_friction + friction_coefficient * law.normal_stiffness(low) * rise);
+    result.relaxation_work = travel * result.mean_tangential_force - result.slip_work;
+    result.friction_coefficient = result.mean_tangential_force / result.mean_force;
   }
-  const double travel = 2 * pi * velocity / omega;
-  const double rise =
-      amplitude > 0 ? amplitude * Period(velocity / result.critical_velocity).mean_rise() : 0;
-  result.slip_work =
-      travel * (least_friction + friction_coefficient * law.normal_stiffness(low) * rise);
-  result.relaxation_work = travel * result.mean_tangential_force - result.slip_work;
-  result.friction_coefficient = result.mean_tangential_force / result.mean_force;
-  return result;
+  return all;
+}
+
+SteadySliding steady_sliding(const ContactLaw& law, const Position& position, const Drag& motion,
+                             double friction_coefficient, const DampingOptions& options) {
+  const double velocities[] = {motion.drag_velocity};
+  return steady_sliding(law, position,
+                        NormalOscillation{motion.normal_amplitude, motion.angular_frequency},
+                        velocities, friction_coefficient, options)
+      .front();
 }
 
 }  // namespace salebra

@@ -50,8 +50,6 @@ void write_force_curve(ResultGroup& group, const ForceCurve& curve) {
   group.attribute("model", curve.model);
   group.attribute("nominal_area", curve.nominal_area);
   group.attribute("rms_height", curve.rms_height);
-  if (!std::isnan(curve.first_loading_pressure))
-    group.attribute("first_loading_pressure", curve.first_loading_pressure);
 }
 
 ForceCurve read_force_curve(const ResultReader& reader, const std::string& group) {
@@ -59,8 +57,6 @@ ForceCurve read_force_curve(const ResultReader& reader, const std::string& group
   curve.model = reader.text_attribute(group, "model").value_or("");
   curve.nominal_area = reader.number_attribute(group, "nominal_area").value_or(0);
   curve.rms_height = reader.number_attribute(group, "rms_height").value_or(ForceSample::unknown);
-  curve.first_loading_pressure =
-      reader.number_attribute(group, "first_loading_pressure").value_or(ForceSample::unknown);
   bool first = true, study = false;
   const auto column = [&](const std::string& name) {
     std::vector<double> values = reader.numbers(group + "/" + name);
@@ -92,9 +88,6 @@ ForceCurve read_force_curve(const ResultReader& reader, const std::string& group
                          reader.number_attribute("surface", "size_y").value_or(0);
     if (const auto heights = reader.numbers("surface/rms_height"); !heights.empty())
       curve.rms_height = heights.front();
-    if (reader.has("surface/yielded_area_fraction") &&
-        reader.numbers("surface/yielded_area_fraction").front() > 0)
-      curve.first_loading_pressure = reader.numbers("surface/first_loading_pressure").front();
   }
   if (curve.samples.empty())
     detail::refuse(reader.file(), "holds no force curve in its group " + group);

@@ -210,6 +210,7 @@ const Quantity others[] = {
     Quantity{"static_friction_coefficient", dimensionless, "friction coefficient as v -> 0"},
     Quantity{"critical_velocity", velocity, "velocity from which nothing sticks"},
     Quantity{"low_speed_damping", damping, "damping constant of slow sliding, Eq. (S2)"},
+    Quantity{"sliding_damping", damping, "growth of the mean friction force with velocity, dT/dv"},
     Quantity{"relaxation_damping", damping, "damping constant without slip, case (b)"},
     Quantity{"secant_stiffness", stiffness, "tangential force over displacement, both half ranges"},
     Quantity{"exponent", dimensionless, "d ln W/d ln T"},

@@ -89,8 +89,6 @@ void read_comment(const std::filesystem::path& file, std::string_view line, Forc
     if (key == "nominal_area")
       curve.nominal_area = parse_quantity(value, Dimension::length_squared, key);
     if (key == "rms_height") curve.rms_height = parse_quantity(value, Dimension::length, key);
-    if (key == "first_loading_pressure")
-      curve.first_loading_pressure = parse_quantity(value, Dimension::pressure, key);
   } catch (const InvalidInput& error) {
     refuse(file, error.what());
   }
@@ -173,8 +171,6 @@ std::string text_of(const ForceCurve& curve, const Provenance& provenance) {
   if (!curve.model.empty()) text += "# model: " + curve.model + "\n";
   if (curve.nominal_area > 0) text += fmt::format("# nominal_area: {} m^2\n", curve.nominal_area);
   if (!std::isnan(curve.rms_height)) text += fmt::format("# rms_height: {} m\n", curve.rms_height);
-  if (!std::isnan(curve.first_loading_pressure))
-    text += fmt::format("# first_loading_pressure: {} Pa\n", curve.first_loading_pressure);
   std::vector<CurveQuantity> known = curve_quantities();
   std::erase_if(known, [&](const CurveQuantity& item) {
     return std::ranges::all_of(

@@ -337,8 +337,6 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
     ModelResult result = model.press(work);
     if (stopped) throw Interrupted("study: interrupted");
     result.model = model.id;
-    if (realisation.first_loading.yielded())
-      result.curve.first_loading_pressure = realisation.first_loading.pressure;
     if (model.id == ContactModel::bem) require_converged(result.curve, configuration);
     analyse(result, configuration, scale);
     if (model.id == ContactModel::bem) resolve_damping(result, surface, configuration, seed, part);

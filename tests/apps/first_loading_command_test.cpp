@@ -62,26 +62,13 @@ TEST_CASE("A sweep with a hardness is the elastic sweep of the residual surface"
           "[first_loading]") {
   const ProgramTest test;
   make_rough(test);
-  const std::string loads =
-      " --pressures 0.5MPa,2MPa,5MPa,10MPa,20MPa --stiffness --json" + material;
+  const std::string loads = " --pressures 0.5MPa,5MPa,20MPa --stiffness --json" + material;
   REQUIRE(
       test.run("contact rough.h5 --hardness 150MPa --residual flat.h5 --pressure 20MPa" + material)
           .status == 0);
   const json unloading = test.run("sweep rough.h5 --hardness 150MPa" + loads).json();
   CHECK(unloading["curve"] == test.run("sweep flat.h5 --detrend none" + loads).json()["curve"]);
   CHECK(number(unloading, "first_loading", "yielded_area_fraction") > 0.01);
-  // The file of the curve says that it is of unloading.
-  for (const std::string file : {"curve.h5", "curve.csv"}) {
-    REQUIRE(test.run("sweep rough.h5 --hardness 150MPa -o " + file + loads).status == 0);
-    const json judged = test.run(
-                                "damping --pressure 5MPa --poisson 0.3 --hardness 150MPa "
-                                "--normal-amplitude 0.1nm --drag-velocity 1um/s --frequency 20kHz "
-                                "--json --curve " +
-                                file)
-                            .json();
-    CHECK(judged["premises"]["plasticity"]["value"].get<double>() == Approx(0.25));
-    CHECK(judged["premises"]["plasticity"]["verdict"] == "holds");
-  }
   // A hardness that no pressure reaches changes no bit.
   const json elastic = test.run("sweep rough.h5" + loads).json();
   const json hard = test.run("sweep rough.h5 --hardness 1TPa" + loads).json();

@@ -22,7 +22,7 @@ TEST_CASE("friction gives the friction of a sliding contact over velocity", "[sl
                                               "critical_velocity", "static_friction_coefficient",
                                               "low_speed_damping", "relaxation_damping", "velocity",
                                               "mean_tangential_force", "friction_coefficient",
-                                              "relaxation_work", "slip_work"});
+                                              "sliding_damping", "relaxation_work", "slip_work"});
   // ⟨F⟩ = F I_0(u_z/l), v_c = (μE*/G*)u_z ω, G*/E* = 2(1 − ν)/(2 − ν), F(δ_min) = F exp(−u_z/l).
   const double mean = 2 * std::cyl_bessel_i(0., 0.3);
   CHECK(answer["mean_force"].get<double>() == Approx(mean).epsilon(1e-10));

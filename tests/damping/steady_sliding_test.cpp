@@ -91,6 +91,47 @@ TEST_CASE("At low speed sliding has the damping constant of S2 and S3", "[slidin
   CHECK(at(0.999).mean_tangential_force < friction * 2 * std::cyl_bessel_i(0., z));
 }
 
+TEST_CASE("The damping of a sliding contact is the slope of its friction over velocity",
+          "[sliding]") {
+  const PowerLaw cone(1e12, 2, ratio);
+  const ExponentialLaw rough(3, 2e-7, ratio);
+  struct Case {
+    const ContactLaw* law;
+    double middle, amplitude, speed;
+  };
+  for (const Case& one : {Case{&cone, 1e-6, 4e-7, 0.3}, Case{&rough, 0, 2e-7, 0.03},
+                          Case{&rough, 1e-7, 5e-8, 0.8}, Case{&cone, 2e-7, 5e-7, 0.2}}) {
+    CAPTURE(one.middle, one.amplitude, one.speed);
+    const double friction = 0.25, critical = friction / ratio * one.amplitude * omega;
+    const auto force_at = [&](double speed) {
+      return steady_sliding(*one.law, AtIndentation{one.middle},
+                            {one.amplitude, speed * critical, omega}, friction)
+          .mean_tangential_force;
+    };
+    const auto slope = [&](double step) {
+      return (force_at(one.speed * (1 + step)) - force_at(one.speed * (1 - step))) /
+             (2 * step * one.speed * critical);
+    };
+    const double damping = steady_sliding(*one.law, AtIndentation{one.middle},
+                                          {one.amplitude, one.speed * critical, omega}, friction)
+                               .sliding_damping;
+    // Central differences are off by the square of the step.
+    CHECK(slope(1e-3) == Approx(damping).epsilon(1e-5));
+    CHECK((slope(0.04) - damping) / (slope(0.02) - damping) == Approx(4).margin(0.1));
+  }
+  // Γ as v → 0; nothing from v_c on. A list has the same values.
+  const double amplitude = 5e-8, friction = 0.25, critical = friction / ratio * amplitude * omega;
+  const double velocities[] = {1e-8 * critical, 0.4 * critical, 2 * critical};
+  const auto list = steady_sliding(rough, AtForce{3}, {amplitude, omega}, velocities, friction);
+  CHECK(list[0].sliding_damping == Approx(list[0].low_speed_damping).epsilon(1e-3));
+  CHECK(list[2].sliding_damping == 0);
+  for (std::size_t i = 0; i < 3; ++i)
+    CHECK(list[i].mean_tangential_force ==
+          Approx(steady_sliding(rough, AtForce{3}, {amplitude, velocities[i], omega}, friction)
+                     .mean_tangential_force)
+              .epsilon(1e-14));
+}
+
 TEST_CASE("Steady sliding is what the springs do, with second order in their steps", "[sliding]") {
   const PowerLaw cone(1e12, 2, ratio);
   const ExponentialLaw rough(3, 2e-7, ratio);

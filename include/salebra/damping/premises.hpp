@@ -35,8 +35,8 @@ struct ContactFacts {
   double first_load = unknown;
 };
 
-/// Adds what an indenter, or the curve that the law is made of, says of the contact at an indentation: E*, pressures, size and first
-/// load. curve may be nullptr.
+/// Adds what an indenter, or the curve that the law is made of, says of the contact at an indentation: E*, pressures and size. curve may
+/// be nullptr.
 ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
                       double indentation);
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <limits>
-#include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/damper.hpp>
+#include <span>
+#include <vector>
 
 namespace salebra {
 
@@ -18,6 +20,7 @@ struct SteadySliding {
   double critical_velocity = unknown;  ///< v_c = μK/K_t·u_z ω, m/s; T̄ = μF̄ from it on
   double low_speed_damping =
       unknown;  ///< Γ, N s/m: T̄ = μF(δ_min) + Γv + O(v^{3/2}); NaN for u_z = 0
+  double sliding_damping = unknown;  ///< dT̄/dv at this velocity, N s/m: Γ as v → 0, 0 from v_c on
   double relaxation_damping = unknown;  ///< γ of case (b) without slip, N s/m
   double relaxation_work = unknown;     ///< lost per period by levels that open and close, J
   double slip_work = unknown;           ///< lost per period by levels that stay closed, J
@@ -31,11 +34,20 @@ struct SteadySliding {
 /// φ_e(φ) > π − φ_a where −cosφ_e − rφ_e = −cosφ − rφ,
 ///     T̄ = μF(δ_min) + (1/2π) ∫_0^π [μ u_z K (2π − φ − φ_e) sinφ + (v/ω) K_t (φ_e − φ)] dφ,
 /// φ_e = 2π − φ and no second term outside φ_a < φ < π − φ_a. Γ = γ + πK_t(δ_min)/ω. Where K_t has values of its own, K_t/K is taken at δ0.
+/// A small disturbance of the sliding, slow against the oscillation, is damped by
+///     dT̄/dv = (1/2πω) ∫ K_t (φ_e − φ)(1 + (sinφ − r)/(r − sinφ_e)) dφ   over φ_a < φ < π − φ_a,
+/// since the stretch of a level that sticks since φ grows by (φ' − φ)/ω for each unit of v until it slips.
 /// friction_coefficient  μ >= 0, finite
 /// motion                drag_velocity is v > 0
 /// throws  InvalidInput as relaxation_damping()
-/// cost    some hundred to thousand evaluations of the law
+/// cost    seven evaluations of the law for each of its pieces, some hundred for a smooth one; a list of velocities shares them
 SteadySliding steady_sliding(const ContactLaw& law, const Position& position, const Drag& motion,
                              double friction_coefficient, const DampingOptions& options = {});
+/// One for each velocity > 0, m/s.
+std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const Position& position,
+                                          const NormalOscillation& normal,
+                                          std::span<const double> velocities,
+                                          double friction_coefficient,
+                                          const DampingOptions& options = {});
 
 }  // namespace salebra

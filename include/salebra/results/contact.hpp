@@ -65,9 +65,6 @@ constexpr void describe(Visitor&& visit, std::type_identity<ForceCurve>) {
   visit(&ForceCurve::model, Kept{"model", "contact model"});
   visit(&ForceCurve::nominal_area, Quantity{"nominal_area", length_squared, "nominal area"});
   visit(&ForceCurve::rms_height, Quantity{"rms_height", length, "root mean square height"});
-  visit(&ForceCurve::first_loading_pressure,
-        Quantity{"first_loading_pressure", Dimension::pressure,
-                 "largest nominal pressure of the plastic first loading"});
   visit(&ForceCurve::samples, Kept{"samples", "from the lowest force to the highest"});
 }
 

@@ -28,8 +28,6 @@ struct ForceCurve {
   std::string model;                         ///< "bem", "greenwood-williamson", …
   double nominal_area = 0;                   ///< A0, m²
   double rms_height = ForceSample::unknown;  ///< h_rms of the surface, m
-  /// Of the unloading curve of a surface that flowed: nominal pressure of its first loading, Pa (contact/normal/first_loading.hpp).
-  double first_loading_pressure = ForceSample::unknown;
   std::vector<ForceSample> samples;
 
   /// One member of every sample, such as column(&ForceSample::pressure).
