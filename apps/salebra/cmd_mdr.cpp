@@ -16,6 +16,7 @@
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/quantity_group.hpp>
 
+#include "answer_file.hpp"
 #include "figures.hpp"
 #include "follow.hpp"
 #include "indenter_options.hpp"
@@ -113,6 +114,7 @@ void run(const MdrArguments& arguments, Session& session) {
                 arguments.friction_map.empty() && !arguments.follow.friction_coefficient,
             "--normal-amplitude", "missing;", "a motion, maps and friction need it");
     add_state(object, law, settled);
+    write_answer(session, "mdr", object);
     if (session.has_plot()) session.plot(contact_figure(law, settled));
     session.answer(object);
     return;
@@ -157,6 +159,7 @@ void run(const MdrArguments& arguments, Session& session) {
     for (const std::string& line : doubts_of_path(drag->drag_velocity, drag->angular_frequency,
                                                   law.contact_radius(result.indentation)))
       session.warn(line);
+  write_answer(session, "mdr", object);
   if (session.has_plot() && !mapped) session.plot(cycle_figure(path, loss));
   if (!arguments.stress_map.empty())
     write_stress_map(arguments, law, result.indentation,

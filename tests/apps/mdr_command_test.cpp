@@ -32,6 +32,10 @@ TEST_CASE("mdr gives Hertz's contact and its losses at any amplitude", "[mdr]") 
         Approx(8.0 / 3 * ratio * 1e11 * 4e-14 * 3e-7 * 0.75).epsilon(1e-12));
   CHECK(loss["ratio"].get<double>() ==
         Approx(loss["work_per_cycle"].get<double>() / loss["closed_form"].get<double>()));
+  // What it answers goes into a file as well.
+  CHECK(test.run(paraboloid + "-o rest.h5").status == 0);
+  CHECK(test.run(paraboloid + shear + "-o loss.h5").status == 0);
+  CHECK(test.files() == std::set<std::string>{"loss.h5", "rest.h5"});
   // Much friction is full stick; the loop is followed in 2000 straight steps.
   const auto rough = test.run(paraboloid + shear + "--friction 1e5").json();
   CHECK(rough["work_per_cycle"].get<double>() ==
