@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <salebra/base/version.hpp>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "run_program.hpp"
 
@@ -81,6 +84,40 @@ TEST_CASE("Help fits the width that it is given and loses no word", "[program]")
   }
   // Without a terminal and COLUMNS: 80.
   CHECK(longest_line(test.run("help mdr", "unset COLUMNS;").out) <= 80);
+}
+
+TEST_CASE("The chart of commands keeps its columns at 80, and is the one of README", "[program]") {
+  const ProgramTest test;
+  const auto chart = [](const std::string& help) {
+    const auto start = help.find("Which command?");
+    return help.substr(start, help.find("salebra help COMMAND") - start);
+  };
+  const std::string shown = chart(test.run("--help", "export COLUMNS=80;").out);
+  CHECK(shown == chart(test.run("--help", "export COLUMNS=1000;").out));
+
+  // Commands in the last column of either, in their order.
+  std::ifstream readme(SALEBRA_README);
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(readme, line);) {
+    if (rows.empty() && line != "| you have | you want | command |") continue;
+    if (line.empty()) break;
+    rows.push_back(line);
+  }
+  REQUIRE(rows.size() > 10);
+  std::string commands;
+  for (const std::string& row : std::vector(rows.begin() + 2, rows.end())) {
+    std::string last = row.substr(row.rfind("| ", row.size() - 3) + 2);
+    std::erase(last, '`');
+    commands += last.substr(0, last.rfind(" |")) + "\n";
+  }
+  std::istringstream lines(shown);
+  std::string line, listed;
+  std::getline(lines, line);
+  std::getline(lines, line);
+  const auto column = line.find("command");
+  while (std::getline(lines, line) && !line.empty())
+    if (line.size() > column) listed += line.substr(column) + "\n";
+  CHECK(listed == commands);
 }
 
 TEST_CASE("A table that is wider than the text comes in parts with its first column", "[program]") {

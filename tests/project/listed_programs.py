@@ -18,7 +18,8 @@ import subprocess
 import sys
 
 # What a script looks for and does without, or what a user has in place of a package: node may come from elsewhere than Debian.
-OPTIONAL = {"ccache", "sudo", "npm", "node", "clang-format", "run-clang-tidy"}
+# mmdebstrap: packaging/wheel/try makes small systems of other distributions, and says that it needs it.
+OPTIONAL = {"ccache", "sudo", "npm", "node", "clang-format", "run-clang-tidy", "mmdebstrap"}
 # Packages that are taken away to see the steps fail, with the step that must.
 CATCHES = {"file": "package", "ninja-build": "configure"}
 
@@ -125,7 +126,8 @@ def main():
     folder, status = arguments.scratch / "programs", 0
     make_folder(folder, packages.closure(packages.base | set(listed)))
 
-    scripts = [script for place in ("scripts", ".ci") for script in sorted((arguments.root / place).glob("*"))]
+    scripts = [script for place in ("scripts", ".ci", "packaging/wheel") for script in sorted((arguments.root / place).glob("*"))
+               if script.is_file() and script.read_bytes().startswith(b"#!/usr/bin/env bash")]
     for script in scripts:
         for word in sorted(set(commands_of(script))):
             if word not in OPTIONAL and shutil.which(word) and not (folder / word).exists():
