@@ -25,20 +25,11 @@ struct DamperArguments {
   LawOptions law;
   MaterialOptions material;
   std::string amplitude = "finite", hold = "indentation";
-  std::vector<double> normal_amplitude, frequency, angular_frequency;
+  std::vector<double> normal_amplitude;
+  FrequencyOptions frequency;
   std::optional<double> mass, spring_stiffness, falling_slope, largest_amplitude, drag_velocity;
   PremiseOptions premises;
 };
-
-std::vector<double> angular_frequencies(const DamperArguments& arguments) {
-  require(arguments.frequency.empty() != arguments.angular_frequency.empty(), "--frequency",
-          arguments.frequency.empty() ? "missing;" : "given beside --angular-frequency;",
-          "give one of --frequency and --angular-frequency");
-  std::vector<double> omega = arguments.angular_frequency;
-  for (const double hertz : arguments.frequency) omega.push_back(2 * std::numbers::pi * hertz);
-  for (const double value : omega) require_positive(value, "--frequency");
-  return omega;
-}
 
 void write_map(const DamperMap& map, const std::optional<double>& falling_slope,
                const Session& session) {
@@ -138,7 +129,8 @@ void run(const DamperArguments& arguments, Session& session) {
           fmt::format("{} positions", contact.positions.size()),
           "are given; damper takes one, salebra damping takes ranges");
   const Position& position = contact.positions.front();
-  const std::vector<double> omega = angular_frequencies(arguments);
+  if (!arguments.frequency.given()) require_options({"--frequency"}, "a damper");
+  const std::vector<double> omega = arguments.frequency.angular();
   DampingOptions options;
   options.hold = *value_of<Hold>(arguments.hold);
   options.amplitude = *value_of<Amplitude>(arguments.amplitude);
@@ -214,11 +206,7 @@ void add_damper_command(Program& program) {
   const std::string motion = "Normal oscillation (both may be ranges)";
   add_values(command, "--normal-amplitude", arguments->normal_amplitude, Dimension::length, "u_z")
       ->group(motion);
-  add_values(command, "--frequency", arguments->frequency, Dimension::frequency, "in Hz")
-      ->group(motion);
-  add_values(command, "--angular-frequency", arguments->angular_frequency,
-             Dimension::angular_frequency, "in rad/s, instead of --frequency")
-      ->group(motion);
+  arguments->frequency.add_to(command, motion);
   add_choice<Amplitude>(command, "--amplitude", arguments->amplitude,
                         "of the normal oscillation; default finite")
       ->group(motion);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 
@@ -26,17 +25,10 @@ struct FrictionArguments {
   MaterialOptions material;
   std::string hold = "indentation";
   std::vector<double> velocities;
-  std::optional<double> normal_amplitude, frequency, angular_frequency;
+  std::optional<double> normal_amplitude;
+  FrequencyOptions frequency;
   PremiseOptions premises;
 };
-
-double angular_frequency_of(const FrictionArguments& arguments) {
-  require(arguments.frequency.has_value() != arguments.angular_frequency.has_value(), "--frequency",
-          arguments.frequency ? "given beside --angular-frequency;" : "missing;",
-          "give one of --frequency and --angular-frequency");
-  return arguments.frequency ? 2 * std::numbers::pi * *arguments.frequency
-                             : *arguments.angular_frequency;
-}
 
 Figure sliding_figure(const std::vector<SteadySliding>& sliding,
                       const std::vector<double>& velocities, double friction) {
@@ -74,7 +66,7 @@ void run(const FrictionArguments& arguments, Session& session) {
   std::vector<std::string> missing;
   if (!arguments.premises.friction_coefficient) missing.emplace_back("--friction-coefficient");
   if (!arguments.normal_amplitude) missing.emplace_back("--normal-amplitude");
-  if (!arguments.frequency && !arguments.angular_frequency) missing.emplace_back("--frequency");
+  if (!arguments.frequency.given()) missing.emplace_back("--frequency");
   if (arguments.velocities.empty()) missing.emplace_back("--velocities");
   require_options(missing, "sliding under an oscillation");
   for (const double velocity : arguments.velocities) require_positive(velocity, "--velocities");
@@ -91,7 +83,7 @@ void run(const FrictionArguments& arguments, Session& session) {
   options.hold = *value_of<Hold>(arguments.hold);
 
   const Drag motion{*arguments.normal_amplitude, arguments.velocities.back(),
-                    angular_frequency_of(arguments)};
+                    arguments.frequency.angular().front()};
   const std::vector<SteadySliding> sliding = steady_sliding(
       *contact.law, position, NormalOscillation{motion.normal_amplitude, motion.angular_frequency},
       arguments.velocities, friction, options);
@@ -146,11 +138,7 @@ void add_friction_command(Program& program) {
       ->group(motion);
   add_quantity(command, "--normal-amplitude", arguments->normal_amplitude, Dimension::length, "u_z")
       ->group(motion);
-  add_quantity(command, "--frequency", arguments->frequency, Dimension::frequency, "in Hz")
-      ->group(motion);
-  add_quantity(command, "--angular-frequency", arguments->angular_frequency,
-               Dimension::angular_frequency, "in rad/s, instead of --frequency")
-      ->group(motion);
+  arguments->frequency.add_to(command, motion, true);
   add_choice<Hold>(command, "--hold", arguments->hold,
                    "what stays in the mean; default indentation")
       ->group(motion);

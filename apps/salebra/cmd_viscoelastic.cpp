@@ -121,8 +121,7 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   require_tables(session, {"motions"});
   std::vector<std::string> missing = arguments.motion.missing();
   if (arguments.prony.empty()) missing.insert(missing.begin(), "--prony");
-  if (arguments.motion.mode != "drag" && arguments.motion.frequency.empty() &&
-      arguments.motion.angular_frequency.empty())
+  if (arguments.motion.mode != "drag" && !arguments.motion.frequency.given())
     missing.emplace_back("--frequency (or --angular-frequency)");
   require_options(missing, "the loss on a viscoelastic body");
   require(arguments.material.young.size() <= 1, "--young", arguments.material.young.size(),

@@ -13,17 +13,27 @@
 
 namespace salebra::cli {
 
-Option* add_quantity(Command& app, const std::string& name, std::optional<double>& target,
-                     Dimension dimension, const std::string& help) {
+namespace {
+
+template <class Target>
+Option* add_one(Command& app, const std::string& name, Target& target, Dimension dimension,
+                const std::string& help) {
   return app
       .add_option_function(
           name,
           [&target, dimension, name](const std::string& text) {
-            target = parse_quantity(text, dimension, name);
+            target = {parse_quantity(text, dimension, name)};
           },
           help)
       ->type_name(dimension == Dimension::dimensionless ? "NUMBER"
                                                         : std::string(si_unit(dimension)));
+}
+
+}  // namespace
+
+Option* add_quantity(Command& app, const std::string& name, std::optional<double>& target,
+                     Dimension dimension, const std::string& help) {
+  return add_one(app, name, target, dimension, help);
 }
 
 Option* add_values(Command& app, const std::string& name, std::vector<double>& target,
@@ -168,6 +178,31 @@ int PositionOptions::count() const {
   return mean_gap.has_value() + pressure.has_value() + indentation.has_value() + force.has_value();
 }
 
+void FrequencyOptions::add_to(Command& app, const std::string& group, bool one) {
+  struct {
+    const char* name;
+    std::vector<double>& values;
+    Dimension dimension;
+    const char* help;
+  } const both[]{{"--frequency", frequency, Dimension::frequency, "of the normal motion, in Hz"},
+                 {"--angular-frequency", angular_frequency, Dimension::angular_frequency,
+                  "in rad/s, instead of --frequency"}};
+  for (const auto& [name, values, dimension, help] : both)
+    (one ? add_one(app, name, values, dimension, help)
+         : add_values(app, name, values, dimension, help))
+        ->group(group);
+}
+
+std::vector<double> FrequencyOptions::angular() const {
+  require(frequency.empty() || angular_frequency.empty(), "--angular-frequency", "given",
+          "beside --frequency; give one of them");
+  for (const double value : frequency) require_positive(value, "--frequency");
+  for (const double value : angular_frequency) require_positive(value, "--angular-frequency");
+  std::vector<double> omega = angular_frequency;
+  for (const double hertz : frequency) omega.push_back(2 * std::numbers::pi * hertz);
+  return omega;
+}
+
 void MotionOptions::add_to(Command& app, bool with_two_frequencies) {
   const std::string group = "Motion (one quantity may be a range from:to:count or a list)";
   std::vector<std::string> modes = {"drag", "equal-frequency"};
@@ -183,11 +218,7 @@ void MotionOptions::add_to(Command& app, bool with_two_frequencies) {
   add_values(app, "--drag-velocity", drag_velocity, Dimension::velocity,
              "v of the slow oscillation, drag")
       ->group(group);
-  add_values(app, "--frequency", frequency, Dimension::frequency, "of the normal motion, in Hz")
-      ->group(group);
-  add_values(app, "--angular-frequency", angular_frequency, Dimension::angular_frequency,
-             "in rad/s, instead of --frequency")
-      ->group(group);
+  frequency.add_to(app, group);
   if (with_two_frequencies)
     add_values(app, "--tangential-frequency", tangential_frequency, Dimension::frequency,
                "two-frequencies: of the tangential motion, in Hz")
@@ -201,8 +232,8 @@ std::pair<std::string, std::vector<double>> MotionOptions::varied() const {
                                      {"phase", &phase},
                                      {"drag_velocity", &drag_velocity},
                                      {"tangential_frequency", &tangential_frequency},
-                                     {"frequency", &frequency},
-                                     {"angular_frequency", &angular_frequency}}) {
+                                     {"frequency", &frequency.frequency},
+                                     {"angular_frequency", &frequency.angular_frequency}}) {
     if (values->size() < 2) continue;
     require(found.second.empty(), name, fmt::format("{} values", values->size()),
             "are a second range; only one quantity may be a range");
@@ -222,8 +253,7 @@ std::vector<std::string> MotionOptions::missing() const {
   need(!drag, !phase.empty(), "--phase");
   need(drag, !drag_velocity.empty(), "--drag-velocity");
   need(two, !tangential_frequency.empty(), "--tangential-frequency");
-  need(drag || two, !frequency.empty() || !angular_frequency.empty(),
-       "--frequency (or --angular-frequency)");
+  need(drag || two, frequency.given(), "--frequency (or --angular-frequency)");
   return options;
 }
 
@@ -238,17 +268,10 @@ std::vector<Motion> MotionOptions::all_motions() const {
   check(phase, "--phase", !drag);
   check(drag_velocity, "--drag-velocity", drag);
   check(tangential_frequency, "--tangential-frequency", two);
-  require(frequency.empty() || angular_frequency.empty(), "--angular-frequency", "given",
-          "beside --frequency; give one of them");
 
-  std::vector<double> omega = angular_frequency;
-  for (const double hertz : frequency) omega.push_back(2 * std::numbers::pi * hertz);
+  std::vector<double> omega = frequency.angular();
   // An equal-frequency loss per cycle does not depend on the frequency: 0 says that it is not known.
-  if (omega.empty())
-    omega = {0};
-  else
-    for (const double value : omega)
-      require_positive(value, frequency.empty() ? "--angular-frequency" : "--frequency");
+  if (omega.empty()) omega = {0};
   for (const double value : tangential_frequency) require_positive(value, "--tangential-frequency");
   const std::size_t count = std::max<std::size_t>(1, varied().second.size());
   const auto at = [](const std::vector<double>& values, std::size_t i) {

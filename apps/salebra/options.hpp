@@ -90,19 +90,30 @@ struct PositionOptions {
 /// Every motion that has a name on the command line.
 using Motion = std::variant<EqualFrequency, Drag, TwoFrequencies>;
 
+/// --frequency or --angular-frequency of the normal motion.
+struct FrequencyOptions {
+  std::vector<double> frequency, angular_frequency;
+
+  /// one: no list or range.
+  void add_to(Command& app, const std::string& group, bool one = false);
+  bool given() const { return !frequency.empty() || !angular_frequency.empty(); }
+  /// ω, rad/s, of each; empty: none was given. Throws InvalidInput where both were, and for values that are not > 0.
+  std::vector<double> angular() const;
+};
+
 /// What moves; any one quantity may be a range.
 struct MotionOptions {
   std::string mode = "drag";
-  std::vector<double> normal_amplitude, tangential_amplitude, phase, frequency, angular_frequency,
-      tangential_frequency, drag_velocity;
+  std::vector<double> normal_amplitude, tangential_amplitude, phase, tangential_frequency,
+      drag_velocity;
+  FrequencyOptions frequency;
 
   /// with_two_frequencies: offers --mode two-frequencies; then use all_motions().
   void add_to(Command& app, bool with_two_frequencies = false);
   /// Whether any of its quantities was.
   bool given() const {
     return !normal_amplitude.empty() || !tangential_amplitude.empty() || !phase.empty() ||
-           !frequency.empty() || !angular_frequency.empty() || !tangential_frequency.empty() ||
-           !drag_velocity.empty();
+           frequency.given() || !tangential_frequency.empty() || !drag_velocity.empty();
   }
   /// The options that the mode lacks.
   std::vector<std::string> missing() const;

@@ -52,7 +52,8 @@ TEST_CASE("Bad input of friction is refused by its option", "[sliding][input]") 
            {law + motion + "--velocities 0", "--velocities: 0"},
            {law + motion + "--velocities -1:1mm/s:5", "--velocities: '-1:1mm/s:5'"},
            {law + "--velocities 1mm/s", "--friction-coefficient, --normal-amplitude, --frequency"},
-           {law + motion + "--velocities 1mm/s --frequency 1kHz", "--frequency: given beside"},
+           {law + motion + "--velocities 1mm/s --frequency 1kHz",
+            "--angular-frequency: given beside --frequency"},
            {law + "--friction-coefficient 0 --normal-amplitude 1nm --frequency 1kHz --velocities "
                   "1mm/s",
             "--friction-coefficient: 0"},

@@ -252,6 +252,9 @@ TEST_CASE("Every number that the program writes has the name, unit and meaning o
       "--points 64 --size-x 4um --hurst 0.8 --rolloff 2um --short-cutoff 0.5um --rms-height 10nm ";
   const std::string shape = "oscillate --shape parabola --points 24 --steps 8 --levels 4 " + body;
   test.write("study.toml", study_text("seeds = [3, 4]"));
+  test.write("path.txt", "0 1e-6 0\n1 1.2e-6 1e-7\n2 1.1e-6 2e-7\n3 0.8e-6 1e-7\n4 1e-6 0\n");
+  test.write("planar.txt",
+             "0 1e-6 0 0\n1 1.2e-6 1e-7 0\n2 1.1e-6 2e-7 1e-7\n3 0.8e-6 1e-7 2e-7\n4 1e-6 0 0\n");
   for (const std::string& command : std::vector<std::string>{
            "generate " + rough + "-o rough.h5",
            "generate --points 128 --size-x 1mm --correlation gaussian --correlation-length 50um "
@@ -282,6 +285,9 @@ TEST_CASE("Every number that the program writes has the name, unit and meaning o
            "--map-radii 8 "
            "--quiet" +
                body,
+           "mdr --profile parabola --radius 10mm --trajectory path.txt --friction 0.3 -o path.h5" +
+               body,
+           "mdr --profile parabola --radius 10mm --trajectory planar.txt -o planar.h5" + body,
            "damper --normal-amplitude 20nm --frequency 20kHz --mass 10g --spring-stiffness 1kN/m "
            "-o damper.h5" +
                law,
