@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/coupling.hpp>
 #include <salebra/results/cycle.hpp>
@@ -27,6 +28,13 @@ Json change(const CycleResult& a, const CycleResult& b, double CycleSample::*qua
   for (std::size_t i = 0; i < values.size(); ++i) values[i] -= reference[i];
   const double scale = greatest(reference);
   return scale > 0 ? Json(greatest(values) / scale) : Json(nullptr);
+}
+
+// The last sample is the first of the next period.
+double mean_over_period(const CycleResult& cycle, double CycleSample::*quantity) {
+  const std::vector<double> values = column(cycle, quantity);
+  return std::accumulate(values.begin() + 1, values.end(), 0.0) /
+         static_cast<double>(values.size() - 1);
 }
 
 // Below this a loss is what the solvers leave.
@@ -167,6 +175,11 @@ void add_friction(Json& object, const FrictionOptions& options, const CycleOptio
       options.friction_coefficient ? Json(*options.friction_coefficient) : Json(nullptr);
   add_cycle(friction, frictional, uncertain);
   friction["over_stick"] = over(frictional.work_per_cycle, outcome.work_per_cycle(), uncertain);
+  if (std::holds_alternative<Drag>(outcome.run.motion)) {
+    friction["mean_tangential_force"] =
+        frictional.work_per_cycle / std::abs(frictional.samples.back().tangential);
+    friction["mean_force"] = mean_over_period(frictional, &CycleSample::normal_force);
+  }
   friction["tangential"] = column(frictional, &CycleSample::tangential);
   friction["tangential_force"] = column(frictional, &CycleSample::tangential_force);
   if (!outcome.coupled) return;

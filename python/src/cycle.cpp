@@ -300,8 +300,8 @@ InvalidInput
       nb::arg("checkpoint_every") = 60.0, nb::arg("resume") = false, nb::arg("progress") = false,
       R"(Direct three-dimensional simulation of a surface with Coulomb friction through one oscillation.
 
-Each step solves ``|τ| <= μp`` in every cell. Without drift the permanent contact settles within two or three periods; a constant drag continues
-until all of it slides: raise max_periods, and look at `steady`. Arguments as :func:`simulate_cycle`, checkpoints included;
+Each step solves ``|τ| <= μp`` in every cell. Without drift the permanent contact settles within two or three periods; a constant drag starts
+from the slid state, and its second period loses what the first lost. Arguments as :func:`simulate_cycle`, checkpoints included;
 friction_coefficient: μ.
 )");
   m.def(

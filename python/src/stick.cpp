@@ -157,6 +157,15 @@ tolerance, max_iterations, boundary
           },
           nb::arg("pressure"), nb::arg("x") = 0.0, nb::arg("y") = 0.0,
           "To new pressures (nx, ny), Pa, while the body moves by (x, y), m.")
+      .def(
+          "slide",
+          [](SlidingContact& self, const FieldArgument& pressure, double x, double y) {
+            const BorrowedField field(pressure);
+            unlocked([&] { self.slide(field.field(), {x, y}); });
+          },
+          nb::arg("pressure"), nb::arg("x") = 1.0, nb::arg("y") = 0.0,
+          "The state after endless sliding along (x, y) at these pressures; sets work and losses "
+          "to 0.")
       .def_prop_ro(
           "pressure",
           [](nb::handle_t<SlidingContact> self) {

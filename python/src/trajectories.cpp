@@ -58,13 +58,22 @@ tangential_range : float
            "Puts the indenter down, all springs free of stress; sets the energies to 0.")
       .def("move_to", &TangentialContact::move_to, nb::arg("indentation"), nb::arg("x"),
            "Moves on a straight line in (δ, x), m.")
+      .def("move_to_force", &TangentialContact::move_to_force, nb::arg("indentation"),
+           nb::arg("force"), "Moves on a straight line to where F_x is `force`, N.")
+      .def("slide", &TangentialContact::slide, nb::arg("indentation"), nb::arg("x"),
+           nb::arg("direction"),
+           "The state after endless sliding towards +x (direction 1) or −x (−1); sets losses and "
+           "work to 0.")
+      .def_prop_ro("displacement", &TangentialContact::displacement, "x, m.")
       .def_prop_ro("tangential_force", &TangentialContact::tangential_force, "F_x, N.")
       .def_prop_ro("stored_energy", &TangentialContact::stored_energy, "J")
-      .def_prop_ro("dissipated", &TangentialContact::dissipated, "Lost since start(), J.")
+      .def_prop_ro("dissipated", &TangentialContact::dissipated,
+                   "Lost since start() or slide(), J.")
       .def_prop_ro("dissipated_in_permanent_contact",
                    &TangentialContact::dissipated_in_permanent_contact,
                    "Of it, by slip of levels that never leave contact, J.")
-      .def_prop_ro("external_work", &TangentialContact::external_work, "∫F_x dx since start(), J.")
+      .def_prop_ro("external_work", &TangentialContact::external_work,
+                   "∫F_x dx since start() or slide(), J.")
       .def_prop_ro("permanent_stiffness", &TangentialContact::permanent_stiffness,
                    "K_t at `lowest`, N/m.")
       .def_prop_ro("memory", &TangentialContact::memory, "Pieces of history now held.");

@@ -58,6 +58,11 @@ class SlidingBody : public detail::CycleBody {
  protected:
   virtual void move(int step, const TangentialMove& by) = 0;
   double indentation(int step) const { return trajectory_.indentation(time(step)); }
+  /// Of a period.
+  TangentialMove drift() const {
+    const double distance = trajectory_.tangential(1) - trajectory_.tangential(0);
+    return {distance * along_x_, distance * along_y_};
+  }
   int steps() const { return steps_; }
   detail::CycleReading reading_of(const SlidingContact& contact) const {
     const TangentialMove force = contact.tangential_force();
@@ -101,6 +106,9 @@ class FrictionalBody final : public SlidingBody {
     contact_.reserve(largest);
     if (const SlidingState* state = detail::resumed<SlidingState>(options, grid))
       contact_.restore(*state);
+    else if (std::isfinite(options.friction_coefficient) &&
+             std::hypot(drift().x, drift().y) > 1e-9 * range.tangential())
+      contact_.slide(pressures_.at(0).pressure, drift());
     else
       contact_.advance(pressures_.at(0).pressure);
   }

@@ -241,6 +241,18 @@ struct TangentialContact::State {
     dissipated = permanent = core_anchor = carried = 0;
   }
 
+  // Every level at its limit, the core too.
+  void slide(double new_indentation, double new_x, int direction) {
+    begin(new_indentation, new_x);
+    const auto anchor = [&](double level) {
+      return -direction * slope_limit * (indentation - level);
+    };
+    push(indentation, {anchor(table->lowest()), 0});
+    core_anchor = anchor(core_level);
+    carried = direction;
+    energy_at_start = energy();
+  }
+
   void move(double new_indentation, double new_x) {
     if (new_indentation < indentation) release(new_indentation, new_x);
     if (new_indentation > indentation) touch(new_indentation, new_x);
@@ -330,14 +342,7 @@ void TangentialContact::slide(double indentation, double x, int direction) {
   require(direction == 1 || direction == -1, "direction", direction, "must be 1 or -1");
   require(std::isfinite(s.slope_limit), "friction_coefficient", s.slope_limit,
           "must be finite for sliding");
-  s.begin(indentation, x);
-  const auto anchor = [&](double level) {
-    return -direction * s.slope_limit * (s.indentation - level);
-  };
-  s.push(s.indentation, {anchor(s.table->lowest()), 0});
-  s.core_anchor = anchor(s.core_level);
-  s.carried = direction;
-  s.energy_at_start = s.energy();
+  s.slide(indentation, x, direction);
 }
 
 void TangentialContact::move_to(double indentation, double x) {
@@ -351,6 +356,14 @@ void TangentialContact::move_to_force(double indentation, double force) {
   State& s = *state_;
   indentation = s.within_range(indentation);
   require(std::isfinite(force), "tangential_force", force, "must be finite");
+  if (std::isfinite(s.slope_limit)) {
+    State slid = s;
+    slid.slide(indentation, 0, force > 0 ? 1 : -1);
+    const double limit = std::abs(slid.force());
+    std::ostringstream constraint;
+    constraint << "N must be below " << limit << " N, at which the contact slides";
+    require(std::abs(force) < limit || force == 0, "tangential_force", force, constraint.str());
+  }
   // F_x grows with x: a bracket, and then its zero.
   const auto excess = [&](double x) {
     State moved = s;
@@ -371,7 +384,7 @@ void TangentialContact::move_to_force(double indentation, double force) {
       return;
     }
   }
-  require(false, "tangential_force", force, "N is not reached: the contact slides");
+  require(false, "tangential_force", force, "N is not reached on the way that can be computed");
 }
 
 double TangentialContact::displacement() const { return state_->x + state_->origin; }

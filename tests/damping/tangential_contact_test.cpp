@@ -318,4 +318,14 @@ TEST_CASE("A contact refuses motion that it was not made for", "[tangential]") {
                          {.friction_coefficient = 0.01, .tangential_range = 2e-6});
   deep.start(1e-6, 0);
   CHECK_THROWS_WITH(deep.move_to(1e-6, 1e-6), Catch::Contains("extend the curve"));
+  // A force at which it slides, also where it slid before: there it went on for kilometres until rounding met the force.
+  TangentialContact slipping(ExponentialLaw(2, 1e-7, ratio), -1e-7, 1e-7,
+                             {.friction_coefficient = 0.3, .tangential_range = 4e-7});
+  slipping.slide(0, 0, -1);
+  slipping.move_to_force(0, -0.599);
+  CHECK(slipping.tangential_force() == Approx(-0.599).epsilon(1e-12));
+  for (const double force : {-0.601, 0.601})
+    CHECK_THROWS_WITH(slipping.move_to_force(0, force),
+                      Catch::Contains("0.6 N, at which the contact slides"));
+  CHECK(slipping.tangential_force() == Approx(-0.599).epsilon(1e-12));
 }

@@ -295,6 +295,42 @@ def test_a_sphere_in_partial_slip_is_mindlins() -> None:
         salebra.joint_loss(law, friction_coefficient=0.3, force=10.0)
 
 
+def test_a_contact_as_a_force_element_follows_displacements_and_forces() -> None:
+    ratio, load, decay_length, friction = 0.8, 2.0, 1e-7, 0.3
+    law = salebra.ExponentialLaw(load, decay_length, ratio)
+    contact = salebra.TangentialContact(law, -1e-7, 1e-7, friction_coefficient=friction, tangential_range=4e-7)
+    # First loading under constant normal force: T = μF[1 − exp(−gx/(μl))], g = G*/E*.
+    contact.start(0, 0)
+    contact.move_to_force(0, 0.3)
+    x = -friction * decay_length / ratio * math.log(1 - 0.3 / (friction * load))
+    assert contact.displacement == pytest.approx(x, rel=1e-9)
+    assert contact.external_work == pytest.approx(contact.stored_energy + contact.dissipated, rel=1e-9)
+    contact.move_to(0, -x)
+    contact.move_to(0, x)
+    assert contact.tangential_force == pytest.approx(0.3, rel=1e-9)
+    # From the slid state on: μF, which falls with F.
+    contact.slide(0, 0, -1)
+    assert contact.tangential_force == pytest.approx(-friction * load, rel=1e-9)
+    assert contact.dissipated == 0
+    contact.move_to(-5e-8, 0)
+    assert contact.tangential_force == pytest.approx(-friction * load * math.exp(-0.5), rel=1e-9)
+    with pytest.raises(salebra.InvalidInput, match="slides"):
+        contact.move_to_force(0, -1.01 * friction * load)
+
+
+def test_a_slid_contact_is_at_its_limit_everywhere() -> None:
+    grid = salebra.Grid2D(16, 16, 1e-3, 1e-3)
+    pressure = np.zeros((16, 16))
+    pressure[4:9, 5:12] = 2e6
+    contact = salebra.SlidingContact(
+        grid, salebra.Material(1e9, poisson=0.3), friction_coefficient=0.4, motion_scale=1e-6
+    )
+    contact.slide(pressure, 3, 4)
+    assert contact.traction_x == pytest.approx(0.24 * pressure)
+    assert contact.traction_y == pytest.approx(0.32 * pressure)
+    assert contact.slipping == 35
+
+
 def test_losses_on_rubber_are_told_apart() -> None:
     law = salebra.IndenterLaw(salebra.cone_profile(0.2), salebra.Material(4e6, poisson=0.5))
     prony = salebra.PronySeries.of_body(salebra.Material(4e6, poisson=0.5), [(3e6, 0.02)])

@@ -164,9 +164,9 @@ CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
                            const Material& material, const Trajectory& trajectory,
                            const CycleOptions& options = {});
 
-/// A contact with Coulomb friction: SlidingContact, from step to step, at second order in them. Started, stress-free, at the minimum
-/// indentation; without drift the permanent contact settles within two or three periods, while a constant drag continues until all of
-/// it slides: raise max_periods, and look at `steady`.
+/// A contact with Coulomb friction: SlidingContact, from step to step, at second order in them. Without drift it starts stress-free, and the
+/// permanent contact settles within two or three periods. With drift and a finite μ it starts from endless sliding at the first
+/// indentation: where that is the minimum, the first period is the steady one, as with the springs (docs/theory.md, section 8).
 /// cost  per step a partial-slip solve, and another where cells enter
 CycleResult simulate_frictional_cycle(const PressureLevels& levels, const Grid2D& grid,
                                       const Material& material, const Trajectory& trajectory,

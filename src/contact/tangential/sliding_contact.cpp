@@ -116,12 +116,34 @@ TangentialField SlidingContact::displacement_halfway(const TangentialMove& move,
   return displacement_under(contact_, increment.traction_halfway, halfway, entering);
 }
 
-SlidingContact::Increment SlidingContact::attempt(const Field& pressure, const TangentialMove& move,
-                                                  const TangentialField* shift,
-                                                  const Increment* guess) {
+void SlidingContact::require_pressure(const Field& pressure) const {
   require(pressure.rows() == state_.pressure.rows() && pressure.cols() == state_.pressure.cols(),
           "pressure", pressure.size(), "values do not match the grid; give nx × ny values");
   require((pressure >= 0).all(), "pressure", pressure.minCoeff(), "must be >= 0 in every cell");
+}
+
+void SlidingContact::slide(const Field& pressure, const TangentialMove& direction) {
+  require_pressure(pressure);
+  require(std::isfinite(options_.friction_coefficient), "friction_coefficient",
+          options_.friction_coefficient, "never slides; give a finite one");
+  require(options_.stick.hold_lateral || direction.y == 0, "direction", direction.y,
+          "along y must be 0 where the lateral displacement is free; turn the surface instead");
+  const double length = std::hypot(direction.x, direction.y);
+  require_positive(length, "direction");
+  const Field limit = limit_of(pressure, options_.friction_coefficient);
+  contact_ = limit > 0;
+  state_.pressure = pressure;
+  state_.traction = {limit * (direction.x / length), limit * (direction.y / length)};
+  state_.displacement = displacement_under(contact_, state_.traction, state_.shift, contact_);
+  state_.loss.setZero();
+  state_.work = state_.released = 0;
+  state_.slipping = contact_.count();
+}
+
+SlidingContact::Increment SlidingContact::attempt(const Field& pressure, const TangentialMove& move,
+                                                  const TangentialField* shift,
+                                                  const Increment* guess) {
+  require_pressure(pressure);
   require(options_.stick.hold_lateral || move.y == 0, "move", move.y,
           "along y must be 0 where the lateral displacement is free; turn the surface instead");
   const Field limit = limit_of(pressure, options_.friction_coefficient);
