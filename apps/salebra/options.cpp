@@ -142,7 +142,10 @@ void SurfaceOptions::add_to(Command& app, bool needed, const std::string& field)
                  "such as nm, for files that do not name one; default m")
       ->type_name("UNIT")
       ->group(group);
-  add_choice<Detrend>(app, "--detrend", detrend, "default: plane if measured, mean if generated")
+  add_choice<Detrend>(app, "--detrend", detrend,
+                      "default: plane if measured, mean if generated; lines and "
+                      "median-differences flatten a scan line by line, which changes statistics "
+                      "along y")
       ->group(group);
 }
 

@@ -105,9 +105,10 @@ True
 
 Parameters
 ----------
-method : {"plane", "mean", "quadratic", "lines", "none"}
+method : {"plane", "mean", "quadratic", "lines", "median_differences", "none"}
     What is subtracted: the least-squares plane a + b·x + c·y, the mean, the least-squares paraboloid, of each scan line (along x) its
-    least-squares straight line, nothing.
+    least-squares straight line, of each scan line its offset by the median of its differences from the line before and then the plane,
+    nothing. Both ways of flattening lines change statistics along y, and leave a seam between the first and the last line.
 
 Returns
 -------

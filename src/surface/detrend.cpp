@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Removal of the mean, of a plane, of a quadratic surface or of a straight line from each scan line, by least squares.
+// Removal of the mean, of a plane or of a quadratic surface; of a straight line or of the offset of each scan line.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/moments.hpp>
+#include <vector>
 
 #include "surface/dense_systems.hpp"
 
@@ -71,6 +74,36 @@ void subtract_lines(Surface& surface) {
   }
 }
 
+/// Of an even number the mean of the two in the middle. Changes their order.
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 != 0) return *middle;
+  return (*std::max_element(values.begin(), middle) + *middle) / 2;
+}
+
+/// A line of which nothing can be compared keeps the offset of the one before.
+void subtract_offsets(Surface& surface) {
+  const auto [nx, ny] = std::pair(surface.grid.nx, surface.grid.ny);
+  height_statistics(surface);  // refuses what has no heights
+  Eigen::ArrayXd before = Eigen::ArrayXd::Constant(nx, std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> differences;
+  double offset = 0;
+  for (Index iy = 0; iy < ny; ++iy) {
+    differences.clear();
+    for (Index ix = 0; ix < nx; ++ix)
+      if (const double difference = surface.heights(ix, iy) - before(ix); !std::isnan(difference))
+        differences.push_back(difference);
+    if (!differences.empty()) offset = median(differences);
+    for (Index ix = 0; ix < nx; ++ix) {
+      double& height = surface.heights(ix, iy);
+      if (std::isnan(height)) continue;
+      height -= offset;
+      before(ix) = height;
+    }
+  }
+}
+
 }  // namespace
 
 Detrend default_detrend(const Surface& surface) {
@@ -92,6 +125,10 @@ Surface detrended(Surface surface, Detrend method) {
       break;
     case Detrend::lines:
       subtract_lines(surface);
+      break;
+    case Detrend::median_differences:
+      subtract_offsets(surface);
+      subtract_fit<3>(surface);
       break;
   }
   return surface;

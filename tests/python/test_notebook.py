@@ -213,7 +213,7 @@ def test_every_function_has_a_signature_with_its_keywords() -> None:
     (lambda s: salebra.Surface(np.zeros((8, 8)), 1.0), "Surface: size_y is missing; give a number"),
     (lambda s: salebra.Surface([["a"]], 1.0, 1.0), "Surface: heights: wanted an array of numbers"),
     (lambda s: salebra.sweep_pressures(s, 1e9, np.ones((2, 2))), "sweep_pressures: pressures: wanted one dimension, got shape (2, 2)"),
-    (lambda s: s.detrended(3), "Surface.detrended: method: wanted one of 'none', 'mean', 'plane', 'quadratic', 'lines', got 3"),
+    (lambda s: s.detrended(3), "Surface.detrended: method: wanted one of 'none', 'mean', 'plane', 'quadratic', 'lines', 'median_differences', got 3"),
 ])  # fmt: skip
 def test_a_wrong_argument_is_named_with_what_came_and_what_was_wanted(
     call: Callable[[salebra.Surface], Any], said: str, surface: salebra.Surface

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -75,4 +76,98 @@ TEST_CASE("Jumps and slopes of scan lines go, each line by itself", "[detrend]")
     CHECK(std::abs(along_x) < 1e-9);
     CHECK(std::abs(flat.heights.col(iy).sum()) < 1e-11);
   }
+}
+
+namespace {
+
+double rms(const Surface& surface) { return std::sqrt(surface.heights.square().mean()); }
+
+// Thirty waves of one amplitude in directions and with phases that look random, 6 to 20 of them on the side.
+Surface hilly(Index n) {
+  return sampled({n, n, 1.0, 1.0}, false, [](double x, double y) {
+    double height = 0;
+    for (int k = 0; k < 30; ++k) {
+      const double direction = 2.399963 * k, q = 2 * 3.14159265358979 * (6 + 0.47 * k);
+      height += std::cos(q * (std::cos(direction) * x + std::sin(direction) * y) + 1.7 * k * k);
+    }
+    return height / std::sqrt(15.0);  // 1 m rms
+  });
+}
+
+}  // namespace
+
+TEST_CASE("Offsets of scan lines are found by the median of differences, whatever they are",
+          "[detrend]") {
+  const Surface rough = hilly(64);
+  const Surface alone = detrended(rough, Detrend::median_differences);
+  Surface scanned = rough;
+  for (Index iy = 0; iy < 64; ++iy) scanned.heights.col(iy) += 40 * std::sin(7.0 * double(iy * iy));
+  // Adding a constant to a line changes the order of no differences. Heights up to 40 m, 64 offsets one upon the other: round-off.
+  const Surface flat = detrended(scanned, Detrend::median_differences);
+  CHECK((flat.heights - alone.heights).abs().maxCoeff() < 1e-11);
+
+  // Undefined points: a part of a line, a whole line, lines without a point at the same x as the one before.
+  const double undefined = std::nan("");
+  Surface torn = rough, torn_scan = scanned;
+  for (Surface* surface : {&torn, &torn_scan}) {
+    surface->heights.col(0).tail(20).setConstant(undefined);
+    surface->heights.col(9).tail(60).setConstant(undefined);
+    surface->heights.col(10).setConstant(undefined);
+    surface->heights.col(20).head(32).setConstant(undefined);
+    surface->heights.col(21).tail(32).setConstant(undefined);
+  }
+  const Surface flat_torn = detrended(torn_scan, Detrend::median_differences);
+  const Surface torn_alone = detrended(torn, Detrend::median_differences);
+  CHECK(flat_torn.undefined_points() == 20 + 60 + 64 + 32 + 32);
+  double worst = 0;
+  for (Index i = 0; i < flat_torn.heights.size(); ++i)
+    if (const double error = flat_torn.heights(i) - torn_alone.heights(i); !std::isnan(error))
+      worst = std::max(worst, std::abs(error));
+  CHECK(worst < 1e-11);
+}
+
+TEST_CASE("What stands out of a flat ground comes out of its scan as it is", "[detrend]") {
+  // A tilted ground with a block over 45 % of the lines 20 to 39, a hole, and an edge along x that a third of a line has.
+  const Surface truth = sampled({60, 50, 60.0, 50.0}, false, [](double x, double y) {
+    const double block = x >= 5 && x < 32 && y >= 20 && y < 40 ? 8 : 0;
+    const double hole = x >= 40 && x < 45 && y >= 10 && y < 30 ? -3 : 0;
+    return 0.01 * x - 0.02 * y + block + hole + (x >= 50 && y >= 35 ? 1 : 0);
+  });
+  Surface scanned = truth;
+  for (Index iy = 0; iy < 50; ++iy) scanned.heights.col(iy) += std::cos(3.0 * double(iy));
+  const Surface expected = detrended(truth, Detrend::plane);
+  // More than half of each line's differences are those of the ground: exact but for round-off of heights up to 10 m.
+  CHECK((detrended(scanned, Detrend::median_differences).heights - expected.heights)
+            .abs()
+            .maxCoeff() < 1e-12);
+  // Least squares are drawn down by the block: by 45 % of its height or more.
+  const Surface squares = detrended(scanned, Detrend::lines);
+  CHECK((squares.heights - expected.heights).abs().maxCoeff() > 0.45 * 8);
+}
+
+TEST_CASE("Flattening harms a surface without jumps along y only, and by a known part",
+          "[detrend]") {
+  const Surface rough = detrended(hilly(128), Detrend::plane);
+  const auto along_x = [](const Surface& surface) {
+    return Field(surface.heights.bottomRows(127) - surface.heights.topRows(127));
+  };
+  for (const Detrend method : {Detrend::lines, Detrend::median_differences}) {
+    const Surface flat = detrended(rough, method);
+    const Field lost = flat.heights - rough.heights;
+    // A mean over a line that is six waves long and more keeps 1/6 of a wave; the steps of 127 medians add up to more than that of
+    // means. An error of the method, such as a tilt left in, would be of the order of 1.
+    INFO("method " << int(method));
+    CHECK(std::sqrt(lost.square().mean()) < 0.4 * rms(rough));
+    // What is taken is the same along a line, or straight: no difference along x changes but by one number a line.
+    const Field change = along_x(flat) - along_x(rough);
+    CHECK((change.rowwise() - change.row(0)).abs().maxCoeff() < 1e-12);
+  }
+}
+
+TEST_CASE("A single line loses its plane, a surface without heights is refused", "[detrend]") {
+  const Surface line = sampled({9, 1, 9.0, 1.0}, false, [](double x, double) { return 2 * x; });
+  CHECK(detrended(line, Detrend::median_differences).heights.abs().maxCoeff() < 1e-13);
+  Surface empty = white({4, 4, 1, 1}, false);
+  empty.heights.setConstant(std::nan(""));
+  CHECK_THROWS_AS(detrended(empty, Detrend::median_differences), InvalidInput);
 }

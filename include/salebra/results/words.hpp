@@ -44,12 +44,13 @@ struct Words<Axis> {
 };
 template <>
 struct Words<Detrend> {
-  static constexpr auto values =
-      std::to_array<std::pair<Detrend, std::string_view>>({{Detrend::none, "none"},
-                                                           {Detrend::mean, "mean"},
-                                                           {Detrend::plane, "plane"},
-                                                           {Detrend::quadratic, "quadratic"},
-                                                           {Detrend::lines, "lines"}});
+  static constexpr auto values = std::to_array<std::pair<Detrend, std::string_view>>(
+      {{Detrend::none, "none"},
+       {Detrend::mean, "mean"},
+       {Detrend::plane, "plane"},
+       {Detrend::quadratic, "quadratic"},
+       {Detrend::lines, "lines"},
+       {Detrend::median_differences, "median_differences"}});
 };
 template <>
 struct Words<Window> {
