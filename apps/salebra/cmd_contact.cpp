@@ -157,8 +157,11 @@ void run(const ContactArguments& arguments, Session& session) {
                  {"converged", state.converged},
                  {"seconds", elapsed.count()}};
   add_first_loading(answer, first_loading);
-  if (arguments.stiffness && state.converged)
-    answer["normal_stiffness"] = normal_stiffness(state, surface.grid, contact_modulus, options);
+  if (arguments.stiffness && state.converged) {
+    const double stiffness = normal_stiffness(state, surface.grid, contact_modulus, options);
+    answer["normal_stiffness"] = stiffness;
+    answer["normal_stiffness_per_area"] = stiffness / surface.grid.area();
+  }
   if (interrupted()) throw Interrupted("contact: interrupted; the stiffness was not computed");
   session.answer(answer);
   if (!state.converged) {

@@ -288,6 +288,13 @@ void run(const DampingArguments& arguments, Session& session) {
     object["damping_constant_error"] = column([&](std::size_t i) { return errors[i]; });
     object["error_estimate"] = quantity_of(&DampingResult::error_estimate);
   }
+  if (contact.curve)
+    object["work_per_cycle_per_area"] = column(
+        [&](std::size_t i) { return results[i].work_per_cycle / contact.curve->nominal_area; });
+  object["normal_stiffness"] = quantity_of(&DampingResult::normal_stiffness);
+  if (contact.curve)
+    object["normal_stiffness_per_area"] = column(
+        [&](std::size_t i) { return results[i].normal_stiffness / contact.curve->nominal_area; });
   object["force_curvature"] = quantity_of(&DampingResult::curvature);
   if (quantity != "force") object["force"] = quantity_of(&DampingResult::force);
   object["mean_force"] = quantity_of(&DampingResult::mean_force);

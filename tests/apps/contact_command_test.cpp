@@ -129,11 +129,15 @@ TEST_CASE("The stiffness of full contact is infinite: valid JSON without a numbe
   const std::string press = "contact rough.h5 --contact-modulus 10GPa --json --stiffness ";
   const auto open = test.run(press + "--pressure 20MPa").json();
   CHECK(open["normal_stiffness"] > 0);
+  CHECK(open["normal_stiffness_per_area"].get<double>() ==
+        Approx(open["normal_stiffness"].get<double>() * open["pressure"].get<double>() /
+               open["force"].get<double>()));
   const auto closed = test.run(press + "--pressure 100GPa");
   CHECK(closed.status == 0);
   CHECK(closed.json()["contact_area_fraction"] == 1);
   CHECK(closed.json()["normal_stiffness"].is_null());
   CHECK(closed.json().contains("normal_stiffness"));
+  CHECK(closed.json()["normal_stiffness_per_area"].is_null());
   const auto curve = test.run(
                              "sweep rough.h5 --contact-modulus 10GPa --poisson 0.3 --json "
                              "--stiffness --pressures 20MPa,100GPa")

@@ -23,9 +23,9 @@ TEST_CASE("Damping of the exponential law at small amplitude is Eq. (16)", "[dam
   REQUIRE(result.status == 0);
   const auto answer = result.json();
   CHECK(keys(answer) == std::set<std::string>{"premises", "largest_motion", "work_per_cycle",
-                                              "power", "damping_constant", "force_curvature",
-                                              "force", "mean_force", "indentation", "closed_form",
-                                              "ratio"});
+                                              "power", "damping_constant", "normal_stiffness",
+                                              "force_curvature", "force", "mean_force",
+                                              "indentation", "closed_form", "ratio"});
   const double omega = 2 * pi * 2e4, ratio = 2 * 0.7 / 1.7;
   const double work = 2 * (pi * pi - 4) * ratio * 1 / 1e-14 * 5e-9 * 4e-6 / (omega * omega);
   // The same few products in another order.
@@ -382,7 +382,15 @@ frequency = "20kHz"
   CHECK(one["error_estimate"].get<double>() / one["work_per_cycle"].get<double>() ==
         Approx(one["damping_constant_error"].get<double>() / one["damping_constant"].get<double>())
             .epsilon(1e-12));
+  // Over the nominal area, 1 mm².
+  for (const std::string name : {"work_per_cycle", "normal_stiffness"})
+    CHECK(one[name + "_per_area"].get<double>() == Approx(one[name].get<double>() / 1e-6));
+  // K is several times the force over the rms height, as F/l, and less than that of a flat body.
+  CHECK(one["normal_stiffness_per_area"] > 1e6 / 1e-6);
+  CHECK(one["normal_stiffness_per_area"] < 1e9 / 1e-6);
   const auto two = test.run("damping --surface rough.h5 --pressure 1MPa,3MPa" + motion).json();
+  CHECK(two["work_per_cycle_per_area"][1].get<double>() ==
+        Approx(two["work_per_cycle"][1].get<double>() / 1e-6));
   CHECK(two["damping_constant"][0].get<double>() ==
         Approx(one["damping_constant"].get<double>()).epsilon(0.01));
   check_refused(test.run("damping --surface rough.h5 --normal-force 1" + motion), "pressure");
