@@ -1,0 +1,551 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Motion of a slider on a spring over an oscillating contact: full and averaged equation, what they end in, stability of sliding.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
+#include <salebra/damping/slider.hpp>
+#include <salebra/damping/steady_sliding.hpp>
+#include <utility>
+
+#include "averaged_slider.hpp"
+#include "contact/quadrature.hpp"
+#include "slider_equation.hpp"
+
+namespace salebra {
+namespace {
+
+using detail::AveragedSlider;
+using detail::SliderContact;
+using detail::SliderEquation;
+using detail::SliderTotals;
+using std::numbers::pi;
+
+double natural_frequency(const Slider& slider) {
+  return std::sqrt(slider.spring_stiffness / slider.mass);
+}
+
+void check(const NormalOscillation& normal, const Slider& slider, double friction_coefficient,
+           const SliderOptions& options) {
+  require_positive(slider.mass, "mass");
+  require_positive(slider.spring_stiffness, "spring_stiffness");
+  require_positive(slider.velocity, "velocity");
+  const auto check_damping = [](double value, const char* name) {
+    require(std::isfinite(value) && value >= 0, name, value, "must be finite and >= 0");
+  };
+  check_damping(slider.support_damping, "support_damping");
+  check_damping(slider.falling_slope, "falling_slope");
+  require_positive(friction_coefficient, "friction_coefficient");
+  require(options.steps >= 16, "steps", options.steps, "must be >= 16");
+  require(options.tolerance >= 1e-6 && options.tolerance <= 0.5, "tolerance", options.tolerance,
+          "must lie between 1e-6 and 0.5");
+  require(options.most_cycles > 0, "most_cycles", options.most_cycles, "must be > 0");
+  require(std::isfinite(normal.normal_amplitude) && normal.normal_amplitude >= 0,
+          "normal_amplitude", normal.normal_amplitude, "must be finite and >= 0");
+  if (!(normal.normal_amplitude > 0)) return;
+  require_positive(normal.angular_frequency, "angular_frequency");
+  const double slow = natural_frequency(slider);
+  require(normal.angular_frequency > 4 * slow, "angular_frequency",
+          format_quantity(normal.angular_frequency, Dimension::angular_frequency),
+          "must be above 4 times √(k/m) of the slider, " +
+              format_quantity(slow, Dimension::angular_frequency) +
+              "; a slower oscillation does not average");
+}
+
+// The contact at its mean indentation, and steady sliding at the velocity of the drive.
+struct Case {
+  SliderContact contact;
+  SteadySliding sliding;
+  double spring_offset;  // x − Vt of steady sliding by the averaged equation, m
+
+  Case(const ContactLaw& law, const Position& position, const NormalOscillation& normal,
+       const Slider& slider, double friction_coefficient, const SliderOptions& options)
+      : contact{law, 0, normal.normal_amplitude, normal.angular_frequency, friction_coefficient} {
+    check(normal, slider, friction_coefficient, options);
+    if (!(contact.normal_amplitude > 0)) contact.angular_frequency = 1;
+    DampingOptions averages;
+    averages.hold = options.hold;
+    sliding = steady_sliding(
+        law, position,
+        Drag{contact.normal_amplitude, slider.velocity, contact.angular_frequency},
+        friction_coefficient, averages);
+    contact.indentation = sliding.indentation;
+    const double normal_stiffness = law.normal_stiffness(contact.indentation);
+    if (normal_stiffness > 0)
+      contact.friction_coefficient *= law.modulus_ratio() * normal_stiffness /
+                                      law.tangential_stiffness(contact.indentation);
+    spring_offset = (slider.falling_slope * slider.velocity - sliding.mean_tangential_force) /
+                    slider.spring_stiffness;
+    check_velocity(slider.velocity, slider, "is reached by the drive");
+  }
+
+  // Where friction would drive.
+  void check_velocity(double velocity, const Slider& slider, const char* what) const {
+    const double friction = sliding.mean_tangential_force;
+    if (!(slider.falling_slope * velocity < friction))
+      throw InvalidInput(
+          "falling_slope: " + format_quantity(slider.falling_slope, Dimension::damping) +
+          " makes friction negative from " +
+          format_quantity(friction / slider.falling_slope, Dimension::velocity) + " on, which " +
+          what + "; give the slope of friction at the velocities of the motion");
+  }
+
+  std::pair<double, double> start(const Slider& slider, SliderStart start,
+                                  double static_force) const {
+    if (start == SliderStart::sliding) return {spring_offset, -0.01 * slider.velocity};
+    return {(slider.support_damping * slider.velocity - static_force) / slider.spring_stiffness,
+            -slider.velocity};
+  }
+};
+
+struct Sample {
+  double offset = 0, stored = 0;
+  SliderTotals totals;
+};
+
+// Finds slow cycles, from one least x − Vt to the next, in samples of equal spacing.
+class CycleMeter {
+ public:
+  CycleMeter(const Slider& slider, double tolerance)
+      : slow_period_(2 * pi / natural_frequency(slider)),
+        length_(slider.velocity / natural_frequency(slider)),
+        tolerance_(tolerance) {}
+
+  // A greatest or least x − Vt, between samples by the parabola through three.
+  struct Turn {
+    Sample sample;
+    double time = 0, offset = 0;
+  };
+  struct Cycle {
+    Turn begin, end;
+    double highest;
+    double range() const { return highest - 0.5 * (begin.offset + end.offset); }
+  };
+
+  void add(const Sample& sample) {
+    if (count_++ == 0) {
+      window_ = extreme_ = before_extreme_ = last_ = sample;
+      last_turn_.offset = low_ = high_ = sample.offset;
+      return;
+    }
+    low_ = std::min(low_, sample.offset), high_ = std::max(high_, sample.offset);
+    if (sample.totals.time - window_.totals.time >= slow_period_) {
+      // A disturbance of a thousandth of the drive's velocity swings over 2e-3 of this length.
+      steady_ = high_ - low_ < 2e-3 * length_;
+      window_ = sample, low_ = high_ = sample.offset;
+    }
+    const double beyond = (sample.offset - extreme_.offset) * (rising_ ? 1 : -1);
+    if (beyond >= 0) {
+      before_extreme_ = last_, extreme_ = sample, after_extreme_.reset();
+    } else {
+      if (!after_extreme_) after_extreme_ = sample;
+      // Ripples of a contact that swings while it sticks are no cycles.
+      if (-beyond > std::max(0.25 * last_swing_, 1e-3 * length_)) turn(sample);
+    }
+    last_ = sample;
+  }
+
+  bool steady() const { return steady_; }
+  const std::vector<Cycle>& cycles() const { return cycles_; }
+  double slow_period() const { return slow_period_; }
+
+  // Whether the cycles repeat: those of the last quarter and those before them have one range. A motion without sticking may also grow or
+  // decay slowly, hence more of them.
+  bool repeats() {
+    const std::size_t count = cycles_.size();
+    if (count < 6 || count == seen_) return false;
+    seen_ = count;
+    const std::size_t part = kept() / 2;
+    const double last = mean_range(count - part, count),
+                 before = mean_range(count - 2 * part, count - part);
+    drift_ = std::abs(last - before) / last;
+    if (stuck_time() > 0) return drift_ < 0.25 * tolerance_;
+    return count >= 40 && drift_ < 0.05 * tolerance_;
+  }
+
+  // Of the cycles that were found to repeat, which are averaged.
+  std::size_t kept() const {
+    return std::min(2 * std::max<std::size_t>(cycles_.size() / 4, 2), cycles_.size());
+  }
+  const Turn& begin() const { return cycles_[cycles_.size() - kept()].begin; }
+  const Turn& end() const { return cycles_.back().end; }
+  double stuck_time() const {
+    return end().sample.totals.stuck - begin().sample.totals.stuck;
+  }
+  double period() const { return (end().time - begin().time) / static_cast<double>(kept()); }
+  double mean_range(std::size_t from, std::size_t to) const {
+    double sum = 0;
+    for (std::size_t i = from; i < to; ++i) sum += cycles_[i].range();
+    return sum / static_cast<double>(to - from);
+  }
+  double range() const { return mean_range(cycles_.size() - kept(), cycles_.size()); }
+  double lowest() const {
+    double sum = 0;
+    for (std::size_t i = cycles_.size() - kept(); i < cycles_.size(); ++i)
+      sum += cycles_[i].end.offset;
+    return sum / static_cast<double>(kept());
+  }
+  double drift() const { return drift_; }
+
+ private:
+  void turn(const Sample& sample) {
+    Turn turn{extreme_, extreme_.totals.time, extreme_.offset};
+    const double left = before_extreme_.offset - turn.offset,
+                 right = after_extreme_->offset - turn.offset, bend = left + right;
+    if (std::abs(bend) > 0) {
+      const double part = 0.5 * (left - right) / bend;
+      turn.time += part * (after_extreme_->totals.time - extreme_.totals.time);
+      turn.offset -= 0.125 * (left - right) * (left - right) / bend;
+    }
+    last_swing_ = std::abs(turn.offset - last_turn_.offset);
+    if (!rising_) {
+      if (turns_ >= 2) cycles_.push_back({trough_, turn, last_turn_.offset});
+      trough_ = turn;
+    }
+    ++turns_;
+    last_turn_ = turn;
+    before_extreme_ = last_, extreme_ = sample, after_extreme_.reset();
+    rising_ = !rising_;
+  }
+
+  double slow_period_, length_, tolerance_;
+  bool rising_ = true, steady_ = false;
+  Sample window_, last_, before_extreme_, extreme_;
+  std::optional<Sample> after_extreme_;
+  Turn last_turn_, trough_;
+  double low_ = 0, high_ = 0, last_swing_ = 0, drift_ = 0;
+  int turns_ = 0;
+  long count_ = 0;
+  std::size_t seen_ = 0;
+  std::vector<Cycle> cycles_;
+};
+
+template <class Equation>
+Sample sample_of(const Equation& equation) {
+  return {equation.offset(), equation.stored_energy(), equation.totals()};
+}
+
+void set_means(SliderMotion& motion, const Case& at, const Sample& begin, const Sample& end) {
+  const SliderTotals &from = begin.totals, &to = end.totals;
+  const double time = to.time - from.time;
+  motion.stuck_fraction = (to.stuck - from.stuck) / time;
+  motion.mean_tangential_force = (to.impulse - from.impulse) / time;
+  motion.friction_coefficient = motion.mean_tangential_force / at.sliding.mean_force;
+  motion.drive_power = (to.drive_work - from.drive_work) / time;
+  motion.support_power = (to.support_loss - from.support_loss) / time;
+  motion.falling_slope_power = (to.falling_gain - from.falling_gain) / time;
+  motion.contact_power = (to.contact_loss - from.contact_loss) / time;
+  const double rest = motion.drive_power + motion.falling_slope_power - motion.support_power -
+                      motion.contact_power - (end.stored - begin.stored) / time;
+  motion.energy_error = std::abs(rest / motion.drive_power);
+}
+
+template <class Equation>
+void record(SliderMotion& motion, Equation& equation, const Slider& slider, double duration) {
+  constexpr double most_samples = 1500;
+  const double end = equation.time() + duration, spacing = duration / most_samples;
+  double next = equation.time();
+  while (equation.time() < end) {
+    if (equation.time() >= next) {
+      motion.time.push_back(equation.time());
+      motion.offset.push_back(equation.offset());
+      motion.slider_velocity.push_back(equation.relative_velocity() + slider.velocity);
+      motion.tangential_force.push_back(equation.tangential_force());
+      next += spacing;
+    }
+    equation.advance();
+  }
+}
+
+// Follows an equation until its motion repeats.
+template <class Equation>
+SliderMotion follow(Equation& equation, const Case& at, const Slider& slider,
+                    const SliderOptions& options) {
+  const auto [offset, relative_velocity] =
+      at.start(slider, options.start, equation.slid_force());
+  equation.begin(offset, relative_velocity);
+  CycleMeter meter(slider, options.tolerance);
+  meter.add(sample_of(equation));
+  // A cycle that sticks lasts as long as the drive needs to load the spring.
+  const double cycle = meter.slow_period() + 4 * at.sliding.mean_tangential_force /
+                                                 (slider.spring_stiffness * slider.velocity);
+  const double longest = options.most_cycles * cycle;
+  SliderMotion motion;
+  double reported = 0;
+  while (true) {
+    equation.advance();
+    at.check_velocity(equation.relative_velocity() + slider.velocity, slider, "the motion reaches");
+    meter.add(sample_of(equation));
+    if (meter.steady() || meter.repeats()) {
+      motion.converged = true;
+      break;
+    }
+    if (equation.time() > longest ||
+        meter.cycles().size() > static_cast<std::size_t>(options.most_cycles))
+      break;
+    if (options.on_progress && equation.time() > reported + 0.1 * cycle) {
+      reported = equation.time();
+      const auto done = static_cast<int>(meter.cycles().size());
+      if (!options.on_progress({"slider", static_cast<double>(done) / options.most_cycles, done, 0}))
+        throw Interrupted("slider: stopped before the motion repeated");
+    }
+  }
+  if (meter.steady()) {
+    motion.state = SliderState::steady;
+    motion.amplitude = motion.error_estimate = 0;
+    const Sample begin = sample_of(equation);
+    const double until = equation.time() + meter.slow_period();
+    double lowest = equation.offset();
+    while (equation.time() < until) {
+      equation.advance();
+      lowest = std::min(lowest, equation.offset());
+    }
+    motion.largest_spring_force = -slider.spring_stiffness * lowest;
+    set_means(motion, at, begin, sample_of(equation));
+    record(motion, equation, slider, 3 * meter.slow_period());
+    return motion;
+  }
+  motion.cycles = static_cast<int>(meter.kept());
+  if (meter.cycles().empty()) return motion;
+  motion.amplitude = 0.5 * meter.range();
+  motion.error_estimate = meter.drift() * motion.amplitude;
+  motion.period = meter.period();
+  motion.largest_spring_force = -slider.spring_stiffness * meter.lowest();
+  motion.state = meter.stuck_time() > 0 ? SliderState::stick_slip : SliderState::pulsating;
+  set_means(motion, at, meter.begin().sample, meter.end().sample);
+  record(motion, equation, slider, 3 * motion.period);
+  return motion;
+}
+
+// One period of the full equation from the least indentation, as a map of (x − Vt, ẋ − V).
+struct PeriodMap {
+  SliderEquation& equation;
+
+  std::array<double, 2> operator()(double offset, double relative_velocity) const {
+    equation.begin(offset, relative_velocity);
+    equation.advance();
+    return {equation.offset(), equation.relative_velocity()};
+  }
+};
+
+// The Jacobian by central differences; the map is smooth but for the second derivatives of T.
+struct Jacobian {
+  double a, b, c, d;  // row by row
+  double determinant() const { return a * d - b * c; }
+  double radius() const {
+    const double half = 0.5 * (a + d), square = half * half - determinant();
+    if (square < 0) return std::sqrt(determinant());
+    return std::abs(half) + std::sqrt(square);
+  }
+};
+Jacobian jacobian(const PeriodMap& map, double offset, double relative_velocity, double length,
+                  double velocity) {
+  const double dx = 1e-3 * length, dv = 1e-3 * velocity;
+  const auto right = map(offset + dx, relative_velocity), left = map(offset - dx, relative_velocity);
+  const auto up = map(offset, relative_velocity + dv), down = map(offset, relative_velocity - dv);
+  return {(right[0] - left[0]) / (2 * dx), (up[0] - down[0]) / (2 * dv),
+          (right[1] - left[1]) / (2 * dx), (up[1] - down[1]) / (2 * dv)};
+}
+
+// First harmonic of T over the amplitude when nothing sticks, N/m; a mean of K_t over the cycle.
+double sliding_stiffness(const SliderContact& contact) {
+  // The integrand is periodic and even: the rule is as good as exact where the law is smooth.
+  constexpr int nodes = 64;
+  double sum = 0;
+  for (int i = 1; i < nodes; ++i) {
+    const double phase = pi * i / nodes;
+    sum += std::pow(std::sin(phase), 2) *
+           contact.law.tangential_stiffness(contact.indentation +
+                                            contact.normal_amplitude * std::cos(phase));
+  }
+  return 2 * sum / nodes;
+}
+
+// Of sliding_damping, as slider_stability() says.
+double damping_error(const Case& at, const Slider& slider, double friction_coefficient) {
+  const double damping = at.sliding.sliding_damping;
+  if (!(damping > 0)) return 0;
+  const double omega = at.contact.angular_frequency;
+  const double f = at.sliding.low_speed_damping / (pi * slider.mass * omega);
+  const double angle = 2 * pi * std::sqrt(f);
+  if (!(angle < 0.5 * pi)) return SliderStability::unknown;
+  const double more = damping * (-2 * std::log(std::cos(angle)) / (angle * angle) - 1);
+  const double yielding =
+      std::min(sliding_stiffness(at.contact) / (slider.mass * omega * omega), 0.999);
+  const double faster =
+      steady_sliding(at.contact.law, AtIndentation{at.contact.indentation},
+                     Drag{at.contact.normal_amplitude, slider.velocity / (1 - yielding), omega},
+                     friction_coefficient)
+          .sliding_damping;
+  const double slow = natural_frequency(slider) / omega;
+  // A tenth for what is of higher order.
+  return 1.1 * std::max(more, damping - faster) + pi * pi / 3 * slow * slow * damping;
+}
+
+// The least place in (low, high] where `damping` reaches what is needed; NaN: nowhere.
+double first_reached(const std::function<double(double)>& excess, double low, double high) {
+  constexpr double ratio = 1.05;
+  double before = low;
+  for (double place = ratio * low;; place *= ratio) {
+    place = std::min(place, high);
+    if (excess(place) >= 0) return detail::find_root(excess, before, place);
+    if (!(place < high)) return SliderThreshold::unknown;
+    before = place;
+  }
+}
+
+// Threshold over what `normal_of` makes an oscillation from, from `low`, where nothing sticks.
+SliderThreshold threshold(const ContactLaw& law, const Position& position, const Slider& slider,
+                          double friction_coefficient, double low, double high,
+                          const std::function<NormalOscillation(double)>& normal_of,
+                          const SliderOptions& options) {
+  const double needed = slider.falling_slope - slider.support_damping;
+  SliderThreshold threshold;
+  if (!(low < high)) return threshold;
+  const auto estimate = [&](double errors) {
+    return first_reached(
+        [&](double place) {
+          const Case at(law, position, normal_of(place), slider, friction_coefficient, options);
+          const double error = errors != 0 ? damping_error(at, slider, friction_coefficient) : 0;
+          // An unknown error bounds nothing: upwards all is possible, downwards nothing is sure.
+          if (std::isnan(error)) return errors * needed;
+          return at.sliding.sliding_damping + errors * error - needed;
+        },
+        low, high);
+  };
+  threshold.linear_estimate = estimate(0);
+  threshold.error_estimate = std::max(estimate(-1) - threshold.linear_estimate,
+                                      threshold.linear_estimate - estimate(1));
+  threshold.value = first_reached(
+      [&](double place) {
+        const SliderStability one = slider_stability(law, position, normal_of(place), slider,
+                                                     friction_coefficient, options);
+        return one.converged ? -one.growth_rate : -needed;
+      },
+      low, high);
+  return threshold;
+}
+
+void check_falling(const Slider& slider) {
+  require(slider.falling_slope > slider.support_damping, "falling_slope", slider.falling_slope,
+          "N s/m must be above support_damping; sliding is stable without oscillation otherwise");
+}
+
+// v_c = (μE*/G*)u_z ω, over u_z ω.
+double limit_of_slope(const ContactLaw& law, const Position& position, double friction_coefficient) {
+  const double indentation = std::holds_alternative<AtForce>(position)
+                                 ? law.indentation_of(std::get<AtForce>(position).force)
+                                 : std::get<AtIndentation>(position).indentation;
+  return friction_coefficient * law.normal_stiffness(indentation) /
+         law.tangential_stiffness(indentation);
+}
+
+}  // namespace
+
+SliderMotion slider_motion(const ContactLaw& law, const Position& position,
+                           const NormalOscillation& normal, const Slider& slider,
+                           double friction_coefficient, const SliderOptions& options) {
+  const Case at(law, position, normal, slider, friction_coefficient, options);
+  const auto motion_with = [&](int steps) {
+    SliderEquation equation(at.contact, slider, steps);
+    return follow(equation, at, slider, options);
+  };
+  constexpr int most_halvings = 4;
+  SliderMotion coarse = motion_with(options.steps);
+  for (int halving = 1;; ++halving) {
+    SliderMotion fine = motion_with(options.steps << halving);
+    const bool same = fine.state == coarse.state;
+    // Second order: of the difference, a third is left.
+    const double difference = std::abs(fine.amplitude - coarse.amplitude);
+    fine.error_estimate += difference / 3;
+    const bool close = same && difference <= options.tolerance * fine.amplitude;
+    if (close || halving == most_halvings || !fine.converged) {
+      fine.converged = fine.converged && close;
+      return fine;
+    }
+    coarse = std::move(fine);
+  }
+}
+
+SliderMotion averaged_slider_motion(const ContactLaw& law, const Position& position,
+                                    const NormalOscillation& normal, const Slider& slider,
+                                    double friction_coefficient, const SliderOptions& options) {
+  const Case at(law, position, normal, slider, friction_coefficient, options);
+  AveragedSlider equation(at.contact, at.sliding, friction_coefficient, slider);
+  return follow(equation, at, slider, options);
+}
+
+SliderStability slider_stability(const ContactLaw& law, const Position& position,
+                                 const NormalOscillation& normal, const Slider& slider,
+                                 double friction_coefficient, const SliderOptions& options) {
+  const Case at(law, position, normal, slider, friction_coefficient, options);
+  SliderStability result;
+  result.sliding_damping = at.sliding.sliding_damping;
+  result.error_estimate = damping_error(at, slider, friction_coefficient);
+  const double support = slider.support_damping - slider.falling_slope;
+  const double natural = natural_frequency(slider);
+  const double decay = 0.5 * (result.sliding_damping + support) / slider.mass;
+  const double square = decay * decay - natural * natural;
+  result.averaged_growth_rate = -decay + (square > 0 ? std::sqrt(square) : 0);
+
+  SliderEquation equation(at.contact, slider, 4 * options.steps);
+  const PeriodMap map{equation};
+  double offset = at.spring_offset, relative_velocity = 0;
+  constexpr int most_iterations = 20;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const Jacobian j =
+        jacobian(map, offset, relative_velocity, slider.velocity / natural, slider.velocity);
+    const auto [next_offset, next_velocity] = map(offset, relative_velocity);
+    if (!(equation.least_velocity() > 0)) return result;
+    const double left = offset - next_offset, left_velocity = relative_velocity - next_velocity;
+    const double determinant = (j.a - 1) * (j.d - 1) - j.b * j.c;
+    const double step = ((j.d - 1) * left - j.b * left_velocity) / determinant;
+    const double velocity_step = ((j.a - 1) * left_velocity - j.c * left) / determinant;
+    offset += step, relative_velocity += velocity_step;
+    if (std::abs(velocity_step) > 1e-6 * slider.velocity ||
+        std::abs(step) > 1e-6 * slider.velocity / natural)
+      continue;
+    result.converged = true;
+    result.growth_rate = std::log(j.radius()) / equation.period();
+    if (j.determinant() > 0)
+      result.slider_damping =
+          -slider.mass * std::log(j.determinant()) / equation.period() - support;
+    return result;
+  }
+  return result;
+}
+
+SliderThreshold threshold_amplitude(const ContactLaw& law, const Position& position,
+                                    double angular_frequency, const Slider& slider,
+                                    double friction_coefficient, double largest_amplitude,
+                                    const SliderOptions& options) {
+  check({largest_amplitude, angular_frequency}, slider, friction_coefficient, options);
+  check_falling(slider);
+  const double low = slider.velocity / angular_frequency /
+                     limit_of_slope(law, position, friction_coefficient);
+  return threshold(
+      law, position, slider, friction_coefficient, low, largest_amplitude,
+      [&](double amplitude) { return NormalOscillation{amplitude, angular_frequency}; }, options);
+}
+
+SliderThreshold threshold_frequency(const ContactLaw& law, const Position& position,
+                                    double normal_amplitude, const Slider& slider,
+                                    double friction_coefficient, double largest_angular_frequency,
+                                    const SliderOptions& options) {
+  require_positive(normal_amplitude, "normal_amplitude");
+  check({normal_amplitude, largest_angular_frequency}, slider, friction_coefficient, options);
+  check_falling(slider);
+  const double touch = slider.velocity / normal_amplitude /
+                       limit_of_slope(law, position, friction_coefficient);
+  // Slower oscillations do not average.
+  const double low = std::max(touch, 4.01 * natural_frequency(slider));
+  return threshold(
+      law, position, slider, friction_coefficient, low, largest_angular_frequency,
+      [&](double frequency) { return NormalOscillation{normal_amplitude, frequency}; }, options);
+}
+
+}  // namespace salebra
