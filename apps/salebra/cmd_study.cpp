@@ -142,7 +142,10 @@ std::string study_text(const StudyResult& result, const StudyPremises& premises,
         "n/a at {} of {} pressures: the error is larger than the number, because too few cells "
         "touch and part in the oscillation; a finer grid or --relative-error may help.\n",
         unstated, result.pressures.size());
-  text += verdict(result, law) + "\n" + judged.open_points();
+  text += verdict(result, law) + "\n";
+  if (const std::string slips = regimes(premises, result.pressures); !slips.empty())
+    text += "Regime: " + slips + "\n";
+  text += judged.open_points();
   if (const std::string remarks = ensemble_remarks(result); !remarks.empty())
     text += "\n" + remarks;
   if (const std::string where = files.text(); !where.empty()) text += "\n" + where;

@@ -88,6 +88,7 @@ void follow_file(const FollowOptions& options, const ContactLaw& law, const Cont
     Premises& judged = premises.cases.front();
     judged.slip_of_opening_levels = judged.slip_of_closed_levels = {};
     judged.largest.clear();
+    judged.regime = Regime::unknown;
   }
   if (session.has_output()) {
     ResultFile file(session.output(), session.provenance(), session.write_options());

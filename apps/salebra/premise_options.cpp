@@ -35,7 +35,7 @@ const std::vector<LargestMotion>& any_largest(const std::vector<Premises>& cases
 
 }  // namespace
 
-void PremiseOptions::add_to(Command& command) {
+void PremiseOptions::add_to(Command& command, bool excursion_judged) {
   const std::string group = "Premises";
   add_quantity(command, "--friction-coefficient", friction_coefficient, Dimension::dimensionless,
                "of the two bodies, to judge slip")
@@ -44,6 +44,7 @@ void PremiseOptions::add_to(Command& command) {
   add_quantity(command, "--density", density, Dimension::mass_density,
                "of the elastic body, to judge inertia")
       ->group(group);
+  if (!excursion_judged) return;
   add_quantity(command, "--excursion", excursion, Dimension::length,
                "of the slow motion from one turning point to the other, to judge slip of what "
                "stays in contact")
@@ -98,8 +99,12 @@ void PremiseReport::add_to(Json& answer) const {
     for (const Premises& p : cases)
       if (one["needs"].is_null()) one["needs"] = option_of((p.*premise).needs);
   }
-  Json& largest = answer["largest_motion"] = Json::array();
   const std::vector<LargestMotion>& judged = any_largest(cases);
+  if (!judged.empty())
+    answer["regime"] = column([](const Premises& p) -> Json {
+      return p.regime == Regime::unknown ? Json(nullptr) : Json(name_of(p.regime));
+    });
+  Json& largest = answer["largest_motion"] = Json::array();
   for (std::size_t i = 0; i < judged.size(); ++i) {
     const auto of = [&](double LargestMotion::*member) {
       return column([&](const Premises& p) {
@@ -147,6 +152,8 @@ std::string PremiseReport::open_points() const {
                            judged[i].friction_coefficient);
   }
   if (!largest.empty()) open += largest + "\n";
+  if (!list && cases.front().regime != Regime::unknown)
+    open += "Regime: " + name_of(cases.front().regime) + "\n";
   return open.empty() ? "" : "\n" + open;
 }
 
@@ -166,6 +173,7 @@ PremiseReport premises_beside_slip(const ContactLaw& law, double indentation,
   premises.slip_of_opening_levels.verdict = premises.slip_of_closed_levels.verdict = Verdict::holds;
   premises.slip_of_opening_levels.needs = premises.slip_of_closed_levels.needs = {};
   premises.largest.clear();
+  premises.regime = Regime::unknown;
   return {{premises}};
 }
 

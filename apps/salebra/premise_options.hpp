@@ -14,7 +14,8 @@ namespace salebra::cli {
 struct PremiseOptions {
   std::optional<double> friction_coefficient, hardness, density, excursion;
 
-  void add_to(Command& command);
+  /// excursion_judged: offers --excursion, for commands that judge slip.
+  void add_to(Command& command, bool excursion_judged = true);
   /// Throws InvalidInput for values that are not > 0. followed: the --friction of a command that follows it, which is the same
   /// coefficient.
   ContactFacts facts(const MaterialOptions& material,
@@ -26,7 +27,7 @@ struct PremiseReport {
   std::vector<Premises> cases = {};
   bool list = false;
 
-  /// Adds the keys `premises` and `largest_motion`.
+  /// Adds the keys `premises`, `largest_motion` and, unless slip is computed, `regime`.
   void add_to(Json& answer) const;
   /// What is broken or doubtful, to stand above a table, with a blank line after it; empty if nothing is.
   std::string above() const;

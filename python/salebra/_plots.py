@@ -353,6 +353,15 @@ def _(result: _core.FrictionMap, ax: Axes | None = None, **keywords: Any) -> Axe
     return drawn
 
 
+@plot.register(_core.RegimeMap)
+def _(result: _core.RegimeMap, ax: Axes | None = None, **keywords: Any) -> Axes:
+    axes = ((result.velocity, "velocity v", "m/s"), (result.excursion, "excursion X", "m"))
+    drawn = _map(ax, axes, np.log10(result.loss_ratio), "log₁₀ W/W(no slip)", "1", keywords)
+    drawn.set_xscale("log")
+    drawn.set_yscale("log")
+    return drawn
+
+
 @plot.register(_core.DamperMap)
 def _(result: _core.DamperMap, ax: Axes | None = None, **keywords: Any) -> Axes:
     axes = ((result.normal_amplitude, "normal amplitude u_z", "m"), (result.angular_frequency, "angular frequency ω", "rad/s"))

@@ -134,6 +134,16 @@ def _(result: _core.FrictionMap) -> xarray.Dataset:
     return _dataset({name: (dims, getattr(result, name)) for name in names}, {name: getattr(result, name) for name in dims}, {})
 
 
+@to_xarray.register(_core.RegimeMap)
+def _(result: _core.RegimeMap) -> xarray.Dataset:
+    dims = ("velocity", "excursion")
+    columns = {name: (dims, getattr(result, name)) for name in ("loss_ratio", "slip_ratio")}
+    columns["no_slip_excursion"] = (("velocity",), result.no_slip_excursion)
+    columns["regime"] = (dims, [list(row) for row in result.regime])
+    names = ("no_slip_velocity", "sliding_excursion", "critical_velocity", "full_stick_ratio")
+    return _dataset(columns, {name: getattr(result, name) for name in dims}, {name: getattr(result, name) for name in names})
+
+
 @to_xarray.register(_core.StressMap)
 def _(result: _core.StressMap) -> xarray.Dataset:
     fields = {name: (("angle", "radial_position"), getattr(result, name)) for name in ("shear", "contact_pressure")}

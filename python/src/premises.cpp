@@ -109,6 +109,9 @@ void bind_premise_classes(nb::module_& m) {
         name.key, [member = name.premise](const Premises& self) { return self.*member; },
         (std::string(name.words) + "; value: " + name.value + ".").c_str());
   premises
+      .def_prop_ro(
+          "regime", [](const Premises& self) { return name_of(self.regime); },
+          "'no slip', 'partial slip', 'sliding' or 'unknown'.")
       .def_ro("largest", &Premises::largest,
               "Largest motions, of the μ that is known or of 0.1, 0.3 and 1.")
       .def_prop_ro(
@@ -173,6 +176,57 @@ void bind_loss_with_slip(nb::module_& m) {
       nb::arg("friction_coefficient"), nb::arg("excursion") = ContactFacts::unknown,
       "The loss of a cycle with slip. Case (b) without an excursion (m): sliding that goes on, all "
       "levels slip; with one: mean of a cycle on the way there and back.");
+}
+
+void bind_regime_map(nb::module_& m) {
+  nb::class_<RegimeMap> map(m, "RegimeMap",
+                            "What slips in a slow tangential motion, over its velocity and its "
+                            "excursion.");
+  view_property(map, "velocity", &RegimeMap::velocity, "v, m/s.");
+  view_property(map, "excursion", &RegimeMap::excursion, "X between turning points, m.");
+  view_property(map, "loss_ratio", &RegimeMap::loss_ratio,
+                "W over W without slip, (velocities, excursions); NaN where X is shorter than the "
+                "way in one normal cycle.");
+  view_property(map, "slip_ratio", &RegimeMap::slip_ratio,
+                "Its part from levels that stay closed.");
+  view_property(map, "no_slip_excursion", &RegimeMap::no_slip_excursion,
+                "X up to which there is no slip at each velocity, m; 0: none, NaN: every one.");
+  map.def_prop_ro(
+         "regime",
+         [](const RegimeMap& self) {
+           std::vector<std::vector<std::string>> rows;
+           for (const std::vector<Regime>& row : self.regime) {
+             std::vector<std::string>& names = rows.emplace_back();
+             for (const Regime regime : row) names.push_back(name_of(regime));
+           }
+           return rows;
+         },
+         "'no slip', 'partial slip', 'sliding' or 'unknown', for each velocity a list over the "
+         "excursions.")
+      .def_ro("no_slip_velocity", &RegimeMap::no_slip_velocity,
+              "v up to which there may be no slip, m/s.")
+      .def_ro("sliding_excursion", &RegimeMap::sliding_excursion,
+              "X from which the contact slides, m.")
+      .def_ro("critical_velocity", &RegimeMap::critical_velocity,
+              "v_c, m/s: beyond it levels never stick.")
+      .def_ro("full_stick_ratio", &RegimeMap::full_stick_ratio,
+              "W without slip over its small-amplitude form.");
+  result_methods(map, true);
+  m.def(
+      "regime_map",
+      [](const ContactLaw& law, double mean_indentation, double normal_amplitude,
+         double angular_frequency, const Values& velocities, const Values& excursions,
+         double friction_coefficient) {
+        return unlocked([&] {
+          return regime_map(law, mean_indentation, {normal_amplitude, angular_frequency},
+                            velocities.values, excursions.values, friction_coefficient);
+        });
+      },
+      nb::arg("law"), nb::arg("mean_indentation"), nb::arg("normal_amplitude"),
+      nb::arg("angular_frequency"), nb::arg("velocities"), nb::arg("excursions"), nb::kw_only(),
+      nb::arg("friction_coefficient"),
+      "No slip, partial slip or sliding in slow motion over velocities (m/s) and excursions (m) "
+      "under a normal oscillation, and the loss over that without slip.");
 }
 
 void bind_steady_sliding(nb::module_& m) {
@@ -269,6 +323,7 @@ void bind_premises(nb::module_& m) {
   bind_facts(m);
   bind_premise_classes(m);
   bind_loss_with_slip(m);
+  bind_regime_map(m);
   bind_steady_sliding(m);
   bind_joint(m);
 }

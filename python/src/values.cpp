@@ -135,9 +135,9 @@ void bind_values(nb::module_& m) {
                 PerssonTheory::Asymptote, SummitEnsemble, AsperityContact, MonteCarloCurve>();
   value_classes<EqualFrequency, Drag, TwoFrequencies, SampledMotion, BoundDamping, ContactFacts,
                 Premise, LargestMotion, Premises, LossWithSlip, JointLoss, SteadySliding,
-                SurfaceDamping, OscillatorDecay, DamperMap, FrictionMap, StressMap, AsperityDamping,
-                TrajectoryDamping, PronySeries, ViscoelasticIndentation, ViscoelasticDamping,
-                ContactSetAt, CycleResult, LevelQuadratureResult>();
+                SurfaceDamping, OscillatorDecay, DamperMap, FrictionMap, RegimeMap, StressMap,
+                AsperityDamping, TrajectoryDamping, PronySeries, ViscoelasticIndentation,
+                ViscoelasticDamping, ContactSetAt, CycleResult, LevelQuadratureResult>();
   value_classes<StudyConfiguration, DampingPoint, SpotStatistics, SurfacePicture, ModelResult,
                 Realisation, EnsembleMean, StudyFlag, StudyResult, Check, Report>();
   value_class<Grid2D>([](const Grid2D& self) { return self; },

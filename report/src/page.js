@@ -62,7 +62,7 @@ function conclusion(main, point) {
     }
     const verdict = lawVerdict(point);
     if (verdict) element.append(h("p", {class: "verdict"}, h("strong", {}, verdict.poor ? "The law is a poor description. " : "The law is a fair description. "), rich(verdict.text)));
-    for (const line of (point.objections ?? "").split("\n").filter(Boolean)) element.append(h("p", {class: "verdict"}, h("strong", {}, `${line.slice(0, line.indexOf(":"))}. `), `${line.slice(line.indexOf(":") + 2)}.`));
+    for (const line of [point.objections, point.regimes].filter(Boolean).join("\n").split("\n").filter(Boolean)) element.append(h("p", {class: "verdict"}, h("strong", {}, `${line.slice(0, line.indexOf(":"))}. `), `${line.slice(line.indexOf(":") + 2)}.`));
     if (damping) element.append(h("p", {class: "verdict"}, h("strong", {}, "Motion. "), describeMotion(damping)[0].toUpperCase() + describeMotion(damping).slice(1) + "."));
     element.append(h("p", {class: "verdict"}, h("strong", {}, "Intervals. "), `${point.fit?.interval_method ?? "95 %"}.`));
     const warnings = warningsOf(point, f);

@@ -12,6 +12,8 @@
 #include <salebra/damping/tangential_contact.hpp>
 #include <type_traits>
 
+#include "mean_rise.hpp"
+
 namespace salebra {
 namespace {
 
@@ -305,21 +307,42 @@ Limits first_crossings(const std::function<double(double)>& change, double low, 
   return limits;
 }
 
-// Levels that stay closed on a slow way there and back, in units of μ/g.
+// How deep below `bottom` the force falls to a share of that there; NaN where nothing touches.
+double depth_of_share(const ContactLaw& law, double bottom, double share) {
+  const double least = share * law.force(bottom);
+  if (!(least > 0)) return unknown;
+  double inside = 0, beyond = law.force(bottom) / law.normal_stiffness(bottom);
+  while (law.force(bottom - beyond) > least) inside = beyond, beyond *= 2;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (inside + beyond);
+    (law.force(bottom - middle) > least ? inside : beyond) = middle;
+  }
+  return beyond;
+}
+
+// Levels that stay closed on a slow way there and back, in units of μ/g. displacement: v/ω.
 class ClosedLevels {
  public:
-  ClosedLevels(const ContactLaw& law, double bottom, double way_per_cycle)
-      : law_(law), bottom_(bottom), way_per_cycle_(way_per_cycle) {}
+  ClosedLevels(const ContactLaw& law, double bottom, double amplitude, double displacement)
+      : law_(law),
+        bottom_(bottom),
+        way_per_cycle_(2 * pi * displacement),
+        rise_(amplitude * detail::mean_rise(displacement / amplitude)),
+        // A little beyond, for levels that all touch at once.
+        depth_(1.001 * depth_of_share(law, bottom, 1e-9)) {}
 
-  // ∫K_t'(e + w/2)(X − 2e) dζ, the loss on a way X with w in each normal cycle, e = δ_min − ζ.
+  double way_per_cycle() const { return way_per_cycle_; }
+  // ∫K_t'(e + rise)(X − 2e) dζ, the loss on a way X, e = δ_min − ζ.
   double loss(double excursion) const {
     constexpr int cells = 256;
+    // Cells of a longer way would be wider than the levels reach.
+    const double depth = std::fmin(0.5 * excursion, depth_);
     double sum = 0, above = law_.tangential_stiffness(bottom_);
     for (int i = 0; i < cells; ++i) {
-      const double end = 0.5 * excursion * (i + 1) / cells;
+      const double end = depth * (i + 1) / cells;
       const double below = law_.tangential_stiffness(bottom_ - end);
-      const double stretch = 0.5 * excursion * (i + 0.5) / cells;
-      sum += (above - below) * (stretch + 0.5 * way_per_cycle_) * (excursion - 2 * stretch);
+      const double stretch = depth * (i + 0.5) / cells;
+      sum += (above - below) * (stretch + rise_) * (excursion - 2 * stretch);
       above = below;
     }
     return sum;
@@ -337,7 +360,7 @@ class ClosedLevels {
       if (relaxation > 0) return slip / relaxation;
       return slip > negligible * excursion * excursion ? infinity : 0;
     };
-    Limits found = first_crossings(change, way_per_cycle_, std::max(longest, way_per_cycle_));
+    Limits found = first_crossings(change, way_per_cycle_, longest + way_per_cycle_);
     for (double* limit : {&found.five, &found.twenty})
       if (*limit <= way_per_cycle_) *limit = 0;
     return found;
@@ -345,8 +368,47 @@ class ClosedLevels {
 
  private:
   const ContactLaw& law_;
-  double bottom_, way_per_cycle_;
+  double bottom_, way_per_cycle_, rise_, depth_;
 };
+
+// Displacements, in units of μ/g, at which slip changes the loss, and the loss without slip at the displacement 1.
+struct SlipLimits {
+  double stick = 0;
+  Limits displacements = {};
+};
+
+SlipLimits slip_limits(const ContactLaw& law, const Case& motion, double length) {
+  // A contact that loses nothing without slip slips first at about its depth; M = 0.1 has long changed any other loss.
+  const double longest = std::max(10 * motion.amplitude, 2 * (length + motion.amplitude));
+  const auto [back, ahead] = std::ranges::minmax(motion.path->displacement);
+  Springs springs(law, *motion.path, !motion.drag, 2 * longest * (ahead - back));
+  double shortest = 1e-2 * motion.amplitude;
+  while (springs.change(shortest) > 0.01 && shortest > 1e-9 * motion.amplitude) shortest /= 4;
+  return {springs.stick(),
+          first_crossings([&](double x) { return springs.change(x); }, shortest, longest)};
+}
+
+// Of the least normal force: what may stick in sliding.
+constexpr double stuck_share = 0.05;
+
+// Whether all levels slip. displacement of case (a), v/ω and the excursion of case (b), in units of μ/g.
+bool slides(const ContactLaw& law, const Case& motion, double displacement, double excursion) {
+  const double bottom = motion.mean - motion.amplitude, least = law.force(bottom);
+  // No level is closed at all times.
+  if (!(least > 0)) return motion.drag && displacement >= motion.amplitude;
+  double deepest = bottom - 0.5 * excursion;
+  if (!motion.drag) {
+    // A level sticks where one anchor is within its limit δ − ζ of x at all times: 2ζ < min(x + δ) − max(x − δ).
+    double low = infinity, high = -infinity;
+    for (std::size_t i = 0; i < motion.path->time.size(); ++i) {
+      const double x = displacement * motion.path->displacement[i];
+      low = std::min(low, x + motion.path->indentation[i]);
+      high = std::max(high, x - motion.path->indentation[i]);
+    }
+    deepest = 0.5 * (low - high);
+  }
+  return law.force(deepest) <= stuck_share * least;
+}
 
 void judge(Premise& premise, bool large_is_good = false) {
   const double value = premise.value;
@@ -497,14 +559,9 @@ Premises all_premises(const ContactLaw& given, const Case& motion, const Contact
   double stick = 0;
   Limits displacements;  // in units of μ/g
   if (motion.path) {
-    // A contact that loses nothing without slip slips first at about its depth; M = 0.1 has long changed any other loss.
-    const double longest = std::max(10 * amplitude, 2 * (length + amplitude));
-    const auto [back, ahead] = std::ranges::minmax(motion.path->displacement);
-    Springs springs(law, *motion.path, !motion.drag, 2 * longest * (ahead - back));
-    stick = springs.stick();
-    double shortest = 1e-2 * amplitude;
-    while (springs.change(shortest) > 0.01 && shortest > 1e-9 * amplitude) shortest /= 4;
-    displacements = first_crossings([&](double x) { return springs.change(x); }, shortest, longest);
+    const SlipLimits slip = slip_limits(law, motion, length);
+    stick = slip.stick;
+    displacements = slip.displacements;
     opening.limit_5_percent = amplitude / displacements.five;
     opening.limit_20_percent = amplitude / displacements.twenty;
   } else {
@@ -517,9 +574,9 @@ Premises all_premises(const ContactLaw& given, const Case& motion, const Contact
   premises.inertia = inertia_of(law, motion, stick, facts);
 
   const auto closed_limits = [&](double limit) {
-    const double way = 2 * pi * displacement / limit;
-    return ClosedLevels(law, motion.mean - amplitude, way)
-        .limits(stick * displacement * displacement / (limit * limit), 100 * length + way);
+    const double moved = displacement / limit;
+    return ClosedLevels(law, motion.mean - amplitude, amplitude, moved)
+        .limits(stick * moved * moved, 100 * length);
   };
   if (!motion.drag) {
     closed.limit_5_percent = stretch * displacements.five;
@@ -533,6 +590,13 @@ Premises all_premises(const ContactLaw& given, const Case& motion, const Contact
     if (limits.twenty == 0) closed.verdict = Verdict::broken, closed.needs.clear();
   }
   if (closed.needs.empty()) judge(closed);
+  const bool slow = !motion.drag || closed.value >= 2 * pi * displacement;
+  if (opening.verdict != Verdict::unknown && closed.verdict != Verdict::unknown && slow)
+    premises.regime = opening.verdict == Verdict::holds && closed.verdict == Verdict::holds
+                          ? Regime::no_slip
+                      : slides(law, motion, displacement / stretch, closed.value / stretch)
+                          ? Regime::sliding
+                          : Regime::partial_slip;
 
   std::vector<double> coefficients{facts.friction_coefficient};
   if (std::isnan(facts.friction_coefficient)) coefficients = {0.1, 0.3, 1};
@@ -602,6 +666,20 @@ std::string name_of(Verdict verdict) {
   return "unknown";
 }
 
+std::string name_of(Regime regime) {
+  switch (regime) {
+    case Regime::no_slip:
+      return "no slip";
+    case Regime::partial_slip:
+      return "partial slip";
+    case Regime::sliding:
+      return "sliding";
+    case Regime::unknown:
+      break;
+  }
+  return "unknown";
+}
+
 Premises premises_of(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
                      const ContactFacts& facts) {
   return all_premises(law, case_of(law, mean_indentation, motion), facts);
@@ -636,13 +714,73 @@ LossWithSlip loss_with_slip(const ContactLaw& given, double mean_indentation,
   const double relaxation = Springs(law, *one.path, false, way).at(displacement).total;
   double slip = 0;
   if (!std::isnan(excursion)) {
-    slip = ClosedLevels(law, bottom, way).loss_per_cycle(excursion / limit);
+    slip = ClosedLevels(law, bottom, one.amplitude, displacement).loss_per_cycle(excursion / limit);
   } else if (law.tangential_stiffness(bottom) > 0) {
     // Forty F/K below its edge an exponential contact has nothing left.
     const double ahead = 40 * law.force(bottom) / law.normal_stiffness(bottom) + way;
     slip = Springs(law, *one.path, true, ahead + way).at(displacement, ahead).permanent;
   }
   return {unit * (relaxation + slip), unit * relaxation, unit * slip, full_stick};
+}
+
+RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
+                     const NormalOscillation& normal, const std::vector<double>& velocities,
+                     const std::vector<double>& excursions, double friction_coefficient) {
+  require_positive(friction_coefficient, "friction_coefficient");
+  require_positive(normal.normal_amplitude, "normal_amplitude");
+  require_positive(normal.angular_frequency, "angular_frequency");
+  for (const double velocity : velocities) require_positive(velocity, "velocity");
+  for (const double excursion : excursions) require_positive(excursion, "excursion");
+  const double amplitude = normal.normal_amplitude, omega = normal.angular_frequency;
+  const ContinuedLaw law(given);
+  // Displacements below stand for the velocity.
+  const Drag drag{amplitude, amplitude * omega, omega};
+  const Case motion = case_of(law, mean_indentation, drag);
+  const double limit = friction_coefficient / law.modulus_ratio();
+  const double bottom = mean_indentation - amplitude;
+  const double length = length_of(law, mean_indentation, amplitude);
+  const DampingResult without = relaxation_damping(given, AtIndentation{mean_indentation}, drag);
+  const SlipLimits slip = slip_limits(law, motion, length);
+
+  const auto rows = static_cast<Index>(velocities.size());
+  const auto columns = static_cast<Index>(excursions.size());
+  RegimeMap map{.velocity = velocities,
+                .excursion = excursions,
+                .regime = {},
+                .loss_ratio = Field::Constant(rows, columns, unknown),
+                .slip_ratio = Field::Constant(rows, columns, unknown),
+                .no_slip_excursion = {},
+                .no_slip_velocity = limit * slip.displacements.five * omega,
+                .sliding_excursion = 2 * limit * depth_of_share(law, bottom, stuck_share),
+                .critical_velocity = limit * amplitude * omega,
+                .full_stick_ratio = without.work_per_cycle / without.small_amplitude_work};
+  if (velocities.empty()) return map;
+  Springs springs(law, *motion.path, false,
+                  2 * pi * std::ranges::max(velocities) / (limit * omega));
+  for (Index i = 0; i < rows; ++i) {
+    const double displacement = velocities[static_cast<std::size_t>(i)] / (limit * omega);
+    const ClosedLevels closed(law, bottom, amplitude, displacement);
+    const double stick = slip.stick * displacement * displacement;
+    const double relaxation = springs.at(displacement).total;
+    const Limits limits = closed.limits(stick, 100 * length);
+    const bool may_stick = !(displacement > slip.displacements.five);
+    map.no_slip_excursion.push_back(may_stick ? limit * limits.five : 0);
+    std::vector<Regime>& regimes = map.regime.emplace_back();
+    for (Index j = 0; j < columns; ++j) {
+      const double excursion = excursions[static_cast<std::size_t>(j)] / limit;
+      if (excursion < closed.way_per_cycle()) {
+        regimes.push_back(Regime::unknown);
+        continue;
+      }
+      regimes.push_back(may_stick && !(excursion > limits.five)        ? Regime::no_slip
+                        : slides(law, motion, displacement, excursion) ? Regime::sliding
+                                                                       : Regime::partial_slip);
+      if (!(stick > 0)) continue;
+      map.slip_ratio(i, j) = closed.loss_per_cycle(excursion) / stick;
+      map.loss_ratio(i, j) = relaxation / stick + map.slip_ratio(i, j);
+    }
+  }
+  return map;
 }
 
 }  // namespace salebra

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "mean_rise.hpp"
 #include "sweep_breaks.hpp"
 
 namespace salebra {
@@ -229,6 +230,8 @@ Force force_above_least(const HalfPeriod& half, const Period& period, double lim
 }
 
 }  // namespace
+
+double detail::mean_rise(double velocity_ratio) { return Period(velocity_ratio).mean_rise(); }
 
 std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const Position& position,
                                           const NormalOscillation& normal,

@@ -89,9 +89,13 @@ class Point {
     add(json, "fit", fit());
     add(json, "local", local());
     add(json, "damping", damping());
-    if (has("premises/pressure"))
+    if (has("premises/pressure")) {
       if (const auto text = file_.text_attribute(where_ + "premises", "objections"))
         json["objections"] = *text;
+      if (const auto text = file_.text_attribute(where_ + "premises", "regimes");
+          text && !text->empty())
+        json["regimes"] = "Regime: " + *text;
+    }
     add(json, "spots", spots());
     add(json, "over_bem",
         by_model("comparison/",

@@ -276,7 +276,12 @@ void write_premises(ResultGroup group, const StudyResult& result) {
        "energy dissipated in a cycle by slip in permanent contact");
   group.dataset("damping_constant_with_slip", found.damping_constant_with_slip, {"pressure"},
                 "N s/m", "damping constant P/v^2 with friction");
+  std::vector<double> codes;
+  for (const Premises& one : found.premises) codes.push_back(double(one.regime));
+  group.dataset("regime", codes, {"pressure"}, "1",
+                "0 no slip, 1 partial slip, 2 sliding, 3 unknown");
   group.attribute("objections", objections(found.premises));
+  group.attribute("regimes", regimes(found, result.pressures));
 }
 
 void write_spots(Table table, const StudyResult& result) {

@@ -2,6 +2,7 @@
 // Premises and losses with slip of a study, from the mean curve of the boundary elements.
 #include <algorithm>
 #include <cmath>
+#include <salebra/base/units.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/study/study_premises.hpp>
 
@@ -69,6 +70,21 @@ StudyPremises premises_of(const StudyResult& result) {
         closed_form::damping_constant(loss.work_per_cycle, configuration.motion);
   }
   return all;
+}
+
+std::string regimes(const StudyPremises& found, const std::vector<double>& pressures) {
+  std::string text;
+  for (std::size_t first = 0, last = 0; first < pressures.size(); first = last) {
+    const Regime regime = found.premises[first].regime;
+    while (last < pressures.size() && found.premises[last].regime == regime) ++last;
+    if (regime == Regime::unknown) continue;
+    const auto at = [&](std::size_t k) {
+      return format_quantity(pressures[k], Dimension::pressure);
+    };
+    text += (text.empty() ? "" : ", ") + name_of(regime) + " at " + at(first);
+    if (last - first > 1) text += " to " + at(last - 1);
+  }
+  return text;
 }
 
 }  // namespace salebra

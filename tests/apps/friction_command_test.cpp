@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
+#include <salebra/io/result_file.hpp>
 #include <string>
 
 #include "run_program.hpp"
@@ -46,6 +50,76 @@ TEST_CASE("friction gives the friction of a sliding contact over velocity", "[sl
         Approx(stuck.json()["damping_constant"].get<double>()).epsilon(1e-10));
 }
 
+TEST_CASE("friction maps amplitudes and ratios of velocities", "[sliding]") {
+  const ProgramTest test;
+  const std::string several = law + "--friction-coefficient 0.3 --angular-frequency 1e5 ";
+  const auto run = test.run(several +
+                            "--normal-amplitude 10nm,30nm --velocity-ratios 0.1,0.5,2 --json -o "
+                            "map.csv --plot map.svg");
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const auto answer = run.json();
+  const auto single = test.run(law + motion + "--velocity-ratios 0.1,0.5,2 --json").json();
+  CHECK(answer["normal_amplitude"] == nlohmann::json({1e-8, 1e-8, 1e-8, 3e-8, 3e-8, 3e-8}));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double critical = single["critical_velocity"];
+    CHECK(single["velocity"][i].get<double>() ==
+          Approx(single["velocity_ratio"][i].get<double>() * critical).epsilon(1e-14));
+    CHECK(answer["critical_velocity"][3 + i] == single["critical_velocity"]);
+    for (const char* name : {"velocity", "velocity_ratio", "friction_coefficient", "slip_work"})
+      CHECK(answer[name][3 + i] == single[name][i]);
+  }
+  CHECK(answer["premises"]["amplitude"]["verdict"].size() == 2);
+  CHECK(test.files() == std::set<std::string>{"map.csv", "map.sliding.csv", "map.svg"});
+}
+
+TEST_CASE("friction says in which regime a slow motion is, as mdr with friction does",
+          "[sliding][regimes]") {
+  const ProgramTest test;
+  const std::string contact =
+      "--indentation 1um --contact-modulus 1GPa --poisson 0.3 --friction-coefficient 0.3 "
+      "--normal-amplitude 100nm --angular-frequency 1e5 ";
+  const double limit = 0.3 / (1.4 / 1.7), critical = limit * 1e-7 * 1e5;
+  constexpr int cycles = 10, steps = 200;
+  const char* const regimes[] = {"no slip", "partial slip", "sliding"};
+  for (int i = 0; i < 3; ++i) {
+    CAPTURE(regimes[i]);
+    const double velocity = critical * std::array{1e-4, 0.1, 1.5}[std::size_t(i)];
+    const double way = 2 * std::numbers::pi * velocity / 1e5;
+    std::string path;
+    for (int k = 0; k <= 2 * cycles * steps; ++k) {
+      const double turns = double(k) / steps;
+      path += fmt::format("{} {} {}\n", k,
+                          1e-6 - 1e-7 * std::cos(2 * std::numbers::pi * (k % steps) / steps),
+                          way * std::min(turns, 2 * cycles - turns));
+    }
+    test.write("path.txt", path);
+    const std::string mdr =
+        "mdr --profile parabola --radius 10mm --contact-modulus 1GPa --poisson 0.3 --json "
+        "--trajectory path.txt ";
+    const auto rough = test.run(mdr + "--friction 0.3").json(), stuck = test.run(mdr).json();
+    const std::string case_of_it =
+        fmt::format("--velocities {} --excursions {} ", velocity, cycles * way);
+    const auto run = test.run("friction --law parabola --radius 10mm " + contact + case_of_it +
+                              "--json -o map.h5 --overwrite");
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    const auto map = run.json()["regime_map"];
+    CHECK(map["regime"] == nlohmann::json({regimes[i]}));
+    // Turning points take a part of a cycle each, of ten.
+    CHECK(map["loss_ratio"][0].get<double>() ==
+          Approx(rough["work_per_cycle"].get<double>() / stuck["work_per_cycle"].get<double>())
+              .epsilon(0.03));
+    // The same motion alone.
+    const auto alone = test.run(fmt::format(
+        "damping --law parabola --radius 10mm {}--drag-velocity {} --excursion {} --json", contact,
+        velocity, cycles * way));
+    CHECK(alone.json()["regime"] == regimes[i]);
+    const salebra::ResultReader reader(test.folder() / "map.h5");
+    CHECK(reader.numbers("regime_map/regime") == std::vector<double>{double(i)});
+  }
+}
+
 TEST_CASE("Bad input of friction is refused by its option", "[sliding][input]") {
   const ProgramTest test;
   for (const auto& [command, message] : std::initializer_list<std::pair<std::string, const char*>>{
@@ -59,7 +133,21 @@ TEST_CASE("Bad input of friction is refused by its option", "[sliding][input]") 
             "--friction-coefficient: 0"},
            {law + "--friction-coefficient 0.3 --normal-amplitude -1nm --frequency 1kHz "
                   "--velocities 1mm/s",
-            "--normal-amplitude: -1e-09"}}) {
+            "--normal-amplitude: -1e-09"},
+           {law + motion, "--velocities (or --velocity-ratios)"},
+           {law + motion + "--velocity-ratios 0.1 --velocities 1mm/s", "--velocity-ratios: given"},
+           {law + motion + "--velocity-ratios 0", "--velocity-ratios: 0"},
+           {law + motion + "--velocities 1mm/s --excursions 0", "--excursions: 0"},
+           {law + motion + "--velocities 1mm/s --excursions 1nm:10nm", "--excursions: "},
+           {law + "--friction-coefficient 0.3 --normal-amplitude 1nm,2nm --frequency 1kHz "
+                  "--velocities 1mm/s --excursions 1nm",
+            "--excursions: 1 are a second axis"},
+           {law + "--friction-coefficient 0.3 --normal-amplitude 0 --frequency 1kHz "
+                  "--velocity-ratios 0.1",
+            "--normal-amplitude: 0"},
+           {law + motion + "--velocities 1mm/s --excursions 1nm,1um --plot map.svg",
+            "--plot: 1 by 2 values"},
+           {law + motion + "--velocities 1mm/s -o map.txt", "--output: "}}) {
     CAPTURE(command);
     check_refused(test.run(command), message);
   }

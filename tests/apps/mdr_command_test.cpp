@@ -24,8 +24,8 @@ TEST_CASE("mdr gives Hertz's contact and its losses at any amplitude", "[mdr]") 
   CHECK(state["force"].get<double>() == Approx(4.0 / 3 * 1e9 * 0.1 * 1e-9).epsilon(1e-12));
   const auto loss = test.run(paraboloid + shear).json();
   CHECK(keys(loss) == std::set<std::string>{
-                          "premises", "largest_motion", "contact_radius", "indentation", "force",
-                          "normal_stiffness", "tangential_stiffness", "force_curvature",
+                          "premises", "largest_motion", "regime", "contact_radius", "indentation",
+                          "force", "normal_stiffness", "tangential_stiffness", "force_curvature",
                           "work_per_cycle", "power", "damping_constant", "closed_form", "ratio"});
   const double ratio = 1.4 / 1.7;
   CHECK(loss["closed_form"].get<double>() ==

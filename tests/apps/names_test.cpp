@@ -296,6 +296,12 @@ TEST_CASE("Every number that the program writes has the name, unit and meaning o
            "friction --friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz "
            "--velocities 1um/s,1mm/s -o friction_over_velocity.h5" +
                law,
+           "friction --friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz "
+           "--velocities 1um/s,1mm/s --excursions 1nm,1um -o regimes.h5" +
+               law,
+           "friction --friction-coefficient 0.3 --normal-amplitude 10nm,20nm --frequency 20kHz "
+           "--velocity-ratios 0.1,1 -o amplitudes.h5" +
+               law,
            "joint --friction-coefficient 0.3 --tangential-amplitudes 5nm,10nm --nominal-area 1mm2 "
            "-o joint.h5" +
                law,

@@ -265,6 +265,14 @@ TEST_CASE("A study prints the loss with slip, and refuses a hardness below its p
     CHECK(with_slip.get<double>() == Approx(constants[k].get<double>()).epsilon(0.015));
   }
   CHECK(stated > 1);
+  // Where the case lies: on a way of 1 mm everything slides; no excursion, no regime.
+  const std::string slides = study + "--friction-coefficient 0.3 --excursion 1mm ";
+  CHECK(test.run(slides + "--json -o slides.h5").json()["regime"] ==
+        json(std::vector<std::string>(loads, "sliding")));
+  CHECK_THAT(test.run(slides).out, Catch::Contains("\nRegime: sliding at "));
+  CHECK(answer["regime"] == json(std::vector<json>(loads)));
+  CHECK(salebra::ResultReader(test.folder() / "slides.h5").numbers("premises/regime") ==
+        std::vector<double>(loads, 2));
   check_refused(test.run(study + "--hardness 1kPa -o t.h5"),
                 "hardness: 1000 Pa is below the largest pressure");
   CHECK(!test.files().contains("t.h5"));

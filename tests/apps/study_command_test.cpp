@@ -21,9 +21,10 @@ TEST_CASE("A study answers with the agreed keys and one file", "[study]") {
   INFO(result.err);
   REQUIRE(result.status == 0);
   const auto answer = result.json();
-  CHECK(keys(answer) == std::set<std::string>{"premises", "largest_motion", "decay_length",
-                                              "decay_length_over_rms_height", "damping",
-                                              "comparison", "realisations", "flags", "files"});
+  CHECK(keys(answer) == std::set<std::string>{"premises", "largest_motion", "regime",
+                                              "decay_length", "decay_length_over_rms_height",
+                                              "damping", "comparison", "realisations", "flags",
+                                              "files"});
   CHECK(answer["realisations"] == 3);
   CHECK(keys(answer["flags"]) == std::set<std::string>{"finite_size", "few_spots"});
   CHECK(keys(answer["decay_length"]) == std::set<std::string>{"mean", "low", "high"});

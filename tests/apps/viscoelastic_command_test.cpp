@@ -24,6 +24,7 @@ TEST_CASE("viscoelastic tells the losses of material and relaxation apart over f
       test.run(cone + shear + "--prony 3MPa:20ms --angular-frequency 5e-3,50,5e6 --json").json();
   CHECK(keys(answer) == std::set<std::string>{"premises",
                                               "largest_motion",
+                                              "regime",
                                               "indentation",
                                               "force",
                                               "normal_stiffness",

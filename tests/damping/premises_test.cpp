@@ -8,6 +8,7 @@
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/premises.hpp>
+#include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 
 using namespace salebra;
@@ -326,4 +327,191 @@ TEST_CASE("A sampled path has the premises of the motion that it samples", "[pre
           Approx(whole.slip_of_closed_levels.limit_20_percent).epsilon(2e-3));
     CHECK(sampled.amplitude.verdict == Verdict::holds);
   }
+}
+
+namespace {
+
+constexpr double friction = 0.3, stretch = friction / ratio;  // μ/g
+const PowerLaw paraboloid(1e7, 1.5, ratio);
+const Material material{.contact_modulus = 1e9, .tangential_modulus = ratio * 1e9};
+
+std::vector<double> decades(double from, double to, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i)
+    values.push_back(from * std::pow(to / from, double(i) / (count - 1)));
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("Sliding begins at Cattaneo's and Mindlin's excursion, and at that of each law",
+          "[regimes]") {
+  const NormalOscillation normal{1e-8, 1e5};
+  const auto border = [&](const ContactLaw& law, double mean) {
+    return regime_map(law, mean, normal, {1e-9}, {1e-9}, friction).sliding_excursion;
+  };
+  // T = μ[F(δ) − F(δ − gx/μ)] has 95 % of μF at x = X/2; bisected to round-off.
+  const double least = 1e-6 - normal.normal_amplitude;
+  CHECK(border(paraboloid, 1e-6) ==
+        Approx(2 * stretch * least * (1 - std::pow(0.05, 2.0 / 3))).epsilon(1e-12));
+  const IndenterLaw sphere(paraboloid_profile(1e-2), material);
+  CHECK(border(sphere, 1e-6) == Approx(border(paraboloid, 1e-6)).epsilon(1e-9));
+  const IndenterLaw punch(flat_punch_profile(1e-3), material);
+  CHECK(border(punch, 1e-6) == Approx(2 * stretch * least * 0.95).epsilon(1e-12));
+  CHECK(border(PowerLaw(1e9, 2, ratio), 1e-6) ==
+        Approx(2 * stretch * least * (1 - std::sqrt(0.05))).epsilon(1e-12));
+  const ExponentialLaw exponential(1, 1e-7, ratio);
+  CHECK(border(exponential, 0) == Approx(2 * stretch * 1e-7 * std::log(20)).epsilon(1e-12));
+  // Its table ends four l below; an exponential continues it.
+  CHECK(border(TabulatedLaw(exponential_curve(1e-7), ratio), 0) ==
+        Approx(border(exponential, 0)).epsilon(1e-3));
+  CHECK(std::isnan(
+      regime_map(paraboloid, 1e-6, {2e-6, 1e5}, {1e-9}, {1e-9}, friction).sliding_excursion));
+}
+
+TEST_CASE("A map of regimes has the borders of the premises, and they are monotone", "[regimes]") {
+  const ExponentialLaw exponential(1, 1e-7, ratio);
+  const TabulatedLaw table(exponential_curve(1e-7), ratio);
+  const IndenterLaw punch(flat_punch_profile(1e-3), material);
+  struct Case {
+    const ContactLaw* law;
+    double mean, amplitude;
+  };
+  const Case cases[] = {{&exponential, 0, 2e-8},
+                        {&paraboloid, 1e-6, 3e-7},
+                        {&paraboloid, 1e-6, 2e-6},  // opens in each cycle
+                        {&table, 0, 2e-8},
+                        {&punch, 1e-6, 3e-7}};
+  for (const Case& one : cases) {
+    CAPTURE(&one - cases);
+    const NormalOscillation normal{one.amplitude, 1e5};
+    const double critical = stretch * one.amplitude * normal.angular_frequency;
+    const std::vector<double> velocities = decades(1e-5 * critical, 3 * critical, 9);
+    const std::vector<double> excursions = decades(1e-4 * one.amplitude, 1e3 * one.amplitude, 15);
+    const RegimeMap map = regime_map(*one.law, one.mean, normal, velocities, excursions, friction);
+    CHECK(map.critical_velocity == Approx(critical).epsilon(1e-12));
+    // The punch loses nothing without slip: what it slips is told from round-off, 1e-7 of ½K_t X².
+    const double noise = one.law == &punch ? 0.02 : 1e-4;
+    bool ended = false;
+    for (std::size_t i = 0; i < velocities.size(); ++i) {
+      const double way = 2 * pi * velocities[i] / normal.angular_frequency;
+      // The excursion without slip grows with the velocity, until none is left.
+      ended = ended || map.no_slip_excursion[i] == 0;
+      if (ended) CHECK(map.no_slip_excursion[i] == 0);
+      if (!ended && i > 0)
+        CHECK_FALSE(map.no_slip_excursion[i] < map.no_slip_excursion[i - 1] * (1 - noise));
+      Regime before = Regime::no_slip;
+      double less = 0;
+      for (std::size_t j = 0; j < excursions.size(); ++j) {
+        CAPTURE(velocities[i], excursions[j]);
+        const Premises premises = premises_of(
+            *one.law, one.mean, Drag{one.amplitude, velocities[i], normal.angular_frequency},
+            {.friction_coefficient = friction, .excursion = excursions[j]});
+        CHECK(name_of(map.regime[i][j]) == name_of(premises.regime));
+        const double loss = map.loss_ratio(Index(i), Index(j));
+        if (excursions[j] < way) {
+          CHECK(map.regime[i][j] == Regime::unknown);
+          CHECK(std::isnan(loss));
+          continue;
+        }
+        CHECK(map.regime[i][j] >= before);
+        before = map.regime[i][j];
+        CHECK_FALSE(loss < less * (1 - 1e-9));
+        less = loss;
+        if (map.regime[i][j] == Regime::no_slip && !std::isnan(loss)) {
+          // 5 % by each of both premises.
+          CHECK(std::abs(loss - 1) < 0.1001);
+          CHECK(premises.slip_of_closed_levels.verdict == Verdict::holds);
+          CHECK(premises.slip_of_opening_levels.verdict == Verdict::holds);
+        }
+      }
+    }
+    // The corner of slow and short motions has the loss without slip: 360 steps miss 0.02 % of what slips at the edge.
+    if (one.law != &punch) {
+      CHECK(map.regime[0][0] == Regime::no_slip);
+      CHECK(map.loss_ratio(0, 0) == Approx(1).epsilon(2e-3));
+    }
+  }
+}
+
+TEST_CASE("The loss in each regime is that of the simulated springs", "[regimes]") {
+  const double mean = 1e-6, amplitude = 1e-7, omega = 1e5;
+  const double critical = stretch * amplitude * omega;
+  struct Point {
+    double velocity_ratio;
+    int cycles;
+    Regime regime;
+  };
+  for (const Point& point : {Point{1e-4, 10, Regime::no_slip}, Point{2e-3, 3, Regime::no_slip},
+                             Point{0.01, 10, Regime::partial_slip},
+                             Point{0.1, 20, Regime::partial_slip}, Point{0.1, 40, Regime::sliding},
+                             Point{0.7, 10, Regime::sliding}, Point{1.5, 10, Regime::sliding}}) {
+    CAPTURE(point.velocity_ratio, point.cycles);
+    const Drag drag{amplitude, point.velocity_ratio * critical, omega};
+    const SampledMotion path = there_and_back(drag, mean, point.cycles);
+    const double excursion = point.cycles * 2 * pi * drag.drag_velocity / omega;
+    const double stick = trajectory_damping(paraboloid, path).work_per_cycle;
+    const TrajectoryDamping loss =
+        trajectory_damping(paraboloid, path, {.friction_coefficient = friction});
+    const RegimeMap map = regime_map(paraboloid, mean, {amplitude, omega}, {drag.drag_velocity},
+                                     {excursion}, friction);
+    CHECK(name_of(map.regime[0][0]) == name_of(point.regime));
+    // The turning points, at the least indentation, take a part of a cycle each.
+    CHECK(map.slip_ratio(0, 0) == Approx(loss.slip_work / stick).epsilon(0.3 / point.cycles));
+    CHECK(map.loss_ratio(0, 0) == Approx(loss.work_per_cycle / stick).epsilon(0.3 / point.cycles));
+  }
+}
+
+TEST_CASE("A long slow way loses what steady sliding does", "[regimes]") {
+  const ExponentialLaw exponential(1, 1e-7, ratio);
+  const NormalOscillation normal{3e-8, 1e5};
+  const double critical = stretch * normal.normal_amplitude * normal.angular_frequency;
+  const std::vector<double> velocities{1e-3 * critical, 0.1 * critical, 0.7 * critical,
+                                       3 * critical};
+  const RegimeMap map = regime_map(exponential, 0, normal, velocities, {1.0}, friction);
+  const std::vector<SteadySliding> sliding =
+      steady_sliding(exponential, AtIndentation{0}, normal, velocities, friction);
+  for (std::size_t i = 0; i < velocities.size(); ++i) {
+    CAPTURE(i);
+    const double stuck = 2 * pi * velocities[i] * velocities[i] / normal.angular_frequency *
+                         sliding[i].relaxation_damping;
+    // 256 cells for the 21 l that carry 1 − 1e-9 of the force; 360 steps.
+    CHECK(map.slip_ratio(Index(i), 0) == Approx(sliding[i].slip_work / stuck).epsilon(1e-3));
+    CHECK(map.loss_ratio(Index(i), 0) - map.slip_ratio(Index(i), 0) ==
+          Approx(sliding[i].relaxation_work / stuck).epsilon(2e-3));
+    CHECK(map.regime[i][0] == Regime::sliding);
+  }
+}
+
+TEST_CASE("A sheared contact slides where no anchor holds its levels", "[regimes]") {
+  const double mean = 1e-6, amplitude = 3e-7;
+  const double kept = std::pow(0.05, 2.0 / 3) * (mean - amplitude);
+  const auto regime = [&](double displacement, double phase) {
+    return premises_of(paraboloid, mean, EqualFrequency{amplitude, stretch * displacement, phase},
+                       {.friction_coefficient = friction})
+        .regime;
+  };
+  // 2L = |u_x e^{iφ0} − A| + |u_x e^{iφ0} + A| in units of μ/g: at 90° L² = u_x² + u_z², at 0° L = u_x.
+  const double depth = mean - kept;
+  const double quarter = std::sqrt(depth * depth - amplitude * amplitude);
+  CHECK(regime(0.999 * quarter, pi / 2) == Regime::partial_slip);
+  CHECK(regime(1.001 * quarter, pi / 2) == Regime::sliding);
+  CHECK(regime(0.999 * depth, 1e-6) == Regime::partial_slip);
+  CHECK(regime(1.001 * depth, 1e-6) == Regime::sliding);
+  CHECK(regime(1e-3 * amplitude, pi / 2) == Regime::no_slip);
+  // What is not known has no regime.
+  CHECK(premises_of(paraboloid, mean, EqualFrequency{amplitude, 1e-8, 1}).regime ==
+        Regime::unknown);
+  CHECK(premises_of(paraboloid, mean, Drag{amplitude, 1e-9, 1e5}, {.friction_coefficient = 0.3})
+            .regime == Regime::unknown);
+}
+
+TEST_CASE("Bad input of a map of regimes is refused", "[regimes][input]") {
+  const NormalOscillation normal{1e-8, 1e5};
+  CHECK_THROWS_AS(regime_map(paraboloid, 1e-6, normal, {0}, {1e-9}, 0.3), InvalidInput);
+  CHECK_THROWS_AS(regime_map(paraboloid, 1e-6, normal, {1e-9}, {-1e-9}, 0.3), InvalidInput);
+  CHECK_THROWS_AS(regime_map(paraboloid, 1e-6, normal, {1e-9}, {1e-9}, 0), InvalidInput);
+  CHECK_THROWS_AS(regime_map(paraboloid, 1e-6, {0, 1e5}, {1e-9}, {1e-9}, 0.3), InvalidInput);
+  CHECK_THROWS_AS(regime_map(paraboloid, 1e-6, {1e-8, 0}, {1e-9}, {1e-9}, 0.3), InvalidInput);
+  CHECK(regime_map(paraboloid, 1e-6, normal, {}, {}, 0.3).sliding_excursion > 0);
 }

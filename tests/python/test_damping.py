@@ -66,6 +66,16 @@ def test_a_damping_constant_carries_its_premises() -> None:
     assert "slip_of_opening_levels broken" in repr(result)
     assert "slip" in result.premises.objections
     assert result.premises == salebra.premises_of(law, fast, indentation=1e-6, facts=facts)
+    regimes = salebra.regime_map(law, 1e-6, 1e-8, 1e5, [1e-9, 1e-2], [1e-8, 1e-3], friction_coefficient=0.3)
+    # v_c = (μ/g)u_z ω; a paraboloid slides from Cattaneo's and Mindlin's X on.
+    assert regimes.critical_velocity == pytest.approx(0.3 / (1.4 / 1.7) * 1e-3, rel=1e-12)
+    assert regimes.regime == [["partial slip", "sliding"], ["unknown", "sliding"]]
+    assert regimes.loss_ratio.shape == (2, 2) and np.isnan(regimes.loss_ratio[1, 0])
+    assert regimes.to_xarray()["regime"].values[0, 1] == "sliding"
+    facts = salebra.ContactFacts(friction_coefficient=0.3, excursion=1e-8)
+    drag = salebra.Drag(normal_amplitude=1e-8, drag_velocity=1e-9, angular_frequency=1e5)
+    assert salebra.premises_of(law, drag, indentation=1e-6, facts=facts).regime == "partial slip"
+    facts = salebra.ContactFacts(friction_coefficient=0.3)
     # At the largest velocity the loss with slip is 5 % off: a chord of 360 steps is good to 1e-3 of it.
     slow = salebra.Drag(normal_amplitude=1e-8, drag_velocity=result.premises.largest[0].drag_velocity, angular_frequency=1e5)
     loss = salebra.loss_with_slip(law, slow, 1e-6, friction_coefficient=0.3)

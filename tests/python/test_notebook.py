@@ -107,6 +107,7 @@ def makers() -> dict[str, Callable[[], Any]]:
         "PronySeries": lambda: prony,
         "PunchStiffness": lambda: salebra.punch_stiffness(contact, surface.grid, MATERIAL),
         "RadialSpectrum": lambda: salebra.radial_spectrum(psd),
+        "RegimeMap": lambda: salebra.regime_map(law, 1e-6, 1e-7, 1e5, [1e-4, 1e-3], [1e-8, 1e-7], friction_coefficient=0.3),
         "Realisation": lambda: study.realisations[0],
         "RoughnessShell": lambda: shells[0],
         "SampledMotion": lambda: salebra.sample(EQUAL, 1e-6, 8),

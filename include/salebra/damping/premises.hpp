@@ -2,9 +2,11 @@
 #pragma once
 
 #include <limits>
+#include <salebra/base/grid.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
+#include <salebra/damping/damper.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <span>
 #include <string>
@@ -63,6 +65,18 @@ struct Premise {
       {};  ///< member of ContactFacts, or "drag_velocity", that a verdict needs; empty: none
 };
 
+/// How much of a contact slips.
+enum class Regime {
+  no_slip,       ///< both premises of slip hold: the loss is that without slip to 5 %
+  partial_slip,  ///< levels slip, and others that carry a part of the force do not
+  /// All levels slip but those that carry less than 5 % of the least normal force; where the contact opens in each cycle, levels never
+  /// stick, which is case (b) from v_c = (μ/g) u_z ω on.
+  sliding,
+  /// Not known: a fact is missing, or the excursion of case (b) is shorter than the way in one normal cycle, and the motion not slow.
+  unknown
+};
+std::string name_of(Regime regime);
+
 /// Largest motion that keeps the slip premises to 5 % with a coefficient of friction.
 struct LargestMotion {
   double friction_coefficient = ContactFacts::unknown;
@@ -82,7 +96,9 @@ struct Premises {
   Premise slip_of_opening_levels;
   /// value  X, m.
   /// limits (a) the u_x of the limit above. (b) X at which the closed levels lose, by slip, 5 % of the relaxation loss over the same
-  ///        way there and back at the velocity v, many normal cycles: ∫K_t'(e + πv/ω)(X − 2e)dζ = 0.05 W Xω/(2πv), e = (μ/g)(δ0 − u_z − ζ).
+  ///        way there and back at the velocity v, many normal cycles that touch the turning points at the least indentation:
+  ///        ∫K_t'(e + r)(X − 2e)dζ = 0.05 W Xω/(2πv), e = (μ/g)(δ0 − u_z − ζ), r the mean rise of a closed level's stretch in a normal
+  ///        cycle: πv/ω for v ≪ v_c, (μ/g)u_z from v_c on.
   ///        0 where X would be shorter than the way in one normal cycle: no slow motion at this velocity keeps the premise.
   Premise slip_of_closed_levels;
   /// value  u_z, m.
@@ -101,6 +117,8 @@ struct Premises {
   ///        surface at 45° and a paraboloid at 90°, 3 % at ν = 0.3, 17 % at ν = 0, none at ν = 0.5; a paraboloid at 45° has 13 and 56 %.
   /// limits 0.05 and 0.2.
   Premise coupling;
+
+  Regime regime = Regime::unknown;
 
   /// For the μ that is known, otherwise for μ = 0.1, 0.3 and 1.
   std::vector<LargestMotion> largest;
@@ -145,5 +163,33 @@ struct LossWithSlip {
 LossWithSlip loss_with_slip(const ContactLaw& law, double mean_indentation,
                             const Oscillation& motion, double friction_coefficient,
                             double excursion = ContactFacts::unknown);
+
+/// Regimes of case (b) over velocity and excursion of the slow motion, with borders from the springs of the law.
+struct RegimeMap {
+  std::vector<double> velocity;   ///< v, m/s
+  std::vector<double> excursion;  ///< X, m
+  /// (velocities, excursions): as Premises::regime.
+  std::vector<std::vector<Regime>> regime;
+  /// W/W without slip (velocities, excursions), mean of a normal cycle on the way there and back; NaN where X is shorter than the way in one, and
+  /// where nothing is lost without slip.
+  Field loss_ratio;
+  Field slip_ratio;  ///< its part from levels that stay closed
+  /// X up to which there is no slip at each velocity, m; 0: at no excursion, NaN: at every one.
+  std::vector<double> no_slip_excursion;
+  double no_slip_velocity =
+      ContactFacts::unknown;  ///< v up to which there may be no slip, m/s; NaN: any
+  double sliding_excursion =
+      ContactFacts::unknown;  ///< X from which the contact slides, m; NaN: it opens in each cycle
+  double critical_velocity =
+      ContactFacts::unknown;  ///< v_c = (μ/g) u_z ω, m/s: levels never stick beyond
+  /// W without slip over its small-amplitude form, Eq. (15), or (16) of an exponential law: loss_ratio times this is the loss over that equation.
+  double full_stick_ratio = ContactFacts::unknown;
+};
+
+/// throws  InvalidInput for a velocity, an excursion, an amplitude, a frequency or a μ that is not > 0, and as relaxation_damping()
+/// cost    some 10 ms, 1 ms for each velocity, and 256 evaluations of the law for each velocity and excursion
+RegimeMap regime_map(const ContactLaw& law, double mean_indentation,
+                     const NormalOscillation& normal, const std::vector<double>& velocities,
+                     const std::vector<double>& excursions, double friction_coefficient);
 
 }  // namespace salebra

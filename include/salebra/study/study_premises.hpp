@@ -3,6 +3,7 @@
 
 #include <salebra/damping/premises.hpp>
 #include <salebra/study/study.hpp>
+#include <string>
 #include <vector>
 
 namespace salebra {
@@ -22,5 +23,8 @@ struct StudyPremises {
 /// Throws InvalidInput for a hardness below the largest pressure.
 /// Cost: 10 ms for each pressure.
 StudyPremises premises_of(const StudyResult& result);
+
+/// "no slip at 1 MPa to 5 MPa, sliding at 20 MPa", one for each run of pressures; empty where no regime is known.
+std::string regimes(const StudyPremises& found, const std::vector<double>& pressures);
 
 }  // namespace salebra
