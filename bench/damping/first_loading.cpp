@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Damping after a plastic first loading: cells halved on the residual surface, against a first loading of the halved cells.
 //   damping_first_loading [surfaces [points]]
-// One line per load: seed, first load over the hardness, area that flowed, pressure over the first load, γ of the residual surface
-// with its stated error, γ of the first loading on halved cells, and their difference over the root of the sum of the squares of the
-// stated error and the other's scatter. The last line is quoted in docs/surface_damping.md.
+// One line per load: seed, first load (raised by the oscillation about it) over the hardness, area that flowed, pressure over the
+// mean first load, γ of the residual surface with its stated error, γ of the first loading on halved cells, and their difference over
+// the root of the sum of the squares of the stated error and the other's scatter. docs/surface_damping.md quotes ranges and the last line.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -65,7 +65,8 @@ int main(int count, char** arguments) {
         const double two = other[k].damping_constant;
         const double scatter = other[k].scatter * two / other[k].work_per_cycle;
         const double share = std::abs(one - two) / std::hypot(error, scatter);
-        std::printf("%d %.3f %.3f %.1f %8.4g %6.2g %8.4g %5.2f\n", seed, pressure / hardness,
+        std::printf("%d %.3f %.3f %.1f %8.4g %6.2g %8.4g %5.2f\n", seed,
+                    coarse.first_loading.pressure / hardness,
                     coarse.first_loading.yielded_area_fraction, std::vector{0.2, 0.5, 0.8, 1.0}[k],
                     one, error, two, share);
         ++cases;

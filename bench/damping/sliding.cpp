@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steady sliding and joints on a tabulated law, one core: processor time of 10⁴ states of sliding and of a loss over 30 forces.
-// Sample runs:  damping_sliding        damping_sliding 10000 200
-// Arguments: states, samples of the law.
+// Steady sliding on a tabulated law and joints of a surface: processor time of 10⁴ states of sliding, and of a loss over 30 forces after
+// the sweep of a rough surface.
+// Sample runs:  damping_sliding        damping_sliding 10000 200 256
+// Arguments: states, samples of the law, cells of the surface along a side.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <salebra/contact/law/law.hpp>
+#include <salebra/contact/sweep.hpp>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/steady_sliding.hpp>
+#include <salebra/generators/filtered_noise.hpp>
 #include <vector>
 
 int main(int argc, char** argv) {
   using namespace salebra;
   const int states = argc > 1 ? std::atoi(argv[1]) : 10'000;
   const int samples = argc > 2 ? std::atoi(argv[2]) : 200;
+  const Index points = argc > 3 ? std::atoi(argv[3]) : 256;
 
   // A curve that bends in ln F, as those of rough surfaces do.
   ForceCurve curve;
@@ -42,11 +46,33 @@ int main(int argc, char** argv) {
   std::printf("%d states of sliding, law of %d samples: %.3f s, mean friction %.6f\n", states,
               samples, seconds_since(start), sum / states);
 
+  SelfAffineParameters parameters;
+  parameters.hurst = 0.8;
+  parameters.rolloff = 1.25e-6;
+  parameters.short_cutoff = 0.625e-6;
+  parameters.rms_slope = 0.1;
+  const Surface surface =
+      filtered_noise({points, points, 10e-6, 10e-6}, SelfAffineSpectrum(parameters), 1);
+  const Material material = Material::of_contact_modulus(1e9, 0.3);
+  const double pressure = 5e6;  // Pa
+  std::vector<double> pressures;
+  for (int k = -40; k <= 9; ++k) pressures.push_back(pressure * std::pow(1.2, k));
+  SweepOptions sweep;
+  sweep.stick = true;
   start = std::clock();
+  const ForceCurve swept = sweep_pressures(surface, material, pressures, sweep);
+  const double sweep_seconds = seconds_since(start);
+  start = std::clock();
+  const TabulatedLaw of_surface(swept, material.modulus_ratio());
+  const double force = pressure * surface.grid.area();
   double work = 0;
-  const double most = friction * (law.force(5e-7) - law.force(1e-9));
   for (int i = 1; i <= 30; ++i)
-    work += joint_loss(law, AtIndentation{5e-7}, TangentialForce{most * i / 31}, friction)
+    work += joint_loss(of_surface, AtForce{force},
+                       TangentialForce{friction * force * 0.95 * i / 30}, friction)
                 .work_per_cycle;
-  std::printf("a loss over 30 tangential forces: %.3f s, sum %.6g J\n", seconds_since(start), work);
+  const double curve_seconds = seconds_since(start);
+  std::printf(
+      "surface of %td x %td: sweep of %zu contacts %.1f s; a loss over 30 tangential forces after "
+      "it %.3f s, sum %.6g J\n",
+      points, points, pressures.size(), sweep_seconds, curve_seconds, work);
 }
