@@ -27,6 +27,7 @@ struct JointArguments {
   std::vector<double> tangential_forces, tangential_amplitudes;
   std::optional<double> normal_amplitude, phase, nominal_area, frequency;
   int steps = 2000;
+  std::optional<int> direct_steps;
   PremiseOptions premises;
 };
 
@@ -49,11 +50,14 @@ constexpr Column columns[]{
     {"loss_stiffness", &JointLoss::loss_stiffness, "loss_stiffness_per_area"},
 };
 
-ResultTable table_of(const std::vector<JointLoss>& losses, double nominal_area) {
-  ResultTable table{.name = "motions", .columns = {}};
+ResultTable table_of(const std::string& name, const std::vector<JointLoss>& losses,
+                     double nominal_area) {
+  ResultTable table{.name = name, .columns = {}};
   for (const Column& column : columns) {
     std::vector<double> values;
     for (const JointLoss& one : losses) values.push_back(one.*column.member);
+    // The exponent is not that of a simulation, which has one motion alone.
+    if (std::ranges::all_of(values, [](double value) { return std::isnan(value); })) continue;
     table.columns.push_back({column.name, values});
     if (column.per_area == nullptr || !(nominal_area > 0)) continue;
     for (double& value : values) value /= nominal_area;
@@ -86,8 +90,37 @@ Figure joint_figure(const std::vector<JointLoss>& losses, const SampledMotion& p
   return figure;
 }
 
+// Every motion once more, cell by cell, at the same indentation.
+std::vector<JointLoss> simulate(const JointArguments& arguments, const LawOptions::Contact& contact,
+                                const std::vector<TangentialOscillation>& motions,
+                                double indentation, Session& session) {
+  const Material material = arguments.material.material_with_tangential_modulus();
+  const PressureLevels levels =
+      boundary_element_pressures(*contact.surface, material.contact_modulus);
+  CycleOptions options{.friction_coefficient = *arguments.premises.friction_coefficient,
+                       .steps = *arguments.direct_steps,
+                       .max_periods = 20};
+  options.on_progress = session.progress();
+  std::vector<JointLoss> losses;
+  for (const TangentialOscillation& motion : motions) {
+    losses.push_back(simulated_joint_loss(levels, contact.surface->grid, material, indentation,
+                                          motion, arguments.normal_amplitude.value_or(0),
+                                          arguments.phase.value_or(0), options));
+    if (interrupted()) throw Interrupted("joint: stopped before all motions were done");
+  }
+  if (const auto lost = std::ranges::count(losses, false, &JointLoss::converged); lost > 0)
+    throw NotConverged(
+        fmt::format("joint: {} of {} motions cell by cell did not converge to a steady loss", lost,
+                    losses.size()));
+  return losses;
+}
+
 void run(const JointArguments& arguments, Session& session) {
-  require_tables(session, {"motions"});
+  const bool direct = arguments.direct_steps.has_value();
+  require_tables(session, direct ? std::vector<std::string>{"motions", "direct"}
+                                 : std::vector<std::string>{"motions"});
+  require(!direct || arguments.law.surface.given(), "--direct-steps",
+          arguments.direct_steps.value_or(0), "is of a surface cell by cell; give --surface");
   std::vector<std::string> missing;
   if (!arguments.premises.friction_coefficient) missing.emplace_back("--friction-coefficient");
   if (arguments.tangential_forces.empty() && arguments.tangential_amplitudes.empty())
@@ -138,9 +171,15 @@ void run(const JointArguments& arguments, Session& session) {
                  {"indentation", indentation},
                  {"normal_stiffness", law.normal_stiffness(indentation)},
                  {"tangential_stiffness", law.tangential_stiffness(indentation)}};
-  const ResultTable table = table_of(losses, area);
-  write_tables(session, "joint", answer, {table});
-  for (const ResultColumn& column : table.columns) answer[column.name] = column.values;
+  std::vector<ResultTable> tables{table_of("motions", losses, area)};
+  if (direct)
+    tables.push_back(
+        table_of("direct", simulate(arguments, contact, motions, indentation, session), area));
+  write_tables(session, "joint", answer, tables);
+  for (const ResultColumn& column : tables.front().columns) answer[column.name] = column.values;
+  if (direct)
+    for (const ResultColumn& column : tables.back().columns)
+      answer["direct"][column.name] = column.values;
 
   const JointLoss& largest =
       *std::ranges::max_element(losses, {}, &JointLoss::tangential_amplitude);
@@ -192,6 +231,12 @@ void add_joint_command(Program& program) {
   command
       .add_option("--steps", arguments->steps, "in a cycle with a normal oscillation; default 2000")
       ->range(16, 10000000)
+      ->group(motion);
+  command
+      .add_option("--direct-steps", arguments->direct_steps,
+                  "simulates each motion cell by cell too, with so many steps in a cycle; of "
+                  "--surface")
+      ->range(16, 100000)
       ->group(motion);
   add_quantity(command, "--frequency", arguments->frequency, Dimension::frequency,
                "in Hz, to judge inertia")

@@ -48,6 +48,7 @@ from ._core import (
     simulate_coupled_cycle as simulate_coupled_cycle,
     simulate_cycle as simulate_cycle,
     simulate_frictional_cycle as simulate_frictional_cycle,
+    simulated_joint_loss as simulated_joint_loss,
     stabilising_amplitude as stabilising_amplitude,
     steady_sliding as steady_sliding,
     stress_map as stress_map,

@@ -177,6 +177,19 @@ Followed follow(const ContactLaw& law, double mean, const TangentialOscillation&
       "tangential force; reduce it, or give a displacement");
 }
 
+// A quantity over the steps of a simulated cycle, of which the last is the first of the next.
+struct Swing {
+  Swing(const CycleResult& cycle, double CycleSample::*quantity)
+      : values(static_cast<Index>(cycle.samples.size()) - 1) {
+    for (Index i = 0; i < values.size(); ++i)
+      values[i] = cycle.samples[static_cast<std::size_t>(i) + 1].*quantity;
+    out = values - values.mean();
+    half_range = (values.maxCoeff() - values.minCoeff()) / 2;
+  }
+  Eigen::ArrayXd values, out;
+  double half_range = 0;
+};
+
 }  // namespace
 
 JointLoss joint_loss(const ContactLaw& law, const Position& position,
@@ -241,6 +254,36 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
   loss.storage_stiffness = one.storage_stiffness;
   loss.exponent = std::log(one.work / less.work) / std::log(one.force / less.force);
   loss.converged = true;
+  set_ratios(loss);
+  return loss;
+}
+
+JointLoss simulated_joint_loss(const PressureLevels& levels, const Grid2D& grid,
+                               const Material& material, double indentation,
+                               const TangentialOscillation& motion, double normal_amplitude,
+                               double phase, const CycleOptions& options) {
+  check(motion, options.friction_coefficient);
+  require(std::isfinite(options.friction_coefficient), "friction_coefficient",
+          options.friction_coefficient, "must be finite");
+  const auto* by_force = std::get_if<TangentialForce>(&motion);
+  const double amplitude =
+      by_force ? by_force->amplitude : std::get<TangentialAmplitude>(motion).amplitude;
+  // A constant normal force has no phase, and the steps then meet the turning points of the motion.
+  Trajectory path = trajectory_of(
+      EqualFrequency{normal_amplitude, amplitude, normal_amplitude > 0 ? phase : 0}, indentation);
+  if (by_force) std::swap(path.tangential, path.tangential_force);
+  const CycleResult cycle = simulate_frictional_cycle(levels, grid, material, path, options);
+
+  JointLoss loss;
+  loss.indentation = indentation;
+  const Swing force(cycle, &CycleSample::tangential_force), x(cycle, &CycleSample::tangential);
+  loss.tangential_force = by_force ? amplitude : force.half_range;
+  loss.tangential_amplitude = by_force ? x.half_range : amplitude;
+  loss.work_per_cycle = cycle.work_per_cycle;
+  loss.slip_work = cycle.slip_work;
+  loss.relaxation_work = cycle.relaxation_work;
+  loss.storage_stiffness = (force.values * x.out).sum() / x.out.square().sum();
+  loss.converged = cycle.converged && cycle.steady;
   set_ratios(loss);
   return loss;
 }

@@ -2,11 +2,16 @@
 // The simulated cycles with Coulomb friction, without and with coupling of pressures and tractions (damping/cycle.hpp).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
 #include <salebra/contact/tangential/coupled_contact.hpp>
+#include <salebra/contact/tangential/stick.hpp>
+#include <sstream>
 #include <utility>
+#include <vector>
 
 #include "cycle_engine.hpp"
 
@@ -49,25 +54,28 @@ class SlidingBody : public detail::CycleBody {
         along_x_(std::cos(options.direction)),
         along_y_(options.stick.hold_lateral ? std::sin(options.direction) : 0.0) {}
 
-  double advance(int step, double from) final {
+  double advance(int step, double from) override {
     const double distance = trajectory_.tangential(time(step)) - from;
-    move(step, {distance * along_x_, distance * along_y_});
+    move(step, along(distance));
     return from + distance;
   }
 
  protected:
   virtual void move(int step, const TangentialMove& by) = 0;
+  TangentialMove along(double distance) const { return {distance * along_x_, distance * along_y_}; }
+  double component(const TangentialMove& force) const {
+    return along_x_ * force.x + along_y_ * force.y;
+  }
+  double time(int step) const { return static_cast<double>(step) / steps_; }
   double indentation(int step) const { return trajectory_.indentation(time(step)); }
   /// Of a period.
   TangentialMove drift() const {
-    const double distance = trajectory_.tangential(1) - trajectory_.tangential(0);
-    return {distance * along_x_, distance * along_y_};
+    return along(trajectory_.tangential(1) - trajectory_.tangential(0));
   }
   int steps() const { return steps_; }
   detail::CycleReading reading_of(const SlidingContact& contact) const {
-    const TangentialMove force = contact.tangential_force();
     return {.contact = contact.pressure() > 0,
-            .tangential_force = along_x_ * force.x + along_y_ * force.y,
+            .tangential_force = component(contact.tangential_force()),
             .work = contact.work(),
             .loss = &contact.loss(),
             .slipping = contact.slipping(),
@@ -77,14 +85,12 @@ class SlidingBody : public detail::CycleBody {
   }
 
  private:
-  double time(int step) const { return static_cast<double>(step) / steps_; }
-
   const Trajectory& trajectory_;
   int steps_;
   double along_x_, along_y_;
 };
 
-class FrictionalBody final : public SlidingBody {
+class FrictionalBody : public SlidingBody {
  public:
   FrictionalBody(const PressureLevels& levels, const Grid2D& grid, const Material& material,
                  const Trajectory& trajectory, const CycleOptions& options,
@@ -123,15 +129,93 @@ class FrictionalBody final : public SlidingBody {
   bool interrupted() const override { return contact_.interrupted(); }
   decltype(CycleState::body) state() const override { return contact_.state(); }
 
+ protected:
+  const PressureAt& level(int step) const { return pressures_.at(step); }
+  SlidingContact& contact() { return contact_; }
+  void at_step(int step) { normal_force_ = level(step).force; }
+
  private:
   void move(int step, const TangentialMove& by) override {
-    contact_.advance(pressures_.at(step).pressure, by);
-    normal_force_ = pressures_.at(step).force;
+    contact_.advance(level(step).pressure, by);
+    at_step(step);
   }
 
   StepPressures pressures_;
   SlidingContact contact_;
   double normal_force_ = 0;
+};
+
+// Its tangential force is given, and its displacement follows.
+class ForcedBody final : public FrictionalBody {
+ public:
+  ForcedBody(const PressureLevels& levels, const Grid2D& grid, const Material& material,
+             const Trajectory& at_rest, const std::function<double(double t)>& force,
+             const CycleOptions& options, const detail::TrajectoryRange& range)
+      : FrictionalBody(levels, grid, material, at_rest, options, range),
+        cell_area_(grid.cell_area()) {
+    double greatest = 0;
+    for (int k = 0; k <= options.steps; ++k) {
+      forces_.push_back(force(time(k)));
+      const double limit =
+          options.friction_coefficient * grid.cell_area() * level(k).pressure.sum();
+      std::ostringstream constraint;
+      constraint << "N must be below " << limit << " N, at which the contact slides";
+      require(std::abs(forces_.back()) < limit, "tangential_force", forces_.back(),
+              constraint.str());
+      greatest = std::max(greatest, std::abs(forces_.back()));
+    }
+    require_positive(greatest, "tangential_force");
+    const StickStiffness stiffness = stick_stiffness(level(0).pressure > 0, grid, material,
+                                                     options.stick, /*along_x_only=*/true);
+    converged_ = stiffness.converged;
+    stiffness_ = stiffness.xx;
+    tolerance_ = 1e-7 * greatest;
+    contact().set_motion_scale(greatest / stiffness_);
+  }
+
+  // F_x grows with the distance: secants within a bracket, from the slope of full stick.
+  double advance(int step, double from) override {
+    const Field& pressure = level(step).pressure;
+    double low = -std::numeric_limits<double>::infinity(), high = -low;
+    double distance = 0, slope = stiffness_, last_distance = 0, last_excess = 0;
+    std::optional<SlidingContact::Increment> increment;
+    for (int search = 0;; ++search) {
+      increment =
+          contact().attempt(pressure, along(distance), nullptr, increment ? &*increment : nullptr);
+      const double excess = force_of(*increment) - forces_[std::size_t(step)];
+      const bool met = std::abs(excess) <= tolerance_;
+      if (met || search == 60 || increment->report.interrupted) {
+        converged_ = converged_ && met;
+        break;
+      }
+      (excess < 0 ? low : high) = distance;
+      if (search > 0) {
+        const double secant = (excess - last_excess) / (distance - last_distance);
+        if (secant > 0) slope = secant;
+      }
+      last_distance = distance, last_excess = excess;
+      distance -= excess / slope;
+      if (!(low < distance && distance < high)) distance = (low + high) / 2;
+    }
+    contact().accept(std::move(*increment));
+    at_step(step);
+    return from + distance;
+  }
+
+  detail::CycleReading reading() const override {
+    detail::CycleReading now = FrictionalBody::reading();
+    now.converged = now.converged && converged_;
+    return now;
+  }
+
+ private:
+  double force_of(const SlidingContact::Increment& increment) const {
+    return cell_area_ * component({increment.traction.x.sum(), increment.traction.y.sum()});
+  }
+
+  std::vector<double> forces_;
+  double cell_area_, stiffness_ = 0, tolerance_ = 0;
+  bool converged_ = true;
 };
 
 class CoupledBody final : public SlidingBody {
@@ -194,6 +278,13 @@ CycleResult simulate_frictional_cycle(const PressureLevels& levels, const Grid2D
                                       const Material& material, const Trajectory& trajectory,
                                       const CycleOptions& options) {
   grid.validate();
+  if (trajectory.tangential_force && !trajectory.tangential) {
+    require_positive(options.friction_coefficient, "friction_coefficient");
+    const Trajectory at_rest{trajectory.indentation, [](double) { return 0.0; }};
+    const detail::TrajectoryRange range = detail::checked_range(at_rest, options);
+    ForcedBody body(levels, grid, material, at_rest, trajectory.tangential_force, options, range);
+    return detail::run_cycle(body, grid, at_rest, options);
+  }
   const detail::TrajectoryRange range = detail::checked_range(trajectory, options);
   FrictionalBody body(levels, grid, material, trajectory, options, range);
   return detail::run_cycle(body, grid, trajectory, options);

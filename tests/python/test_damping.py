@@ -328,6 +328,24 @@ def test_a_contact_as_a_force_element_follows_displacements_and_forces() -> None
         contact.move_to_force(0, -1.01 * friction * load)
 
 
+def test_a_sphere_by_force_cell_by_cell_is_mindlins() -> None:
+    grid = salebra.Grid2D(32, 32, 1e-3, 1e-3)
+    material, radius, friction, indentation = salebra.Material(1e9, poisson=0.0), 8e-3, 0.4, 1.5e-5
+    surface = salebra.paraboloid_surface(grid, radius, salebra.off_grid_center(grid))
+    law = salebra.IndenterLaw(salebra.paraboloid_profile(radius), material)
+    force = 0.6 * friction * law.force(indentation)
+    loss = salebra.simulated_joint_loss(
+        surface, material, indentation, friction_coefficient=friction, tangential_force=force, steps=32, boundary="free"
+    )  # fmt: skip
+    springs = salebra.joint_loss(law, friction_coefficient=friction, tangential_force=force, indentation=indentation)
+    assert loss.converged
+    # Some 22 cells across the contact, the apex between two of them; the steps are 0.6 % of the loss.
+    assert loss.tangential_amplitude == pytest.approx(springs.tangential_amplitude, rel=0.02)
+    assert loss.work_per_cycle == pytest.approx(springs.work_per_cycle, rel=0.05)
+    with pytest.raises(salebra.InvalidInput, match="tangential_force"):
+        salebra.simulated_joint_loss(surface, material, indentation, friction_coefficient=friction)
+
+
 def test_a_slid_contact_is_at_its_limit_everywhere() -> None:
     grid = salebra.Grid2D(16, 16, 1e-3, 1e-3)
     pressure = np.zeros((16, 16))

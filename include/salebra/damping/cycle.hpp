@@ -43,6 +43,8 @@ PressureLevels boundary_element_pressures(Surface surface, double contact_modulu
 struct Trajectory {
   std::function<double(double t)> indentation;  ///< δ, m
   std::function<double(double t)> tangential;   ///< x, m
+  /// T, N: the body goes to where F_x is T, in place of `tangential`, which is left empty. Of simulate_frictional_cycle alone.
+  std::function<double(double t)> tangential_force = {};
 };
 
 /// One period of an oscillation about a mean indentation, from one minimum of the indentation to the next.
@@ -167,7 +169,9 @@ CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
 /// A contact with Coulomb friction: SlidingContact, from step to step, at second order in them. Without drift it starts stress-free, and the
 /// permanent contact settles within two or three periods. With drift and a finite μ it starts from endless sliding at the first
 /// indentation: where that is the minimum, the first period is the steady one, as with the springs (docs/theory.md, section 8).
-/// cost  per step a partial-slip solve, and another where cells enter
+/// A tangential force is met to 1e-7 of its greatest value, by a secant search at each step. Throws InvalidInput where it is not below μF:
+/// the contact slides there.
+/// cost  per step a partial-slip solve, and another where cells enter; of a force four to six times that
 CycleResult simulate_frictional_cycle(const PressureLevels& levels, const Grid2D& grid,
                                       const Material& material, const Trajectory& trajectory,
                                       const CycleOptions& options = {});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <salebra/damping/cycle.hpp>
 #include <salebra/damping/dissipation.hpp>
 
 namespace salebra {
@@ -55,5 +56,15 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
 JointLoss joint_loss(const ContactLaw& law, const Position& position,
                      const TangentialOscillation& motion, double friction_coefficient,
                      double normal_amplitude, double phase, int steps = 2000);
+
+/// The same in three dimensions: cells with Coulomb's friction, through the motion until two periods lose the same
+/// (simulate_frictional_cycle). Relaxation and slip are told apart by cells, not by springs; the exponent is NaN.
+/// options    with a finite friction_coefficient > 0
+/// converged  every solve did, and the loss is steady
+/// throws     InvalidInput as above
+JointLoss simulated_joint_loss(const PressureLevels& levels, const Grid2D& grid,
+                               const Material& material, double indentation,
+                               const TangentialOscillation& motion, double normal_amplitude,
+                               double phase, const CycleOptions& options);
 
 }  // namespace salebra
