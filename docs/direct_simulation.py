@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rewrites the tables of direct_simulation.md from runs of the program.
 
-Usage: docs/direct_simulation.py PROGRAM [--tables shapes,convergence,rough,cells,mindlin,slip] [--jobs N] [--measured FILE --measured-name TEXT]
+Usage: docs/direct_simulation.py PROGRAM [--tables shapes,convergence,rough,cells,mindlin,slip,sliding] [--jobs N] [--measured FILE --measured-name TEXT]
 Each table stands between a line `<!-- NAME -->` and a line `<!-- end of NAME -->`. Only Python's own library is needed.
 """
 import argparse
@@ -250,13 +250,53 @@ def slip(runs, _):
                       "balance", "periods"], rows)
 
 
-TABLES = {"shapes": shapes, "convergence": convergence, "rough": rough, "cells": cells, "mindlin": mindlin, "slip": slip}
+def sliding(runs, _):
+    """A rough surface that slides under a normal oscillation, against the springs of its own curve."""
+    amplitude, frequency, friction, pressure = 4e-9, 100, 0.3, 0.05 * ROUGH_MODULUS * ROUGH_SLOPE
+    with tempfile.TemporaryDirectory() as folder:
+        surface = {(seed, n): generated(runs, folder, seed, n) for seed in (1, 2) for n in (128, 256)}
+        cases = [(seed, n, nu, part) for seed, n in ((1, 256), (2, 256)) for nu in (0, 0.3) for part in (0.1, 0.3, 0.6)]
+        cases += [(1, 128, nu, 0.3) for nu in (0, 0.3)]
+        cases.sort(key=lambda case: (case[0], -case[1]))
+
+        def run(seed, n, poisson, part):
+            ratio = 2 * (1 - poisson) / (2 - poisson)
+            velocity = part * friction / ratio * amplitude * 2 * math.pi * frequency
+            material = ["--contact-modulus", ROUGH_MODULUS, "--poisson", poisson]
+            motion = ["--normal-amplitude", amplitude, "--frequency", frequency]
+            simulated = {k: runs.answer("oscillate", "--surface", surface[seed, n], "--pressure", pressure, *material,
+                                        *motion, "--mode", "drag", "--drag-velocity", velocity, "--friction", friction,
+                                        "--steps", k, "--levels", 4)["friction"] for k in (32, 64)}
+            law = ["--friction-coefficient", friction, *motion, "--velocities", velocity, *material]
+            springs = runs.answer("friction", "--surface", surface[seed, n], "--pressure", pressure, *law)
+            curve = f"{folder}/{seed}-{n}-{poisson}-{part}.h5"
+            runs.answer("sweep", surface[seed, n], "--pressures", f"{pressure / 6}:{6 * pressure}:50", "--stick",
+                        "--stiffness", *material, "-o", curve)
+            finer = runs.answer("friction", "--curve", curve, "--pressure", pressure, *law)
+            return simulated, springs, finer
+
+        rows = []
+        for (seed, n, poisson, part), (simulated, springs, finer) in zip(cases, runs.all(run, cases)):
+            exact = simulated[64]["mean_tangential_force"] / simulated[64]["mean_force"]
+            coarse = simulated[32]["mean_tangential_force"] / simulated[32]["mean_force"]
+            of = springs["friction_coefficient"][0]
+            slip = simulated[64]["slip_work"] / simulated[64]["dissipated"]
+            rows.append([str(seed), f"{n}²", str(poisson), f"{springs['velocity'][0] / springs['critical_velocity']:.3f}",
+                         f"{exact:.4f}", f"{of:.4f}", percent(of / exact - 1), f"{100 * abs(coarse / exact - 1) / 3:.2f} %",
+                         f"{100 * abs(finer['friction_coefficient'][0] / of - 1):.2f} %", f"{slip:.2f}",
+                         str(simulated[64]["periods"])])
+        return table(["seed", "cells", "ν", "v/v_c", "T̄/F̄ in 3-D", "by the springs", "springs against 3-D",
+                      "stated by the steps", "stated by the levels", "part by slip", "periods"], rows)
+
+
+TABLES = {"shapes": shapes, "convergence": convergence, "rough": rough, "cells": cells, "mindlin": mindlin, "slip": slip,
+          "sliding": sliding}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
-    parser.add_argument("--tables", default="shapes,convergence,rough,cells,mindlin,slip")
+    parser.add_argument("--tables", default="shapes,convergence,rough,cells,mindlin,slip,sliding")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--measured")
     parser.add_argument("--measured-name", default="measured")
