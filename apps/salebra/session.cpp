@@ -12,6 +12,7 @@
 #include <salebra/results/force_curve_file.hpp>
 
 #include "option_words.hpp"
+#include "revision.inc"
 #include "terminal.hpp"
 #include "text.hpp"
 
@@ -65,6 +66,8 @@ void Session::require_free_output() const {
 Provenance Session::provenance() const {
   Provenance provenance;
   provenance.command_line = command_line_;
+  provenance.started = started_;
+  provenance.revision = source_revision;
   return provenance;
 }
 

@@ -67,6 +67,7 @@ class Session {
  private:
   void require_result_name() const;
 
+  const std::string started_ = utc_now();
   CommonOptions options_;
   std::string command_line_;
   ProgressBar bar_;

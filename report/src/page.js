@@ -96,12 +96,20 @@ function surfaceTable(point) {
     h("tbody", {}, statistics.map((s) => h("tr", {}, h("th", {scope: "row"}, rich(STATISTICS[s.name] ?? s.title)), h("td", {class: "number"}, quantity(s.mean, s.unit)), many ? h("td", {class: "number"}, interval(s, s.unit) || "–") : null)))));
 }
 
+/** Between the two times that the file holds, which are in whole seconds. */
+function runTime({started, created}) {
+  const seconds = (Date.parse(created) - Date.parse(started)) / 1000;
+  if (!(seconds >= 0)) return null;
+  const parts = [[Math.floor(seconds / 3600), "h"], [Math.floor(seconds / 60) % 60, "min"], [seconds % 60, "s"]].filter(([count]) => count > 0);
+  return parts.map(([count, unit]) => `${count}${NARROW}${unit}`).join(" ") || `less than 1${NARROW}s`;
+}
+
 function settings(main, point) {
   section(main, "settings", "Settings and provenance", null, (body) => {
     body.className = "";
     const provenance = data.provenance ?? {}, surface = point.surface ?? {};
     const seeds = (surface.seed ?? []).filter((s) => s !== 0);
-    const entries = [["Results file", data.results], ["Command", provenance.command_line, "code"], ["Made", provenance.created?.replace("T", " ").replace("Z", " UTC")],
+    const entries = [["Results file", data.results], ["Command", provenance.command_line, "code"], ["Made", provenance.created?.replace("T", " ").replace("Z", " UTC")], ["Run time of the command", runTime(provenance)],
       ["Program", provenance.version ? `${provenance.program ?? "salebra"} ${provenance.version}${provenance.revision ? `, revision ${provenance.revision}` : ""}; report by salebra ${data.report_version}` : null],
       ["Libraries", provenance.libraries], ["Surface", point.picture?.origin], ["Seeds", seeds.length ? seedText(seeds) : null], ["Tangential stiffness", point.damping?.tangential_stiffness], ["E*, G*/E*", point.damping ? `${quantity(point.damping.contact_modulus, "Pa")}, ${number(point.damping.modulus_ratio)}` : null]];
     body.append(h("dl", {}, entries.filter(([, text]) => text).map(([name, text, tag]) => h("div", {}, h("dt", {}, name), h("dd", {}, tag ? h(tag, {}, text) : text)))));

@@ -154,6 +154,8 @@ Output::Output(const std::filesystem::path& file, const Provenance& provenance,
   attribute(root_, "version", version());
   attribute(root_, "libraries", library_versions());
   attribute(root_, "arithmetic", arithmetic());
+  if (!provenance.revision.empty()) attribute(root_, "revision", provenance.revision);
+  if (!provenance.started.empty()) attribute(root_, "started", provenance.started);
   attribute(root_, "created", provenance.created.empty() ? utc_now() : provenance.created);
   attribute(root_, "command_line", provenance.command_line);
   attribute(root_, "configuration", provenance.configuration);

@@ -380,8 +380,8 @@ Json report_payload(const ResultReader& results) {
     throw InvalidInput(results.file().string() +
                        ": contains no study; give the result file of a study or comparison");
   Json json;
-  for (const char* name :
-       {"program", "version", "libraries", "created", "command_line", "configuration"})
+  for (const char* name : {"program", "version", "revision", "libraries", "started", "created",
+                           "command_line", "configuration"})
     if (const auto text = results.text_attribute("/", name)) json["provenance"][name] = *text;
   if (where.size() > 1) {
     const Names names = point_names(results, where.size());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
+#include <salebra/io/result_file.hpp>
 #include <salebra/report/report.hpp>
 
 #include "run_program.hpp"
@@ -21,6 +22,10 @@ TEST_CASE("A study leaves a page beside its results unless it is told not to", "
   CHECK(test.files() == std::set<std::string>{"study.toml", "plain.h5"});
   const auto result = test.run("study study.toml --no-stick -o result.h5");
   REQUIRE(result.status == 0);
+  const ResultReader file(test.folder() / "result.h5");
+  const std::string started = file.text_attribute("/", "started").value();
+  CHECK(started.size() == 20);
+  CHECK(started <= file.text_attribute("/", "created").value());
   if (!can_report()) {
     CHECK_THAT(result.err, Contains("no report was written"));
     const auto refused = test.run("report result.h5 -o page.html");

@@ -69,6 +69,13 @@ TEST_CASE("The HDF5 file of a surface says where it comes from", "[write]") {
   CHECK(reader.number_attribute("/", "seed") == 7.0);
   CHECK(reader.text_attribute("/", "version").value().find('.') != std::string::npos);
   CHECK(reader.text_attribute("/", "created").value().size() == 20);
+  CHECK_FALSE(reader.text_attribute("/", "started"));
+  CHECK_FALSE(reader.text_attribute("/", "revision"));
+  write_surface(scratch / "run.h5", example(),
+                {.started = "2026-01-31T12:34:00Z", .revision = "0123456789ab"});
+  const ResultReader run(scratch / "run.h5");
+  CHECK(run.text_attribute("/", "started") == "2026-01-31T12:34:00Z");
+  CHECK(run.text_attribute("/", "revision") == "0123456789ab");
   CHECK_THAT(reader.text_attribute("/", "libraries").value(),
              Contains("HDF5 1.") && Contains("FFTW 3."));
   CHECK(reader.text_attribute("heights", "units") == "m");

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // node browser.mjs CHROMIUM FOLDER: opens the pages in FOLDER as a reader would. Ends with 1 and the list of what is wrong.
-import {readFileSync, statSync} from "node:fs";
+import {existsSync, readFileSync, statSync} from "node:fs";
 import {createRequire} from "node:module";
-import {join} from "node:path";
+import {dirname, join} from "node:path";
+import {inflateSync} from "node:zlib";
 
 const {chromium} = createRequire(import.meta.url)("playwright-core");
 const [, , executablePath, folder] = process.argv;
@@ -171,6 +172,8 @@ const marks = await full.evaluate(() => [...document.querySelectorAll("#area-loa
 check(new Set(marks).size >= 6, `full.html: the legend of area-load has ${new Set(marks).size} different marks`);
 const symbols = await full.evaluate(() => [...document.querySelectorAll("a.symbol")].filter((link) => !document.getElementById(decodeURIComponent(link.hash.slice(1)))).length);
 check(symbols === 0 && (await full.locator("a.symbol").count()) > 10, `full.html: ${symbols} symbols lead nowhere`);
+for (const page of new Set(await full.locator("#symbols td code").allInnerTexts())) check(existsSync(join(dirname(process.argv[1]), "../..", page)), `full.html: ${page}, which defines a symbol, is not there`);
+check(/Run time of the command/.test(await full.locator("#settings").innerText()), "full.html: does not say how long its study took");
 check(/@article/.test(await full.locator("#symbols").innerText()), "full.html: has no citation");
 // Residuals: those within the window take more than a third of their panel.
 const used = await full.evaluate(() => { const {data, layout} = document.getElementById("force-gap-plot"); const trace = data.find((t) => t.yaxis === "y2"), [x0, x1] = [layout.shapes[0].x0, layout.shapes[0].x1].sort((a, b) => a - b);
@@ -186,6 +189,25 @@ const drawnVerdict = await full.locator("#conclusion .verdict strong").first().t
 check(said.includes(drawnVerdict.trim()), `full.html: the verdicts with and without JavaScript differ: ${drawnVerdict}`);
 await bare.context().close();
 
+/** Of each sheet of a PDF by Chromium the heights of its lines of text, as parts of the sheet from its top. */
+function linesOfSheets(file) {
+  const bytes = readFileSync(file), text = bytes.toString("latin1");
+  const objects = new Map([...text.matchAll(/(?:^|\n)(\d+) 0 obj\n/g)].map((found) => [found[1], found.index + found[0].length]));
+  return [...text.matchAll(/\/Type \/Page\b[^]*?\/MediaBox \[0 0 \S+ (\S+)\][^]*?\/Contents (\d+) 0 R/g)].map(([, height, contents]) => {
+    const begin = text.indexOf("stream\n", objects.get(contents)) + "stream\n".length;
+    const lines = [], saved = [];
+    let [scale, shift] = [1, 0];  // vertical part of the transformation to points from the sheet's bottom
+    for (const line of inflateSync(bytes.subarray(begin, text.indexOf("endstream", begin))).toString("latin1").split("\n")) {
+      const words = line.split(" "), operator = words.at(-1);
+      if (operator === "q") saved.push([scale, shift]);
+      else if (operator === "Q") [scale, shift] = saved.pop();
+      else if (operator === "cm") [scale, shift] = [words[3] * scale, words[5] * scale + shift];
+      else if (operator === "Tm") lines.push(1 - (words[5] * scale + shift) / height);
+    }
+    return lines;
+  });
+}
+
 // On paper: light, and no wider than the sheet.
 const sheet = await open("full.html", {viewport: {width: 794, height: 900}, colorScheme: "dark"});
 await checkContrast(sheet, "full.html, dark");
@@ -193,8 +215,9 @@ await sheet.screenshot({path: join(folder, "full-794-dark.png"), fullPage: true}
 await sheet.pdf({path: join(folder, "full.pdf"), format: "A4"});
 check(statSync(join(folder, "full.pdf")).size > 50000, "full.html: prints next to nothing");
 // Seventeen figures and six tables take eight sheets, and took thirteen when each figure had the whole width.
-const sheets = readFileSync(join(folder, "full.pdf"), "latin1").match(/\/Type\s*\/Page\b/g).length;
-check(sheets <= 9, `full.html: prints on ${sheets} sheets`);
+const sheets = linesOfSheets(join(folder, "full.pdf"));
+check(sheets.length > 4 && sheets.length <= 9, `full.html: prints on ${sheets.length} sheets`);
+for (const [i, lines] of sheets.slice(0, -1).entries()) check(Math.max(...lines) > 0.55, `full.html: of sheet ${i + 1} only ${Math.max(...lines)} is printed`);
 await sheet.emulateMedia({media: "print"});
 check((await sheet.evaluate(() => getComputedStyle(document.body).backgroundColor)) === "rgb(255, 255, 255)", "full.html: prints on dark paper");
 await sheet.screenshot({path: join(folder, "full-print.png"), fullPage: true});
@@ -226,6 +249,8 @@ try {
   await checkFigures(hostile, "hostile.html", ["force-gap", "area-load"]);
   check((await hostile.title()).includes("<script>"), `hostile.html: its title is ${await hostile.title()}`);
   check((await hostile.locator(".absent").count()) >= 4, "hostile.html: does not say what it lacks");
+  const made = (await hostile.locator("#settings").innerText()).replace(/\s+/g, " ");
+  check(/Run time of the command 1 h 5 min 2 s /.test(made) && /, revision 0123456789ab-modified;/.test(made), `hostile.html: its settings say ${made}`);
   await hostile.locator("#area-load .plot").hover();
   check((await hostile.title()) !== "taken", "hostile.html: a name in the file was run");
   check((await hostile.evaluate(() => document.querySelectorAll("[onmouseover], [onerror], main img").length)) === 0, "hostile.html: a name in the file became markup");

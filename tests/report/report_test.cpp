@@ -43,7 +43,9 @@ void write_hostile(const std::filesystem::path& file) {
   Provenance provenance;
   provenance.command_line = "salebra study '</script><script>document.title=\"taken\"</script>'";
   provenance.configuration = "<img src=x onerror=\"document.title='taken'\"> <!-- {{script}}";
+  provenance.started = "2026-01-31T11:29:54Z";
   provenance.created = "2026-01-31T12:34:56Z";
+  provenance.revision = "0123456789ab-modified";
   ResultFile output(file, provenance, {.overwrite = true});
   ResultGroup curve = output.group("curve");
   curve.labels("model", {"bem", "<b onmouseover=\"document.title='taken'\">bold</b>"}, "model");
