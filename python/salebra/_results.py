@@ -137,11 +137,10 @@ def _(result: _core.FrictionMap) -> xarray.Dataset:
 @to_xarray.register(_core.RegimeMap)
 def _(result: _core.RegimeMap) -> xarray.Dataset:
     dims = ("velocity", "excursion")
-    columns = {name: (dims, getattr(result, name)) for name in ("loss_ratio", "slip_ratio")}
-    columns["no_slip_excursion"] = (("velocity",), result.no_slip_excursion)
-    columns["regime"] = (dims, [list(row) for row in result.regime])
+    fields = {name: (dims, getattr(result, name)) for name in ("loss_ratio", "slip_ratio", "regime")}
+    curves = {"no_slip_excursion": (("velocity",), result.no_slip_excursion)}
     names = ("no_slip_velocity", "sliding_excursion", "critical_velocity", "full_stick_ratio")
-    return _dataset(columns, {name: getattr(result, name) for name in dims}, {name: getattr(result, name) for name in names})
+    return _dataset({**fields, **curves}, {name: getattr(result, name) for name in dims}, {name: getattr(result, name) for name in names})
 
 
 @to_xarray.register(_core.StressMap)
