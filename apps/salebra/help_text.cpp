@@ -97,6 +97,11 @@ constexpr std::array descriptions{
         "mean friction over velocity, the velocity from which nothing sticks, and the damping "
         "constant of slow sliding beside that of relaxation without slip."},
     CommandHelp{
+        "slider", damping,
+        "A mass that a spring drags over a contact: stick-slip or steady sliding by the full "
+        "equation of motion and by its average over a normal oscillation, and the amplitude and "
+        "frequency from which the oscillation keeps sliding stable."},
+    CommandHelp{
         "joint", damping,
         "A contact under a tangential force or displacement that oscillates: what partial slip "
         "loses, secant, storage and loss stiffness, with a constant or an oscillating normal "
@@ -148,9 +153,10 @@ std::string_view first_steps() {
          "                          its damping for any motion         damping --curve\n"
          "  a sphere, cone, punch   force, stresses, losses, slip      mdr\n"
          "                          the same in three dimensions       oscillate, figure3\n"
-         "  a slider or oscillator  the amplitude that steadies it     damper\n"
+         "  a slider on a spring    stick-slip, and what stops it      slider\n"
          "                          its friction under vibration       friction\n"
-         "                          losses of a joint in partial slip  joint\n"
+         "  an oscillator           its decay under vibration          damper\n"
+         "  a joint                 losses in partial slip             joint\n"
          "  rubber or a polymer     losses under an indenter           viscoelastic\n"
          "  several contact models  which one holds for your surface   compare, gw\n"
          "  results of a study      a page to read and send            report\n\n"

@@ -131,9 +131,9 @@ double AveragedSlider::slip(double time) {
     return direction_ * (state_[1] + 1);
   };
   if (direction_ * (before[1] + 1) > 0) {
-    taken = find_root([&](double part) { return part > 0 ? velocity_after(part)
-                                                         : direction_ * (before[1] + 1); },
-                      0, taken);
+    taken = find_root(
+        [&](double part) { return part > 0 ? velocity_after(part) : direction_ * (before[1] + 1); },
+        0, taken);
     velocity_after(taken);
   } else {
     taken = 0;

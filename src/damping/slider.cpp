@@ -70,14 +70,13 @@ struct Case {
     DampingOptions averages;
     averages.hold = options.hold;
     sliding = steady_sliding(
-        law, position,
-        Drag{contact.normal_amplitude, slider.velocity, contact.angular_frequency},
+        law, position, Drag{contact.normal_amplitude, slider.velocity, contact.angular_frequency},
         friction_coefficient, averages);
     contact.indentation = sliding.indentation;
     const double normal_stiffness = law.normal_stiffness(contact.indentation);
     if (normal_stiffness > 0)
-      contact.friction_coefficient *= law.modulus_ratio() * normal_stiffness /
-                                      law.tangential_stiffness(contact.indentation);
+      contact.friction_coefficient *=
+          law.modulus_ratio() * normal_stiffness / law.tangential_stiffness(contact.indentation);
     spring_offset = (slider.falling_slope * slider.velocity - sliding.mean_tangential_force) /
                     slider.spring_stiffness;
     check_velocity(slider.velocity, slider, "is reached by the drive");
@@ -173,9 +172,7 @@ class CycleMeter {
   }
   const Turn& begin() const { return cycles_[cycles_.size() - kept()].begin; }
   const Turn& end() const { return cycles_.back().end; }
-  double stuck_time() const {
-    return end().sample.totals.stuck - begin().sample.totals.stuck;
-  }
+  double stuck_time() const { return end().sample.totals.stuck - begin().sample.totals.stuck; }
   double period() const { return (end().time - begin().time) / static_cast<double>(kept()); }
   double mean_range(std::size_t from, std::size_t to) const {
     double sum = 0;
@@ -252,7 +249,7 @@ void record(SliderMotion& motion, Equation& equation, const Slider& slider, doub
   while (equation.time() < end) {
     if (equation.time() >= next) {
       motion.time.push_back(equation.time());
-      motion.offset.push_back(equation.offset());
+      motion.slider_offset.push_back(equation.offset());
       motion.slider_velocity.push_back(equation.relative_velocity() + slider.velocity);
       motion.tangential_force.push_back(equation.tangential_force());
       next += spacing;
@@ -265,8 +262,7 @@ void record(SliderMotion& motion, Equation& equation, const Slider& slider, doub
 template <class Equation>
 SliderMotion follow(Equation& equation, const Case& at, const Slider& slider,
                     const SliderOptions& options) {
-  const auto [offset, relative_velocity] =
-      at.start(slider, options.start, equation.slid_force());
+  const auto [offset, relative_velocity] = at.start(slider, options.start, equation.slid_force());
   equation.begin(offset, relative_velocity);
   CycleMeter meter(slider, options.tolerance);
   meter.add(sample_of(equation));
@@ -290,13 +286,14 @@ SliderMotion follow(Equation& equation, const Case& at, const Slider& slider,
     if (options.on_progress && equation.time() > reported + 0.1 * cycle) {
       reported = equation.time();
       const auto done = static_cast<int>(meter.cycles().size());
-      if (!options.on_progress({"slider", static_cast<double>(done) / options.most_cycles, done, 0}))
+      if (!options.on_progress(
+              {"slider", static_cast<double>(done) / options.most_cycles, done, 0}))
         throw Interrupted("slider: stopped before the motion repeated");
     }
   }
   if (meter.steady()) {
     motion.state = SliderState::steady;
-    motion.amplitude = motion.error_estimate = 0;
+    motion.slider_amplitude = motion.slider_amplitude_error = 0;
     const Sample begin = sample_of(equation);
     const double until = equation.time() + meter.slow_period();
     double lowest = equation.offset();
@@ -304,20 +301,20 @@ SliderMotion follow(Equation& equation, const Case& at, const Slider& slider,
       equation.advance();
       lowest = std::min(lowest, equation.offset());
     }
-    motion.largest_spring_force = -slider.spring_stiffness * lowest;
+    motion.max_spring_force = -slider.spring_stiffness * lowest;
     set_means(motion, at, begin, sample_of(equation));
     record(motion, equation, slider, 3 * meter.slow_period());
     return motion;
   }
   motion.cycles = static_cast<int>(meter.kept());
   if (meter.cycles().empty()) return motion;
-  motion.amplitude = 0.5 * meter.range();
-  motion.error_estimate = meter.drift() * motion.amplitude;
-  motion.period = meter.period();
-  motion.largest_spring_force = -slider.spring_stiffness * meter.lowest();
+  motion.slider_amplitude = 0.5 * meter.range();
+  motion.slider_amplitude_error = meter.drift() * motion.slider_amplitude;
+  motion.slider_period = meter.period();
+  motion.max_spring_force = -slider.spring_stiffness * meter.lowest();
   motion.state = meter.stuck_time() > 0 ? SliderState::stick_slip : SliderState::pulsating;
   set_means(motion, at, meter.begin().sample, meter.end().sample);
-  record(motion, equation, slider, 3 * motion.period);
+  record(motion, equation, slider, 3 * motion.slider_period);
   return motion;
 }
 
@@ -345,7 +342,8 @@ struct Jacobian {
 Jacobian jacobian(const PeriodMap& map, double offset, double relative_velocity, double length,
                   double velocity) {
   const double dx = 1e-3 * length, dv = 1e-3 * velocity;
-  const auto right = map(offset + dx, relative_velocity), left = map(offset - dx, relative_velocity);
+  const auto right = map(offset + dx, relative_velocity),
+             left = map(offset - dx, relative_velocity);
   const auto up = map(offset, relative_velocity + dv), down = map(offset, relative_velocity - dv);
   return {(right[0] - left[0]) / (2 * dx), (up[0] - down[0]) / (2 * dv),
           (right[1] - left[1]) / (2 * dx), (up[1] - down[1]) / (2 * dv)};
@@ -418,8 +416,8 @@ SliderThreshold threshold(const ContactLaw& law, const Position& position, const
         low, high);
   };
   threshold.linear_estimate = estimate(0);
-  threshold.error_estimate = std::max(estimate(-1) - threshold.linear_estimate,
-                                      threshold.linear_estimate - estimate(1));
+  threshold.linear_estimate_error =
+      std::max(estimate(-1) - threshold.linear_estimate, threshold.linear_estimate - estimate(1));
   threshold.value = first_reached(
       [&](double place) {
         const SliderStability one = slider_stability(law, position, normal_of(place), slider,
@@ -436,7 +434,8 @@ void check_falling(const Slider& slider) {
 }
 
 // v_c = (μE*/G*)u_z ω, over u_z ω.
-double limit_of_slope(const ContactLaw& law, const Position& position, double friction_coefficient) {
+double limit_of_slope(const ContactLaw& law, const Position& position,
+                      double friction_coefficient) {
   const double indentation = std::holds_alternative<AtForce>(position)
                                  ? law.indentation_of(std::get<AtForce>(position).force)
                                  : std::get<AtIndentation>(position).indentation;
@@ -460,9 +459,9 @@ SliderMotion slider_motion(const ContactLaw& law, const Position& position,
     SliderMotion fine = motion_with(options.steps << halving);
     const bool same = fine.state == coarse.state;
     // Second order: of the difference, a third is left.
-    const double difference = std::abs(fine.amplitude - coarse.amplitude);
-    fine.error_estimate += difference / 3;
-    const bool close = same && difference <= options.tolerance * fine.amplitude;
+    const double difference = std::abs(fine.slider_amplitude - coarse.slider_amplitude);
+    fine.slider_amplitude_error += difference / 3;
+    const bool close = same && difference <= options.tolerance * fine.slider_amplitude;
     if (close || halving == most_halvings || !fine.converged) {
       fine.converged = fine.converged && close;
       return fine;
@@ -485,7 +484,7 @@ SliderStability slider_stability(const ContactLaw& law, const Position& position
   const Case at(law, position, normal, slider, friction_coefficient, options);
   SliderStability result;
   result.sliding_damping = at.sliding.sliding_damping;
-  result.error_estimate = damping_error(at, slider, friction_coefficient);
+  result.sliding_damping_error = damping_error(at, slider, friction_coefficient);
   const double support = slider.support_damping - slider.falling_slope;
   const double natural = natural_frequency(slider);
   const double decay = 0.5 * (result.sliding_damping + support) / slider.mass;
@@ -525,27 +524,34 @@ SliderThreshold threshold_amplitude(const ContactLaw& law, const Position& posit
                                     const SliderOptions& options) {
   check({largest_amplitude, angular_frequency}, slider, friction_coefficient, options);
   check_falling(slider);
-  const double low = slider.velocity / angular_frequency /
-                     limit_of_slope(law, position, friction_coefficient);
+  const double low =
+      slider.velocity / angular_frequency / limit_of_slope(law, position, friction_coefficient);
   return threshold(
       law, position, slider, friction_coefficient, low, largest_amplitude,
-      [&](double amplitude) { return NormalOscillation{amplitude, angular_frequency}; }, options);
+      [&](double amplitude) {
+        return NormalOscillation{amplitude, angular_frequency};
+      },
+      options);
 }
 
-SliderThreshold threshold_frequency(const ContactLaw& law, const Position& position,
-                                    double normal_amplitude, const Slider& slider,
-                                    double friction_coefficient, double largest_angular_frequency,
-                                    const SliderOptions& options) {
+SliderThreshold threshold_angular_frequency(const ContactLaw& law, const Position& position,
+                                            double normal_amplitude, const Slider& slider,
+                                            double friction_coefficient,
+                                            double largest_angular_frequency,
+                                            const SliderOptions& options) {
   require_positive(normal_amplitude, "normal_amplitude");
   check({normal_amplitude, largest_angular_frequency}, slider, friction_coefficient, options);
   check_falling(slider);
-  const double touch = slider.velocity / normal_amplitude /
-                       limit_of_slope(law, position, friction_coefficient);
+  const double touch =
+      slider.velocity / normal_amplitude / limit_of_slope(law, position, friction_coefficient);
   // Slower oscillations do not average.
   const double low = std::max(touch, 4.01 * natural_frequency(slider));
   return threshold(
       law, position, slider, friction_coefficient, low, largest_angular_frequency,
-      [&](double frequency) { return NormalOscillation{normal_amplitude, frequency}; }, options);
+      [&](double frequency) {
+        return NormalOscillation{normal_amplitude, frequency};
+      },
+      options);
 }
 
 }  // namespace salebra

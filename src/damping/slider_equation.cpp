@@ -15,7 +15,9 @@ namespace {
 using std::numbers::pi;
 
 TangentialContact contact_of(const SliderContact& at) {
-  return {at.law, at.least_indentation(), at.indentation + at.normal_amplitude,
+  return {at.law,
+          at.least_indentation(),
+          at.indentation + at.normal_amplitude,
           {.friction_coefficient = at.friction_coefficient,
            .table_tolerance = 1e-9,
            .tangential_range = std::numeric_limits<double>::infinity()}};
@@ -33,7 +35,8 @@ SliderEquation::SliderEquation(const SliderContact& contact, const Slider& slide
   const double resonance = std::sqrt(
       (slider.spring_stiffness + contact.law.tangential_stiffness(highest)) / slider.mass);
   const bool oscillates = contact.normal_amplitude > 0;
-  span_ = std::max(contact.normal_amplitude, contact.law.force(highest) / contact.law.normal_stiffness(highest));
+  span_ = std::max(contact.normal_amplitude,
+                   contact.law.force(highest) / contact.law.normal_stiffness(highest));
   const double fastest = std::max(resonance, natural);
   const double frequency = oscillates ? contact.angular_frequency : fastest;
   period_ = 2 * pi / frequency;
@@ -100,11 +103,11 @@ void SliderEquation::part(const Instant& from, const Instant& to, double acceler
   force_ = contact_.tangential_force();
   // The new velocity is on both sides.
   relative_velocity_ = before + 0.5 * length * acceleration_now;
-  const double rest = (-slider_.spring_stiffness * offset_ +
-                       slider_.falling_slope * slider_.velocity - force_) /
-                      slider_.mass;
-  relative_velocity_ = (relative_velocity_ + 0.5 * length * rest) /
-                       (1 + 0.5 * length * damping / slider_.mass);
+  const double rest =
+      (-slider_.spring_stiffness * offset_ + slider_.falling_slope * slider_.velocity - force_) /
+      slider_.mass;
+  relative_velocity_ =
+      (relative_velocity_ + 0.5 * length * rest) / (1 + 0.5 * length * damping / slider_.mass);
 
   const double middle = 0.5 * length;
   const auto sum = [&](double a, double b) { return middle * (a + b); };
@@ -169,8 +172,7 @@ void SliderEquation::step(Instant from, const Instant& to) {
 
 void SliderEquation::advance() {
   least_velocity_ = relative_velocity_ + slider_.velocity;
-  for (std::size_t i = 1; i < nodes_.size(); ++i)
-    step(nodes_[i - 1], nodes_[i]);
+  for (std::size_t i = 1; i < nodes_.size(); ++i) step(nodes_[i - 1], nodes_[i]);
   ++periods_;
   if (at_.normal_amplitude > 0 && std::abs(force_) < (1 - 1e-6) * slid_force_)
     totals_.stuck += period_;

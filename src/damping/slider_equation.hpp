@@ -9,13 +9,13 @@ namespace salebra::detail {
 
 /// Integrals over the time since the start.
 struct SliderTotals {
-  double time = 0;             // s
-  double stuck = 0;            // s
-  double impulse = 0;          // ∫T dt, N s
-  double drive_work = 0;       // J
-  double support_loss = 0;     // J
-  double falling_gain = 0;     // b∫ẋ² dt, J
-  double contact_loss = 0;     // J
+  double time = 0;          // s
+  double stuck = 0;         // s
+  double impulse = 0;       // ∫T dt, N s
+  double drive_work = 0;    // J
+  double support_loss = 0;  // J
+  double falling_gain = 0;  // b∫ẋ² dt, J
+  double contact_loss = 0;  // J
 };
 
 /// The contact under a slider: δ = δ0 − u_z cos ωt.
@@ -78,7 +78,8 @@ class SliderEquation {
   double slid_force_ = 0;
   long periods_ = 0;
   double offset_ = 0, relative_velocity_ = 0, force_ = 0, least_velocity_ = 0;
-  double furthest_ = 0;  // greatest x − (μE*/G*)δ so far: where it is reached, levels that never open slip
+  double furthest_ =
+      0;  // greatest x − (μE*/G*)δ so far: where it is reached, levels that never open slip
   SliderTotals totals_;
 };
 

@@ -29,7 +29,8 @@ bool has_loss(const json& answer) {
   if (!answer.is_object()) return false;
   for (const auto& [key, value] : answer.items())
     if (key.find("damping_constant") != std::string::npos || key == "relaxation_damping" ||
-        key.find("work_per_cycle") != std::string::npos || has_loss(value))
+        key == "contact_power" || key.find("work_per_cycle") != std::string::npos ||
+        has_loss(value))
       return true;
   return false;
 }
@@ -183,6 +184,9 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
        "--profile parabola --radius 1mm --indentation 100nm --drag-velocity 1um/s" + body + drag},
       {"damper", law + drag},
       {"friction", law + drag + "--friction-coefficient 0.3 --velocities 1um/s"},
+      {"slider", law + drag +
+                     "--friction-coefficient 0.3 --mass 1kg --spring-stiffness 1MN/m --velocity "
+                     "1mm/s --support-damping 300"},
       {"joint", law + "--friction-coefficient 0.3 --tangential-amplitudes 5nm"},
       {"viscoelastic",
        "--profile parabola --radius 1mm --indentation 100nm --drag-velocity 1um/s --prony "
@@ -200,9 +204,9 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
   const std::string help = test.run("--help").out;
   int with_loss = 0;
   for (const std::string name :
-       {"generate", "info", "convert", "statistics", "contact", "sweep", "gw", "fit", "damping",
-        "mdr", "damper", "friction", "joint", "viscoelastic", "oscillate", "figure3", "study",
-        "compare", "verify"}) {
+       {"generate",     "info",      "convert", "statistics", "contact",  "sweep",  "gw",
+        "fit",          "damping",   "mdr",     "damper",     "friction", "slider", "joint",
+        "viscoelastic", "oscillate", "figure3", "study",      "compare",  "verify"}) {
     INFO(name);
     const auto run = test.run(name + " " + commands.at(name) + " --json");
     INFO(run.err);
@@ -215,7 +219,7 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
     else
       check_premises(answer);
   }
-  CHECK(with_loss == 10);
+  CHECK(with_loss == 11);
   // A command that is new has to be listed above.
   std::istringstream lines(help);
   for (std::string line; std::getline(lines, line);) {

@@ -19,10 +19,10 @@ TEST_CASE("The program tells its version", "[program]") {
 
 TEST_CASE("Help of every command ends with two examples of that command", "[program]") {
   const ProgramTest test;
-  const auto command =
-      GENERATE(as<std::string>(), "generate", "info", "convert", "contact", "sweep", "gw", "fit",
-               "damping", "mdr", "damper", "friction", "joint", "viscoelastic", "study", "verify",
-               "init", "statistics", "compare", "oscillate", "figure3", "completion", "manual");
+  const auto command = GENERATE(
+      as<std::string>(), "generate", "info", "convert", "contact", "sweep", "gw", "fit", "damping",
+      "mdr", "damper", "friction", "slider", "joint", "viscoelastic", "study", "verify", "init",
+      "statistics", "compare", "oscillate", "figure3", "completion", "manual");
   CHECK_THAT(test.run("--help").out, Contains("  " + command));
   const auto help = test.run(command + " --help");
   CHECK(help.status == 0);

@@ -119,6 +119,11 @@ std::vector<Case> all_cases() {
        "friction --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz --velocities "
        "1um/s,1mm/s -o out.h5"},
+      {"slider",
+       {},
+       "slider --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+       "--friction-coefficient 0.3 --mass 1kg --spring-stiffness 1MN/m --velocity 1mm/s "
+       "--support-damping 300 -o out.csv"},
       {"joint",
        {},
        "joint --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "

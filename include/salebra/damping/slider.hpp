@@ -22,7 +22,7 @@ struct Slider {
 };
 
 enum class SliderStart {
-  rest,    ///< at rest, dragged to the point of slipping
+  rest,  ///< at rest, dragged to the point of slipping
   sliding  ///< steady sliding with a velocity that is 1 % too low: shows whether small disturbances grow
 };
 
@@ -34,7 +34,7 @@ enum class SliderState {
 };
 
 struct SliderOptions {
-  Hold hold = Hold::indentation;          ///< what of the position stays fixed, as in DampingOptions
+  Hold hold = Hold::indentation;  ///< what of the position stays fixed, as in DampingOptions
   SliderStart start = SliderStart::rest;  ///< where the motion begins
   /// >= 16, in a period of the oscillation. More are taken where the slider or the contact's resonance √(K_t/m) is faster.
   int steps = 32;
@@ -49,27 +49,27 @@ struct SliderOptions {
 struct SliderMotion {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   SliderState state = SliderState::steady;
-  double amplitude = unknown;  ///< half the range of x − Vt in a slow cycle, m; 0: steady
-  double period = unknown;     ///< of a slow cycle, s; NaN: steady
+  double slider_amplitude = unknown;  ///< half the range of x − Vt in a slow cycle, m; 0: steady
+  double slider_period = unknown;     ///< of a slow cycle, s; NaN: steady
   /// Part of the time in which not all levels slip in a normal period, so that the contact as a whole stays where it is.
   double stuck_fraction = unknown;
   double mean_tangential_force = unknown;  ///< of T, N, without the falling part
   double friction_coefficient = unknown;   ///< that over the mean normal force
-  double largest_spring_force = unknown;   ///< k(Vt − x) in a slow cycle, N
+  double max_spring_force = unknown;       ///< k(Vt − x) in a slow cycle, N
   double drive_power = unknown;            ///< what the drive puts in, W
   double contact_power = unknown;          ///< lost by the contact's levels, W
   double support_power = unknown;          ///< lost in the dashpot, W
   double falling_slope_power = unknown;    ///< b⟨ẋ²⟩, by which friction loses less, W
   /// What the balance of these and of the stored energy leaves, over drive_power: error of the steps.
   double energy_error = unknown;
-  double error_estimate = unknown;  ///< of amplitude, m: halved steps, and the spread of the cycles
-  int cycles = 0;                   ///< slow cycles that were averaged
-  bool converged = false;           ///< whether a motion that repeats was found, to the tolerance
+  double slider_amplitude_error = unknown;  ///< m: halved steps, and the spread of the cycles
+  int cycles = 0;                           ///< slow cycles that were averaged
+  bool converged = false;  ///< whether a motion that repeats was found, to the tolerance
   /// Some last cycles, where δ is least.
-  std::vector<double> time;                ///< s
-  std::vector<double> offset;              ///< x − Vt, m
-  std::vector<double> slider_velocity;     ///< ẋ, m/s
-  std::vector<double> tangential_force;    ///< T, N; of the averaged equation its mean T̄
+  std::vector<double> time;              ///< s
+  std::vector<double> slider_offset;     ///< x − Vt, m
+  std::vector<double> slider_velocity;   ///< ẋ, m/s
+  std::vector<double> tangential_force;  ///< T, N; of the averaged equation its mean T̄
 };
 
 /// The full equation: T from the contact's levels with the history of each (TangentialContact), step by step until the motion repeats. Steps of
@@ -91,15 +91,16 @@ SliderMotion averaged_slider_motion(const ContactLaw& law, const Position& posit
 /// What becomes of a small disturbance of steady sliding.
 struct SliderStability {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double sliding_damping = unknown;        ///< dT̄/dv at V, by steady_sliding(), N s/m
-  double averaged_growth_rate = unknown;   ///< 1/s, of m s² + (dT̄/dv + c − b)s + k; < 0: it dies out
-  double growth_rate = unknown;            ///< of the full equation, 1/s
+  double sliding_damping = unknown;       ///< dT̄/dv at V, by steady_sliding(), N s/m
+  double averaged_growth_rate = unknown;  ///< 1/s, of m s² + (dT̄/dv + c − b)s + k; < 0: it dies out
+  double growth_rate = unknown;           ///< of the full equation, 1/s
   /// What has to take the place of dT̄/dv for the mass and the spring alone to have the full equation's growth, N s/m; NaN where K_t/m is so
   /// large that the contact swings within a period.
   double slider_damping = unknown;
   /// Of sliding_damping beside slider_damping, N s/m: what the mass does within a period. NaN: too much for an estimate.
-  double error_estimate = unknown;
-  bool converged = false;  ///< false: no steady sliding without turning back was found; growth_rate is NaN
+  double sliding_damping_error = unknown;
+  bool converged =
+      false;  ///< false: no steady sliding without turning back was found; growth_rate is NaN
 };
 
 /// While the slider never turns back, all levels that touch are at the limit of their stretch whenever δ is least: the state there is (x − Vt, ẋ)
@@ -119,7 +120,7 @@ struct SliderThreshold {
   double value = unknown;            ///< of the full equation; NaN: none in the range
   double linear_estimate = unknown;  ///< where dT̄/dv + c = b; NaN: nowhere in the range
   /// Of linear_estimate: how far it moves with the error of dT̄/dv (SliderStability). NaN: out of the range.
-  double error_estimate = unknown;
+  double linear_estimate_error = unknown;
 };
 
 /// Both look upwards from where v_c = V, below which nothing sticks, in ratios of 1.05. The estimate has an upper end too, for Γ falls with either.
@@ -130,9 +131,10 @@ SliderThreshold threshold_amplitude(const ContactLaw& law, const Position& posit
                                     double angular_frequency, const Slider& slider,
                                     double friction_coefficient, double largest_amplitude,
                                     const SliderOptions& options = {});
-SliderThreshold threshold_frequency(const ContactLaw& law, const Position& position,
-                                    double normal_amplitude, const Slider& slider,
-                                    double friction_coefficient, double largest_angular_frequency,
-                                    const SliderOptions& options = {});
+SliderThreshold threshold_angular_frequency(const ContactLaw& law, const Position& position,
+                                            double normal_amplitude, const Slider& slider,
+                                            double friction_coefficient,
+                                            double largest_angular_frequency,
+                                            const SliderOptions& options = {});
 
 }  // namespace salebra
