@@ -21,8 +21,8 @@ function(salebra_warnings target)
   endif()
 endfunction()
 
-# What nearly every source of ours includes, parsed once for a target: half of the time of a build. Every file still includes what it
-# uses: SALEBRA_WERROR, with which the project is developed, builds without, and so do the presets asan and tsan.
+# What nearly every source of ours includes, parsed once for a target. Every file still includes what it uses: SALEBRA_WERROR, with
+# which the project is developed, builds without, and so do the presets asan and tsan.
 function(salebra_precompile target)
   if(SALEBRA_WERROR)
     return()

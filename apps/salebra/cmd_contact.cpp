@@ -2,7 +2,6 @@
 // `salebra contact`: one contact by boundary elements.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <filesystem>
@@ -10,7 +9,6 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/io/surface_formats.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <salebra/results/quantity_group.hpp>
 
@@ -85,13 +83,7 @@ void check_residual(const ContactArguments& arguments, const Session& session) {
   if (arguments.residual.empty()) return;
   require(arguments.hardness.has_value(), "--residual", arguments.residual,
           "is what a plastic contact leaves; give --hardness");
-  const std::string extension = std::filesystem::path(arguments.residual).extension().string();
-  const bool known = std::ranges::any_of(surface_formats(), [&](const SurfaceFormat& format) {
-    return !format.written.empty() &&
-           std::ranges::find(format.extensions, extension) != format.extensions.end();
-  });
-  require(known, "--residual", arguments.residual,
-          "has an extension that names no format; use one of " + written_extensions());
+  require_surface_name(arguments.residual);
   require(arguments.residual != session.output(), "--residual", arguments.residual,
           "is the --output too; name another file");
   require_output(arguments.residual, session.write_options());

@@ -206,6 +206,7 @@ void run(const GenerateArguments& arguments, Session& session) {
                                        !arguments.non_gaussian() && arguments.method.empty()),
           "--shape", arguments.shape.shape, "cannot be combined with a spectrum; give one of them");
   if (arguments.profile) return make_profile(arguments, session);
+  if (session.has_output()) require_surface_name(session.output());
   const Grid2D grid = grid_of(arguments);
   for (const std::string& line : doubts_of_cells(grid)) session.warn(line);
   Json answer = {{"nx", grid.nx}, {"ny", grid.ny}, {"size_x", grid.lx}, {"size_y", grid.ly}};

@@ -61,6 +61,12 @@ Body file_of(const OscillateArguments& arguments, Session& session) {
   return body;
 }
 
+/// The nominal pressure, where it or the force was given.
+std::optional<double> given_pressure(const PositionOptions& position, const Surface& surface) {
+  if (position.force) return *position.force / surface.grid.area();
+  return position.pressure;
+}
+
 /// By the position that was given, or at the indentation.
 NormalContactState contact_at(const PositionOptions& position, const Body& body,
                               double contact_modulus, double indentation,
@@ -68,11 +74,8 @@ NormalContactState contact_at(const PositionOptions& position, const Body& body,
   NormalContactState state;
   if (position.mean_gap)
     state = press_to_mean_gap(body.surface, contact_modulus, *position.mean_gap, options);
-  else if (position.pressure || position.force)
-    state = press_to_pressure(
-        body.surface, contact_modulus,
-        position.pressure ? *position.pressure : *position.force / body.surface.grid.area(),
-        options);
+  else if (const auto pressure = given_pressure(position, body.surface))
+    state = press_to_pressure(body.surface, contact_modulus, *pressure, options);
   else
     state = press_to_indentation(body.surface, contact_modulus, indentation, options);
   if (!state.converged)
@@ -98,14 +101,16 @@ void load_plastically(const OscillateArguments& arguments, OscillationCase& cont
   const double modulus = contact.material.contact_modulus;
   const NormalContactOptions elastic{.boundary = contact.body.boundary,
                                      .on_progress = session.progress()};
-  NormalContactOptions plastic = elastic;
-  plastic.hardness = *hardness;
-  const double pressure =
-      contact_at(arguments.position, contact.body, modulus, contact.indentation, plastic)
-          .mean_pressure;
+  std::optional<double> pressure = given_pressure(arguments.position, contact.body.surface);
+  if (!pressure) {
+    NormalContactOptions plastic = elastic;
+    plastic.hardness = *hardness;
+    pressure = contact_at(arguments.position, contact.body, modulus, contact.indentation, plastic)
+                   .mean_pressure;
+  }
   Body residual = contact.body;
   contact.first_loading = load_first(
-      residual.surface, hardness, modulus, pressure, elastic,
+      residual.surface, hardness, modulus, *pressure, elastic,
       std::visit([](const auto& motion) { return motion.normal_amplitude; }, contact.motion));
   if (!contact.first_loading->yielded()) return;
   require(arguments.shape.empty() || !arguments.relative_error, "--hardness",
@@ -113,7 +118,7 @@ void load_plastically(const OscillateArguments& arguments, OscillationCase& cont
           "is reached, and a shape that flowed has no finer cells; leave out --relative-error");
   contact.body = std::move(residual);
   PositionOptions same_load;
-  same_load.pressure = pressure;
+  same_load.pressure = *pressure;
   contact.indentation = contact_at(same_load, contact.body, modulus, 0, elastic).indentation;
 }
 

@@ -11,8 +11,8 @@ namespace salebra::cli {
 /// Help of the option.
 inline constexpr const char* hardness_help =
     "of the softer body. A surface is first loaded to its largest pressure, with local pressures "
-    "up "
-    "to the hardness, and the results are those of the unloading curve; a law is only judged by it";
+    "up to the hardness, and the results are those of the unloading curve; a law is only judged "
+    "by it";
 
 /// Puts the residual surface of the first loading in place of the surface, and returns what flowed; without a hardness nothing. contact:
 /// boundary, tolerance and progress. Throws NotConverged, Interrupted, and as after_first_loading().

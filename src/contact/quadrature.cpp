@@ -14,6 +14,8 @@
 #include <salebra/base/error.hpp>
 #include <vector>
 
+#include "base/quiet_gsl.hpp"
+
 namespace salebra::detail {
 namespace {
 
@@ -41,8 +43,7 @@ struct Guarded {
 
 Integral integrate(const std::function<double(double)>& f, std::span<const double> points,
                    double relative_tolerance, double absolute_tolerance) {
-  static const auto previous_handler = gsl_set_error_handler_off();
-  static_cast<void>(previous_handler);
+  quiet_gsl();
   std::vector<double> distinct;
   for (const double point : points)
     if (distinct.empty() || point > distinct.back()) distinct.push_back(point);

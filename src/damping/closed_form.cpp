@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Equations (6) to (16) of the paper and the closed forms beyond them, stable at any argument.
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_sf_bessel.h>
 
 #include <array>
@@ -9,6 +8,7 @@
 #include <numbers>
 #include <salebra/damping/closed_form.hpp>
 
+#include "base/quiet_gsl.hpp"
 #include "contact/quadrature.hpp"
 
 namespace salebra::closed_form {
@@ -17,12 +17,6 @@ namespace {
 using std::numbers::pi;
 
 double square(double value) { return value * value; }
-
-// Bessel functions of these arguments never fail, but GSL reports underflow of the high orders to its handler.
-void quiet_gsl() {
-  static const auto previous_handler = gsl_set_error_handler_off();
-  static_cast<void>(previous_handler);
-}
 
 // J(k) = Σ c_m k^m/m!, c_m = ∫θ² sinθ cos^mθ dθ = ((−1)^m π² + 2T_{m+1})/(m+1), T_n = ∫_0^π θ cosⁿθ dθ.
 double drag_integral_series(double k) {
@@ -44,7 +38,7 @@ double drag_integral_series(double k) {
 double drag_integral_bessel_scaled(double k) {
   constexpr int highest_order = 61;  // I_61(20)/I_0(20) < 1e-17
   std::array<double, highest_order + 1> bessel{};
-  quiet_gsl();
+  detail::quiet_gsl();  // underflow of the high orders
   gsl_sf_bessel_In_scaled_array(0, highest_order, k, bessel.data());
   double sum = 0;
   for (int n = highest_order; n > 0; n -= 2) sum += bessel[static_cast<std::size_t>(n)] / square(n);
@@ -203,7 +197,7 @@ double drag_integral_scaled(double k) {
 }
 
 double mean_force_ratio_scaled(double k) {
-  quiet_gsl();
+  detail::quiet_gsl();
   return gsl_sf_bessel_I0_scaled(k);
 }
 

@@ -74,8 +74,9 @@ Series fit(const FitData& data, int degree) {
                                : data.slope_weight * chebyshev_slope(l, data.slope_theta[at]);
   }
   Series series;
-  series.coefficients = detail::least_squares(basis, right);
-  series.normal_inverse = detail::pseudo_inverse(basis.transpose() * basis);
+  const Eigen::MatrixXd inverse = detail::pseudo_inverse(basis);
+  series.coefficients = inverse * right;
+  series.normal_inverse = inverse * inverse.transpose();
   const double freedom = std::max<double>(1, static_cast<double>(rows - degree - 1));
   series.scatter = (right - basis * series.coefficients).norm() / std::sqrt(freedom);
   return series;

@@ -124,21 +124,29 @@ Json description_of(const Surface& surface, const Provenance& provenance) {
 }  // namespace salebra::detail
 
 namespace salebra {
+namespace {
+
+const detail::SurfaceFormatEntry& written_format(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  for (const detail::SurfaceFormatEntry& format : detail::surface_format_table()) {
+    const auto& extensions = format.facts.extensions;
+    if (format.write && std::ranges::find(extensions, extension) != extensions.end()) return format;
+  }
+  throw InvalidInput(file.string() + ": has the extension '" + extension +
+                     "', which names no format that is written; use one of " +
+                     written_extensions());
+}
+
+}  // namespace
+
+void require_surface_name(const std::filesystem::path& file) { written_format(file); }
 
 void write_surface(const std::filesystem::path& file, const Surface& surface,
                    const Provenance& provenance, const WriteOptions& options) {
   surface.grid.validate();
   require(surface.heights.rows() == surface.grid.nx && surface.heights.cols() == surface.grid.ny,
           "heights", surface.heights.size(), "points do not match the grid");
-  const std::string extension = file.extension().string();
-  for (const detail::SurfaceFormatEntry& format : detail::surface_format_table()) {
-    const auto& extensions = format.facts.extensions;
-    if (format.write && std::ranges::find(extensions, extension) != extensions.end())
-      return format.write(file, surface, provenance, options);
-  }
-  throw InvalidInput(file.string() + ": has the extension '" + extension +
-                     "', which names no format that is written; use one of " +
-                     written_extensions());
+  written_format(file).write(file, surface, provenance, options);
 }
 
 }  // namespace salebra

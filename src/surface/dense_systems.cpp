@@ -3,12 +3,13 @@
 #include "dense_systems.hpp"
 
 #include <gsl/gsl_eigen.h>
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 
 #include <limits>
 #include <memory>
 #include <new>
+
+#include "base/quiet_gsl.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -27,7 +28,7 @@ gsl_vector_view view(Eigen::VectorXd& a) {
 }  // namespace
 
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a) {
-  // The rotations would never end.
+  // The rotations would not converge.
   if (!a.allFinite())
     return Eigen::MatrixXd::Constant(a.cols(), a.rows(), std::numeric_limits<double>::quiet_NaN());
   if (a.rows() < a.cols()) return pseudo_inverse(a.transpose()).transpose();
@@ -50,9 +51,7 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b
 }
 
 Modes symmetric_modes(const Eigen::MatrixXd& a) {
-  // An allocation that fails is to be reported, not to end the program.
-  static const auto previous_handler = gsl_set_error_handler_off();
-  (void)previous_handler;
+  quiet_gsl();
   RowMajor copy = a, vectors(a.rows(), a.cols());
   Modes modes{Eigen::VectorXd(a.rows()), {}};
   const std::unique_ptr<gsl_eigen_symmv_workspace, decltype(&gsl_eigen_symmv_free)> workspace(

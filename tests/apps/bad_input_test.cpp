@@ -216,6 +216,16 @@ TEST_CASE("A curve's file that names no format is refused before the surface is 
     check_refused(test.run(command), "x.dat: has the extension '.dat'");
 }
 
+TEST_CASE("A surface's file that names no format is refused before the work", "[bad-input]") {
+  const ProgramTest test;
+  for (
+      const char* command :
+      {"generate --points 64 --size-x 1um --shape cone --radius 1um --composite absent.h5 -o x.foo",
+       "convert absent.h5 x.foo",
+       "contact absent.h5 --pressure 1MPa --contact-modulus 1GPa --hardness 1GPa --residual x.foo"})
+    check_refused(test.run(command), "x.foo: has the extension '.foo'");
+}
+
 TEST_CASE("All missing options are named at once", "[bad-input]") {
   const ProgramTest test;
   test.write("scan.txt", "1 2 3 4\n4 5 6 7\n7 8 9 5\n");

@@ -19,6 +19,19 @@ using std::numbers::pi;
 constexpr double ratio = 0.82;   // G*/E*
 constexpr double omega = 1.3e5;  // rad/s
 
+const PowerLaw cone(1e12, 2, ratio);
+const ExponentialLaw rough(3, 2e-7, ratio);
+
+struct SlidingCase {
+  const ContactLaw* law;
+  double middle, amplitude, speed;
+};
+// The last opens in every period.
+const SlidingCase sliding_cases[] = {{&cone, 1e-6, 4e-7, 0.3},
+                                     {&rough, 0, 2e-7, 0.03},
+                                     {&rough, 1e-7, 5e-8, 0.8},
+                                     {&cone, 2e-7, 5e-7, 0.2}};
+
 // Mean tangential force by simulation of the springs on a path of straight steps.
 double simulated_force(const ContactLaw& law, double middle, const Drag& motion, double friction,
                        int steps) {
@@ -93,14 +106,7 @@ TEST_CASE("At low speed sliding has the damping constant of S2 and S3", "[slidin
 
 TEST_CASE("The damping of a sliding contact is the slope of its friction over velocity",
           "[sliding]") {
-  const PowerLaw cone(1e12, 2, ratio);
-  const ExponentialLaw rough(3, 2e-7, ratio);
-  struct Case {
-    const ContactLaw* law;
-    double middle, amplitude, speed;
-  };
-  for (const Case& one : {Case{&cone, 1e-6, 4e-7, 0.3}, Case{&rough, 0, 2e-7, 0.03},
-                          Case{&rough, 1e-7, 5e-8, 0.8}, Case{&cone, 2e-7, 5e-7, 0.2}}) {
+  for (const SlidingCase& one : sliding_cases) {
     CAPTURE(one.middle, one.amplitude, one.speed);
     const double friction = 0.25, critical = friction / ratio * one.amplitude * omega;
     const auto force_at = [&](double speed) {
@@ -133,15 +139,7 @@ TEST_CASE("The damping of a sliding contact is the slope of its friction over ve
 }
 
 TEST_CASE("Steady sliding is what the springs do, with second order in their steps", "[sliding]") {
-  const PowerLaw cone(1e12, 2, ratio);
-  const ExponentialLaw rough(3, 2e-7, ratio);
-  struct Case {
-    const ContactLaw* law;
-    double middle, amplitude, speed;
-  };
-  // The last opens in every period.
-  for (const Case& one : {Case{&cone, 1e-6, 4e-7, 0.3}, Case{&rough, 0, 2e-7, 0.03},
-                          Case{&rough, 1e-7, 5e-8, 0.8}, Case{&cone, 2e-7, 5e-7, 0.2}}) {
+  for (const SlidingCase& one : sliding_cases) {
     CAPTURE(one.middle, one.amplitude, one.speed);
     const double friction = 0.25, critical = friction / ratio * one.amplitude * omega;
     const Drag motion{one.amplitude, one.speed * critical, omega};

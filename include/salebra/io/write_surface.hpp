@@ -27,4 +27,7 @@ namespace salebra {
 void write_surface(const std::filesystem::path& file, const Surface& surface,
                    const Provenance& provenance = {}, const WriteOptions& options = {});
 
+/// To be asked before long work. throws InvalidInput where write_surface would refuse the extension.
+void require_surface_name(const std::filesystem::path& file);
+
 }  // namespace salebra

@@ -236,6 +236,28 @@ TEST_CASE("A table of a profile converges to it", "[mdr]") {
   CHECK_THROWS_WITH(law.indentation_of(1e6), Catch::Contains("force"));
 }
 
+TEST_CASE("The image of a table of a parabola is that of the paraboloid, wherever the edge is",
+          "[mdr]") {
+  // A parabola is interpolated exactly. Widths of the pieces vary by 8, so that wide ones lie below narrow ones and above.
+  std::vector<double> radii{0}, heights{0};
+  for (int i = 0; i < 90; ++i) {
+    radii.push_back(radii.back() + 1e-5 * (i % 10 == 3 ? 8 : 1));
+    heights.push_back(radii.back() * radii.back() / (2 * 0.01));
+  }
+  const TabulatedProfile table(radii, heights);
+  const auto exact = paraboloid_profile(0.01);
+  // Quadrature leaves 2e-14; slopes at the nodes come from differences of heights, some 100 of which make the profile.
+  for (int i = 1; i <= 400; ++i) {
+    const double x = table.largest_radius() * i / 400.;
+    CAPTURE(x);
+    CHECK(table.image(x) == Approx(exact->image(x)).epsilon(1e-12));
+    CHECK(table.image_slope(x) == Approx(exact->image_slope(x)).epsilon(1e-11));
+    CHECK(table.image_integral(x) == Approx(exact->image_integral(x)).epsilon(1e-12));
+    CHECK(table.contact_radius(exact->image(x) * (1 - 1e-9)) ==
+          Approx(x * (1 - 0.5e-9)).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("A table with a flat end is a punch at first", "[mdr]") {
   std::vector<double> radii, heights;
   for (int i = 0; i <= 60; ++i) {
