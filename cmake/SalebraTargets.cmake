@@ -8,7 +8,7 @@ function(salebra_library target alias)
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
   target_compile_features(${target} PUBLIC cxx_std_20)
   salebra_warnings(${target})
-  salebra_precompile(${target})
+  salebra_parse_once(${target})
   set_property(GLOBAL APPEND PROPERTY SALEBRA_LIBRARIES ${target})
 endfunction()
 
@@ -21,12 +21,16 @@ function(salebra_warnings target)
   endif()
 endfunction()
 
-# What nearly every source of ours includes, parsed once for a target. Every file still includes what it uses: SALEBRA_WERROR, with
-# which the project is developed, builds without, and so do the presets asan and tsan.
-function(salebra_precompile target)
+# What nearly every source of ours includes is parsed once for a target, and sources are compiled by the dozen, so that what they share is
+# made once. Names without linkage are therefore unique in a target. Every file still includes what it uses:
+# SALEBRA_WERROR, with which the project is developed, builds file by file, and so do the presets asan and tsan.
+function(salebra_parse_once target)
   if(SALEBRA_WERROR)
     return()
   endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  # A name of one source may hide that of another, and a source is not the file that is compiled.
+  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   target_precompile_headers(${target} PRIVATE <Eigen/Core> <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fmt/format.h>
     <functional> <limits> <map> <memory> <numbers> <optional> <span> <sstream> <string> <string_view> <utility> <variant> <vector>)
   # GCC forgets which of them are the system's and then sees overruns in std::string.

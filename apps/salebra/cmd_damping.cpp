@@ -33,7 +33,7 @@ struct DampingArguments {
   PremiseOptions premises;
 };
 
-struct Case {
+struct DampingCase {
   Position position;
   Motion motion;
   std::optional<double> force_amplitude;
@@ -67,7 +67,8 @@ std::vector<Motion> motions_of(const DampingArguments& arguments) {
   return motion.all_motions();
 }
 
-DampingResult result_of(const ContactLaw& law, const Case& one, const DampingOptions& options) {
+DampingResult result_of(const ContactLaw& law, const DampingCase& one,
+                        const DampingOptions& options) {
   if (!one.force_amplitude) return damping_of(law, one.position, one.motion, options);
   const auto* force = std::get_if<AtForce>(&one.position);
   require(force != nullptr, "--force-amplitude", *one.force_amplitude,
@@ -81,11 +82,12 @@ DampingResult result_of(const ContactLaw& law, const Case& one, const DampingOpt
 }
 
 // Power of case (b) at the tangential motion's mean square velocity: what a slow tangential oscillation tends to.
-double slow_limit_power(const ContactLaw& law, const Case& one, const DampingOptions& options) {
+double slow_limit_power(const ContactLaw& law, const DampingCase& one,
+                        const DampingOptions& options) {
   const auto& motion = std::get<TwoFrequencies>(one.motion);
   const double velocity =
       motion.tangential_amplitude * motion.tangential_angular_frequency * std::numbers::sqrt2 / 2;
-  Case drag = one;
+  DampingCase drag = one;
   drag.motion = Drag{motion.normal_amplitude, velocity, motion.normal_angular_frequency};
   return result_of(law, drag, options).power;
 }
@@ -101,7 +103,7 @@ double small_over_exact(const DampingResult& result, const Motion& motion) {
 }
 
 // The normal oscillation of a case whose force is given has the amplitude that its stiffness makes of it.
-Premises premises_of_case(const LawOptions::Contact& contact, const Case& one,
+Premises premises_of_case(const LawOptions::Contact& contact, const DampingCase& one,
                           const DampingResult& result, const ContactFacts& facts) {
   const ContactLaw& law = *contact.law;
   Motion motion = one.motion;
@@ -166,7 +168,7 @@ std::vector<double> resolve_on_surface(const DampingArguments& arguments,
 }
 
 void follow_motion(const DampingArguments& arguments, const LawOptions::Contact& contact,
-                   const Case& one, const DampingOptions& options, Session& session) {
+                   const DampingCase& one, const DampingOptions& options, Session& session) {
   const ContactLaw& law = *contact.law;
   require(!one.force_amplitude, "--friction", arguments.follow.coefficient(),
           "does not go with --force-amplitude; give --normal-amplitude");
@@ -189,7 +191,7 @@ void follow_motion(const DampingArguments& arguments, const LawOptions::Contact&
 }
 
 // One period of a single case that a picture can show; nothing for a motion that never repeats.
-void plot_case(const ContactLaw& law, const Case& one, const DampingResult& result,
+void plot_case(const ContactLaw& law, const DampingCase& one, const DampingResult& result,
                Session& session) {
   if (!session.has_plot()) return;
   require(!one.force_amplitude, "--plot", "one case",
@@ -224,7 +226,7 @@ void run(const DampingArguments& arguments, Session& session) {
 
   const auto at = [](const auto& all, std::size_t i) { return all[all.size() == 1 ? 0 : i]; };
   const std::size_t count = std::max<std::size_t>(1, values.size());
-  std::vector<Case> cases;
+  std::vector<DampingCase> cases;
   for (std::size_t i = 0; i < count; ++i) {
     cases.push_back({at(positions, i), at(motions, i), {}});
     if (!arguments.force_amplitude.empty())

@@ -30,7 +30,7 @@ constexpr std::array weightings{std::pair{"spacing", FitWeights::spacing},
                                 std::pair{"equal", FitWeights::equal},
                                 std::pair{"force", FitWeights::force}};
 
-std::string length(double value) { return format_quantity(value, Dimension::length, 3); }
+std::string length_text(double value) { return format_quantity(value, Dimension::length, 3); }
 
 /// What the numbers mean for a user who does not know the test. noisy: the samples scatter independently, as those of a load cell do;
 /// the residuals of a computed curve are the misfit of the law, to which no probability belongs.
@@ -43,9 +43,9 @@ std::string in_words(const ExponentialTest& test, const WindowSensitivity& parts
       noisy ? fmt::format(" Scatter alone would bend ln F so far with a probability of {:.2g}.",
                           test.significance)
             : "",
-      length(test.decay_length_closest), length(test.decay_length_farthest),
+      length_text(test.decay_length_closest), length_text(test.decay_length_farthest),
       100 * (test.decay_length_farthest / test.decay_length_closest - 1),
-      length(parts.decay_length_min), length(parts.decay_length_max));
+      length_text(parts.decay_length_min), length_text(parts.decay_length_max));
 }
 
 void run(const FitArguments& arguments, Session& session) {

@@ -27,12 +27,12 @@ struct GwArguments {
 };
 
 /// A model with the parameters that describe it.
-struct Described {
+struct DescribedLaw {
   std::unique_ptr<AsperityModel> model;
   Json parameters;
 };
 
-Json to_json(const SummitEnsemble& ensemble) {
+Json summits_json(const SummitEnsemble& ensemble) {
   return Json{{"summit_density", ensemble.density},
               {"radius", ensemble.radius},
               {"summit_rms", ensemble.summit_rms},
@@ -41,7 +41,7 @@ Json to_json(const SummitEnsemble& ensemble) {
               {"rms_height", ensemble.rms_height}};
 }
 
-Described of_surface(const GwArguments& arguments, const Material& material, Session& session) {
+DescribedLaw of_surface(const GwArguments& arguments, const Material& material, Session& session) {
   for (const auto& [option, given] :
        {std::pair{"--summit-density", arguments.summit_density.has_value()},
         {"--radius", arguments.radius.has_value()},
@@ -56,7 +56,7 @@ Described of_surface(const GwArguments& arguments, const Material& material, Ses
     ensemble.rms_height = heights.rms_height;
     return {std::make_unique<DeterministicSummits>(list.summits, material, list.searched_area,
                                                    heights.mean, heights.rms_height),
-            to_json(ensemble)};
+            summits_json(ensemble)};
   }
   surface.require_complete("spectral moments");
   const SpectralMoments moments = surface_moments(surface);
@@ -64,10 +64,10 @@ Described of_surface(const GwArguments& arguments, const Material& material, Ses
   ensemble.distribution = *value_of<SummitDistribution>(arguments.distribution);
   ensemble.rms_height = heights.rms_height;
   return {std::make_unique<StatisticalSummits>(ensemble, material, surface.grid.area()),
-          to_json(ensemble)};
+          summits_json(ensemble)};
 }
 
-Described of_parameters(const GwArguments& arguments, const Material& material) {
+DescribedLaw of_parameters(const GwArguments& arguments, const Material& material) {
   constexpr std::string_view reason = "there is no SURFACE to take it from";
   SummitEnsemble ensemble;
   ensemble.density = required(arguments.summit_density, "--summit-density", reason);
@@ -81,7 +81,7 @@ Described of_parameters(const GwArguments& arguments, const Material& material) 
   require_positive(size_x, "--size-x");
   require_positive(size_y, "--size-y");
   return {std::make_unique<StatisticalSummits>(ensemble, material, size_x * size_y),
-          to_json(ensemble)};
+          summits_json(ensemble)};
 }
 
 void run(const GwArguments& arguments, Session& session) {
@@ -90,15 +90,16 @@ void run(const GwArguments& arguments, Session& session) {
           "give exactly one of --pressures and --separations");
   for (const double pressure : arguments.pressures) require_positive(pressure, "--pressures");
   const Material material = arguments.material.material();
-  const Described described = arguments.surface.given() ? of_surface(arguments, material, session)
-                                                        : of_parameters(arguments, material);
+  const DescribedLaw described = arguments.surface.given()
+                                     ? of_surface(arguments, material, session)
+                                     : of_parameters(arguments, material);
   const ForceCurve curve = arguments.pressures.empty()
                                ? curve_at_separations(*described.model, arguments.separations)
                                : curve_at_pressures(*described.model, arguments.pressures);
   if (session.has_output())
     write_force_curve(session.output(), curve, session.provenance(), session.write_options());
   if (session.has_plot()) session.plot(curve_figure(curve));
-  session.answer(Json{{"parameters", described.parameters}, {"curve", cli::to_json(curve)}});
+  session.answer(Json{{"parameters", described.parameters}, {"curve", to_json(curve)}});
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ hold = "indentation"         # of the mean indentation; "force" for a dead weigh
 )";
 
 /// What to do with the file, at its head.
-std::string heading(const std::string& file) {
+std::string file_heading(const std::string& file) {
   const std::string stem = fs::path(file).stem().string();
   const std::pair<std::string, const char*> commands[] = {
       {"salebra study " + file + " --dry-run", "what this would cost"},
@@ -122,7 +122,9 @@ std::string toml_string(std::string_view text) {
   return result + '"';
 }
 
-std::string length(double metres) { return toml_string(fmt::format("{:.12g}nm", 1e9 * metres)); }
+std::string toml_length(double metres) {
+  return toml_string(fmt::format("{:.12g}nm", 1e9 * metres));
+}
 
 /// The key as it is where a value was given, else as a choice that was not made.
 std::string key_or_choice(std::string_view key, const std::string& value, std::string_view example,
@@ -144,14 +146,14 @@ std::string measured(const Arguments& arguments, std::string& amplitude, Session
   require(rms_height > 0, "--surface", given.file, "is flat; there is no roughness to study");
   // A thirtieth of the rms height, to one digit.
   const double wanted = rms_height / 30, digit = std::pow(10, std::floor(std::log10(wanted)));
-  amplitude = length(std::round(wanted / digit) * digit);
+  amplitude = toml_length(std::round(wanted / digit) * digit);
   // The study file's own folder is where its relative names begin.
   const fs::path folder = fs::absolute(arguments.file).parent_path();
   const fs::path found = fs::absolute(given.file);
   fs::path name = fs::relative(found, folder);
   if (name.empty()) name = found;
   const auto size = [](const std::optional<double>& value) {
-    return value ? length(*value) : std::string();
+    return value ? toml_length(*value) : std::string();
   };
   const auto text = [](const std::string& value) {
     return value.empty() ? value : toml_string(value);
@@ -176,7 +178,7 @@ void run(Arguments arguments, Session& session) {
   const std::string surface = arguments.surface.given() ? measured(arguments, amplitude, session)
                                                         : std::string(generated_surface);
   write_text_file(arguments.file,
-                  heading(fs::path(arguments.file).filename().string()) + surface +
+                  file_heading(fs::path(arguments.file).filename().string()) + surface +
                       fmt::format(fmt::runtime(rest), fmt::arg("amplitude", amplitude)),
                   session.write_options());
   session.answer(Json{{"file", arguments.file}},

@@ -42,7 +42,8 @@ void run(Session& session) {
 
 void add_verify_command(Program& program) {
   program.add_command("verify", "compare this installation with analytic solutions",
-                      {"salebra verify", "salebra verify --json"}, run);
+                      {"salebra verify", "salebra verify --json"},
+                      [](Session& session) { run(session); });
 }
 
 }  // namespace salebra::cli

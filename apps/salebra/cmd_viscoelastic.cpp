@@ -46,7 +46,7 @@ std::vector<PronyTerm> parse_terms(const std::string& text) {
   return terms;
 }
 
-struct Case {
+struct ViscoelasticCase {
   double angular_frequency = 0, elastic_work = 0;
   ViscoelasticDamping loss;
 };
@@ -55,29 +55,31 @@ double angular_frequency_of(const Oscillation& motion) {
   return std::visit([](const auto& m) { return m.angular_frequency; }, motion);
 }
 
-ResultTable table_of(const std::vector<Case>& cases, const PronySeries& prony,
+ResultTable table_of(const std::vector<ViscoelasticCase>& cases, const PronySeries& prony,
                      const std::pair<std::string, std::vector<double>>& varied) {
   ResultTable table{.name = "motions", .columns = {}};
   const auto column = [&](const char* name, const auto& value_of) {
     std::vector<double> values;
-    for (const Case& one : cases) values.push_back(value_of(one));
+    for (const ViscoelasticCase& one : cases) values.push_back(value_of(one));
     table.columns.push_back({name, values});
   };
   if (!varied.second.empty() && varied.first != "angular_frequency")
     table.columns.push_back({varied.first, varied.second});
-  column("angular_frequency", [](const Case& one) { return one.angular_frequency; });
-  column("storage_modulus",
-         [&](const Case& one) { return prony.complex_modulus(one.angular_frequency).real(); });
-  column("loss_modulus",
-         [&](const Case& one) { return prony.complex_modulus(one.angular_frequency).imag(); });
+  column("angular_frequency", [](const ViscoelasticCase& one) { return one.angular_frequency; });
+  column("storage_modulus", [&](const ViscoelasticCase& one) {
+    return prony.complex_modulus(one.angular_frequency).real();
+  });
+  column("loss_modulus", [&](const ViscoelasticCase& one) {
+    return prony.complex_modulus(one.angular_frequency).imag();
+  });
   const auto member = [&](const char* name, double ViscoelasticDamping::*of) {
-    column(name, [of](const Case& one) { return one.loss.*of; });
+    column(name, [of](const ViscoelasticCase& one) { return one.loss.*of; });
   };
   member("work_per_cycle", &ViscoelasticDamping::work_per_cycle);
   member("normal_material_work", &ViscoelasticDamping::normal_material_work);
   member("tangential_material_work", &ViscoelasticDamping::tangential_material_work);
   member("relaxation_work", &ViscoelasticDamping::relaxation_work);
-  column("elastic_work", [](const Case& one) { return one.elastic_work; });
+  column("elastic_work", [](const ViscoelasticCase& one) { return one.elastic_work; });
   member("power", &ViscoelasticDamping::power);
   member("damping_constant", &ViscoelasticDamping::damping_constant);
   member("mean_force", &ViscoelasticDamping::mean_force);
@@ -139,12 +141,12 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   const ContactFacts facts =
       at_state(arguments.premises.facts(arguments.material), law, nullptr, indentation);
 
-  std::vector<Case> cases;
+  std::vector<ViscoelasticCase> cases;
   PremiseReport premises{.list = true};
   const std::vector<Oscillation> motions = arguments.motion.motions();
   const Progress progress = session.progress();
   for (const Oscillation& motion : motions) {
-    Case& one = cases.emplace_back();
+    ViscoelasticCase& one = cases.emplace_back();
     one.angular_frequency = angular_frequency_of(motion);
     // Refuses what lies outside the law, before the longer computation.
     one.elastic_work = relaxation_damping(law, AtIndentation{indentation}, motion).work_per_cycle;
@@ -155,8 +157,8 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
             {"viscoelastic", double(cases.size()) / double(motions.size()), int(cases.size()), 0}))
       throw Interrupted("viscoelastic: stopped before all motions were done");
   }
-  if (const auto lost =
-          std::ranges::count(cases, false, [](const Case& one) { return one.loss.converged; });
+  if (const auto lost = std::ranges::count(
+          cases, false, [](const ViscoelasticCase& one) { return one.loss.converged; });
       lost > 0)
     throw NotConverged(fmt::format(
         "viscoelastic: {} of {} steady states were not found; relaxation times beyond 1e9 periods "

@@ -54,7 +54,7 @@ std::string describe_levels(const StudyConfiguration& configuration, const Study
                          : "");
 }
 
-Json to_json(const StudyCost& cost, const std::string& file) {
+Json cost_json(const StudyCost& cost, const std::string& file) {
   Json points = Json::array();
   for (const PointCost& point : cost.points)
     points.push_back({{"surfaces", point.surfaces},
@@ -113,7 +113,7 @@ void answer_dry_run(const StudyConfiguration& configuration, Session& session) {
                                      file, file);
   if (cost.available > 0 && cost.memory > cost.available)
     session.warn("the memory that is free does not suffice; use fewer points or fewer --threads");
-  session.answer(to_json(cost, file), text);
+  session.answer(cost_json(cost, file), text);
 }
 
 }  // namespace salebra::cli

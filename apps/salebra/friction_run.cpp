@@ -38,7 +38,7 @@ double mean_over_period(const CycleResult& cycle, double CycleSample::*quantity)
 }
 
 // Below this a loss is what the solvers leave.
-double no_loss(const OscillationOutcome& stuck) { return 1e-7 * stuck.elastic_energy(); }
+double uncertain_loss(const OscillationOutcome& stuck) { return 1e-7 * stuck.elastic_energy(); }
 
 Json over(double value, double reference, double uncertain) {
   return std::abs(reference) > uncertain ? Json(value / reference) : Json(nullptr);
@@ -169,7 +169,7 @@ void run_with_friction(const FrictionOptions& options, const CycleOptions& cycle
 void add_friction(Json& object, const FrictionOptions& options, const CycleOptions& cycle,
                   const OscillationOutcome& outcome) {
   const CycleResult& frictional = *outcome.frictional;
-  const double uncertain = no_loss(outcome);
+  const double uncertain = uncertain_loss(outcome);
   Json& friction = object["friction"];
   friction["friction_coefficient"] =
       options.friction_coefficient ? Json(*options.friction_coefficient) : Json(nullptr);
@@ -227,9 +227,9 @@ void write_friction(ResultFile& file, const CycleOptions& cycle,
 
 void warn_of_friction(const CycleOptions& cycle, const OscillationOutcome& outcome,
                       Session& session) {
-  warn_of_cycle("friction", *outcome.frictional, no_loss(outcome), session);
+  warn_of_cycle("friction", *outcome.frictional, uncertain_loss(outcome), session);
   if (!outcome.coupled) return;
-  warn_of_cycle("coupling", *outcome.coupled, no_loss(outcome), session);
+  warn_of_cycle("coupling", *outcome.coupled, uncertain_loss(outcome), session);
   if (dundurs_of(cycle, outcome) == 0) session.note("Dundurs' beta is 0: nothing is coupled");
 }
 

@@ -17,7 +17,7 @@
 namespace salebra {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // Surfaces draw from stream 0.
 constexpr std::uint32_t profile_stream = 1;
 

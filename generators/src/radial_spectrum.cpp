@@ -14,7 +14,7 @@
 namespace salebra {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // A wave on a limit is in, whatever the rounding of its wave number.
 constexpr double limit_tolerance = 1e-9;
 

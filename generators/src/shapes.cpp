@@ -12,7 +12,7 @@
 namespace salebra {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 template <class Height>
 Surface surface_of(const Grid2D& grid, const std::string& name, bool periodic,

@@ -15,7 +15,7 @@
 namespace salebra {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 void add(SpectralMoments& sum, const SpectralMoments& term) {
   sum.moment0 += term.moment0;

@@ -10,6 +10,7 @@
 #include <salebra/damping/dissipation.hpp>
 #include <sstream>
 
+#include "base/special_values.hpp"
 #include "contact/quadrature.hpp"
 #include "sweep_breaks.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double unknown = DampingResult::unknown;
+using detail::unknown;
 
 double square(double value) { return value * value; }
 

@@ -12,14 +12,15 @@
 #include <salebra/damping/tangential_contact.hpp>
 #include <type_traits>
 
+#include "base/special_values.hpp"
 #include "mean_rise.hpp"
 
 namespace salebra {
 namespace {
 
+using detail::infinity;
+using detail::unknown;
 using std::numbers::pi;
-constexpr double unknown = ContactFacts::unknown;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Of ½K_t x²: what is below it is what the solvers of a table left of a contact that loses nothing.
 constexpr double no_loss = 1e-7;

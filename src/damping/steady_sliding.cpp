@@ -70,7 +70,7 @@ class Period {
 };
 
 // K and K_t at a phase of the oscillation.
-struct Node {
+struct PhaseState {
   double phase, sine, normal_stiffness, tangential_stiffness;
 };
 
@@ -99,7 +99,8 @@ class HalfPeriod {
     }
     if (pi > breaks_.back()) breaks_.push_back(pi);
     for (std::size_t i = 1; i < breaks_.size(); ++i)
-      for (const Node& node : nodes_between(breaks_[i - 1], breaks_[i])) nodes_.push_back(node);
+      for (const PhaseState& node : nodes_between(breaks_[i - 1], breaks_[i]))
+        nodes_.push_back(node);
   }
 
   // Calls add(nodes, from, to) for the pieces between breaks of the law and a velocity's two phases.
@@ -120,8 +121,8 @@ class HalfPeriod {
     }
   }
 
-  std::array<Node, rule_points> nodes_between(double from, double to) const {
-    std::array<Node, rule_points> nodes;
+  std::array<PhaseState, rule_points> nodes_between(double from, double to) const {
+    std::array<PhaseState, rule_points> nodes;
     for (std::size_t j = 0; j < rule_points; ++j) {
       const double phase = 0.5 * (from + to) + 0.5 * (to - from) * rule_point[j];
       const double level = low_ + 2 * amplitude_ * std::pow(std::sin(0.5 * phase), 2);
@@ -135,7 +136,7 @@ class HalfPeriod {
   const ContactLaw& law_;
   double low_, amplitude_;
   std::vector<double> breaks_;
-  std::vector<Node> nodes_;
+  std::vector<PhaseState> nodes_;
 };
 
 // Of one node: the force above μF(δ_min) and its derivative by v, both times 2π.
@@ -143,7 +144,7 @@ struct Share {
   double force, damping;
 };
 
-Share share_of(const Node& node, const Period& period, double slips_at, double limit_scale,
+Share share_of(const PhaseState& node, const Period& period, double slips_at, double limit_scale,
                double velocity, double omega) {
   const double limit = limit_scale * node.normal_stiffness * node.sine;
   if (!(node.phase > period.sticks_from() && node.phase < period.sticks_to()))
@@ -167,10 +168,10 @@ Force force_above_least(const HalfPeriod& half, const Period& period, double lim
   struct Piece {
     double from, to, value, error, damping;
   };
-  const auto rated = [&](std::span<const Node> nodes, double from, double to) {
+  const auto rated = [&](std::span<const PhaseState> nodes, double from, double to) {
     double values[rule_points], kronrod = 0, gauss = 0, damping = 0, before = 0, slipped = 0;
     for (int j = 0; j < rule_points; ++j) {
-      const Node& node = nodes[static_cast<std::size_t>(j)];
+      const PhaseState& node = nodes[static_cast<std::size_t>(j)];
       double slips = 0;
       if (node.phase > period.sticks_from() && node.phase < period.sticks_to()) {
         // From the second on along the slope dφ_e/dφ.
@@ -198,7 +199,7 @@ Force force_above_least(const HalfPeriod& half, const Period& period, double lim
   };
 
   std::vector<Piece> pieces;
-  half.for_each_piece(period, [&](std::span<const Node> nodes, double from, double to) {
+  half.for_each_piece(period, [&](std::span<const PhaseState> nodes, double from, double to) {
     pieces.push_back(rated(nodes, from, to));
   });
   std::ranges::make_heap(pieces, {}, &Piece::error);

@@ -12,7 +12,7 @@
 namespace salebra {
 namespace {
 
-double dot(const TangentialField& a, const TangentialField& b) {
+double inner_product(const TangentialField& a, const TangentialField& b) {
   return (a.x * b.x + a.y * b.y).sum();
 }
 
@@ -92,7 +92,7 @@ class StuckBody final : public detail::CycleBody {
             .converged = state_.converged};
   }
   double stored_energy() const override {
-    return cell_area_ / 2 * dot(state_.traction, state_.displacement);
+    return cell_area_ / 2 * inner_product(state_.traction, state_.displacement);
   }
   bool interrupted() const override { return interrupted_; }
   decltype(CycleState::body) state() const override { return state_; }

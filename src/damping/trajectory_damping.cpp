@@ -7,10 +7,12 @@
 #include <salebra/damping/trajectory_damping.hpp>
 #include <utility>
 
+#include "base/special_values.hpp"
+
 namespace salebra {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+using detail::unknown;
 
 // Time means over one period of quantities that are straight between the samples.
 double mean_product(const SampledMotion& path, const std::vector<double>& a,

@@ -15,7 +15,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view magic = "Gwyddion Simple Field 1.0\n";
+constexpr std::string_view gsf_magic = "Gwyddion Simple Field 1.0\n";
 
 }  // namespace
 
@@ -53,7 +53,7 @@ void write_gsf(const std::filesystem::path& file, const Surface& surface, const 
   const Grid2D& grid = surface.grid;
   std::string bytes = fmt::format(
       "{}XRes = {}\nYRes = {}\nXReal = {}\nYReal = {}\nXYUnits = m\nZUnits = m\nTitle = heights\n",
-      magic, grid.nx, grid.ny, grid.lx, grid.ly);
+      gsf_magic, grid.nx, grid.ny, grid.lx, grid.ly);
   bytes.append(4 - bytes.size() % 4, '\0');
   AtomicFile output(file, options);
   for (Index iy = 0; iy < grid.ny; ++iy) {

@@ -26,7 +26,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::string_view magic = "GWYP";
+constexpr std::string_view gwy_magic = "GWYP";
 
 template <class T>
 T number_at(std::string_view bytes) {
@@ -216,7 +216,7 @@ std::string field_head(std::string_view name, const Grid2D& grid, std::string_vi
 }  // namespace
 
 LoadedSurface read_gwy(const std::filesystem::path& file, std::string_view content) {
-  const auto [kind, whole] = Bytes(file, content.substr(magic.size())).object();
+  const auto [kind, whole] = Bytes(file, content.substr(gwy_magic.size())).object();
   if (kind != "GwyContainer") refuse(file, "holds no GwyContainer; is it a file of Gwyddion 2?");
   const Components container = components_of(file, whole);
   // The first channel of heights; where none names a unit, the first of all.
@@ -288,7 +288,7 @@ void write_gwy(const std::filesystem::path& file, const Surface& surface,
   const double filling = defined > 0 ? sum / static_cast<double>(defined) : 0;
 
   AtomicFile output(file, options);
-  output.write(std::string(magic) + text_bytes("GwyContainer") +
+  output.write(std::string(gwy_magic) + text_bytes("GwyContainer") +
                number_bytes(static_cast<std::uint32_t>(bytes)) + start);
   const auto write_field = [&](const std::string& head, const auto& value) {
     std::string row = head;

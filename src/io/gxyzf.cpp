@@ -18,7 +18,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view magic = "Gwyddion XYZ Field 1.0\n";
+constexpr std::string_view gxyzf_magic = "Gwyddion XYZ Field 1.0\n";
 constexpr std::size_t item = sizeof(double);
 
 }  // namespace
@@ -60,7 +60,7 @@ void write_gxyzf(const std::filesystem::path& file, const Surface& surface, cons
   std::string bytes = fmt::format(
       "{}NChannels = 1\nNPoints = {}\nXRes = {}\nYRes = {}\nXYUnits = m\nZUnits1 = m\n"
       "Title1 = heights\n",
-      magic, grid.points() - surface.undefined_points(), grid.nx, grid.ny);
+      gxyzf_magic, grid.points() - surface.undefined_points(), grid.nx, grid.ny);
   bytes.append(item - bytes.size() % item, '\0');
   for (Index ix = 0; ix < grid.nx; ++ix) {
     for (Index iy = 0; iy < grid.ny; ++iy) {

@@ -12,14 +12,14 @@
 #include <vector>
 
 #include "loaded_surface.hpp"
+#include "netcdf_tags.hpp"
 
 /// The classic NetCDF formats, CDF-1, 2 and 5 (Unidata, "NetCDF Classic Format Specification"): a header of big-endian
 /// integers and padded names, then the data of each variable from a stated offset on.
 namespace salebra::detail {
 namespace {
 
-constexpr std::uint32_t absent = 0, dimension_tag = 10, variable_tag = 11, attribute_tag = 12;
-constexpr std::uint32_t text_kind = 2;
+constexpr std::uint32_t absent = 0, text_kind = 2;
 
 /// Bytes of one value of a type, by its number in the format; 0 for a number that is no type.
 std::size_t size_of(std::uint32_t kind) {

@@ -9,13 +9,14 @@
 #include <tuple>
 
 #include "atomic_file.hpp"
+#include "netcdf_tags.hpp"
 #include "surface_writers.hpp"
 
 namespace salebra::detail {
 namespace {
 
 /// Header of a CDF-2 file: big-endian integers of four bytes, offsets of eight, names and values padded to four.
-class Header {
+class WrittenHeader {
  public:
   void word(std::uint32_t value) { big_endian(value, 4); }
   void offset(std::uint64_t value) { big_endian(value, 8); }
@@ -56,8 +57,7 @@ class Header {
   std::string bytes_ = std::string("CDF\x02", 4);
 };
 
-constexpr std::uint32_t dimension_tag = 10, variable_tag = 11, attribute_tag = 12, int8 = 1,
-                        float64 = 6;
+constexpr std::uint32_t int8 = 1, float64 = 6;
 
 /// Sizes of variables, and so their places, are multiples of four bytes.
 std::uint64_t padded(std::uint64_t bytes) { return (bytes + 3) / 4 * 4; }
@@ -65,7 +65,7 @@ std::uint64_t padded(std::uint64_t bytes) { return (bytes + 3) / 4 * 4; }
 std::string header_of(const Surface& surface, const std::string& information,
                       std::uint64_t data_begin) {
   const Grid2D& grid = surface.grid;
-  Header header;
+  WrittenHeader header;
   header.word(0);
   header.list(dimension_tag, 2);
   header.name("x");

@@ -17,19 +17,19 @@ namespace salebra::detail {
 namespace {
 
 /// The header is the text of a Python dict: {'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }.
-struct Header {
+struct NpyHeader {
   std::string type;  ///< such as "<f8"
   bool fortran_order = false;
   std::vector<std::uint64_t> shape;
 };
 
-class HeaderParser {
+class NpyHeaderParser {
  public:
-  HeaderParser(const std::filesystem::path& file, std::string_view text)
+  NpyHeaderParser(const std::filesystem::path& file, std::string_view text)
       : file_(file), text_(text) {}
 
-  Header parse() {
-    Header header;
+  NpyHeader parse() {
+    NpyHeader header;
     bool has_type = false, has_order = false, has_shape = false;
     expect('{');
     while (!accept('}')) {
@@ -173,7 +173,7 @@ LoadedSurface read_npy(const std::filesystem::path& file, std::string_view conte
   for (std::size_t i = 0; i < length_bytes; ++i) header_length |= byte(magic + 2 + i) << (8 * i);
   if (header_length > content.size() - start)
     refuse(file, "ends within its NPY header; it is truncated");
-  const Header header = HeaderParser(file, content.substr(start, header_length)).parse();
+  const NpyHeader header = NpyHeaderParser(file, content.substr(start, header_length)).parse();
 
   const char order = header.type.empty() ? '\0' : header.type.front();
   const ElementReader read = order == '<' || order == '>' || order == '=' || order == '|'

@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t header_size = 512;
 
-class Header {
+class SurHeader {
  public:
-  explicit Header(std::string_view content) : content_(content) {}
+  explicit SurHeader(std::string_view content) : content_(content) {}
 
   std::int16_t int16(std::size_t at) const { return static_cast<std::int16_t>(bits(at, 2)); }
   std::size_t size(std::size_t at) const { return bits(at, 2); }
@@ -50,7 +50,7 @@ enum class Inversion : std::int16_t { none, heights, along_x, along_y };
 
 LoadedSurface read_sur(const std::filesystem::path& file, std::string_view content) {
   if (content.size() < header_size) refuse(file, "ends within its SUR header; it is truncated");
-  const Header header(content);
+  const SurHeader header(content);
   if (header.int16(14) > 1)
     refuse(file, "holds " + std::to_string(header.int16(14)) +
                      " objects; export one surface of them to a file");
@@ -81,7 +81,7 @@ LoadedSurface read_sur(const std::filesystem::path& file, std::string_view conte
   const bool has_undefined = header.int16(86) == 1;
   const std::int64_t undefined = std::int64_t{header.int32(100)} - 2;
   surface.heights = heights_of(file, nx, ny);
-  const Header data(content.substr(begin));
+  const SurHeader data(content.substr(begin));
   for (Index iy = 0; iy < ny; ++iy) {
     for (Index ix = 0; ix < nx; ++ix) {
       const auto place = static_cast<std::size_t>(iy * nx + ix);

@@ -13,7 +13,7 @@
 namespace salebra::detail {
 namespace {
 
-struct Axis {
+struct XyzAxis {
   double first = 0;
   double step = 0;
   Index points = 0;
@@ -29,8 +29,8 @@ bool on_grid(const std::vector<double>& sorted, double step) {
 }
 
 /// Equally spaced values among the coordinates, from the least to the greatest.
-Axis find_axis(const std::filesystem::path& file, std::vector<double> coordinates,
-               const char* name) {
+XyzAxis find_axis(const std::filesystem::path& file, std::vector<double> coordinates,
+                  const char* name) {
   std::ranges::sort(coordinates);
   const double span = coordinates.back() - coordinates.front();
   if (!std::isfinite(span))
@@ -72,7 +72,7 @@ LoadedSurface grid_of_points(const std::filesystem::path& file, const std::vecto
     if (std::isnan(x[i]) || std::isnan(y[i]))
       refuse(file, "has an XYZ point without coordinates; remove it");
   }
-  const Axis along_x = find_axis(file, x, "x"), along_y = find_axis(file, y, "y");
+  const XyzAxis along_x = find_axis(file, x, "x"), along_y = find_axis(file, y, "y");
   if (static_cast<std::size_t>(along_x.points) >
       2 * count / static_cast<std::size_t>(along_y.points))
     refuse(file,

@@ -23,7 +23,7 @@ namespace {
 std::optional<std::string> read_text(const std::filesystem::path& file) {
   int descriptor;
   do {
-    descriptor = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   } while (descriptor < 0 && errno == EINTR);
   if (descriptor < 0) return {};
   std::optional<std::string> text;
@@ -33,12 +33,12 @@ std::optional<std::string> read_text(const std::filesystem::path& file) {
     ssize_t got = 0;
     text.emplace();
     do {
-      got = read(descriptor, piece.data(), piece.size());
+      got = ::read(descriptor, piece.data(), piece.size());
       if (got > 0) text->append(piece.data(), static_cast<std::size_t>(got));
     } while (got > 0 ? text->size() < piece.size() : got < 0 && errno == EINTR);
     if (got < 0) text.reset();
   }
-  close(descriptor);
+  ::close(descriptor);
   return text;
 }
 
@@ -135,7 +135,7 @@ bool StudyLock::try_link() {
   const std::filesystem::path own = file_.string() + "." + word;
   int descriptor;
   do {
-    descriptor = open(own.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    descriptor = ::open(own.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   } while (descriptor < 0 && errno == EINTR);
   if (descriptor < 0) fail(own, errno);
   ssize_t written = 0, part = 0;
@@ -144,7 +144,7 @@ bool StudyLock::try_link() {
     if (part > 0) written += part;
   } while (part > 0 ? std::size_t(written) < identity_.size() : part < 0 && errno == EINTR);
   const int write_error = errno;
-  close(descriptor);
+  ::close(descriptor);
   if (written != ssize_t(identity_.size())) {
     unlink(own.c_str());
     fail(own, write_error);

@@ -2,16 +2,17 @@
 // Reduced maps and spectra of one surface of a study, for the report.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/study/surface_picture.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/spectrum.hpp>
 
+#include "base/special_values.hpp"
+
 namespace salebra {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+using detail::unknown;
 
 /// C0 q^{−2(1+H)} with the C0 that fits the spectrum in the range of the estimate, every mode counting once.
 std::vector<double> power_law(const RadialSpectrum& rings, const HurstEstimate& hurst) {

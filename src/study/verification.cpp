@@ -17,7 +17,7 @@
 namespace salebra {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 const Material steel = Material::of_bodies({2e11, 0.3});
 const Drag drag{.normal_amplitude = 2e-9, .drag_velocity = 1e-3, .angular_frequency = 2 * pi * 2e4};
 const EqualFrequency shear{.normal_amplitude = 2e-9,

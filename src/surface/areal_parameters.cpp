@@ -14,12 +14,14 @@
 #include <salebra/surface/peaks.hpp>
 #include <salebra/surface/spectrum.hpp>
 
+#include "base/special_values.hpp"
+
 namespace salebra {
 namespace {
 
 using std::numbers::pi;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+using detail::unknown;
 constexpr double correlation_level = 0.2;  ///< s of Sal and Str, ISO's default
 constexpr double pruning = 0.05;           ///< of Sz, ISO's default
 constexpr int directions = 720;            ///< of half a turn
@@ -34,7 +36,7 @@ double fall_distance(const CorrelationMap& map, double angle, double level) {
     const double column = distance * along_y / map.grid.dy();
     const auto last_row = static_cast<double>(map.pairs.rows() - 1);
     const auto last_column = static_cast<double>(map.pairs.cols() - 1);
-    if (row < 0 || row > last_row || column > last_column) return none;
+    if (row < 0 || row > last_row || column > last_column) return unknown;
     const double low_row = std::min(std::floor(row), std::max(last_row - 1, 0.0));
     const double low_column = std::min(std::floor(column), std::max(last_column - 1, 0.0));
     const auto i = static_cast<Index>(low_row), j = static_cast<Index>(low_column);
@@ -65,8 +67,8 @@ void set_correlation_lengths(ArealParameters& result, const Surface& surface) {
     longest = std::max(longest, distance);
   }
   const bool falls = variance > 0 && std::isfinite(shortest);
-  result.Sal = falls ? shortest : none;
-  result.Str = falls && std::isfinite(longest) ? shortest / longest : none;
+  result.Sal = falls ? shortest : unknown;
+  result.Str = falls && std::isfinite(longest) ? shortest / longest : unknown;
 }
 
 /// ∫ r C dr along a ray of the spectrum, up to a common factor; bilinear between modes.
@@ -93,9 +95,9 @@ double ray_power(const PowerSpectrum& spectrum, double angle) {
 }
 
 double strongest_direction(const Surface& surface) {
-  if (surface.undefined_points() > 0) return none;
+  if (surface.undefined_points() > 0) return unknown;
   const PowerSpectrum spectrum = power_spectrum(surface);
-  double best = 0, direction = none;
+  double best = 0, direction = unknown;
   for (int k = 0; k < directions; ++k) {
     const double angle = pi * k / directions;
     if (const double power = ray_power(spectrum, angle); power > best * (1 + 1e-12)) {
@@ -147,8 +149,8 @@ void set_gradients(ArealParameters& result, const Surface& surface) {
     total.triangles += slab.triangles;
   }
   const double triangles = static_cast<double>(total.triangles);
-  result.Sdq = total.triangles > 0 ? std::sqrt(total.slope / triangles) : none;
-  result.Sdr = total.triangles > 0 ? total.area / triangles : none;
+  result.Sdq = total.triangles > 0 ? std::sqrt(total.slope / triangles) : unknown;
+  result.Sdr = total.triangles > 0 ? total.area / triangles : unknown;
 }
 
 }  // namespace
@@ -179,7 +181,7 @@ ArealParameters areal_parameters(const Surface& surface) {
   double curvature = 0;
   for (const Peak& peak : peaks) curvature += peak.mean_curvature;
   result.Spd = count / surface.grid.area();
-  result.Spc = peaks.empty() ? none : curvature / count;
+  result.Spc = peaks.empty() ? unknown : curvature / count;
 
   set_correlation_lengths(result, surface);
   result.Std = strongest_direction(surface);

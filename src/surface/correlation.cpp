@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <salebra/base/convolution.hpp>
 #include <salebra/base/fft.hpp>
 #include <salebra/base/memory.hpp>
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/moments.hpp>
 
+#include "base/special_values.hpp"
 #include "ring_means.hpp"
 
 namespace salebra {
@@ -17,7 +17,7 @@ namespace {
 
 using Modes = std::vector<std::complex<double>>;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+using detail::unknown;
 
 /// Sums over pairs of points at each distance vector, as circular correlations of a grid that is padded where it is not periodic.
 class PairSums {
@@ -82,8 +82,8 @@ CorrelationMap correlation_map(const Surface& surface) {
     map.pairs = sums.correlate(defined_modes, defined_modes, grid).round();
     const Field squares = sums.correlate(defined_modes, sums.transform(heights.square()), grid);
     map.structure = 2 * (squares - map.autocorrelation);
-    map.structure = (map.pairs > 0).select(map.structure / map.pairs, none);
-    map.autocorrelation = (map.pairs > 0).select(map.autocorrelation / map.pairs, none);
+    map.structure = (map.pairs > 0).select(map.structure / map.pairs, unknown);
+    map.autocorrelation = (map.pairs > 0).select(map.autocorrelation / map.pairs, unknown);
   }
   // Rounding leaves a trace of either sign where there is nothing.
   map.structure = map.structure.isNaN().select(map.structure, map.structure.max(0.0));

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <salebra/surface/self_affine_fit.hpp>
 #include <vector>
 
+#include "base/special_values.hpp"
 #include "surface/dense_systems.hpp"
 
 namespace salebra {
@@ -16,8 +16,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr IntervalEstimate not_found{none, none, none};
+using detail::unknown;
+constexpr IntervalEstimate not_found{unknown, unknown, unknown};
 constexpr double ended = 1e-3;        ///< of the law, where power counts as none
 constexpr double bins_per_unit = 64;  ///< of ln q, for the likelihood
 

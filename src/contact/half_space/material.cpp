@@ -5,10 +5,12 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/material.hpp>
 
+#include "base/special_values.hpp"
+
 namespace salebra {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+using detail::unknown;
 
 void require_poisson(double poisson) {
   require(poisson > -1 && poisson <= 0.5, "poisson", poisson, "must satisfy -1 < poisson <= 0.5");

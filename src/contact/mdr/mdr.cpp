@@ -2,12 +2,12 @@
 // Method of dimensionality reduction: transform, inverse, and the law of an axisymmetric indenter.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
 #include <sstream>
 
+#include "base/special_values.hpp"
 #include "contact/quadrature.hpp"
 
 namespace salebra {
@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using detail::infinity;
 
 // [low, f(breaks within), high] for increasing f.
 template <class Function>

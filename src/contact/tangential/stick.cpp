@@ -6,13 +6,14 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 
+#include "base/special_values.hpp"
 #include "surface_response.hpp"
 #include "tangential_workspace.hpp"
 
 namespace salebra {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+using detail::unknown;
 
 struct UnitMotion {
   std::vector<double> tractions, misfit;
