@@ -113,7 +113,7 @@ class OpeningLevels final : public ContactLaw {
 };
 
 // A motion as the premises see it.
-struct Case {
+struct JudgedMotion {
   double mean = 0, amplitude = 0;  // δ0, u_z
   double displacement = 0;         // that M counts: u_x, or v/ω of a drag
   bool drag = false;
@@ -136,37 +136,37 @@ std::function<double(double)> loss_at(const ContactLaw& law, double mean, Motion
   };
 }
 
-Case case_of(const ContactLaw& law, double mean, EqualFrequency motion) {
-  Case one{.mean = mean,
-           .amplitude = motion.normal_amplitude,
-           .displacement = motion.tangential_amplitude,
-           .angular_frequency = motion.angular_frequency,
-           .fastest = motion.angular_frequency};
+JudgedMotion case_of(const ContactLaw& law, double mean, EqualFrequency motion) {
+  JudgedMotion one{.mean = mean,
+                   .amplitude = motion.normal_amplitude,
+                   .displacement = motion.tangential_amplitude,
+                   .angular_frequency = motion.angular_frequency,
+                   .fastest = motion.angular_frequency};
   motion.tangential_amplitude = 1;
   one.path = sample(motion, mean, steps);
   one.loss = loss_at(law, mean, motion);
   return one;
 }
 
-Case case_of(const ContactLaw& law, double mean, Drag motion) {
-  Case one{.mean = mean,
-           .amplitude = motion.normal_amplitude,
-           .displacement = motion.drag_velocity / motion.angular_frequency,
-           .drag = true,
-           .angular_frequency = motion.angular_frequency,
-           .fastest = motion.angular_frequency};
+JudgedMotion case_of(const ContactLaw& law, double mean, Drag motion) {
+  JudgedMotion one{.mean = mean,
+                   .amplitude = motion.normal_amplitude,
+                   .displacement = motion.drag_velocity / motion.angular_frequency,
+                   .drag = true,
+                   .angular_frequency = motion.angular_frequency,
+                   .fastest = motion.angular_frequency};
   motion.drag_velocity = motion.angular_frequency;
   one.path = sample(motion, mean, steps);
   one.loss = loss_at(law, mean, motion);
   return one;
 }
 
-Case case_of(const ContactLaw& law, double mean, const Oscillation& motion) {
+JudgedMotion case_of(const ContactLaw& law, double mean, const Oscillation& motion) {
   return std::visit([&](const auto& kind) { return case_of(law, mean, kind); }, motion);
 }
 
-Case case_of(const ContactLaw& law, double mean, TwoFrequencies motion) {
-  Case one{
+JudgedMotion case_of(const ContactLaw& law, double mean, TwoFrequencies motion) {
+  JudgedMotion one{
       .mean = mean,
       .amplitude = motion.normal_amplitude,
       .displacement = motion.tangential_amplitude,
@@ -178,16 +178,16 @@ Case case_of(const ContactLaw& law, double mean, TwoFrequencies motion) {
   return one;
 }
 
-Case case_of(const SampledMotion& path) {
+JudgedMotion case_of(const SampledMotion& path) {
   path.validate();
   const auto [low, high] = std::ranges::minmax(path.indentation);
   const auto [back, ahead] = std::ranges::minmax(path.displacement);
   const double drift = path.drift();
-  Case one{.mean = 0.5 * (low + high),
-           .amplitude = 0.5 * (high - low),
-           .displacement = 0.5 * (ahead - back),
-           .drag = std::abs(drift) > 1e-9 * (ahead - back),
-           .angular_frequency = 2 * pi / path.period()};
+  JudgedMotion one{.mean = 0.5 * (low + high),
+                   .amplitude = 0.5 * (high - low),
+                   .displacement = 0.5 * (ahead - back),
+                   .drag = std::abs(drift) > 1e-9 * (ahead - back),
+                   .angular_frequency = 2 * pi / path.period()};
   if (one.drag) one.displacement = drift / (2 * pi);
   one.fastest = one.angular_frequency;
   const std::size_t count = path.time.size() - 1;
@@ -477,7 +477,7 @@ Premise coupling_of(const ContactLaw& law, const ContactFacts& facts) {
 }
 
 // stick: loss for u_x = 1 m.
-Premise inertia_of(const ContactLaw& law, const Case& motion, double stick,
+Premise inertia_of(const ContactLaw& law, const JudgedMotion& motion, double stick,
                    const ContactFacts& facts) {
   // A stuck circle on a half-space: K(1 + 0.58i a0) for small a0 = ωa/c_s.
   constexpr double radiation = 0.58;
@@ -509,7 +509,8 @@ Premise inertia_of(const ContactLaw& law, const Case& motion, double stick,
   return premise;
 }
 
-Premise amplitude_of(const ContactLaw& law, const Case& motion, double length, double stick) {
+Premise amplitude_of(const ContactLaw& law, const JudgedMotion& motion, double length,
+                     double stick) {
   Premise premise{.value = motion.amplitude};
   // The limit of W/u_z for small u_z, not F'' itself: that of a table jumps at its samples.
   const double least = 1e-4 * length;
@@ -538,7 +539,8 @@ double length_of(const ContactLaw& law, double mean, double amplitude) {
   return force > 0 && stiffness > 0 ? force / stiffness : amplitude;
 }
 
-Premises all_premises(const ContactLaw& given, const Case& motion, const ContactFacts& facts) {
+Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
+                      const ContactFacts& facts) {
   check(facts);
   const ContinuedLaw law(given);
   const double amplitude = motion.amplitude;
@@ -701,7 +703,7 @@ LossWithSlip loss_with_slip(const ContactLaw& given, double mean_indentation,
   require_positive(friction_coefficient, "friction_coefficient");
   if (!std::isnan(excursion)) require_positive(excursion, "excursion");
   const ContinuedLaw law(given);
-  const Case one = case_of(law, mean_indentation, motion);
+  const JudgedMotion one = case_of(law, mean_indentation, motion);
   require_positive(one.amplitude, "normal_amplitude");
   const double full_stick = one.loss(one.amplitude) * one.displacement * one.displacement;
   const double limit = friction_coefficient / law.modulus_ratio(), unit = limit * limit;
