@@ -378,7 +378,7 @@ struct SlipLimits {
   Limits displacements = {};
 };
 
-SlipLimits slip_limits(const ContactLaw& law, const Case& motion, double length) {
+SlipLimits slip_limits(const ContactLaw& law, const JudgedMotion& motion, double length) {
   // A contact that loses nothing without slip slips first at about its depth; M = 0.1 has long changed any other loss.
   const double longest = std::max(10 * motion.amplitude, 2 * (length + motion.amplitude));
   const auto [back, ahead] = std::ranges::minmax(motion.path->displacement);
@@ -393,7 +393,7 @@ SlipLimits slip_limits(const ContactLaw& law, const Case& motion, double length)
 constexpr double stuck_share = 0.05;
 
 // Whether all levels slip. displacement of case (a), v/ω and the excursion of case (b), in units of μ/g.
-bool slides(const ContactLaw& law, const Case& motion, double displacement, double excursion) {
+bool slides(const ContactLaw& law, const JudgedMotion& motion, double displacement, double excursion) {
   const double bottom = motion.mean - motion.amplitude, least = law.force(bottom);
   // No level is closed at all times.
   if (!(least > 0)) return motion.drag && displacement >= motion.amplitude;
@@ -738,7 +738,7 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
   const ContinuedLaw law(given);
   // Displacements below stand for the velocity.
   const Drag drag{amplitude, amplitude * omega, omega};
-  const Case motion = case_of(law, mean_indentation, drag);
+  const JudgedMotion motion = case_of(law, mean_indentation, drag);
   const double limit = friction_coefficient / law.modulus_ratio();
   const double bottom = mean_indentation - amplitude;
   const double length = length_of(law, mean_indentation, amplitude);
