@@ -32,12 +32,12 @@ struct JointArguments {
 };
 
 // Columns of JointLoss; what has a form per nominal area has its name.
-struct Column {
+struct JointColumn {
   const char* name;
   double JointLoss::*member;
   const char* per_area = nullptr;
 };
-constexpr Column columns[]{
+constexpr JointColumn columns[]{
     {"tangential_force", &JointLoss::tangential_force, "tangential_force_per_area"},
     {"tangential_amplitude", &JointLoss::tangential_amplitude},
     {"work_per_cycle", &JointLoss::work_per_cycle, "work_per_cycle_per_area"},
@@ -53,7 +53,7 @@ constexpr Column columns[]{
 ResultTable table_of(const std::string& name, const std::vector<JointLoss>& losses,
                      double nominal_area) {
   ResultTable table{.name = name, .columns = {}};
-  for (const Column& column : columns) {
+  for (const JointColumn& column : columns) {
     std::vector<double> values;
     for (const JointLoss& one : losses) values.push_back(one.*column.member);
     // The exponent is not that of a simulation, which has one motion alone.
