@@ -393,7 +393,8 @@ SlipLimits slip_limits(const ContactLaw& law, const JudgedMotion& motion, double
 constexpr double stuck_share = 0.05;
 
 // Whether all levels slip. displacement of case (a), v/ω and the excursion of case (b), in units of μ/g.
-bool slides(const ContactLaw& law, const JudgedMotion& motion, double displacement, double excursion) {
+bool slides(const ContactLaw& law, const JudgedMotion& motion, double displacement,
+            double excursion) {
   const double bottom = motion.mean - motion.amplitude, least = law.force(bottom);
   // No level is closed at all times.
   if (!(least > 0)) return motion.drag && displacement >= motion.amplitude;
