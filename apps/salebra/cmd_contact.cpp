@@ -90,6 +90,10 @@ void check_residual(const ContactArguments& arguments, const Session& session) {
 }
 
 void run(const ContactArguments& arguments, Session& session) {
+  std::vector<std::string> missing = arguments.material.missing(false);
+  if (arguments.position.count() == 0)
+    missing.insert(missing.begin(), "--pressure (or --mean-gap, --normal-force or --indentation)");
+  require_options(missing, "a contact");
   require(arguments.position.count() == 1, "--pressure", arguments.position.count(),
           "positions are given; give exactly one of --pressure, --mean-gap, --normal-force, "
           "--indentation");

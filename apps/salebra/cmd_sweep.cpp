@@ -28,6 +28,9 @@ struct SweepArguments {
 };
 
 void run(const SweepArguments& arguments, Session& session) {
+  std::vector<std::string> missing = arguments.material.missing(false);
+  if (arguments.pressures.empty()) missing.insert(missing.begin(), "--pressures");
+  require_options(missing, "a sweep");
   SweepOptions options;
   require(arguments.stiffness || !arguments.stick, "--stick", "given",
           "without --stiffness; give both");
@@ -76,8 +79,8 @@ void add_sweep_command(Program& program) {
       [arguments](Session& session) { run(*arguments, session); },
       "pressure over gap, area, stiffness", OutputCheck::curve);
   arguments->surface.add_to(command);
-  add_values(command, "--pressures", arguments->pressures, Dimension::pressure, "nominal pressures")
-      ->required();
+  add_values(command, "--pressures", arguments->pressures, Dimension::pressure,
+             "nominal pressures");
   command.add_flag("--stiffness", arguments->stiffness,
                    "also K by a linear solve on each contact, and K_t = (G*/E*)K where G* is "
                    "known; null in full contact of a "

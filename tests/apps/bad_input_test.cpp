@@ -239,6 +239,10 @@ TEST_CASE("All missing options are named at once", "[bad-input]") {
   for (const char* option :
        {"--tangential-amplitude", "--phase", "--tangential-frequency", "--frequency"})
     check_refused(two, option);
+  const auto sweep = test.run("sweep scan.txt"), contact = test.run("contact scan.txt");
+  check_refused(sweep, "--pressures");
+  check_refused(contact, "--pressure (or");
+  for (const auto& refused : {sweep, contact}) check_refused(refused, "--contact-modulus");
   const auto none = test.run("generate");
   for (const char* option : {"--points", "--size-x"}) check_refused(none, option);
 }
