@@ -24,6 +24,7 @@ void bind_premises(nanobind::module_& module);
 void bind_damping(nanobind::module_& module);
 void bind_surface_damping(nanobind::module_& module);
 void bind_trajectories(nanobind::module_& module);
+void bind_slider(nanobind::module_& module);
 void bind_viscoelastic(nanobind::module_& module);
 void bind_damping_maps(nanobind::module_& module);
 void bind_closed_form(nanobind::module_& module);

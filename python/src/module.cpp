@@ -26,6 +26,7 @@ NB_MODULE(_core, m) {
   bind_damping(m);
   bind_surface_damping(m);
   bind_trajectories(m);
+  bind_slider(m);
   bind_viscoelastic(m);
   bind_damping_maps(m);
   bind_closed_form(m);

@@ -19,6 +19,7 @@
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/level_quadrature.hpp>
+#include <salebra/damping/slider.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/surface_damping.hpp>
@@ -134,10 +135,11 @@ void bind_values(nb::module_& m) {
                 FirstLoading, StickStiffness, PunchStiffness, PartialSlipReport, RoughnessShell,
                 PerssonTheory::Asymptote, SummitEnsemble, AsperityContact, MonteCarloCurve>();
   value_classes<EqualFrequency, Drag, TwoFrequencies, SampledMotion, BoundDamping, ContactFacts,
-                Premise, LargestMotion, Premises, LossWithSlip, JointLoss, SteadySliding,
-                SurfaceDamping, OscillatorDecay, DamperMap, FrictionMap, RegimeMap, StressMap,
-                AsperityDamping, TrajectoryDamping, PronySeries, ViscoelasticIndentation,
-                ViscoelasticDamping, ContactSetAt, CycleResult, LevelQuadratureResult>();
+                Premise, LargestMotion, Premises, LossWithSlip, JointLoss, SteadySliding, Slider,
+                SliderMotion, SliderStability, SliderThreshold, SurfaceDamping, OscillatorDecay,
+                DamperMap, FrictionMap, RegimeMap, StressMap, AsperityDamping, TrajectoryDamping,
+                PronySeries, ViscoelasticIndentation, ViscoelasticDamping, ContactSetAt,
+                CycleResult, LevelQuadratureResult>();
   value_classes<StudyConfiguration, DampingPoint, SpotStatistics, SurfacePicture, ModelResult,
                 Realisation, EnsembleMean, StudyFlag, StudyResult, Check, Report>();
   value_class<Grid2D>([](const Grid2D& self) { return self; },

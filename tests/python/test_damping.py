@@ -388,3 +388,27 @@ def test_motion_in_two_directions_loses_the_sum_of_both() -> None:
     assert np.array_equal(both.transverse_force, alone[1].tangential_force)
     with pytest.raises(salebra.InvalidInput, match="friction_coefficient"):
         salebra.trajectory_damping(law, along, transverse=across.displacement, friction_coefficient=0.3)
+
+
+def test_an_oscillation_stops_the_stick_slip_of_a_slider() -> None:
+    law = salebra.ExponentialLaw(0.02, 3e-8, 0.7 / 0.85)
+    slider = salebra.Slider(mass=0.01, spring_stiffness=1000.0, velocity=5e-5, falling_slope=1.0)
+    jerking = salebra.slider_motion(law, slider, friction_coefficient=0.3, force=0.02)
+    assert jerking.converged and jerking.state == "stick_slip"
+    averaged = salebra.slider_motion(law, slider, friction_coefficient=0.3, force=0.02, averaged=True)
+    # The elastic contact takes a hundredth of the amplitude of the rigid one.
+    assert jerking.slider_amplitude == pytest.approx(averaged.slider_amplitude, rel=0.02)
+    assert len(jerking.time) == len(jerking.slider_velocity) > 10
+    omega = 2 * np.pi * 20e3
+    threshold = salebra.threshold_amplitude(
+        law, slider, friction_coefficient=0.3, angular_frequency=omega, largest_amplitude=3e-8, force=0.02)
+    assert threshold.value == pytest.approx(threshold.linear_estimate, abs=threshold.linear_estimate_error + 1e-3 * threshold.value)
+    def at(part: float) -> salebra.SliderStability:
+        return salebra.slider_stability(
+            law, slider, friction_coefficient=0.3, normal_amplitude=part * threshold.value, angular_frequency=omega, force=0.02)
+    assert at(0.9).growth_rate > 0 > at(1.1).growth_rate
+    with pytest.raises(salebra.InvalidInput, match="mass: 0"):
+        salebra.slider_motion(
+            law, salebra.Slider(mass=0, spring_stiffness=1, velocity=1), friction_coefficient=0.3, force=0.02)
+    with pytest.raises(salebra.InvalidInput, match="start: 'walking' is none of rest, sliding"):
+        salebra.slider_motion(law, slider, friction_coefficient=0.3, force=0.02, start="walking")  # type: ignore[arg-type]

@@ -39,6 +39,7 @@ def makers() -> dict[str, Callable[[], Any]]:
     contact = state.contact_pressure > 0
     free = salebra.paraboloid_surface(GRID, 10e-3, salebra.off_grid_center(GRID))
     prony = salebra.PronySeries.of_body(MATERIAL, [(1e9, 1e-4)])
+    slider = salebra.Slider(mass=1.0, spring_stiffness=1e7, velocity=1e-3, support_damping=900.0, falling_slope=1000.0)
     levels = salebra.boundary_element_levels(free, MATERIAL, boundary="free", tolerance=1e-8)
     study = salebra.run_study(salebra.parse_study_configuration(STUDY))
     psd = salebra.power_spectrum(surface)
@@ -116,6 +117,12 @@ def makers() -> dict[str, Callable[[], Any]]:
         "SpectralMoments": lambda: surface.moments,
         "SpotStatistics": lambda: study.realisations[0].spots[0],
         "StatisticalSummits": lambda: model,
+        "Slider": lambda: slider,
+        "SliderMotion": lambda: salebra.slider_motion(law, slider, friction_coefficient=0.3, indentation=1e-6),
+        "SliderStability": lambda: salebra.slider_stability(
+            law, slider, friction_coefficient=0.3, normal_amplitude=1e-7, angular_frequency=1e5, indentation=1e-6),
+        "SliderThreshold": lambda: salebra.threshold_amplitude(
+            law, slider, friction_coefficient=0.3, angular_frequency=1e5, largest_amplitude=1e-6, indentation=1e-6),
         "SteadySliding": lambda: salebra.steady_sliding(law, DRAG, friction_coefficient=0.3, indentation=1e-6),
         "StickStiffness": lambda: salebra.stick_stiffness(contact, surface.grid, MATERIAL),
         "StressMap": lambda: salebra.stress_map(law, 1e-6, EQUAL, phases=16, radii=16),

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of the slider on a spring.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <salebra/results/slider_words.hpp>
+
+#include "bindings.hpp"
+#include "interop/arrays.hpp"
+#include "interop/choice.hpp"
+#include "interop/citations.hpp"
+#include "interop/cycle_motion.hpp"
+#include "interop/running.hpp"
+
+namespace salebra::python {
+namespace {
+
+void bind_slider_classes(nb::module_& m) {
+  nb::class_<Slider>(m, "Slider",
+                     R"(A mass that a spring and a dashpot drag over a contact.
+
+.. math:: m\ddot x + c(\dot x - V) - b\dot x + k(x - Vt) + T = 0
+
+Parameters
+----------
+mass : float
+    m, kg.
+spring_stiffness : float
+    k, N/m.
+velocity : float
+    V of the drive, m/s.
+support_damping : float
+    c of the dashpot in parallel with the spring, N s/m.
+falling_slope : float
+    b of a friction force that falls by b per velocity, N s/m.
+)")
+      .def(
+          "__init__",
+          [](Slider* self, double mass, double spring_stiffness, double velocity,
+             double support_damping, double falling_slope) {
+            new (self) Slider{mass, spring_stiffness, velocity, support_damping, falling_slope};
+          },
+          nb::kw_only(), nb::arg("mass"), nb::arg("spring_stiffness"), nb::arg("velocity"),
+          nb::arg("support_damping") = 0.0, nb::arg("falling_slope") = 0.0)
+      .def_ro("mass", &Slider::mass, "kg")
+      .def_ro("spring_stiffness", &Slider::spring_stiffness, "N/m")
+      .def_ro("velocity", &Slider::velocity, "Of the drive, m/s.")
+      .def_ro("support_damping", &Slider::support_damping, "N s/m")
+      .def_ro("falling_slope", &Slider::falling_slope, "N s/m");
+
+  using Motion = SliderMotion;
+  nb::class_<Motion> motion(m, "SliderMotion",
+                            "The motion in which a slider ends, means over slow cycles; NaN is "
+                            "unknown.");
+  motion
+      .def_prop_ro(
+          "state",
+          [](const Motion& self) { return Choice<SliderState>{std::string(word_of(self.state))}; },
+          "Sliding at the drive's velocity, slowly pulsating, or stick–slip.")
+      .def_ro("slider_amplitude", &Motion::slider_amplitude,
+              "Half the range of x − Vt in a slow cycle, m.")
+      .def_ro("slider_amplitude_error", &Motion::slider_amplitude_error, "Its numerical error, m.")
+      .def_ro("slider_period", &Motion::slider_period, "Of a slow cycle, s.")
+      .def_ro("stuck_fraction", &Motion::stuck_fraction, "Part of the time in which it sticks.")
+      .def_ro("mean_tangential_force", &Motion::mean_tangential_force,
+              "Of T, N, without the falling part.")
+      .def_ro("friction_coefficient", &Motion::friction_coefficient,
+              "That over the mean normal force.")
+      .def_ro("max_spring_force", &Motion::max_spring_force, "k(Vt − x) in a slow cycle, N.")
+      .def_ro("drive_power", &Motion::drive_power, "What the drive puts in, W.")
+      .def_ro("contact_power", &Motion::contact_power, "Lost in the contact, W.")
+      .def_ro("support_power", &Motion::support_power, "Lost in the dashpot, W.")
+      .def_ro("falling_slope_power", &Motion::falling_slope_power,
+              "b⟨ẋ²⟩, by which friction loses less, W.")
+      .def_ro("energy_error", &Motion::energy_error, "Rest of the balance over drive_power.")
+      .def_ro("cycles", &Motion::cycles, "Slow cycles that were averaged.")
+      .def_ro("converged", &Motion::converged, "False: do not use the numbers.");
+  view_property(motion, "time", &Motion::time, "Of some last cycles, s.");
+  view_property(motion, "slider_offset", &Motion::slider_offset, "x − Vt there, m.");
+  view_property(motion, "slider_velocity", &Motion::slider_velocity, "ẋ there, m/s.");
+  view_property(motion, "tangential_force", &Motion::tangential_force,
+                "T where δ is least, N; of the averaged equation T̄.");
+
+  using Stability = SliderStability;
+  nb::class_<Stability>(m, "SliderStability",
+                        "What becomes of a small disturbance of steady sliding; NaN is unknown.")
+      .def_ro("sliding_damping", &Stability::sliding_damping, "dT̄/dv, N s/m.")
+      .def_ro("sliding_damping_error", &Stability::sliding_damping_error,
+              "Bound of its difference from slider_damping, N s/m.")
+      .def_ro("slider_damping", &Stability::slider_damping,
+              "What takes its place in the full equation, N s/m.")
+      .def_ro("growth_rate", &Stability::growth_rate, "Of the full equation, 1/s.")
+      .def_ro("averaged_growth_rate", &Stability::averaged_growth_rate,
+              "Of the averaged equation, 1/s.")
+      .def_ro("converged", &Stability::converged,
+              "False: no sliding without turning back was found.");
+
+  nb::class_<SliderThreshold>(m, "SliderThreshold",
+                              "Least amplitude (m) or angular frequency (rad/s) of the normal "
+                              "oscillation at which sliding is stable; NaN: none in the range.")
+      .def_ro("value", &SliderThreshold::value, "Of the full equation.")
+      .def_ro("linear_estimate", &SliderThreshold::linear_estimate, "Where dT̄/dv + c = b.")
+      .def_ro("linear_estimate_error", &SliderThreshold::linear_estimate_error,
+              "Of it, from the slider's mass.");
+}
+
+void bind_functions(nb::module_& m) {
+  m.def(
+      "slider_motion",
+      [](const ContactLaw& law, const Slider& slider, double friction_coefficient,
+         double normal_amplitude, double angular_frequency, std::optional<double> indentation,
+         std::optional<double> force, bool averaged, const Choice<Hold>& hold,
+         const Choice<SliderStart>& start, int steps, double tolerance, int most_cycles,
+         const ProgressArgument& progress) {
+        cite({"popov2015"});
+        const Position position = position_of(indentation, force);
+        SliderOptions options{.hold = hold.value("hold"),
+                              .start = start.value("start"),
+                              .steps = steps,
+                              .tolerance = tolerance,
+                              .most_cycles = most_cycles};
+        return interruptible(progress, [&](Progress told) {
+          options.on_progress = told;
+          const NormalOscillation normal{normal_amplitude, angular_frequency};
+          return averaged
+                     ? averaged_slider_motion(law, position, normal, slider, friction_coefficient,
+                                              options)
+                     : slider_motion(law, position, normal, slider, friction_coefficient, options);
+        });
+      },
+      nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
+      nb::arg("normal_amplitude") = 0.0, nb::arg("angular_frequency") = 0.0,
+      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
+      nb::arg("averaged") = false, nb::arg("hold") = "indentation", nb::arg("start") = "rest",
+      nb::arg("steps") = 32, nb::arg("tolerance") = 1e-2, nb::arg("most_cycles") = 200,
+      nb::arg("progress") = false,
+      R"(Stick–slip or steady sliding of a slider on a contact whose indentation is δ0 − u_z cos ωt.
+
+The contact's levels are followed with their history until the motion repeats, with `steps` and more in each period; averaged: instead
+the equation with the mean friction force of `steady_sliding()`.
+
+Parameters
+----------
+law : ContactLaw
+slider : Slider
+friction_coefficient : float
+normal_amplitude, angular_frequency : float
+    u_z, m, and ω, rad/s; without them no oscillation.
+indentation, force : float
+    δ0, m, or the force, N; one of the two.
+averaged : bool
+hold : str
+    What stays in the mean.
+start : str
+    At rest on the point of slipping, or sliding with a small disturbance.
+steps : int
+    In a period, doubled until the tolerance is met.
+tolerance : float
+    Relative, of the amplitude of a slow cycle.
+most_cycles : int
+    Slow cycles after which the motion is given up.
+progress : bool or callable
+)");
+  m.def(
+      "slider_stability",
+      [](const ContactLaw& law, const Slider& slider, double friction_coefficient,
+         double normal_amplitude, double angular_frequency, std::optional<double> indentation,
+         std::optional<double> force, const Choice<Hold>& hold, int steps) {
+        const Position position = position_of(indentation, force);
+        const SliderOptions options{.hold = hold.value("hold"), .steps = steps};
+        return unlocked([&] {
+          return slider_stability(law, position, {normal_amplitude, angular_frequency}, slider,
+                                  friction_coefficient, options);
+        });
+      },
+      nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
+      nb::arg("normal_amplitude"), nb::arg("angular_frequency"),
+      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
+      nb::arg("hold") = "indentation", nb::arg("steps") = 32,
+      "Whether small disturbances of steady sliding grow, by the full equation of motion and by "
+      "dT̄/dv + c − b; indentation (m) or force (N), one of the two.");
+  m.def(
+      "threshold_amplitude",
+      [](const ContactLaw& law, const Slider& slider, double friction_coefficient,
+         double angular_frequency, double largest_amplitude, std::optional<double> indentation,
+         std::optional<double> force, const Choice<Hold>& hold, int steps) {
+        const Position position = position_of(indentation, force);
+        const SliderOptions options{.hold = hold.value("hold"), .steps = steps};
+        return unlocked([&] {
+          return threshold_amplitude(law, position, angular_frequency, slider, friction_coefficient,
+                                     largest_amplitude, options);
+        });
+      },
+      nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
+      nb::arg("angular_frequency"), nb::arg("largest_amplitude"),
+      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
+      nb::arg("hold") = "indentation", nb::arg("steps") = 32,
+      "The least normal amplitude (m) at which small disturbances of sliding die out; indentation "
+      "(m) or force (N), one of the two.");
+  m.def(
+      "threshold_angular_frequency",
+      [](const ContactLaw& law, const Slider& slider, double friction_coefficient,
+         double normal_amplitude, double largest_angular_frequency,
+         std::optional<double> indentation, std::optional<double> force, const Choice<Hold>& hold,
+         int steps) {
+        const Position position = position_of(indentation, force);
+        const SliderOptions options{.hold = hold.value("hold"), .steps = steps};
+        return unlocked([&] {
+          return threshold_angular_frequency(law, position, normal_amplitude, slider,
+                                             friction_coefficient, largest_angular_frequency,
+                                             options);
+        });
+      },
+      nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
+      nb::arg("normal_amplitude"), nb::arg("largest_angular_frequency"),
+      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
+      nb::arg("hold") = "indentation", nb::arg("steps") = 32,
+      "The least angular frequency (rad/s) at which small disturbances of sliding die out; "
+      "indentation (m) or force (N), one of the two.");
+}
+
+}  // namespace
+
+void bind_slider(nb::module_& m) {
+  bind_slider_classes(m);
+  bind_functions(m);
+}
+
+}  // namespace salebra::python
