@@ -262,6 +262,12 @@ def _(result: _core.TrajectoryDamping, ax: Axes | None = None, **keywords: Any) 
     return _line(ax, (step, "step of the period", "1"), (result.tangential_force, "tangential force F_x", "N"), "", keywords)
 
 
+@plot.register(_core.SliderMotion)
+def _(result: _core.SliderMotion, ax: Axes | None = None, **keywords: Any) -> Axes:
+    offset = (result.slider_offset, "distance from the drive x − Vt", "m")
+    return _line(ax, (result.time, "time t", "s"), offset, "", keywords)
+
+
 @plot.register(_core.ViscoelasticDamping)
 @plot.register(_core.ViscoelasticIndentation)
 def _(result: _core.ViscoelasticDamping | _core.ViscoelasticIndentation, ax: Axes | None = None, **keywords: Any) -> Axes:

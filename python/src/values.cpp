@@ -151,11 +151,12 @@ void bind_values(nb::module_& m) {
   drawn_classes<ForceCurve, ExponentialFit, ContactSpots, SummitList, PowerSpectrum, CorrelationMap,
                 ConvertedPsd, Profile, MonteCarloCurve, AsperityDamping, TrajectoryDamping,
                 ViscoelasticDamping, ViscoelasticIndentation, ContactSetAt, SampledMotion,
-                SpotStatistics, SurfacePicture, ModelResult, Realisation, StudyResult,
+                SliderMotion, SpotStatistics, SurfacePicture, ModelResult, Realisation, StudyResult,
                 BearingCurve>();
   table_classes<ForceCurve, LocalDecayLength, ContactSpots, SummitList, RadialSpectrum, ProfilePsd,
                 ConvertedPsd, Correlation, ScaleDependence, HeightHistogram, Profile,
-                MonteCarloCurve, AsperityDamping, TrajectoryDamping, CycleResult, SampledMotion>();
+                MonteCarloCurve, AsperityDamping, TrajectoryDamping, CycleResult, SampledMotion,
+                SliderMotion>();
 
   m.def(
       "_answer_constructor",

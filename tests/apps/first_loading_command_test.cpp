@@ -51,7 +51,7 @@ TEST_CASE("A residual surface without a hardness or a format is refused",
   const std::string press = "contact rough.h5 --pressure 20MPa --contact-modulus 10GPa ";
   check_refused(test.run(press + "--residual flat.h5"), "--residual: flat.h5 is what");
   check_refused(test.run(press + "--hardness 1GPa --residual flat.dat"),
-                "--residual: flat.dat has");
+                "flat.dat: has the extension");
   check_refused(test.run(press + "--hardness 1GPa --residual rough.h5"), "rough.h5");
   check_refused(test.run(press + "--hardness 1GPa --residual same.h5 -o same.h5"), "--residual");
   check_refused(test.run(press + "--hardness 20MPa --residual flat.h5"), "--hardness: 20 MPa");

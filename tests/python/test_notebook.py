@@ -39,7 +39,7 @@ def makers() -> dict[str, Callable[[], Any]]:
     contact = state.contact_pressure > 0
     free = salebra.paraboloid_surface(GRID, 10e-3, salebra.off_grid_center(GRID))
     prony = salebra.PronySeries.of_body(MATERIAL, [(1e9, 1e-4)])
-    slider = salebra.Slider(mass=1.0, spring_stiffness=1e7, velocity=1e-3, support_damping=900.0, falling_slope=1000.0)
+    slider = salebra.Slider(mass=1.0, spring_stiffness=1e7, velocity=1e-3, support_damping=9.0, falling_slope=10.0)
     levels = salebra.boundary_element_levels(free, MATERIAL, boundary="free", tolerance=1e-8)
     study = salebra.run_study(salebra.parse_study_configuration(STUDY))
     psd = salebra.power_spectrum(surface)
