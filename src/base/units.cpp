@@ -84,6 +84,8 @@ constexpr std::array spellings{
     Spelling{angular_frequency, "", "1/s", "", 1, 0},
     Spelling{velocity, "", "m", "/s"},
     Spelling{Dimension::time, "", "s", ""},
+    Spelling{Dimension::time, "", "min", "", 60, 0},
+    Spelling{Dimension::time, "", "h", "", 3600, 0},
     Spelling{energy, "", "J", ""},
     Spelling{power, "", "W", ""},
 };

@@ -42,6 +42,8 @@ TEST_CASE("Quantities are read with and without units", "[units]") {
       {"2kg", Dimension::mass, 2},
       {"1kN/m", Dimension::stiffness, 1e3},
       {"5us", Dimension::time, 5e-6},
+      {"90min", Dimension::time, 5400},
+      {"1.5h", Dimension::time, 5400},
   }));
   INFO(text);
   // A parsed decimal and a power of ten: two roundings.
