@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "compare_figure.hpp"
-#include "dry_run.hpp"
 #include "program.hpp"
 #include "study_command.hpp"
 #include "text.hpp"
@@ -216,10 +215,10 @@ void run(const CompareArguments& arguments, Session& session) {
   StudyConfiguration configuration = arguments.study.study();
   configuration.models =
       arguments.models.empty() ? configuration.compared_models : contact_models(arguments.models);
-  if (arguments.study.dry_run) return answer_dry_run(configuration, session);
+  if (run_without_results(configuration, arguments.study, session)) return;
   StudyReport report(arguments.study, session);
   const std::vector<StudyResult> results =
-      run_and_keep(configuration, arguments.study.resume, report, session);
+      run_and_keep(configuration, arguments.study, report, session);
   if (results.empty()) return;
   const StudyFiles files{session.has_output() ? session.output().string() : "", report.write()};
   session.plot(compare_figure(results, configuration.ensemble));

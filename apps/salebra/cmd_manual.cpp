@@ -17,7 +17,9 @@ namespace salebra::cli {
 namespace {
 
 constexpr std::string_view exit_status =
-    ".SH EXIT STATUS\n0: done. 1: failed while running. 2: bad usage or input. 130: interrupted.\n";
+    ".SH EXIT STATUS\n0: done. 1: failed while running. 2: bad usage or input. 3: surfaces are "
+    "missing "
+    "(study \\-\\-merge). 130: interrupted.\n";
 
 /// Text in which roff finds no requests of its own.
 std::string roff(std::string_view text) {

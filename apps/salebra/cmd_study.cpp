@@ -10,7 +10,6 @@
 #include <salebra/study/study.hpp>
 
 #include "compare_figure.hpp"
-#include "dry_run.hpp"
 #include "program.hpp"
 #include "study_command.hpp"
 #include "text.hpp"
@@ -154,10 +153,9 @@ std::string study_text(const StudyResult& result, const StudyPremises& premises,
 
 void run(const StudyArguments& arguments, Session& session) {
   const StudyConfiguration configuration = arguments.study();
-  if (arguments.dry_run) return answer_dry_run(configuration, session);
+  if (run_without_results(configuration, arguments, session)) return;
   StudyReport report(arguments, session);
-  const std::vector<StudyResult> results =
-      run_and_keep(configuration, arguments.resume, report, session);
+  const std::vector<StudyResult> results = run_and_keep(configuration, arguments, report, session);
   if (results.empty()) return;
   if (session.has_plot()) session.plot(compare_figure(results, configuration.ensemble));
   const StudyFiles files{session.has_output() ? session.output().string() : "", report.write()};

@@ -75,6 +75,23 @@ Json cost_json(const StudyCost& cost, const std::string& file) {
               {"files", {{"results", file.empty() ? Json() : Json(file)}}}};
 }
 
+/// How far off the estimate of the time may be, either way.
+int uncertainty(const StudyConfiguration& configuration) {
+  return configuration.has(ContactModel::gw_interacting) ? 3 : 2;
+}
+
+/// What a job script asks for, with room for what the estimates do not know.
+std::string describe_shards(const ShardPlan& plan, int threads, int factor, double wanted) {
+  const auto minutes = 5 * static_cast<int>(std::ceil(factor * plan.seconds / 300));
+  const double megabytes = 100 * std::ceil(1.25 * plan.memory / 100e6);
+  return fmt::format(
+      "shards    {} of at most {} surfaces, each about {} with {} threads and {}{}\n"
+      "Slurm     --array=1-{} --cpus-per-task={} --mem={:.0f}M --time={:02}:{:02}:00\n",
+      plan.shards, plan.surfaces, about(plan.seconds), threads, memory_text(plan.memory),
+      plan.seconds > wanted ? "; one surface takes longer than that" : "", plan.shards, threads,
+      megabytes, minutes / 60, minutes % 60);
+}
+
 }  // namespace
 
 std::string format_duration(double seconds) {
@@ -84,7 +101,8 @@ std::string format_duration(double seconds) {
   return fmt::format("{} s", whole);
 }
 
-void answer_dry_run(const StudyConfiguration& configuration, Session& session) {
+void answer_dry_run(const StudyConfiguration& configuration, std::optional<double> shard_seconds,
+                    Session& session) {
   const StudyCost cost = estimate_cost(configuration);
   const std::string file = session.has_output() ? session.output().string() : "";
   std::string text = "This would run, and nothing of it has been run:\n";
@@ -106,14 +124,23 @@ void answer_dry_run(const StudyConfiguration& configuration, Session& session) {
       stick_solves(configuration) ? " and K_t by a stick solve" : "; K_t = (G*/E*)K",
       describe_levels(configuration, cost), models,
       configuration.target_precision > 0 ? "at most " : "", about(cost.seconds), cost.threads,
-      configuration.has(ContactModel::gw_interacting) ? "three" : "two", memory_text(cost.memory),
+      uncertainty(configuration) == 3 ? "three" : "two", memory_text(cost.memory),
       cost.available > 0 ? fmt::format(" of {} that are free", memory_text(cost.available)) : "");
   text += file.empty() ? "files     none; add --output FILE to keep the results\n"
                        : fmt::format("files     {}; while it runs, finished surfaces in {}.parts\n",
                                      file, file);
+  Json answer = cost_json(cost, file);
+  if (shard_seconds) {
+    const ShardPlan plan = plan_shards(cost, *shard_seconds);
+    text += describe_shards(plan, cost.threads, uncertainty(configuration), *shard_seconds);
+    answer["shards"] = {{"count", plan.shards},
+                        {"surfaces", plan.surfaces},
+                        {"seconds", plan.seconds},
+                        {"memory_bytes", plan.memory}};
+  }
   if (cost.available > 0 && cost.memory > cost.available)
     session.warn("the memory that is free does not suffice; use fewer points or fewer --threads");
-  session.answer(cost_json(cost, file), text);
+  session.answer(answer, text);
 }
 
 }  // namespace salebra::cli

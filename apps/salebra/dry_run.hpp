@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <salebra/study/configuration.hpp>
 
 #include "session.hpp"
 
 namespace salebra::cli {
 
-/// Answers what a study would do, what it would cost and where it would write, and does nothing of it.
-void answer_dry_run(const StudyConfiguration& configuration, Session& session);
+/// Answers what a study would do, what it would cost and where it would write, and does nothing of it. shard_seconds: proposes shards
+/// that take no longer.
+void answer_dry_run(const StudyConfiguration& configuration, std::optional<double> shard_seconds,
+                    Session& session);
 
 /// "12 s", "3 min 05 s", "2 h 10 min".
 std::string format_duration(double seconds);

@@ -22,7 +22,8 @@ constexpr std::array descriptions{
         "Takes each surface of a study file (or one measured surface) through statistics, "
         "boundary elements, Greenwood-Williamson, the fit of F ~ exp(-gap/l) and relaxation "
         "damping, and gives means with 95 % intervals. Surfaces run side by side, one on each "
-        "thread; with --output a run that was stopped goes on with --resume.\n\n"
+        "thread; with --output a run that was stopped goes on with --resume. Several processes or "
+        "machines share a study by --shard, and --merge puts the result together.\n\n"
         "New here? salebra init writes a file to begin with, --dry-run tells the cost."},
     CommandHelp{
         "report", start,
@@ -168,7 +169,9 @@ std::string_view first_steps() {
          "  salebra info scan.x3p                 what is in a measured surface\n"
          "  salebra init --surface scan.x3p       a study file for it\n\n"
          "salebra help COMMAND explains a command and ends with two examples.\n"
-         "Exit status: 0 done, 1 failed while running, 2 bad usage or input, 130 interrupted.";
+         "Exit status: 0 done, 1 failed while running, 2 bad usage or input, 3 surfaces are "
+         "missing "
+         "(study --merge), 130 interrupted.";
 }
 
 }  // namespace salebra::cli

@@ -265,6 +265,8 @@ int run_program(int argc, char** argv) {
     return fail(2, std::string(error.what()) + " (salebra convert --fill)");
   } catch (const InvalidInput& error) {
     return fail(2, with_option(error));
+  } catch (const Incomplete& error) {
+    return fail(3, error.what());
   } catch (const Interrupted& error) {
     return fail(130, error.what());
   } catch (const std::bad_alloc&) {

@@ -12,7 +12,7 @@
 namespace salebra::cli {
 
 /// Parses the command line and runs the command it names.
-/// Returns the exit status: 0 done, 1 failed while running, 2 bad usage or input, 130 interrupted.
+/// Returns the exit status: 0 done, 1 failed while running, 2 bad usage or input, 3 incomplete, 130 interrupted.
 int run_program(int argc, char** argv);
 
 /// All commands, each with the common options. An action runs after all options have been read.

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <salebra/base/error.hpp>
 #include <salebra/base/printable.hpp>
 #include <salebra/results/force_curve_file.hpp>
@@ -22,6 +23,15 @@ namespace {
 volatile std::sig_atomic_t interrupt_seen = 0;
 extern "C" void note_interrupt(int) { interrupt_seen = 1; }
 
+/// "one of 64 tasks", as MPI's launchers and Slurm say in the environment; empty: of one. PMIX_RANK tells the place alone.
+std::string place_among_tasks() {
+  for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
+    if (const char* text = std::getenv(variable); text && std::atoi(text) > 1)
+      return fmt::format("one of {} tasks", std::atoi(text));
+  const char* rank = std::getenv("PMIX_RANK");
+  return rank && std::atoi(rank) > 0 ? "one of several tasks" : "";
+}
+
 }  // namespace
 
 bool interrupted() { return interrupt_seen != 0; }
@@ -32,6 +42,8 @@ void catch_interrupts() {
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // As schedulers are told to send it some time before they kill.
+  sigaction(SIGUSR1, &action, nullptr);
   // nohup has it ignored.
   struct sigaction hangup = {};
   sigaction(SIGHUP, nullptr, &hangup);
@@ -50,6 +62,14 @@ Session::Session(CommonOptions options, std::string command_line, OutputCheck ch
   }
   if (check != OutputCheck::by_command) require_free_output();
   if (has_plot()) require_plot(options_.plot, write_options());
+}
+
+WriteOptions Session::write_options() const {
+  if (const std::string place = place_among_tasks(); !place.empty())
+    throw InvalidInput(fmt::format(
+        "started as {}, which would all write the same file; start one, or use study --shard",
+        place));
+  return {.overwrite = options_.overwrite};
 }
 
 void Session::require_result_name() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <salebra/base/error.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/io/json.hpp>
 #include <salebra/io/output.hpp>
@@ -48,8 +49,9 @@ class Session {
   bool has_plot() const { return !options_.plot.empty(); }
   /// Draws what --plot asked for; nothing where it was not given.
   void plot(const Figure& figure);
-  /// For the library's writers.
-  WriteOptions write_options() const { return {.overwrite = options_.overwrite}; }
+  /// For the library's writers. Throws InvalidInput in one of several tasks, which would all write the same file.
+  WriteOptions write_options() const;
+  bool overwrites() const { return options_.overwrite; }
   Provenance provenance() const;
 
   /// For the library: draws the bar where one is wanted, and returns false after Ctrl-C.
@@ -73,7 +75,13 @@ class Session {
   ProgressBar bar_;
 };
 
-/// True once SIGINT, SIGTERM or SIGHUP has come.
+/// Surfaces are missing in a study that was to be merged: the program exits with 3.
+class Incomplete : public Error {
+ public:
+  using Error::Error;
+};
+
+/// True once SIGINT, SIGTERM, SIGUSR1 or SIGHUP has come.
 bool interrupted();
 /// From now on the first of these only sets interrupted(), a second one ends the process. SIGHUP stays ignored where nohup has it so.
 void catch_interrupts();

@@ -3,17 +3,22 @@
 #include "study_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/base/version.hpp>
 #include <salebra/report/report.hpp>
 #include <salebra/study/study_file.hpp>
+#include <set>
 
 #include "dry_run.hpp"
 #include "law_words.hpp"
@@ -73,8 +78,19 @@ void StudyArguments::add_to(Command& command) {
                    "= 0 without coupling");
   command.add_flag("--dry-run", dry_run,
                    "tell what would run, with its time and memory, and run nothing");
+  add_quantity(command, "--shard-seconds", shard_seconds, Dimension::time,
+               "with --dry-run: propose a number of shards that take no longer, such as 1h");
   command.add_flag("--resume", resume,
                    "go on with what an interrupted run has left beside the output file");
+  command
+      .add_option_function(
+          "--shard", [this](const std::string& text) { shard = parse_shard(text); },
+          "compute the K-th of N shares of the surfaces, or those that no other process has "
+          "taken, and keep them beside the output file for --merge")
+      ->type_name("K/N or any");
+  command.add_flag("--merge", merge,
+                   "result from the surfaces of all shards; computes nothing, and exits with 3 "
+                   "where some are missing");
   command.add_flag("--no-report", no_report, "no page (.html) beside the output file");
 }
 
@@ -86,7 +102,7 @@ StudyReport::StudyReport(const StudyArguments& arguments, Session& session) : se
   require(page_ != session.output(), "--output", page_.string(),
           "is a report's name; name the results .h5, or add --no-report");
   // A resumed study that has its result is only tidied up after.
-  if (arguments.resume && std::filesystem::exists(session.output())) return;
+  if ((arguments.resume || arguments.merge) && std::filesystem::exists(session.output())) return;
   require_report(page_, session.write_options());
 }
 
@@ -189,12 +205,147 @@ std::string StudyFiles::text() const {
          (report.empty() ? "" : fmt::format("report:  {}\n", report));
 }
 
-std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, bool resume,
-                                      StudyReport& page, Session& session) {
-  if (resume) {
-    require(session.has_output(), "--resume", "needs", "the --output of the run to go on with");
+namespace {
+
+std::filesystem::path parts_folder(const Session& session) {
+  return session.output().string() + ".parts";
+}
+
+/// What a run reports while it goes.
+class Reporter {
+ public:
+  explicit Reporter(Session& session) : session_(session), progress_(session.progress()) {}
+
+  StudyRun run(StudyParts* parts) {
+    return {.on_progress = [this](const ProgressReport& report) { return draw(report); },
+            .on_realisation = [this](const RealisationReport& report) { note(report); },
+            .parts = parts};
   }
-  const std::filesystem::path folder = session.output().string() + ".parts";
+
+ private:
+  void note(const RealisationReport& report) {
+    last_ = report;
+    if (report.restored) pace_.restored();
+    if (bar_ || report.restored) return;
+    const double fraction = double(report.finished) / double(report.wanted);
+    session_.note(fmt::format(
+        "study: surface {} of {} (seed {}{}) in {:.1f} s{}", report.finished, report.wanted,
+        report.seed,
+        report.points > 1 ? fmt::format(", point {} of {}", report.point + 1, report.points) : "",
+        report.seconds, pace_.at(fraction, report.finished, report.wanted)));
+  }
+
+  bool draw(const ProgressReport& report) {
+    const std::string stage =
+        std::string(report.stage) +
+        pace_.at(report.fraction, std::size_t(report.step), std::max(last_.wanted, std::size_t{1}));
+    ProgressReport timed = report;
+    timed.stage = stage;
+    return progress_(timed);
+  }
+
+  Session& session_;
+  const Progress progress_;
+  const bool bar_ = isatty(STDERR_FILENO) != 0;
+  Pace pace_;
+  RealisationReport last_;
+};
+
+/// "3,7-9", as schedulers take it.
+std::string ranges_of(const std::set<std::size_t>& numbers) {
+  std::string text;
+  for (auto first = numbers.begin(); first != numbers.end();) {
+    auto last = first, next = std::next(first);
+    while (next != numbers.end() && *next == *last + 1) last = next++;
+    text += (text.empty() ? "" : ",") + fmt::format("{}", *first);
+    if (*last != *first) text += fmt::format("-{}", *last);
+    first = next;
+  }
+  return text;
+}
+
+/// What to run for the surfaces that are missing. Shards have the count that most of the surfaces at hand were computed with.
+std::string shards_to_run(const std::vector<std::size_t>& missing,
+                          const std::vector<PartOrigin>& origins) {
+  std::map<std::size_t, std::size_t> uses;
+  for (const PartOrigin& origin : origins)
+    if (!origin.shard.empty())
+      if (const Shard shard = parse_shard(origin.shard); !shard.any()) ++uses[shard.count];
+  if (uses.empty()) return "run --shard any, or all shards";
+  const std::size_t count =
+      std::ranges::max_element(uses, {}, [](const auto& use) { return use.second; })->first;
+  std::set<std::size_t> numbers;
+  for (const std::size_t place : missing) numbers.insert(place % count + 1);
+  return fmt::format("run shard{} {} of {} again, or --shard any", numbers.size() == 1 ? "" : "s",
+                     ranges_of(numbers), count);
+}
+
+/// "3 surfaces there are of other settings or seeds, 2 of version 0.0.9"; empty where there are none.
+std::string strangers(const std::vector<PartOrigin>& others) {
+  std::map<std::string, std::size_t> kinds;
+  for (const PartOrigin& origin : others)
+    ++kinds[origin.version.empty()        ? "another version"
+            : origin.version == version() ? "other settings or seeds"
+                                          : "version " + origin.version];
+  std::string text;
+  for (const auto& [kind, count] : kinds)
+    text += fmt::format(
+        "{}{}{} of {}", text.empty() ? "" : ", ", count,
+        text.empty() ? (count == 1 ? " surface there is" : " surfaces there are") : "", kind);
+  return text;
+}
+
+/// Where each arithmetic() computed: hosts and number of surfaces.
+struct Machines {
+  std::set<std::string> hosts;
+  std::size_t surfaces = 0;
+};
+
+std::map<std::string, Machines> machines_of(const std::vector<PartOrigin>& origins) {
+  std::map<std::string, Machines> machines;
+  for (const PartOrigin& origin : origins) {
+    machines[origin.arithmetic].hosts.insert(origin.host);
+    ++machines[origin.arithmetic].surfaces;
+  }
+  return machines;
+}
+
+void warn_of_parts(const StudyParts& parts, const std::vector<PartOrigin>& others, bool merge,
+                   Session& session) {
+  if (parts.damaged() > 0)
+    session.warn(fmt::format("{} damaged files of {} were thrown away{}", parts.damaged(),
+                             parts.folder().string(),
+                             merge ? "" : ", their surfaces computed again"));
+  if (!merge) return;
+  if (const auto machines = machines_of(parts.origins()); machines.size() > 1) {
+    std::string text;
+    for (const auto& [arithmetic, found] : machines)
+      text += fmt::format("{}{} by {} on {}", text.empty() ? "" : "; ", found.surfaces, arithmetic,
+                          fmt::join(found.hosts, ", "));
+    session.warn("the surfaces come from machines whose last digits differ: " + text);
+  }
+  if (!others.empty())
+    session.warn(fmt::format("{}: {}; left out, and left there", parts.folder().string(),
+                             strangers(others)));
+}
+
+/// The session's provenance; of merged surfaces, the arithmetic is theirs.
+Provenance provenance_of(const StudyParts& parts, const Session& session) {
+  Provenance provenance = session.provenance();
+  for (const auto& [arithmetic, found] : machines_of(parts.origins()))
+    provenance.arithmetic += (provenance.arithmetic.empty() ? "" : "; ") + arithmetic;
+  return provenance;
+}
+
+}  // namespace
+
+std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
+                                      const StudyArguments& arguments, StudyReport& page,
+                                      Session& session) {
+  const bool merge = arguments.merge, resume = arguments.resume || merge;
+  require(!resume || session.has_output(), merge ? "--merge" : "--resume", "needs",
+          merge ? "the --output of the shards" : "the --output of the run to go on with");
+  const std::filesystem::path folder = parts_folder(session);
   if (resume && is_result_of(session.output(), configuration)) {
     StudyParts(folder, true).discard();
     const StudyFiles files{session.output().string(), page.complete()};
@@ -206,38 +357,29 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, b
   }
   session.require_free_output();
   std::unique_ptr<StudyParts> parts;
-  if (session.has_output()) parts = std::make_unique<StudyParts>(folder, resume);
+  if (merge)
+    parts = StudyParts::to_merge(folder);
+  else if (session.has_output())
+    parts = std::make_unique<StudyParts>(folder, resume);
 
-  Pace pace;
-  RealisationReport last;
-  StudyRun run;
-  run.parts = parts.get();
-  const bool bar = isatty(STDERR_FILENO) != 0;
-  run.on_realisation = [&](const RealisationReport& report) {
-    last = report;
-    if (report.restored) pace.restored();
-    if (bar || report.restored) return;
-    const double fraction = double(report.finished) / double(report.wanted);
-    session.note(fmt::format(
-        "study: surface {} of {} (seed {}{}) in {:.1f} s{}", report.finished, report.wanted,
-        report.seed,
-        report.points > 1 ? fmt::format(", point {} of {}", report.point + 1, report.points) : "",
-        report.seconds, pace.at(fraction, report.finished, report.wanted)));
-  };
-  const Progress progress = session.progress();
-  run.on_progress = [&](const ProgressReport& report) {
-    const std::string stage =
-        std::string(report.stage) +
-        pace.at(report.fraction, std::size_t(report.step), std::max(last.wanted, std::size_t{1}));
-    ProgressReport timed = report;
-    timed.stage = stage;
-    return progress(timed);
-  };
+  Reporter reporter(session);
+  StudyRun run = reporter.run(parts.get());
+  std::vector<std::size_t> missing;
+  if (merge) run.missing = &missing;
   std::vector<StudyResult> results = run_ensembles(configuration, run);
-  if (parts && parts->damaged() > 0) {
-    session.warn(
-        fmt::format("{} damaged files of {} were thrown away, their surfaces computed again",
-                    parts->damaged(), parts->folder().string()));
+  const std::vector<std::uint64_t> keys =
+      merge ? StudyParts::keys(configuration) : std::vector<std::uint64_t>();
+  if (parts) {
+    const std::vector<PartOrigin> others = merge ? parts->others(keys) : std::vector<PartOrigin>();
+    if (!missing.empty()) {
+      const std::string other = strangers(others);
+      throw Incomplete(fmt::format(
+          "{}: {} of {} surfaces are missing{}; {}, then --merge{}", folder.string(),
+          missing.size(), keys.size(),
+          parts->damaged() > 0 ? fmt::format(", {} of them damaged", parts->damaged()) : "",
+          shards_to_run(missing, parts->origins()), other.empty() ? "" : " (" + other + ")"));
+    }
+    warn_of_parts(*parts, others, merge, session);
   }
   std::size_t finished = 0;
   for (const StudyResult& result : results) {
@@ -257,17 +399,68 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, b
     try {
       require_relative_error(results);
     } catch (const NotConverged&) {
-      if (parts) parts->discard();
+      if (parts && !merge) parts->discard();
       throw;
     }
   }
   if (parts) {
-    write_ensembles(session.output(), results, session.provenance(), session.write_options());
-    parts->discard();
+    write_ensembles(session.output(), results, provenance_of(*parts, session),
+                    session.write_options());
+    parts->discard(keys);
   } else {
     session.note("no file was written; add --output FILE to keep the results");
   }
   return results;
+}
+
+bool run_without_results(const StudyConfiguration& configuration, const StudyArguments& arguments,
+                         Session& session) {
+  require(arguments.dry_run || !arguments.shard_seconds, "--shard-seconds", "is",
+          "for --dry-run only; add it");
+  if (arguments.dry_run) {
+    answer_dry_run(configuration, arguments.shard_seconds, session);
+    return true;
+  }
+  if (!arguments.shard) return false;
+  const Shard& shard = *arguments.shard;
+  require(!arguments.merge, "--merge", "cannot",
+          "be combined with --shard; run it after the shards");
+  require(session.has_output(), "--shard", "needs",
+          "the --output of the study; its surfaces are kept beside it");
+  require(!session.has_plot(), "--plot", "cannot",
+          "be combined with --shard, which has no result; draw with --merge");
+  const std::string folder = parts_folder(session).string();
+  const auto answer = [&](const ShardOutcome& outcome, const std::string& text) {
+    session.answer(Json{{"shard", to_text(shard)},
+                        {"surfaces", outcome.wanted},
+                        {"computed", outcome.computed},
+                        {"present", outcome.present},
+                        {"elsewhere", outcome.elsewhere},
+                        {"files", {{"parts", folder}}}},
+                   fmt::format("shard {}: {}\n", to_text(shard), text));
+    return true;
+  };
+  if (!session.overwrites() && is_result_of(session.output(), configuration))
+    return answer({}, session.output().string() + " is complete already");
+  parameter_combinations(configuration);  // refuses before there is a folder
+  const auto parts = StudyParts::of_shard(folder, shard);
+  Reporter reporter(session);
+  const ShardOutcome outcome = run_shard(configuration, shard, reporter.run(parts.get()));
+  warn_of_parts(*parts, {}, false, session);
+  if (outcome.interrupted)
+    throw Interrupted(fmt::format(
+        "study: interrupted; {} finished surfaces of this shard are kept in {}; go on with the "
+        "same command",
+        outcome.present + outcome.computed, folder));
+  return answer(
+      outcome,
+      fmt::format("{} surfaces, {} computed now{}, kept in {}; --merge in place of --shard makes "
+                  "the result of all",
+                  outcome.wanted, outcome.computed,
+                  outcome.elsewhere > 0
+                      ? fmt::format(", {} being computed by other processes", outcome.elsewhere)
+                      : "",
+                  folder));
 }
 
 Json to_json(const EnsembleMean& estimate) {

@@ -28,6 +28,9 @@ struct StudyArguments {
   bool no_stick = false;
   bool resume = false;
   bool dry_run = false;
+  std::optional<double> shard_seconds;
+  std::optional<Shard> shard;
+  bool merge = false;
   bool no_report = false;
 
   void add_to(Command& command);
@@ -70,10 +73,15 @@ struct StudyFiles {
 /// Runs the ensembles with progress, keeps finished surfaces beside the session's output as it goes, and writes the result there. Without
 /// an output nothing is kept. Where a resumed study has its result already, tidies up after it, makes a page that is missing, answers so
 /// and returns nothing.
-/// Otherwise returns at least one finished surface; what stopped the run before its end throws Interrupted, which says
+/// With --merge nothing is computed: throws Incomplete where surfaces are missing. Otherwise returns at least one finished surface; what stopped the run before its end throws Interrupted, which says
 /// how to go on, after the surfaces that were finished have been answered where they are not kept.
-std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration, bool resume,
-                                      StudyReport& page, Session& session);
+std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
+                                      const StudyArguments& arguments, StudyReport& page,
+                                      Session& session);
+
+/// What ends a command before its results: --dry-run and --shard. False where there is neither.
+bool run_without_results(const StudyConfiguration& configuration, const StudyArguments& arguments,
+                         Session& session);
 
 Json to_json(const EnsembleMean& estimate);
 /// Arrays mean, low and high.

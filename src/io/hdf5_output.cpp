@@ -153,7 +153,8 @@ Output::Output(const std::filesystem::path& file, const Provenance& provenance,
   attribute(root_, "program", std::string_view("salebra"));
   attribute(root_, "version", version());
   attribute(root_, "libraries", library_versions());
-  attribute(root_, "arithmetic", arithmetic());
+  attribute(root_, "arithmetic",
+            provenance.arithmetic.empty() ? arithmetic() : provenance.arithmetic);
   if (!provenance.revision.empty()) attribute(root_, "revision", provenance.revision);
   if (!provenance.started.empty()) attribute(root_, "started", provenance.started);
   attribute(root_, "created", provenance.created.empty() ? utc_now() : provenance.created);

@@ -22,30 +22,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The first M >= least realisations that determine l/h_rms and κ to the precision asked; 0: none do.
-std::size_t enough(const StudyResult& result,
-                   const std::vector<std::optional<Realisation>>& realisations,
-                   std::size_t finished) {
-  const StudyConfiguration& configuration = result.configuration;
-  if (configuration.target_precision <= 0 ||
-      finished < std::size_t(configuration.min_realisations) || !is_milestone(finished))
-    return 0;
-  std::vector<double> lengths, slopes;
-  for (std::size_t i = 0; i < finished; ++i) {
-    const Realisation& realisation = *realisations[i];
-    lengths.push_back(realisation.of(ContactModel::bem).fit.decay_length /
-                      realisation.heights.rms_height);
-    slopes.push_back(realisation.of(ContactModel::bem).area_slope);
-  }
-  const auto precise = [&](const std::vector<double>& values) {
-    const EnsembleMean estimate = result.bootstrap.mean(values);
-    // No load in the range of the area law: nothing to wait for.
-    return std::isnan(estimate.mean) ||
-           estimate.relative_precision() <= configuration.target_precision;
-  };
-  return precise(lengths) && precise(slopes) ? finished : 0;
-}
-
 class CaseRun {
  public:
   CaseRun(StudyResult& result, const StudyRun& run, const RealisationReport& start)
@@ -54,17 +30,26 @@ class CaseRun {
         report_(start),
         seeds_(seeds_of(result.configuration)),
         realisations_(seeds_.size()),
-        fractions_(seeds_.size()) {}
+        fractions_(seeds_.size()),
+        precision_(result.configuration) {}
 
   void go() {
     if (run_.parts && run_.parts->count() > 0) restore();
     talk();
-    const auto workers = std::size_t(parallel::threads());
-    if (workers > 1 && seeds_.size() - finished_ >= workers) {
-      side_by_side(int(workers));
+    if (run_.missing) {
+      note_missing();
     } else {
+      std::atomic<std::size_t> next = 0;
+      const auto do_next = [&](bool on_calling_thread) {
+        const std::size_t i = next++;
+        if (i >= seeds_.size() || !going_on(i)) return false;
+        compute(i, on_calling_thread);
+        return true;
+      };
+      const auto workers = std::size_t(parallel::threads());
       // Few surfaces: all threads work on each.
-      for (std::size_t i = 0; i < seeds_.size() && going_on(i); ++i) compute(i, true);
+      const bool few = workers == 1 || seeds_.size() - finished_ < workers;
+      side_by_side(few ? 0 : int(workers), do_next, [this] { talk(); });
     }
     if (failure_) std::rethrow_exception(failure_);
     // Realisations beyond a gap, or beyond the number that is enough, take no part.
@@ -83,27 +68,9 @@ class CaseRun {
     }
   }
 
-  /// One thread more than there is work for: it sleeps, and talks to the caller.
-  void side_by_side(int workers) {
-    std::atomic<std::size_t> next = 0;
-    std::atomic<int> working = 0;
-#pragma omp parallel num_threads(workers + 1)
-    {
-#pragma omp single
-      working = omp_get_num_threads() - 1;  // a team may have fewer threads than were asked for
-      if (omp_get_thread_num() == 0) {
-        while (working > 0) {
-          talk();
-          std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        }
-      } else {
-        for (std::size_t i = next++; i < seeds_.size() && going_on(i); i = next++)
-          compute(i, false);
-        --working;
-      }
-    }
-    for (std::size_t i = next++; i < seeds_.size() && going_on(i); i = next++) compute(i, true);
-    talk();
+  void note_missing() {
+    for (std::size_t i = 0; i < std::min(limit_.load(), seeds_.size()); ++i)
+      if (!realisations_[i]) run_.missing->push_back(report_.finished + i);
   }
 
   bool going_on(std::size_t i) const { return !stop_ && i < limit_; }
@@ -142,9 +109,7 @@ class CaseRun {
   void note(std::size_t i, double seconds, bool restored) {
     fractions_[i] = 1;
     while (prefix_ < realisations_.size() && realisations_[prefix_]) {
-      ++prefix_;
-      if (const std::size_t count = enough(result_, realisations_, prefix_))
-        limit_ = std::min(limit_.load(), count);
+      if (precision_.met_with(*realisations_[prefix_++])) limit_ = std::min(limit_.load(), prefix_);
     }
     RealisationReport item = report_;
     item.finished += ++finished_;
@@ -193,6 +158,7 @@ class CaseRun {
   std::vector<std::atomic<double>> fractions_;
   std::vector<RealisationReport> news_;
   std::atomic<std::size_t> finished_ = 0;
+  PrecisionRule precision_;
   std::size_t prefix_ = 0;  ///< so many from the first on are there
   std::atomic<std::size_t> limit_ = std::numeric_limits<std::size_t>::max();
   std::atomic<bool> stop_ = false;
@@ -205,6 +171,67 @@ class CaseRun {
 std::vector<std::uint64_t> seeds_of(const StudyConfiguration& configuration) {
   const auto* generated = std::get_if<GeneratedSurfaces>(&configuration.surfaces);
   return generated ? generated->seeds : std::vector<std::uint64_t>{0};
+}
+
+std::vector<std::uint64_t> keys_of(const std::vector<StudyConfiguration>& points) {
+  std::vector<std::uint64_t> keys;
+  for (const StudyConfiguration& point : points)
+    for (const std::uint64_t seed : seeds_of(point)) keys.push_back(StudyParts::key(point, seed));
+  return keys;
+}
+
+void require_some_of(StudyParts& parts, const std::vector<StudyConfiguration>& points) {
+  for (const std::uint64_t key : keys_of(points))
+    if (parts.holds(key)) {
+      parts.read(key);
+      return;
+    }
+  throw InvalidInput(fmt::format(
+      "{}: none of its {} surfaces belongs to this study; the settings or the program have changed "
+      "since, restore them or remove the folder",
+      parts.folder().string(), parts.count()));
+}
+
+bool PrecisionRule::met_with(const Realisation& realisation) {
+  if (configuration_.target_precision <= 0) return false;
+  const ModelResult& bem = realisation.of(ContactModel::bem);
+  lengths_.push_back(bem.fit.decay_length / realisation.heights.rms_height);
+  slopes_.push_back(bem.area_slope);
+  const std::size_t count = lengths_.size();
+  if (count < std::size_t(configuration_.min_realisations) || !is_milestone(count)) return false;
+  const auto precise = [&](const std::vector<double>& values) {
+    const EnsembleMean estimate = bootstrap_.mean(values);
+    // No load in the range of the area law: nothing to wait for.
+    return std::isnan(estimate.mean) ||
+           estimate.relative_precision() <= configuration_.target_precision;
+  };
+  return precise(lengths_) && precise(slopes_);
+}
+
+void side_by_side(int workers, const std::function<bool(bool)>& do_next,
+                  const std::function<void()>& talk) {
+  if (workers > 0) {
+    // One thread more than there is work for: it sleeps, and talks to the caller.
+    std::atomic<int> working = 0;
+#pragma omp parallel num_threads(workers + 1)
+    {
+#pragma omp single
+      working = omp_get_num_threads() - 1;  // a team may have fewer threads than were asked for
+      if (omp_get_thread_num() == 0) {
+        while (working > 0) {
+          talk();
+          std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+      } else {
+        while (do_next(false)) {
+        }
+        --working;
+      }
+    }
+  }
+  while (do_next(true)) {
+  }
+  talk();
 }
 
 void run_case(StudyResult& result, const StudyRun& run, const RealisationReport& start) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <salebra/base/error.hpp>
 #include <salebra/base/fft.hpp>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
@@ -96,11 +97,42 @@ double kept_bytes(const StudyConfiguration& point, const Grid2D& grid) {
                   sizeof(SpotStatistics) + sizes * sizeof(double));
 }
 
+/// Of threads over one, where a process has this many surfaces: one on each thread, or all threads on each.
+double gain_of(int threads, std::size_t surfaces) {
+  const bool side_by_side = surfaces >= static_cast<std::size_t>(threads);
+  return side_by_side ? threads : 1 + gain_of_a_thread * (threads - 1);
+}
+
+ShardPlan plan_of(const StudyCost& cost, std::size_t shards) {
+  struct Load {
+    std::size_t surfaces = 0;
+    double seconds = 0;
+  };
+  std::vector<Load> loads(shards);
+  std::size_t place = 0;
+  for (const PointCost& point : cost.points)
+    for (std::size_t i = 0; i < point.surfaces; ++i) {
+      Load& load = loads[place++ % shards];
+      ++load.surfaces;
+      load.seconds += point.seconds / static_cast<double>(point.surfaces);
+    }
+  ShardPlan plan{.shards = shards};
+  for (const Load& load : loads) {
+    plan.surfaces = std::max(plan.surfaces, load.surfaces);
+    plan.seconds = std::max(plan.seconds, load.seconds / gain_of(cost.threads, load.surfaces));
+  }
+  for (const PointCost& point : cost.points)
+    plan.memory = std::max(
+        plan.memory, study_memory(point.configuration, point.grid, cost.threads, plan.surfaces));
+  return plan;
+}
+
 }  // namespace
 
-double study_memory(const StudyConfiguration& point, const Grid2D& grid, int threads) {
-  const auto* generated = std::get_if<GeneratedSurfaces>(&point.surfaces);
-  const auto surfaces = static_cast<double>(generated ? generated->seeds.size() : 1);
+double study_memory(const StudyConfiguration& point, const Grid2D& grid, int threads,
+                    std::optional<std::size_t> in_one_process) {
+  const auto surfaces =
+      static_cast<double>(in_one_process.value_or(detail::seeds_of(point).size()));
   // As run_ensembles() does: one surface on each thread where there are enough, else all threads on each.
   const double side_by_side = surfaces >= threads ? threads : 1;
   const double per_cell = stick_solves(point) ? memory_per_cell_stick : memory_per_cell;
@@ -135,16 +167,30 @@ StudyCost estimate_cost(const StudyConfiguration& configuration) {
   cost.available = static_cast<double>(available_memory());
   cost.memory = memory_of_program;
   const double speed = reference_transform / transform_seconds();
-  const auto threads = static_cast<std::size_t>(cost.threads);
   for (StudyConfiguration point : parameter_combinations(configuration)) {
     PointCost own = cost_of(point, speed);
-    const bool side_by_side = own.surfaces >= threads;
-    const double gain = side_by_side ? cost.threads : 1 + gain_of_a_thread * (cost.threads - 1);
-    cost.seconds += own.seconds / gain;
+    cost.seconds += own.seconds / gain_of(cost.threads, own.surfaces);
     cost.memory = std::max(cost.memory, study_memory(point, own.grid, cost.threads));
     cost.points.push_back(std::move(own));
   }
   return cost;
+}
+
+ShardPlan plan_shards(const StudyCost& cost, double seconds) {
+  require_positive(seconds, "shard_seconds");
+  // Fewer cannot do: this is the work of all threads, divided evenly.
+  const std::size_t most = cost.surfaces();
+  double work = 0;
+  for (const PointCost& point : cost.points) work += point.seconds;
+  const double fewest = std::min(work / cost.threads / seconds, static_cast<double>(most));
+  std::size_t shards = std::max<std::size_t>(1, static_cast<std::size_t>(fewest));
+  ShardPlan plan = plan_of(cost, shards);
+  while (plan.seconds > seconds && shards < most) {
+    // By a hundredth at a time, so that planning takes no time with many surfaces.
+    shards = std::min(most, shards + std::max<std::size_t>(1, shards / 100));
+    plan = plan_of(cost, shards);
+  }
+  return plan;
 }
 
 }  // namespace salebra

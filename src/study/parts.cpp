@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Folder of finished realisations from which an interrupted study resumes.
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <charconv>
+#include <chrono>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/study/parts.hpp>
 #include <string>
 #include <vector>
 
+#include "case_run.hpp"
 #include "io/atomic_file.hpp"
 #include "io/input_file.hpp"
 #include "realisation_record.hpp"
@@ -23,6 +29,28 @@ bool is_realisation(const std::filesystem::path& file) {
   return file.extension() == suffix && file.filename().string().front() != '.';
 }
 
+std::string name_of(std::uint64_t key) { return fmt::format("{:016x}{}", key, suffix); }
+
+/// keys: in ascending order.
+bool is_one_of(const std::filesystem::path& file, std::span<const std::uint64_t> keys) {
+  std::uint64_t key = 0;
+  const std::string stem = file.stem().string();
+  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), key, 16);
+  return error == std::errc() && file.filename() == name_of(key) &&
+         std::ranges::binary_search(keys, key);
+}
+
+std::string host() {
+  std::array<char, 256> name = {};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+/// Passes by the removal of damaged files.
+class OtherArithmetic : public InvalidInput {
+ public:
+  using InvalidInput::InvalidInput;
+};
+
 std::filesystem::path created(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directory(folder, error);
@@ -31,7 +59,7 @@ std::filesystem::path created(const std::filesystem::path& folder) {
   return folder;
 }
 
-/// What a killed writer left half-way. Only for the holder of the lock, which says that no other is at work.
+/// What killed processes left half-written. Only for the one that has the folder alone.
 void remove_abandoned(const std::filesystem::path& folder, const std::string& beginning) {
   std::vector<std::filesystem::path> abandoned;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -42,28 +70,71 @@ void remove_abandoned(const std::filesystem::path& folder, const std::string& be
   for (const std::filesystem::path& file : abandoned) std::filesystem::remove(file, ignored);
 }
 
+constexpr const char* shard_lock = "shard.";
+
+/// A name of its own: two shards of one number are harmless, and one that is started again must not wait for the lock of a dead host.
+std::string own_lock(const std::string& shard) {
+  std::string name = shard;
+  std::ranges::replace(name, '/', '-');
+  const auto moment = std::chrono::steady_clock::now().time_since_epoch().count();
+  return fmt::format("{}{}.{}-{}-{:x}", shard_lock, name, host(), getpid(), moment);
+}
+
+/// Locks of shards, and claims.
+std::vector<std::filesystem::path> marks_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().filename().string().starts_with(shard_lock) ||
+        entry.path().filename().string().find(detail::claim_suffix) != std::string::npos)
+      files.push_back(entry.path());
+  return files;
+}
+
 }  // namespace
 
 struct StudyParts::State {
-  explicit State(const std::filesystem::path& where)
-      : folder(created(where)), lock(std::make_unique<detail::StudyLock>(folder / "lock")) {}
-
-  std::filesystem::path file(std::uint64_t key) const {
-    return folder / fmt::format("{:016x}{}", key, suffix);
+  State(const std::filesystem::path& where, Use purpose, const std::string& shard_text)
+      : folder(created(where)),
+        use(purpose),
+        shard(shard_text),
+        lock(std::make_unique<detail::StudyLock>(folder /
+                                                 (use == Use::shard ? own_lock(shard) : alone))) {
+    // Each makes its own lock first and then looks for the other's: of two that start at once, one at least sees the other.
+    if (use == Use::shard) {
+      detail::StudyLock::require_free(folder / alone, *lock);
+      return;
+    }
+    const std::vector<std::filesystem::path> marks = marks_in(folder);
+    for (const std::filesystem::path& mark : marks)
+      if (mark.filename().string().starts_with(shard_lock))
+        detail::StudyLock::require_free(mark, *lock);
+    std::error_code ignored;
+    for (const std::filesystem::path& mark : marks) std::filesystem::remove(mark, ignored);
   }
 
+  std::filesystem::path file(std::uint64_t key) const { return folder / name_of(key); }
+
+  static constexpr const char* alone = "lock";
   std::filesystem::path folder;
+  Use use;
+  std::string shard;
   std::unique_ptr<detail::StudyLock> lock;
   std::atomic<int> damaged = 0;
+  std::vector<PartOrigin> origins;
 };
 
-StudyParts::StudyParts(const std::filesystem::path& folder, bool resume)
-    : state_(std::make_unique<State>(folder)) {
+StudyParts::StudyParts(const std::filesystem::path& folder, Use use, const std::string& shard)
+    : state_(std::make_unique<State>(folder, use, shard)) {
+  if (use == Use::shard) return;
   // The result beside the folder may have been cut off too, and so may its page.
   const std::filesystem::path parent = folder.parent_path(), result = folder.stem();
   remove_abandoned(folder, ".");
   for (const auto& file : {result, std::filesystem::path(result).replace_extension(".html")})
     remove_abandoned(parent.empty() ? "." : parent, "." + file.string() + ".");
+}
+
+StudyParts::StudyParts(const std::filesystem::path& folder, bool resume)
+    : StudyParts(folder, Use::resume, "") {
   if (!resume && count() > 0) {
     throw InvalidInput(fmt::format(
         "{}: holds {} finished surfaces of an earlier run; go on with them by `resume`, or "
@@ -72,8 +143,18 @@ StudyParts::StudyParts(const std::filesystem::path& folder, bool resume)
   }
 }
 
+std::unique_ptr<StudyParts> StudyParts::of_shard(const std::filesystem::path& folder,
+                                                 const Shard& shard) {
+  return std::unique_ptr<StudyParts>(new StudyParts(folder, Use::shard, to_text(shard)));
+}
+
+std::unique_ptr<StudyParts> StudyParts::to_merge(const std::filesystem::path& folder) {
+  return std::unique_ptr<StudyParts>(new StudyParts(folder, Use::merge, ""));
+}
+
 StudyParts::~StudyParts() {
   state_->lock.reset();
+  if (state_->use == Use::shard) return;
   std::error_code ignored;
   std::filesystem::remove(state_->folder, ignored);  // only an empty one
 }
@@ -91,6 +172,12 @@ std::uint64_t StudyParts::key(const StudyConfiguration& point, std::uint64_t see
   return detail::realisation_key(point, seed);
 }
 
+std::vector<std::uint64_t> StudyParts::keys(const StudyConfiguration& study) {
+  std::vector<std::uint64_t> keys = detail::keys_of(parameter_combinations(study));
+  std::ranges::sort(keys);
+  return keys;
+}
+
 bool StudyParts::holds(std::uint64_t key) const {
   return std::filesystem::exists(state_->file(key));
 }
@@ -99,12 +186,16 @@ std::optional<Realisation> StudyParts::read(std::uint64_t key) {
   const std::filesystem::path file = state_->file(key);
   if (!std::filesystem::exists(file)) return {};
   try {
-    return detail::decode(detail::InputFile(file).content(), key);
-  } catch (const detail::OtherArithmetic& other) {
-    throw InvalidInput(fmt::format(
-        "{}: its surfaces were computed by {}, and this program computes by {}: their last digits "
-        "differ; resume where the study was begun, or remove the folder to begin anew",
-        state_->folder.string(), other.what(), arithmetic()));
+    detail::Record record = detail::decode(detail::InputFile(file).content(), key);
+    if (state_->use == Use::resume && record.origin.arithmetic != arithmetic())
+      throw OtherArithmetic(fmt::format(
+          "{}: its surfaces were computed by {}, and this program computes by {}: their last "
+          "digits differ; resume where the study was begun, or remove the folder to begin anew",
+          state_->folder.string(), record.origin.arithmetic, arithmetic()));
+    state_->origins.push_back(std::move(record.origin));
+    return std::move(record.realisation);
+  } catch (const OtherArithmetic&) {
+    throw;
   } catch (const InvalidInput&) {
     ++state_->damaged;
     std::filesystem::remove(file);
@@ -113,25 +204,47 @@ std::optional<Realisation> StudyParts::read(std::uint64_t key) {
 }
 
 void StudyParts::write(std::uint64_t key, const Realisation& realisation) {
-  if (!state_->lock->held())
+  const bool shared = state_->use == Use::shard;
+  if (!shared && !state_->lock->held())
     throw Interrupted(state_->folder.string() + ": another process took the study over");
+  if (shared && !std::filesystem::exists(state_->folder))
+    throw IoError(fmt::format(
+        "{}: was removed while this shard ran, as when the study is merged or begun anew; if it "
+        "is not finished, run the shard again",
+        state_->folder.string()));
   try {
     detail::AtomicFile file(state_->file(key), {.overwrite = true});
-    file.write(detail::encode(realisation, key));
+    file.write(detail::encode({{.version = std::string(version()),
+                                .arithmetic = arithmetic(),
+                                .host = host(),
+                                .shard = state_->shard},
+                               realisation},
+                              key));
     file.commit();
   } catch (const IoError& error) {
-    throw IoError(
-        fmt::format("{}; the surfaces finished before are kept: make room and go on with "
-                    "`resume`",
-                    error.what()));
+    throw IoError(fmt::format("{}; the surfaces finished before are kept: make room and {}",
+                              error.what(),
+                              shared ? "run the shard again" : "go on with `resume`"));
   }
 }
 
 int StudyParts::damaged() const { return state_->damaged; }
 
-void StudyParts::discard() {
+const std::vector<PartOrigin>& StudyParts::origins() const { return state_->origins; }
+
+std::vector<PartOrigin> StudyParts::others(std::span<const std::uint64_t> keys) const {
+  std::vector<PartOrigin> found;
   for (const auto& entry : std::filesystem::directory_iterator(state_->folder))
-    if (is_realisation(entry.path())) std::filesystem::remove(entry.path());
+    if (is_realisation(entry.path()) && !is_one_of(entry.path(), keys))
+      found.push_back(
+          detail::origin_of(detail::InputFile(entry.path()).content()).value_or(PartOrigin{}));
+  return found;
+}
+
+void StudyParts::discard(std::span<const std::uint64_t> only) {
+  for (const auto& entry : std::filesystem::directory_iterator(state_->folder))
+    if (is_realisation(entry.path()) && (only.empty() || is_one_of(entry.path(), only)))
+      std::filesystem::remove(entry.path());
 }
 
 }  // namespace salebra

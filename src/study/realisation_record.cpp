@@ -18,7 +18,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view magic = "salebra realisation 6\n";
+constexpr std::string_view magic = "salebra realisation 7\n";
 
 /// Appends the bytes of numbers, and of lists and texts after their lengths.
 class Writer {
@@ -173,25 +173,36 @@ std::uint64_t study_key(const std::vector<StudyConfiguration>& points) {
   return checksum(writer.bytes);
 }
 
-std::string encode(const Realisation& realisation, std::uint64_t key) {
+std::string encode(const Record& record, std::uint64_t key) {
+  const PartOrigin& origin = record.origin;
   Writer writer;
-  writer(arithmetic(), realisation);
+  writer(origin.version, origin.arithmetic, origin.host, origin.shard, record.realisation);
   return header(key, writer.bytes.size(), checksum(writer.bytes)) + writer.bytes;
 }
 
-Realisation decode(std::string_view bytes, std::uint64_t key) {
-  const std::string expected_size = header(0, 0, 0);
-  const std::string_view payload = bytes.substr(std::min(bytes.size(), expected_size.size()));
-  if (bytes.substr(0, expected_size.size()) != header(key, payload.size(), checksum(payload)))
+Record decode(std::string_view bytes, std::uint64_t key) {
+  const std::string_view payload = bytes.substr(std::min(bytes.size(), header(0, 0, 0).size()));
+  if (bytes.substr(0, bytes.size() - payload.size()) !=
+      header(key, payload.size(), checksum(payload)))
     throw InvalidInput("realisation: its checksum is wrong");
-  Realisation realisation;
+  Record record;
+  PartOrigin& origin = record.origin;
   Reader reader(payload);
-  std::string computed_by;
-  reader(computed_by);
-  if (computed_by != arithmetic()) throw OtherArithmetic(computed_by);
-  reader(realisation);
+  reader(origin.version, origin.arithmetic, origin.host, origin.shard, record.realisation);
   if (!reader.at_end()) throw InvalidInput("realisation: is longer than it should be");
-  return realisation;
+  return record;
+}
+
+std::optional<PartOrigin> origin_of(std::string_view bytes) {
+  const std::size_t start = header(0, 0, 0).size();
+  if (bytes.size() < start || !bytes.starts_with(magic)) return {};
+  PartOrigin origin;
+  try {
+    Reader(bytes.substr(start))(origin.version, origin.arithmetic, origin.host, origin.shard);
+  } catch (const InvalidInput&) {
+    return {};
+  }
+  return origin;
 }
 
 }  // namespace salebra::detail

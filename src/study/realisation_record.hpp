@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <salebra/base/error.hpp>
+#include <optional>
+#include <salebra/study/parts.hpp>
 #include <salebra/study/realisation.hpp>
 #include <string>
 #include <string_view>
@@ -19,15 +20,17 @@ std::uint64_t study_key(const std::vector<StudyConfiguration>& points);
 
 std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t seed);
 
-/// A whole realisation, but with other last digits than this program would have computed: what() is the arithmetic() of its own.
-class OtherArithmetic : public Error {
- public:
-  using Error::Error;
+/// A realisation and where it was computed.
+struct Record {
+  PartOrigin origin;
+  Realisation realisation;
 };
 
-/// Every bit of a realisation with its key, the arithmetic() that it comes from and a checksum; for this machine's byte order.
-std::string encode(const Realisation& realisation, std::uint64_t key);
-/// Throws InvalidInput for anything but what encode() made with this key, and OtherArithmetic.
-Realisation decode(std::string_view bytes, std::uint64_t key);
+/// Every bit of a record with its key and a checksum; for this machine's byte order.
+std::string encode(const Record& record, std::uint64_t key);
+/// Throws InvalidInput for anything but what encode() made with this key.
+Record decode(std::string_view bytes, std::uint64_t key);
+/// Of what encode() made with any key; empty for anything else, such as the record of another version whose form differs.
+std::optional<PartOrigin> origin_of(std::string_view bytes);
 
 }  // namespace salebra::detail

@@ -122,21 +122,6 @@ void flag(StudyResult& result) {
              fewest)});
 }
 
-/// Parts of other settings would be passed over in silence, and days of work with them. Of one arithmetic are all or none: reading
-/// one refuses them before any work.
-void require_some_of(StudyParts& parts, const std::vector<StudyConfiguration>& points) {
-  for (const StudyConfiguration& point : points)
-    for (const std::uint64_t seed : detail::seeds_of(point))
-      if (const std::uint64_t key = StudyParts::key(point, seed); parts.holds(key)) {
-        parts.read(key);
-        return;
-      }
-  throw InvalidInput(fmt::format(
-      "{}: none of its {} surfaces belongs to this study; the settings or the program have changed "
-      "since, restore them or remove the folder",
-      parts.folder().string(), parts.count()));
-}
-
 }  // namespace
 
 std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
@@ -149,14 +134,15 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
     require(count > 0, "seeds", 0, "is too few; give at least one");
     report.wanted += count;
   }
-  if (run.parts && run.parts->count() > 0) require_some_of(*run.parts, points);
+  if (run.parts && !run.missing && run.parts->count() > 0)
+    detail::require_some_of(*run.parts, points);
   std::vector<StudyResult> results;
   for (const StudyConfiguration& point : points) {
     StudyResult result;
     result.configuration = point;
     if (const auto* recipe = std::get_if<GeneratedSurfaces>(&point.surfaces))
       result.grid = recipe->grid;
-    if (result.grid.nx > 0)
+    if (result.grid.nx > 0 && !run.missing)
       require_memory(result.grid, study_memory(point, result.grid, parallel::threads()),
                      "the surfaces of all threads (fewer `threads` need less)");
     result.contact_scale = contact_scale(point);
@@ -171,7 +157,7 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
       flag(result);
       results.push_back(std::move(result));
     }
-    if (interrupted) break;
+    if (interrupted && !run.missing) break;
   }
   return results;
 }

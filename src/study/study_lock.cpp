@@ -112,25 +112,78 @@ double modified(const struct stat& status) {
                             file.string(), std::strerror(error)));
 }
 
+/// A lock file of somebody.
+struct Found {
+  std::string text, holder;  ///< its content, and who that is in words
+  bool stale = false;
+};
+
+/// Empty where there is no such file. now: of a file of the same file system that has just been touched.
+std::optional<Found> look_at(const std::filesystem::path& file, const struct stat& now,
+                             std::chrono::milliseconds stale_after) {
+  std::error_code ignored;
+  const auto kind = std::filesystem::symlink_status(file, ignored).type();
+  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
+    throw InvalidInput(fmt::format("{}: is no regular file; remove it", file.string()));
+  struct stat present = {};
+  const auto text = read_text(file);
+  if (!text || stat(file.c_str(), &present) != 0) return {};
+  const Owner owner = parse(*text);
+  const double age = modified(now) - modified(present);
+  // A process that was stopped touches nothing, and goes on later: where it can be looked at, the clock has no say.
+  const std::optional<bool> alive = lives(owner);
+  return Found{*text,
+               fmt::format("process {} on {}, which last touched it {:.0f} s ago", owner.process,
+                           owner.space.substr(0, owner.space.find(' ')), std::max(age, 0.0)),
+               alive ? !*alive : age > double(stale_after.count()) / 1000};
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& holder) {
+  throw InvalidInput(fmt::format("{}: in use by {}; wait for it to end, or end it",
+                                 file.parent_path().string(), holder));
+}
+
 }  // namespace
 
-StudyLock::StudyLock(std::filesystem::path file, std::chrono::milliseconds stale_after)
+StudyLock::StudyLock(std::filesystem::path file, std::chrono::milliseconds stale_after, Unlinked)
     : file_(std::move(file)), stale_after_(stale_after) {
   const auto moment = std::chrono::steady_clock::now().time_since_epoch().count();
   identity_ =
       fmt::format("{}\n{}\n{}\n{:x}-{:x}\n", process_space(), getpid(), status_of(getpid()).started,
                   moment, reinterpret_cast<std::uintptr_t>(this));
-  // Each failed attempt saw a lock vanish or be taken over: not many in a row.
-  for (int attempt = 0; attempt < 20 && !held_; ++attempt) held_ = try_link();
-  if (!held_)
-    throw InvalidInput(
-        fmt::format("{}: is taken over and over again; are several processes "
-                    "started on one study?",
-                    file_.string()));
-  thread_ = std::thread([this] { keep_fresh(); });
 }
 
-bool StudyLock::try_link() {
+StudyLock::StudyLock(std::filesystem::path file, std::chrono::milliseconds stale_after)
+    : StudyLock(std::move(file), stale_after, Unlinked()) {
+  if (const auto holder = acquire()) refuse(file_, *holder);
+}
+
+std::unique_ptr<StudyLock> StudyLock::take(std::filesystem::path file,
+                                           std::chrono::milliseconds stale_after) {
+  std::unique_ptr<StudyLock> lock(new StudyLock(std::move(file), stale_after, Unlinked()));
+  return lock->acquire() ? nullptr : std::move(lock);
+}
+
+void StudyLock::require_free(const std::filesystem::path& file, const StudyLock& own) {
+  struct stat now = {};
+  // Its holder touches it every few seconds: this is what the file system's clock says.
+  utimensat(AT_FDCWD, own.file_.c_str(), nullptr, 0);
+  if (stat(own.file_.c_str(), &now) != 0) return;
+  const auto found = look_at(file, now, own.stale_after_);
+  if (found && !found->stale) refuse(file, found->holder);
+}
+
+std::optional<std::string> StudyLock::acquire() {
+  // Each failed attempt saw a lock vanish or be taken over: not many in a row.
+  std::optional<std::string> holder;
+  for (int attempt = 0; attempt < 20 && !held_ && !holder; ++attempt) holder = try_link();
+  if (holder) return holder;
+  if (!held_) return "several processes, which take it over and over again";
+  thread_ = std::thread([this] { keep_fresh(); });
+  return {};
+}
+
+std::optional<std::string> StudyLock::try_link() {
   const std::string word = fmt::format("{}-{:x}", getpid(), reinterpret_cast<std::uintptr_t>(this));
   const std::filesystem::path own = file_.string() + "." + word;
   int descriptor;
@@ -151,38 +204,27 @@ bool StudyLock::try_link() {
   }
   const bool linked = link(own.c_str(), file_.c_str()) == 0;
   const int link_error = errno;
-  struct stat fresh = {}, present = {};
+  struct stat fresh = {};
   stat(own.c_str(), &fresh);
   unlink(own.c_str());
   // NFS may answer a link that was made with an error; the count of links tells.
-  if (linked || fresh.st_nlink == 2) return true;
+  if (linked || fresh.st_nlink == 2) {
+    held_ = true;
+    return {};
+  }
   if (link_error != EEXIST) fail(file_, link_error);
 
-  std::error_code ignored;
-  const auto kind = std::filesystem::symlink_status(file_, ignored).type();
-  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
-    throw InvalidInput(fmt::format("{}: is no regular file; remove it", file_.string()));
-  const auto found = read_text(file_);
-  if (!found || stat(file_.c_str(), &present) != 0) return false;  // it has just gone
-  const Owner owner = parse(*found);
-  const double age = modified(fresh) - modified(present);
-  // A process that was stopped touches nothing, and goes on later: where it can be looked at, the clock has no say.
-  const std::optional<bool> alive = lives(owner);
-  const bool stale = alive ? !*alive : age > double(stale_after_.count()) / 1000;
-  if (!stale)
-    throw InvalidInput(fmt::format(
-        "{}: in use by process {} on {}, which last touched it {:.0f} s ago; wait for it to end, "
-        "or end it",
-        file_.parent_path().string(), owner.process, owner.space.substr(0, owner.space.find(' ')),
-        std::max(age, 0.0)));
+  const std::optional<Found> found = look_at(file_, fresh, stale_after_);
+  if (!found) return {};  // it has just gone
+  if (!found->stale) return found->holder;
   // If several processes decide this, only the one that renames the file it read proceeds; the others restore it.
   const std::filesystem::path aside = file_.string() + ".stale." + word;
-  if (rename(file_.c_str(), aside.c_str()) != 0) return false;
-  if (read_text(aside) != found && link(aside.c_str(), file_.c_str()) != 0) {
+  if (rename(file_.c_str(), aside.c_str()) != 0) return {};
+  if (read_text(aside) != found->text && link(aside.c_str(), file_.c_str()) != 0) {
     // Another process took the name meanwhile: the owner that was put aside notices that its name is gone.
   }
   unlink(aside.c_str());
-  return false;
+  return {};
 }
 
 void StudyLock::keep_fresh() {

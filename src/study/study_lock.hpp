@@ -5,11 +5,16 @@
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
 namespace salebra::detail {
+
+/// After the key of a realisation: the lock file of who computes it.
+inline constexpr const char* claim_suffix = ".claim";
 
 /// A lock file that lives as long as the object. It is made by link(), which is atomic on NFS too, and says who holds it: host and boot,
 /// process and the time of its start. On the same host whoever finds that process gone takes the lock over, and nobody else: a stopped
@@ -21,6 +26,11 @@ class StudyLock {
   /// Throws InvalidInput where someone else holds it, IoError where the file cannot be made.
   explicit StudyLock(std::filesystem::path file,
                      std::chrono::milliseconds stale_after = std::chrono::seconds(60));
+  /// The same, but empty where someone else holds it.
+  static std::unique_ptr<StudyLock> take(
+      std::filesystem::path file, std::chrono::milliseconds stale_after = std::chrono::seconds(60));
+  /// Throws InvalidInput where someone holds `file`, a lock beside one's own.
+  static void require_free(const std::filesystem::path& file, const StudyLock& own);
   ~StudyLock();
   StudyLock(const StudyLock&) = delete;
   StudyLock& operator=(const StudyLock&) = delete;
@@ -28,7 +38,12 @@ class StudyLock {
   bool held() const { return held_; }
 
  private:
-  bool try_link();
+  struct Unlinked {};
+  StudyLock(std::filesystem::path file, std::chrono::milliseconds stale_after, Unlinked);
+  /// Who holds it in one's place, in words; empty: nobody.
+  std::optional<std::string> acquire();
+  /// The same; empty too where it has to be tried again.
+  std::optional<std::string> try_link();
   void keep_fresh();
 
   std::filesystem::path file_;

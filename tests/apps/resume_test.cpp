@@ -7,7 +7,6 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
-#include <cstring>
 #include <fstream>
 #include <regex>
 #include <salebra/base/random.hpp>
@@ -16,6 +15,7 @@
 #include <thread>
 
 #include "run_program.hpp"
+#include "same_results.hpp"
 #include "study/study_text.hpp"
 
 using namespace salebra;
@@ -62,28 +62,6 @@ bool run_and_kill(const ProgramTest& test, bool after_a_part, std::chrono::micro
   kill(child, SIGKILL);
   waitpid(child, &status, 0);
   return WIFSIGNALED(status);
-}
-
-/// Every dataset of both files, bit by bit.
-int compare_groups(const ResultReader& a, const ResultReader& b, const std::string& path) {
-  int compared = 0;
-  CHECK(a.groups(path) == b.groups(path));
-  CHECK(a.datasets(path) == b.datasets(path));
-  for (const std::string& name : a.datasets(path)) {
-    const std::string where = path + "/" + name;
-    INFO(where);
-    if (name == "model") {
-      CHECK(a.labels(where) == b.labels(where));
-    } else {
-      const auto left = a.numbers(where), right = b.numbers(where);
-      REQUIRE(left.size() == right.size());
-      CHECK(std::memcmp(left.data(), right.data(), left.size() * sizeof(double)) == 0);
-    }
-    ++compared;
-  }
-  for (const std::string& name : a.groups(path))
-    compared += compare_groups(a, b, path == "/" ? name : path + "/" + name);
-  return compared;
 }
 
 }  // namespace

@@ -12,9 +12,10 @@ struct Provenance {
   std::string command_line;           ///< as typed; empty when a library call made the file
   std::string configuration;          ///< full text of the configuration, defaults filled in
   std::optional<std::uint64_t> seed;  ///< of the first realisation
-  std::string started;   ///< when the run began, ISO 8601 in UTC; empty: not known, not written
-  std::string created;   ///< ISO 8601 in UTC; empty: when the file is begun
-  std::string revision;  ///< commit of the program's sources; empty: not known, not written
+  std::string started;     ///< when the run began, ISO 8601 in UTC; empty: not known, not written
+  std::string created;     ///< ISO 8601 in UTC; empty: when the file is begun
+  std::string arithmetic;  ///< that computed the results; empty: arithmetic() of this program
+  std::string revision;    ///< commit of the program's sources; empty: not known, not written
 };
 
 /// Now, as "2026-01-31T12:34:56Z".

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <salebra/study/configuration.hpp>
 #include <string>
 #include <vector>
@@ -36,8 +37,9 @@ struct StudyCost {
 };
 
 /// Peak memory of run_ensembles() at one point of the parameter grid, bytes: the program, the surfaces that are side by side on this
-/// many threads, and what is kept of all of them. grid: of one surface.
-double study_memory(const StudyConfiguration& point, const Grid2D& grid, int threads);
+/// many threads, and what is kept of all of them. grid: of one surface. surfaces: that one process computes; empty: all of the point.
+double study_memory(const StudyConfiguration& point, const Grid2D& grid, int threads,
+                    std::optional<std::size_t> surfaces = {});
 
 /// Counts what run_ensembles() would do, and multiplies it with what a contact costs for each cell: measured once on a server, for
 /// surfaces of 256² to 1024² points and loads up to 0.2 E*h', and scaled by how long one Fourier transform takes here. Good to a factor of
@@ -45,5 +47,16 @@ double study_memory(const StudyConfiguration& point, const Grid2D& grid, int thr
 /// throws  as parameter_combinations(), and as readers do for a measured surface, which is read
 /// cost    some milliseconds, and the reading of a measured surface
 StudyCost estimate_cost(const StudyConfiguration& configuration);
+
+/// A study divided among processes of cost.threads threads each.
+struct ShardPlan {
+  std::size_t shards = 1;
+  std::size_t surfaces = 0;  ///< of the largest shard
+  double seconds = 0;        ///< wall time of the longest shard on an idle machine
+  double memory = 0;         ///< peak of a shard, bytes
+};
+
+/// The fewest shards none of which takes longer than that; one for each surface where even these do.
+ShardPlan plan_shards(const StudyCost& cost, double seconds);
 
 }  // namespace salebra

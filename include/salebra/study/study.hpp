@@ -98,7 +98,30 @@ struct StudyRun {
   std::function<void(const RealisationReport&)> on_realisation = {};
   /// Realisations that it holds are not computed again; each that is computed is on the disk before its thread begins another.
   StudyParts* parts = nullptr;
+  /// Where it is given, nothing is computed: it receives the places, from 0 on over all points and seeds in their order, of the
+  /// realisations that `parts` lacks, and results are those of a whole run where there are none.
+  std::vector<std::size_t>* missing = nullptr;
 };
+
+/// How far one process has come with its share of a study.
+struct ShardOutcome {
+  std::size_t wanted = 0;     ///< surfaces of this shard
+  std::size_t present = 0;    ///< that other processes, or earlier ones, had finished
+  std::size_t computed = 0;   ///< in this run
+  std::size_t elsewhere = 0;  ///< of any shard: that other processes are computing
+  int damaged = 0;            ///< files that were removed, their surfaces computed again
+  bool interrupted = false;
+};
+
+/// Computes the surfaces of a shard that the folder lacks, and leaves them there: any number of processes may do so at once, on any
+/// hosts that see the folder. run.parts is StudyParts::of_shard(). run_ensembles() with `missing` puts the result together, with the bits
+/// of one process. A precision ends no numbered shard early, as others hold the surfaces between; Shard::any() heeds it before each surface.
+/// Of Shard::any(), a surface is claimed by a file that is touched every few seconds. A claim is void when its process is gone, where
+/// that can be seen, or has not touched it for a minute by the clock of the file system.
+/// throws  InvalidInput for a configuration that cannot be run, and for parts none of which belongs to it; NotConverged and IoError as
+///         run_ensembles()
+ShardOutcome run_shard(const StudyConfiguration& configuration, const Shard& shard,
+                       const StudyRun& run);
 
 /// The ensembles of every point of the configuration's parameter grid, in the order of parameter_combinations(): every surface through
 /// analyse_realisation(), in parallel over surfaces. With a precision, a point ends at the first M >= min_realisations surfaces (in

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Run of one shard of a study: its surfaces, claims on them, and the text that names it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <chrono>
+#include <deque>
+#include <exception>
+#include <limits>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/study/cost.hpp>
+#include <salebra/study/study.hpp>
+
+#include "case_run.hpp"
+#include "study_lock.hpp"
+
+namespace salebra {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// One point of the parameter grid.
+struct Point {
+  explicit Point(const StudyConfiguration& point)
+      : configuration(point), pressures(study_pressures(point)), rule(configuration) {}
+
+  const StudyConfiguration& configuration;
+  std::vector<double> pressures;
+  std::vector<std::uint64_t> keys;  ///< in the order of the seeds
+  detail::PrecisionRule rule;
+  std::size_t prefix = 0;  ///< so many were shown to the rule
+  std::size_t limit = std::numeric_limits<std::size_t>::max();
+};
+
+/// A surface of the study.
+struct Item {
+  std::size_t point = 0;
+  std::size_t index = 0;  ///< of its seed
+  std::uint64_t seed = 0;
+  std::uint64_t key = 0;
+};
+
+struct Taken {
+  Item item;
+  std::size_t slot = 0;                      ///< where its progress goes
+  std::unique_ptr<detail::StudyLock> claim;  ///< of Shard::any()
+};
+
+class ShardRun {
+ public:
+  ShardRun(const std::vector<StudyConfiguration>& points, const Shard& shard, const StudyRun& run)
+      : shard_(shard), run_(run), parts_(*run.parts) {
+    std::size_t place = 0;
+    for (const StudyConfiguration& configuration : points) {
+      Point& point = points_.emplace_back(configuration);
+      for (const std::uint64_t seed : detail::seeds_of(configuration)) {
+        const std::uint64_t key = StudyParts::key(configuration, seed);
+        if (shard.holds(place++))
+          pending_.push_back({points_.size() - 1, point.keys.size(), seed, key});
+        point.keys.push_back(key);
+      }
+    }
+    outcome_.wanted = pending_.size();
+    fractions_ = std::vector<std::atomic<double>>(pending_.size());
+  }
+
+  ShardOutcome go() {
+    drop_present();
+    require_room();
+    talk();
+    const auto do_next = [this](bool on_calling_thread) {
+      const std::optional<Taken> taken = take();
+      if (taken) compute(*taken, on_calling_thread);
+      return taken.has_value();
+    };
+    const auto workers = std::size_t(parallel::threads());
+    // Few surfaces: all threads work on each.
+    const bool few = workers == 1 || pending_.size() < workers;
+    detail::side_by_side(few ? 0 : int(workers), do_next, [this] { talk(); });
+    if (failure_) std::rethrow_exception(failure_);
+    outcome_.interrupted = stop_;
+    outcome_.elsewhere = stop_ ? 0 : pending_.size();
+    outcome_.damaged = parts_.damaged();
+    return outcome_;
+  }
+
+ private:
+  /// A numbered shard reads what is there, since its surfaces are its own. For any() each process would read the whole study.
+  void drop_present() {
+    std::erase_if(pending_, [&](const Item& item) {
+      const bool present = shard_.any() ? parts_.holds(item.key) : bool(parts_.read(item.key));
+      if (present) note_present(item);
+      return present;
+    });
+  }
+
+  void require_room() const {
+    std::size_t checked = std::numeric_limits<std::size_t>::max();
+    for (const Item& item : pending_) {
+      const StudyConfiguration& point = points_[item.point].configuration;
+      const auto* recipe = std::get_if<GeneratedSurfaces>(&point.surfaces);
+      if (item.point == checked || !recipe) continue;
+      require_memory(recipe->grid,
+                     study_memory(point, recipe->grid, parallel::threads(), pending_.size()),
+                     "the surfaces of all threads (fewer `threads` need less)");
+      checked = item.point;
+    }
+  }
+
+  /// The next surface, from the first on each time: a claim that held before may be void by now.
+  std::optional<Taken> take() {
+    const std::scoped_lock lock(guard_);
+    for (auto item = pending_.begin(); !stop_ && item != pending_.end();) {
+      const bool present = parts_.holds(item->key);
+      if (present) note_present(*item);
+      if (present || is_superfluous(*item)) {
+        if (!present) --outcome_.wanted;
+        item = pending_.erase(item);
+        continue;
+      }
+      Taken taken{*item, slots_, nullptr};
+      if (shard_.any()) {
+        taken.claim = detail::StudyLock::take(
+            parts_.folder() / fmt::format("{:016x}{}", item->key, detail::claim_suffix));
+        if (!taken.claim) ++item;
+        // Its holder may have finished it between the two looks.
+        if (!taken.claim || parts_.holds(item->key)) continue;
+      }
+      ++slots_;
+      pending_.erase(item);
+      return taken;
+    }
+    return {};
+  }
+
+  /// Whether the surfaces before it are there and are enough.
+  bool is_superfluous(const Item& item) {
+    Point& point = points_[item.point];
+    if (!shard_.any() || point.configuration.target_precision <= 0) return false;
+    while (point.prefix < std::min(point.keys.size(), point.limit)) {
+      const auto realisation = parts_.read(point.keys[point.prefix]);
+      if (!realisation) break;
+      ++point.prefix;
+      if (point.rule.met_with(*realisation)) point.limit = point.prefix;
+    }
+    return item.index >= point.limit;
+  }
+
+  void compute(const Taken& taken, bool on_calling_thread) {
+    const auto start = Clock::now();
+    const Point& point = points_[taken.item.point];
+    try {
+      const Realisation realisation = analyse_realisation(
+          point.configuration, taken.item.seed, point.pressures, [&](const ProgressReport& sweep) {
+            fractions_[taken.slot] = sweep.fraction;
+            if (on_calling_thread) talk();
+            return !stop_;
+          });
+      parts_.write(taken.item.key, realisation);
+      const std::scoped_lock lock(guard_);
+      ++outcome_.computed;
+      fractions_[taken.slot] = 1;
+      note(taken.item, std::chrono::duration<double>(Clock::now() - start).count(), false);
+    } catch (const Interrupted&) {
+      // Stopped.
+    } catch (...) {
+      const std::scoped_lock lock(guard_);
+      if (!failure_) failure_ = std::current_exception();
+      stop_ = true;
+    }
+    if (on_calling_thread) talk();
+  }
+
+  void note_present(const Item& item) {
+    ++outcome_.present;
+    fractions_[slots_++] = 1;
+    note(item, 0, true);
+  }
+
+  /// With the guard held, or before there are threads.
+  void note(const Item& item, double seconds, bool restored) {
+    news_.push_back({.point = item.point,
+                     .points = points_.size(),
+                     .finished = outcome_.present + outcome_.computed,
+                     .wanted = outcome_.wanted,
+                     .seed = item.seed,
+                     .seconds = seconds,
+                     .restored = restored});
+  }
+
+  /// On the calling thread only. What the caller throws ends the run; it must not leave a parallel region.
+  void talk() {
+    try {
+      report();
+    } catch (...) {
+      const std::scoped_lock lock(guard_);
+      if (!failure_) failure_ = std::current_exception();
+      stop_ = true;
+    }
+  }
+
+  void report() {
+    std::vector<RealisationReport> news;
+    std::size_t finished = 0, wanted = 0;
+    {
+      const std::scoped_lock lock(guard_);
+      news.swap(news_);
+      finished = outcome_.present + outcome_.computed;
+      wanted = std::max(outcome_.wanted, std::size_t{1});
+    }
+    if (run_.on_realisation)
+      for (const RealisationReport& item : news) run_.on_realisation(item);
+    if (!run_.on_progress || stop_) return;
+    double sum = 0;
+    for (const std::atomic<double>& fraction : fractions_) sum += fraction;
+    const std::string stage = fmt::format("shard {} {}/{}", to_text(shard_), finished, wanted);
+    if (!run_.on_progress({.stage = stage,
+                           .fraction = std::min(sum / double(wanted), 1.0),
+                           .step = int(finished)}))
+      stop_ = true;
+  }
+
+  const Shard shard_;
+  const StudyRun& run_;
+  StudyParts& parts_;
+  std::deque<Point> points_;  // rules refer to their points
+  std::list<Item> pending_;
+  ShardOutcome outcome_;
+  std::size_t slots_ = 0;
+  std::vector<std::atomic<double>> fractions_;
+  std::vector<RealisationReport> news_;
+  std::atomic<bool> stop_ = false;
+  std::exception_ptr failure_;
+  std::mutex guard_;
+};
+
+}  // namespace
+
+ShardOutcome run_shard(const StudyConfiguration& configuration, const Shard& shard,
+                       const StudyRun& run) {
+  require(run.parts != nullptr, "parts", "none",
+          "is given; a shard needs the folder that it shares with the others");
+  configuration.material.modulus_ratio();
+  const std::vector<StudyConfiguration> points = parameter_combinations(configuration);
+  if (run.parts->count() > 0) detail::require_some_of(*run.parts, points);
+  return ShardRun(points, shard, run).go();
+}
+
+Shard parse_shard(std::string_view text) {
+  if (text == "any") return {};
+  Shard shard;
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto read = [](std::string_view digits, std::size_t& number) {
+    const char* end = digits.data() + digits.size();
+    const auto [stop, error] = std::from_chars(digits.data(), end, number);
+    return error == std::errc() && stop == end;
+  };
+  const bool good = read(text.substr(0, slash), shard.number) && slash < text.size() &&
+                    read(text.substr(slash + 1), shard.count) && shard.count > 0 &&
+                    shard.number <= shard.count;
+  require(good, "shard", fmt::format("'{}'", text),
+          "must be K/N, such as 3/8, with K from 1 to N or from 0 to N - 1, or any");
+  return shard;
+}
+
+std::string to_text(const Shard& shard) {
+  return shard.any() ? "any" : fmt::format("{}/{}", shard.number, shard.count);
+}
+
+}  // namespace salebra
