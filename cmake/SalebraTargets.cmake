@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# salebra_library(NAME): a library target with the project's warnings, the alias salebra::NAME and an installed header set.
+# salebra_library(TARGET NAME [LIKE]): a library target with the project's warnings, the alias salebra::NAME and an installed header set.
+# LIKE: a target with the same compiler flags, whose parsed headers this one takes over (salebra_parse_once).
 # A header of a library belongs to the file set HEADERS, so that CMake can compile each one alone.
 function(salebra_library target alias)
   add_library(${target})
@@ -8,7 +9,7 @@ function(salebra_library target alias)
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
   target_compile_features(${target} PUBLIC cxx_std_20)
   salebra_warnings(${target})
-  salebra_parse_once(${target})
+  salebra_parse_once(${target} ${ARGN})
   set_property(GLOBAL APPEND PROPERTY SALEBRA_LIBRARIES ${target})
 endfunction()
 
@@ -31,8 +32,13 @@ function(salebra_parse_once target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   # A name of one source may hide that of another, and a source is not the file that is compiled.
   target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
-  target_precompile_headers(${target} PRIVATE <Eigen/Core> <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fmt/format.h>
-    <functional> <limits> <map> <memory> <numbers> <optional> <span> <sstream> <string> <string_view> <utility> <variant> <vector>)
+  if(ARGN)
+    target_precompile_headers(${target} REUSE_FROM ${ARGN})
+  else()
+    target_precompile_headers(${target} PRIVATE <Eigen/Core> <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem>
+      <fmt/format.h> <functional> <limits> <map> <memory> <numbers> <optional> <span> <sstream> <string> <string_view> <utility>
+      <variant> <vector>)
+  endif()
   # GCC forgets which of them are the system's and then sees overruns in std::string.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
