@@ -138,6 +138,12 @@ std::vector<Case> all_cases() {
       // Resumable from the start: the file holds its command line.
       {"study", {}, study + " --no-report --resume", {}, study + " --no-report --resume"},
       {"study_page", {}, study + " --resume", {}, study + " --resume"},
+      {"shard", {}, study + " --shard any", {}, study + " --shard any"},
+      {"merge",
+       {},
+       study + " --no-report --merge",
+       study + " --shard any",
+       study + " --no-report --merge"},
       {"compare", {}, "compare IN/small.toml -o out.h5 --no-report"},
       {"report", {"study small.toml -o study.h5 --no-report"}, "report IN/study.h5 -o out.html"},
       {"init", {}, "init out.toml"},
@@ -392,16 +398,18 @@ class CaseRun {
       // Where an allocation fails while another failure is handled, the process ends at once (docs/reliability.md).
       if (temporary && fault.kind == Kind::memory) continue;
       if (temporary) return name + " was left";
-      // What --resume goes on with: it takes over the lock of a process that is gone.
-      if (file.ends_with(".realisation") || file == "lock" || file == "out.state") continue;
+      // What --resume, a shard and a merge go on with: they take over locks and claims of a process that is gone.
+      if (file.ends_with(".realisation") || file.ends_with(".claim") ||
+          file.starts_with("shard.") || file == "lock" || file == "out.state")
+        continue;
       const auto old = before_.find(name), complete = after_.find(name);
       const bool is_old = old != before_.end() && old->second == text;
       const bool is_complete = complete != after_.end() && complete->second == text;
       if (!is_old && !is_complete) return name + " is neither old nor complete";
     }
     for (const auto& [name, text] : before_)
-      if (!now.contains(name)) return name + " is gone";
-    if (outcome.status == 0) return without_lock(now) == after_ ? "" : "is called done and is not";
+      if (!now.contains(name) && after_.contains(name)) return name + " is gone";
+    if (outcome.status == 0) return without_locks(now) == after_ ? "" : "is called done and is not";
     if (outcome.status != 1) return "has another status than 1";
     const long errors = lines_with(outcome.errors, "salebra: error: "),
                warnings = lines_with(outcome.errors, "salebra: warning: ");
@@ -424,12 +432,16 @@ class CaseRun {
     if (case_.after.empty()) return "";
     const Outcome again = bench_.run(case_.after, bench_.folder(), nullptr);
     if (again.status != 0) return "cannot be resumed: " + again.errors;
-    return files_in(bench_.folder()) == after_ ? "" : "is another result once resumed";
+    return without_locks(files_in(bench_.folder())) == after_ ? ""
+                                                              : "is another result once resumed";
   }
 
-  /// A lock whose file could not be read is left, and the next process takes it over.
-  static Files without_lock(Files now) {
+  /// A lock whose file could not be read is left, and the next process takes it over; that of a shard is left until the merge.
+  static Files without_locks(Files now) {
     now.erase("out.h5.parts/lock");
+    std::erase_if(now, [](const auto& file) {
+      return file.first.starts_with("out.h5.parts/shard.") || file.first.ends_with(".claim");
+    });
     return now;
   }
 
