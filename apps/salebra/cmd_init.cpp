@@ -99,7 +99,7 @@ std::string file_heading(const std::string& file) {
   const std::string stem = fs::path(file).stem().string();
   const std::pair<std::string, const char*> commands[] = {
       {"salebra study " + file + " --dry-run", "what this would cost"},
-      {"salebra study " + file + " -o " + stem + ".h5", "run it; --resume goes on after Ctrl-C"},
+      {"salebra study " + file + " -o " + stem + ".h5", "run it; --resume continues after Ctrl-C"},
       {"salebra compare " + file + " -o " + stem + ".h5", "the same with every contact model"}};
   std::size_t longest = 0;
   for (const auto& [command, what] : commands) longest = std::max(longest, command.size());

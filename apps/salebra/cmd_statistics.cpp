@@ -199,7 +199,7 @@ void add_statistics_command(Program& program) {
   command.add_flag("--fill", arguments->fill,
                    "fill undefined points by the smoothest surface, for the spectra only");
   add_quantity(command, "--tip-radius", arguments->tip_radius, Dimension::length,
-               "of the scanning probe: tells below which wavelength it shows");
+               "of the scanning probe: gives the wavelength below which it shows");
   add_quantity(command, "--resolution", arguments->resolution, Dimension::length,
                "lateral resolution of the instrument");
 }

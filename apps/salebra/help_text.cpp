@@ -16,15 +16,16 @@ constexpr std::array descriptions{
         "init", start,
         "Writes a study file in which every key is explained: of generated surfaces, or of the "
         "measured one that --surface names. It runs as it is; edit it to ask your own question.\n\n"
-        "Next: salebra study FILE --dry-run tells what it will cost, salebra study FILE runs it."},
+        "Next: salebra study FILE --dry-run estimates its time and memory, salebra study FILE runs "
+        "it."},
     CommandHelp{
         "study", start,
-        "Takes each surface of a study file (or one measured surface) through statistics, "
-        "boundary elements, Greenwood-Williamson, the fit of F ~ exp(-gap/l) and relaxation "
-        "damping, and gives means with 95 % intervals. Surfaces run side by side, one on each "
-        "thread; with --output a run that was stopped goes on with --resume. Several processes or "
+        "For each surface of a study file, or one measured surface: statistics, contact by "
+        "boundary elements and Greenwood-Williamson, the fit of F ~ exp(-gap/l), and relaxation "
+        "damping. Reports means with 95 % intervals. Surfaces run side by side, one on each "
+        "thread. With --output, --resume continues a run that was stopped. Several processes or "
         "machines share a study by --shard, and --merge puts the result together.\n\n"
-        "New here? salebra init writes a file to begin with, --dry-run tells the cost."},
+        "New here? salebra init writes a file to start with, --dry-run estimates time and memory."},
     CommandHelp{
         "report", start,
         "Makes one offline HTML page of the results of a study: figures, tables, settings."},
@@ -34,9 +35,9 @@ constexpr std::array descriptions{
     CommandHelp{
         "generate", surfaces,
         "Makes a rough surface with a given power spectrum, a profile, or an analytic shape. One "
-        "seed gives one surface on any grid and any number of threads. It tells what was asked "
-        "for, what the grid holds in the mean, and what came out, and warns where a grid cannot "
-        "carry the spectrum.\n\n"
+        "seed gives one surface on any grid and any number of threads. Reports what was requested, "
+        "what the grid holds in the mean, and what came out. Warns where a grid cannot carry the "
+        "spectrum.\n\n"
         "Next: salebra info and statistics measure it, salebra sweep presses it."},
     CommandHelp{
         "info", surfaces,
@@ -46,12 +47,13 @@ constexpr std::array descriptions{
     CommandHelp{
         "statistics", surfaces,
         "Power spectra, correlation, structure function, slope and curvature by scale, bearing "
-        "curve, ISO 25178-2 parameters, and the self-affine law fitted to the spectrum, with the "
+        "curve, ISO 25178-2 parameters, and the self-affine law fitted to the spectrum. Reports "
+        "the "
         "shortest wavelength that the instrument leaves reliable. Nothing but the trend "
         "(--detrend) is removed, and holes are filled on request only (--fill)."},
     CommandHelp{"convert", surfaces,
                 "Reads a surface and writes it in the format that the extension of OUT names. "
-                "docs/formats.md tells what each format keeps."},
+                "docs/formats.md lists what each format keeps."},
     CommandHelp{
         "contact", contact,
         "Presses one surface by boundary elements to a pressure, a mean gap, an indentation or a "
@@ -65,9 +67,9 @@ constexpr std::array descriptions{
         "Next: salebra fit for the decay length, salebra damping --curve for the damping."},
     CommandHelp{
         "gw", contact,
-        "The force-gap curve of Greenwood and Williamson, of a surface's moments, of its own "
-        "summits, or of parameters. Fast, and good at light loads only: salebra compare tells "
-        "how good on your surface."},
+        "The force-gap curve of Greenwood and Williamson, of a surface's moments, of its summits, "
+        "or of parameters. Fast, and good at light loads only: salebra compare shows how good on "
+        "your surface."},
     CommandHelp{
         "fit", contact,
         "The decay length l of p = p0 exp(-gap/l) of a curve in a file, with its interval, and "
@@ -75,14 +77,12 @@ constexpr std::array descriptions{
     CommandHelp{
         "compare", contact,
         "Boundary elements, four kinds of Greenwood-Williamson and Persson's theory on the same "
-        "surfaces, from the force-gap curve to the damping constant, with intervals. It takes "
-        "what "
-        "study takes, and about twice its time: --dry-run tells."},
+        "surfaces, from the force-gap curve to the damping constant, with intervals. Takes what "
+        "study takes, and about twice its time, which --dry-run estimates."},
     CommandHelp{
         "damping", damping,
         "Relaxation damping of any contact law or curve: the energy that a contact without slip "
-        "loses in a cycle, by Eqs (12), (15), (16) for small amplitudes and by the theorem at "
-        "any. "
+        "loses in a cycle. Eqs (12), (15) and (16) hold for small amplitudes, the theorem for any. "
         "One quantity may be a range, and is then drawn by --plot."},
     CommandHelp{
         "mdr", damping,
@@ -94,14 +94,14 @@ constexpr std::array descriptions{
         "estimate of the amplitude that keeps a slider from stick-slip."},
     CommandHelp{
         "friction", damping,
-        "A contact that slides at constant velocity while it oscillates in the normal direction: "
-        "mean friction over velocity, the velocity from which nothing sticks, and the damping "
-        "constant of slow sliding beside that of relaxation without slip."},
+        "A contact that slides at constant velocity while it oscillates in the normal direction. "
+        "Reports mean friction over velocity, the velocity from which nothing sticks, and two "
+        "damping constants: of slow sliding, and of relaxation without slip."},
     CommandHelp{
         "slider", damping,
-        "A mass that a spring drags over a contact: stick-slip or steady sliding by the full "
-        "equation of motion and by its average over a normal oscillation, and the amplitude and "
-        "frequency from which the oscillation keeps sliding stable."},
+        "A mass that a spring drags over a contact: stick-slip or steady sliding, by the full "
+        "equation of motion and by its average over a normal oscillation. Reports the amplitude "
+        "and frequency from which the oscillation keeps sliding stable."},
     CommandHelp{
         "joint", damping,
         "A contact under a tangential force or displacement that oscillates: what partial slip "
@@ -109,17 +109,18 @@ constexpr std::array descriptions{
         "force."},
     CommandHelp{
         "viscoelastic", damping,
-        "An axisymmetric indenter that oscillates on a viscoelastic body without slip: what the "
-        "material loses by the normal and by the tangential motion, and what relaxation damping "
-        "loses, over frequency or another quantity."},
+        "An axisymmetric indenter that oscillates on a viscoelastic body without slip. Reports "
+        "what "
+        "the material loses by the normal and by the tangential motion, and what relaxation "
+        "damping loses, over frequency or another quantity."},
     CommandHelp{
         "oscillate", damping,
         "The direct experiment in three dimensions: a contact is moved through its cycle and the "
-        "work is counted, by time steps or by contact levels; with finite friction and with "
-        "coupled directions where asked. Minutes, not seconds."},
-    CommandHelp{
-        "figure3", damping,
-        "The paper's Fig. 3 in one run: the direct simulation of four shapes beside Eq. (12)."},
+        "work is counted, by time steps or by contact levels. Friction may be finite, and normal "
+        "and tangential directions coupled. Minutes, not seconds."},
+    CommandHelp{"figure3", damping,
+                "The paper's Fig. 3 in one run: the direct simulation of four shapes, compared "
+                "with Eq. (12)."},
     CommandHelp{
         "completion", shell,
         "Prints the script that lets a shell complete commands, options, and their choices with "

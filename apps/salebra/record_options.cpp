@@ -15,7 +15,7 @@ void RecordOptions::add_to(Command& app) {
   add_quantity(app, "--checkpoint-every", checkpoint_every, Dimension::time,
                "time between checkpoints; default 60 s, 0 for every step");
   app.add_flag("--resume", resume,
-               "go on from the checkpoint of an interrupted run, to the same result");
+               "continue an interrupted run from its checkpoint, to the same result");
   app.add_option("--fields", fields,
                  "write PREFIX.xdmf for ParaView with its HDF5 files: contact, tractions, "
                  "displacements, pressure, gap")

@@ -77,11 +77,11 @@ void StudyArguments::add_to(Command& command) {
                    "K_t = (G*/E*)K in place of a stick solve on each contact: faster, exact at nu "
                    "= 0 without coupling");
   command.add_flag("--dry-run", dry_run,
-                   "tell what would run, with its time and memory, and run nothing");
+                   "print what would run, with its time and memory, and run nothing");
   add_quantity(command, "--shard-seconds", shard_seconds, Dimension::time,
                "with --dry-run: propose a number of shards that take no longer, such as 1h");
   command.add_flag("--resume", resume,
-                   "go on with what an interrupted run has left beside the output file");
+                   "continue an interrupted run from what it left next to the output file");
   command
       .add_option_function(
           "--shard", [this](const std::string& text) { shard = parse_shard(text); },
