@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """stage.py PROGRAM DOXYGEN-XML FOLDER: lays out what Sphinx reads: the pages at the places that they have in the tree, so that a link between
-two of them holds in both, the reference of the commands from the program's own help, and a page of headers for each C++ module."""
+two of them holds in both, the reference of the commands from the program's own help, the names of results from the table in the sources, and a page
+of headers for each C++ module."""
 
 import importlib.util
 import pathlib
@@ -8,6 +9,8 @@ import re
 import shutil
 import subprocess
 import sys
+
+import names
 
 root = pathlib.Path(__file__).resolve().parent.parent
 
@@ -126,6 +129,13 @@ def module_pages():
         yield module, text
 
 
+def names_of_results():
+    """docs/names.md: the table of names of results."""
+    text = "# Names of results\n\nNames in files, JSON and Python, with SI unit and meaning. The [glossary](glossary.md) explains the terms.\n\n"
+    text += "| name | unit | meaning |\n|---|---|---|\n"
+    return text + "".join(f"| `{name}` | {unit} | {meaning.replace('*', chr(92) + '*')} |\n" for name, (unit, meaning) in names.names().items())
+
+
 def suit_breathe(doxygen):
     """Changes in Doxygen's XML that Breathe needs: it looks a header up by the name in the index, which is the last part of its
     path only, and does not know designated initialisers."""
@@ -163,6 +173,7 @@ def main(program, doxygen, folder):
     missing = [name for name in ("python", "python_reference", "report") if name not in {page.stem for page in kept}]
     put(index, re.sub(rf"^({'|'.join(missing)})\n" if missing else "$^", "", index.read_text(), flags=re.M))
     kept.add(put(folder / "docs/cli.md", command_reference(program)))
+    kept.add(put(folder / "docs/names.md", names_of_results()))
     for module, text in module_pages():
         kept.add(put(folder / f"docs/cpp/{module}.rst", text))
     for old in folder.rglob("*"):

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""check_glossary.py --program FILE: compares the tables of terms with the program. Every name of docs/glossary.md and of the symbols of docs/theory.md
+is in the table of names (docs/names.py) and has its unit; every option of the glossary is one of a command; both pages have one symbol for a name."""
+
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+
+DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs"
+sys.path.insert(0, str(DOCS))
+sys.dont_write_bytecode = True
+from names import names as names_of_results  # noqa: E402
+
+# Units as a page may write them.
+WRITTEN = {"–": "1", "m²": "m^2", "m⁻²": "1/m^2", "N/m²": "N/m^2"}
+
+
+def tables_of(page):
+    """The rows of every table of a page: a dictionary from the column's heading to the cell."""
+    heading = None
+    for line in page.read_text().splitlines():
+        if not line.startswith("|"):
+            heading = None
+            continue
+        cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
+        if heading is None:
+            heading = cells
+        elif not set(line) <= set("|-: "):
+            yield dict(zip(heading, cells, strict=True))
+
+
+def in_code(cell):
+    return re.findall(r"`([^`]*)`", cell)
+
+
+def symbols_of(row):
+    return [symbol.strip() for symbol in re.split(r",(?![^(]*\))", row["symbol"].replace("$", "")) if symbol.strip()]
+
+
+def faults_of(rows, column, known):
+    for row in rows:
+        names, units = in_code(row[column]), [WRITTEN.get(unit.strip(), unit.strip()) for unit in row["unit"].split(",")]
+        if len(units) == 1:
+            units *= len(names)
+        if len(names) > len(units):
+            yield f"{names}: {len(names)} names, {len(units)} units"
+        for name, unit in zip(names, units):
+            if name not in known:
+                yield f"{name}: is no name of a result"
+            elif known[name] != unit:
+                yield f"{name}: the unit is {known[name]}, the page says {unit}"
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--program", required=True)
+    program = parser.parse_args().program
+
+    def answer(*words):
+        return subprocess.run([program, *words], check=True, capture_output=True, text=True).stdout
+
+    known = {name: unit for name, (unit, _) in names_of_results().items()}
+    commands = [line.split()[0] for line in answer("--help").split("Which command?")[0].splitlines() if re.match(r"  [a-z]", line)]
+    options = set(re.findall(r"(?<![\w-])--[a-z][a-z0-9-]*", "".join(answer(command, "--help") for command in commands)))
+
+    glossary = list(tables_of(DOCS / "glossary.md"))
+    symbols = [row for row in tables_of(DOCS / "theory.md") if "name in code and files" in row]
+    faults = list(faults_of(glossary, "name", known)) + list(faults_of(symbols, "name in code and files", known))
+    for row in glossary:
+        for option in in_code(row["option"]):
+            if option.split()[0] not in options:
+                faults.append(f"{option}: no command has it")
+    if len(glossary) < 40 or len(symbols) < 10:
+        faults.append(f"{len(glossary)} terms and {len(symbols)} symbols: has the form of the tables changed?")
+    of_name = {name: symbol for row in glossary for name, symbol in zip(in_code(row["name"]), symbols_of(row))}
+    for row in symbols:
+        for name, symbol in zip(in_code(row["name in code and files"]), symbols_of(row)):
+            if of_name.get(name, symbol) != symbol:
+                faults.append(f"{name}: {of_name[name]} in glossary.md, {symbol} in theory.md")
+    if faults:
+        sys.exit("\n".join(faults))
+    print(f"{len(glossary)} terms, {len(symbols)} symbols")
+
+
+main()
