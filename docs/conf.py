@@ -19,7 +19,7 @@ author = "The salebra developers"
 copyright = author
 release = version = re.search(r"project\(salebra VERSION (\S+)", _cmake)[1]
 
-extensions = ["myst_parser", "breathe"]
+extensions = ["myst_parser", "breathe", "sphinxcontrib.bibtex"]
 if importlib.util.find_spec("salebra"):
     extensions += ["sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 root_doc = "docs/index"
@@ -30,6 +30,8 @@ myst_heading_anchors = 3
 suppress_warnings = [
     "duplicate_declaration.cpp",  # namespace salebra, which every header opens
 ]
+
+bibtex_bibfiles = ["references.bib"]
 
 breathe_projects = {"salebra": str(_root / "build/docs/doxygen/xml")}
 breathe_default_project = "salebra"

@@ -82,7 +82,7 @@ Shape shape_of(const Transform& x, double limit, double step) {
   return {m3 / std::pow(m2, 1.5), m4 / (m2 * m2)};
 }
 
-// S_U in closed form [Johnson1949], with γ < 0 for a positive skewness; Ω = −γ/δ > 0.
+// S_U in closed form of Johnson (1949), with γ < 0 for a positive skewness; Ω = −γ/δ > 0.
 Shape unbounded_shape(double gamma, double delta) {
   const double w = std::exp(1 / (delta * delta)), omega = -gamma / delta;
   const double a = w * std::cosh(2 * omega) + 1;

@@ -139,8 +139,8 @@ InvalidInput
 
 References
 ----------
-I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206, doi:10.1016/S0043-1648(99)00113-1; H. M. Stanley, T. Kato, J. Tribol. 119
-(1997) 481, doi:10.1115/1.2833523.
+Polonsky and Keer (1999), doi:10.1016/S0043-1648(99)00113-1; Stanley and Kato (1997),
+doi:10.1115/1.2833523.
 )";
 
 void bind_state(nb::module_& m) {
@@ -335,8 +335,8 @@ NotConverged
 
 References
 ----------
-A. Almqvist, F. Sahlin, R. Larsson, S. Glavatskih, Tribology International 40 (2007) 574; K. L. Johnson, Contact Mechanics
-(Cambridge, 1985), section 6.4.
+Almqvist et al. (2007), Tribology International 40, 574; Johnson (1985), Contact Mechanics,
+section 6.4.
 )");
 }
 

@@ -197,7 +197,7 @@ shape : {"circular", "elliptical"}
 
 .. math:: P_i = \tfrac43E^*\sqrt{R_i}\,\delta_i^{3/2},\qquad \delta_i = z_i - s - \sum_jG(x_i-x_j)P_j
 
-Ciavarella, Delfine and Demelio, J. Mech. Phys. Solids 54 (2006) 2569. A state costs seconds for 10⁵ summits; Ctrl-C stops it.
+Ciavarella et al. (2006), doi:10.1016/j.jmps.2006.05.006. A state costs seconds for 10⁵ summits; Ctrl-C stops it.
 )")
       .def(
           "__init__",
@@ -215,7 +215,8 @@ Ciavarella, Delfine and Demelio, J. Mech. Phys. Solids 54 (2006) 2569. A state c
           nb::arg("max_iterations") = 100);
   nb::class_<GreenwoodTripp, AsperityModel>(
       m, "GreenwoodTripp",
-      "Contact of two rough sides: Greenwood and Tripp, Proc. Inst. Mech. Engrs 185 (1970) 625. "
+      "Contact of two rough sides: Greenwood and Tripp (1970), "
+      "doi:10.1243/PIME_PROC_1970_185_069_02. "
       "Both ensembles Gaussian.")
       .def(
           "__init__",

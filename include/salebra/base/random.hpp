@@ -10,7 +10,7 @@
 /// that it belongs to, so that it does not depend on the order of drawing, the number of threads or
 /// the size of the grid.
 ///
-/// The bits are those of Philox4x32 with 10 rounds [Salmon2011, doi:10.1145/2063384.2063405]: key =
+/// The bits are those of Philox4x32 with 10 rounds of Salmon et al. (2011): key =
 /// the two halves of the seed, counter = (i, j, stream, 0), i and j in two's complement. Different
 /// streams of one seed are independent. Logarithm, sine and cosine are computed here, to about 2
 /// units in the last place, without fused operations: the numbers have the same bits on every

@@ -13,10 +13,10 @@ namespace salebra {
 /// Fraction of a Gaussian surface above a plane at mean_gap over its mean plane, ½ erfc(ū/(√2 h_rms)): geometry alone.
 double bearing_area_fraction(double mean_gap, double rms_height);
 
-/// Bush, Gibson and Thomas, Wear 35 (1975) 87: A/A0 = √(2π) p/(E*h'), the limit of small pressures.
+/// Bush et al. (1975): A/A0 = √(2π) p/(E*h'), the limit of small pressures.
 double bgt_area_fraction(double pressure, double contact_modulus, double rms_slope);
 
-/// Persson, J. Chem. Phys. 115 (2001) 3840: A/A0 = erf(√2 p/(E*h')), of slope √(8/π) at small pressures.
+/// Persson (2001): A/A0 = erf(√2 p/(E*h')), of slope √(8/π) at small pressures.
 double persson_area_fraction(double pressure, double contact_modulus, double rms_slope);
 
 /// A narrow ring of the spectrum: power = ∫C d²q over it, m², at the wave number q, rad/m.
@@ -29,8 +29,8 @@ struct RoughnessShell {
 std::vector<RoughnessShell> roughness_shells(const std::function<double(double)>& density,
                                              double lowest, double highest, int count = 1000);
 
-/// Mean gap and stiffness by Persson's theory (Phys. Rev. Lett. 99 (2007) 125502; Yang and Persson, J. Phys.: Condens. Matter 20
-/// (2008) 215214). The energy of the mode q is γ P + (1−γ) P³ of its value in full contact, P(q) = erf(w p/E*) the area at that
+/// Mean gap and stiffness by the theory of Persson (2007) in the form of Yang and
+/// Persson (2008). The energy of the mode q is γ P + (1−γ) P³ of its value in full contact, P(q) = erf(w p/E*) the area at that
 /// magnification, w⁻² = π∫^q q³C dq; p dū = −dU then gives
 ///     ū(p) = √π ∫ q²C w ∫_p^∞ [γ + 3(1−γ)P²] exp(−(w p'/E*)²) dp'/p' dq
 /// and K/A0 = −dp/dū. With r = 1/w, the rms slope over √2 up to q, the outer integral is (2/√π)∫ … dr/q, which is done in closed
@@ -53,7 +53,7 @@ class PerssonTheory {
 
   /// p = factor·E*·exp(−ū/decay_length), the limit of small pressures.
   struct Asymptote {
-    /// u0, m; K/A0 = p/u0 (Campañá, Persson, Müser, J. Phys.: Condens. Matter 23 (2011) 085001).
+    /// u0, m; K/A0 = p/u0 of Campañá et al. (2011).
     double decay_length = 0;
     double factor = 0;  ///< β
   };

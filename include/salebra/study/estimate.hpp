@@ -20,7 +20,7 @@ struct EnsembleMean {
 /// Mean and Student-t 95 % interval of the mean, over the values that are not NaN; no limits for fewer than two.
 EnsembleMean student_mean(const std::vector<double>& values);
 
-/// Bootstrap-t 95 % intervals of means [Efron, Tibshirani, An Introduction to the Bootstrap (1993), ch. 12.5]: n values are drawn
+/// Bootstrap-t 95 % intervals of means [Efron and Tibshirani (1993), ch. 12.5]: n values are drawn
 /// with replacement from n values, `resamples` times; the 2.5 % and 97.5 % quantiles of t* = (mean* − mean)/s* give
 ///     mean − t*_97.5 s/√n … mean − t*_2.5 s/√n,
 /// which, unlike percentiles of mean*, holds its 95 % for the few surfaces of an ensemble, and unlike Student's t follows a skew
@@ -28,8 +28,8 @@ EnsembleMean student_mean(const std::vector<double>& values);
 /// quantities of one ensemble are drawn together.
 /// Fewer than least_bootstrap_count values: Student's t. Each arm is held between a half and twice Student's: of few values most of
 /// which are alike, resamples without scatter would otherwise decide one limit, and the mean lie at the edge of its own interval. By
-/// Hall's expansion the largest skewness that n values can have, √n, changes an arm by 3/4 of it [P. Hall, Ann. Stat. 16 (1988)
-/// 927], so that nothing is lost: 92.9 % of 1500 intervals of six log-normal values (σ = 0.5) hold the mean, 93.1 % of them without
+/// Hall's expansion the largest skewness that n values can have, √n, changes an arm by 3/4 of it [Hall (1988)],
+/// so that nothing is lost: 92.9 % of 1500 intervals of six log-normal values (σ = 0.5) hold the mean, 93.1 % of them without
 /// the limits, 92.2 % of Student's.
 class Bootstrap {
  public:

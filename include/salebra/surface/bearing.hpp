@@ -50,7 +50,7 @@ struct HeightHistogram {
   double width = 0;  ///< of a bin, m; 0, and an infinite density, if all heights are equal
 };
 
-/// bins   0: of width 2·(interquartile range)/N^(1/3) [Freedman1981, doi:10.1007/BF01025868], 10 … 200 of them. One bin if all heights are
+/// bins   0: of width 2·(interquartile range)/N^(1/3) of Freedman and Diaconis (1981), 10 … 200 of them. One bin if all heights are
 /// equal. Throws InvalidInput for bins < 0.
 HeightHistogram height_histogram(const BearingCurve& curve, int bins = 0);
 

@@ -9,7 +9,7 @@
 namespace salebra {
 
 /// Slope and curvature along one axis by finite differences over s = k steps, k from one step on, k+1 or about a tenth apart, as long as
-/// the stencil fits twice into the profile [Sanner2022, doi:10.1016/j.apsadv.2021.100190]:
+/// the stencil fits twice into the profile, as Sanner et al. (2022):
 ///     slope       (h(x+s) − h(x))/s,               over the distance s
 ///     curvature   (h(x+s) − 2h(x) + h(x−s))/s²,    over the distance 2s, the length of its stencil
 /// over all stencils that touch no undefined point, with wrap where the surface is periodic. An entry stands for the distance

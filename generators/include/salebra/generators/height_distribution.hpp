@@ -25,8 +25,8 @@ HeightDistribution weibull_heights(double shape);
 
 /// The member of Johnson's system of curves with this skewness and kurtosis (3 for a Gaussian): a normal variable z becomes
 ///     sinh((z − γ)/δ) (S_U),  exp(z/δ) (S_L)  or  1/(1 + exp(−(z − γ)/δ)) (S_B),
-/// one of which fits every pair above the limit kurtosis > skewness² + 1 that all distributions obey [Johnson1949,
-/// doi:10.1093/biomet/36.1-2.149]. Throws InvalidInput below that limit, and so near to it that the curve is a pair of spikes.
+/// one of which fits every pair above the limit kurtosis > skewness² + 1 that all distributions obey: Johnson (1949).
+/// Throws InvalidInput below that limit, and so near to it that the curve is a pair of spikes.
 HeightDistribution johnson_heights(double skewness, double kurtosis);
 
 /// The distribution of given heights, straight between the middles of their steps, such as those of a measured surface.

@@ -33,7 +33,7 @@ struct NonGaussianSurface {
 };
 
 /// A periodic surface with a given spectrum and a given height distribution, by the iterated amplitude-adjusted Fourier transform
-/// [Schreiber1996, doi:10.1103/PhysRevLett.77.635]: in turn, heights are replaced by those of the distribution in the same order, and
+/// of Schreiber and Schmitz (1996): in turn, heights are replaced by those of the distribution in the same order, and
 /// mode amplitudes by those of the spectrum with the same phases. It starts from random_phase of the seed, whose mode powers are the
 /// target, and has the rms height of that surface. Same bits for every thread count; since ranks depend on all points, a
 /// finer grid is another surface. The grid cuts the tails: N points reach the quantiles 1/(2N) and 1 − 1/(2N).

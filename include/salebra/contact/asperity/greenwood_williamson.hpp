@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// Contact as a sum over independent Hertzian summits: Greenwood and Williamson, Proc. R. Soc. Lond. A 295 (1966) 300.
+/// Contact as a sum over independent Hertzian summits: Greenwood and Williamson (1966).
 namespace salebra {
 
 namespace detail {
@@ -39,7 +39,7 @@ struct SummitEnsemble {
   std::vector<HeightDensityPoint> table = {};  ///< heights increasing, at least two
 };
 
-/// The ensemble of a Gaussian isotropic surface, from its profile moments m0, m2, m4 (Nayak; McCool, Wear 107 (1986) 37):
+/// The ensemble of a Gaussian isotropic surface, from its profile moments m0, m2, m4 by Nayak (1971) and McCool (1986):
 ///     η = m4/(6√3 π m2), R = (3/8)√(π/m4), σ_s² = (1 − 0.8968/α) m0, mean height 4√(m0/(πα)), α = m0 m4/m2².
 /// moment0 m², moment2 –, moment4 1/m². Throws InvalidInput unless they are > 0 with α >= 1, which holds for any surface.
 SummitEnsemble summit_ensemble(double moment0, double moment2, double moment4);

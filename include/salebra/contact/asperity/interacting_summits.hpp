@@ -19,7 +19,7 @@ struct InteractionOptions {
 /// The given summits of a periodic surface, each pressed down by all the others: Hertz's force of a summit,
 ///     P_i = (4/3)E*√R_i δ_i^{3/2},   δ_i = z_i − s − Σ_j G(x_i − x_j) P_j,
 /// G the periodic displacement under a point force (own 1/(πE*r) left out) relative to the deformed mean plane
-/// [Ciavarella, Delfine, Demelio, J. Mech. Phys. Solids 54 (2006) 2569]. ū is therefore the mean gap in the sense of boundary elements,
+/// [Ciavarella et al. (2006)]. ū is therefore the mean gap in the sense of boundary elements,
 /// which that of independent summits is not. A contact counts as a point outside of itself, which is good beyond about
 /// two contact radii; contacts do not merge, but a summit close to a larger contact is pressed out of contact.
 /// Solved by Newton's method on the energy with conjugate gradients among the summits in contact, at a given separation or under a

@@ -23,7 +23,7 @@ double dundurs_constant(double contact_modulus, double coupling);
 /// What the normal and the tangential directions of two half-spaces have to do with each other:
 ///     u_z(x) = (β/πE*) ∬ τ(ξ)·(x − ξ)/r²,   u_t(x) = −(β/πE*) ∬ p(ξ) (x − ξ)/r²,   r = |x − ξ|;
 ///     û_z = −(2iβ/E*q²) q·τ̂,   û_t = (2iβ/E*q²) q p̂,   mean zero      (periodic)
-/// [Johnson 1985, Contact Mechanics, Eqs (3.18), (3.75), for β/πE* = Σ ±(1 − 2ν_i)/(4πG_i)]. u_z counts into the first body, on which
+/// [Johnson (1985), Eqs (3.18), (3.75), for β/πE* = Σ ±(1 − 2ν_i)/(4πG_i)]. u_z counts into the first body, on which
 /// p and τ act: a pressure draws the surface towards itself, and a surface that is drawn sideways sinks in front of the load.
 /// Reciprocity: ∫p u_z[τ] = ∫τ·u_t[p]. β = 0.286 for ν = 0.3 against a rigid body.
 /// Free: uniform over each cell, zero-padded. One object may be used by one thread at a time.

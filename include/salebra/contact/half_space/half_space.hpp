@@ -15,7 +15,7 @@ enum class Boundary { periodic, free };
 /// Integrals over a rectangle dx × dy centred at the origin, seen from (x, y); ξ, η, r run from its points to (x, y).
 struct CellIntegrals {
   double inverse_distance =
-      0;          ///< ∬ 1/r, m: Love's (1929), the normal displacement under uniform pressure
+      0;          ///< ∬ 1/r, m: Love (1929), the normal displacement under uniform pressure
   double xx = 0;  ///< ∬ ξ²/r³, m: with yy and xy Cerruti's, for uniform shear
   double yy = 0;  ///< ∬ η²/r³, m
   double xy = 0;  ///< ∬ ξη/r³, m

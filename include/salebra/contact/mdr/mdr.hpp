@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-/// Method of dimensionality reduction: an axisymmetric contact as a one-dimensional elastic foundation (Popov and Heß
-/// 2014).
+/// Method of dimensionality reduction: an axisymmetric contact as a one-dimensional elastic foundation,
+/// Popov and Heß (2015).
 namespace salebra {
 
 /// A number with the estimate of its error.

@@ -46,7 +46,7 @@ struct ViscoelasticIndentation {
 ///     q = E*∞ [w + Σ (G_i/G∞) y_i],    y_i' = w' − y_i/τ_i;
 /// in contact w = δ − g(x) and q >= 0; it leaves where q falls to 0, then recovers with q = 0, and is met again where δ − g(x) reaches w.
 /// Exact for every path of any axisymmetric profile with rising image, for positive terms (docs/theory.md, section 9). Growing
-/// contacts are those of the correspondence principle (Lee and Radok 1960), and one rise and fall is Ting's solution (1966).
+/// contacts are those of the correspondence principle, Lee and Radok (1960), and one rise and fall is the solution of Ting (1966).
 /// law          of the relaxed body: E* = 2G∞/(1 − ν); only the ratios G_i/G∞ of the series enter
 /// time         s, strictly increasing; indentation: m, as many, at least two; δ < 0 is above the body, and δ > 0 at the first sample is reached
 ///              at once

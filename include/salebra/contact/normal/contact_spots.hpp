@@ -18,7 +18,7 @@ struct ContactSpots {
   double perimeter = 0;              ///< of all spots, along cell edges, m
   /// A/A0 without the cells that a boundary element solution counts in excess along the edges of contacts,
   ///     A = A_cells − (π − 1 + ln 2)/24 · Σ (perimeter edges × cell width across them)
-  /// [Yastrebov, Anciaux, Molinari, Tribol. Int. 114 (2017) 161]. Never below 0.
+  /// by Yastrebov et al. (2017). Never below 0.
   double corrected_area_fraction = 0;
 };
 

@@ -11,7 +11,7 @@
 /// under the same pressures. Unloading, and every later cycle below the first load, is therefore the elastic contact of the residual
 /// surface: what presses surfaces takes it in place of the first one. Reloading follows the unloading curve, up to the first load.
 /// The bodies are elastic and perfectly plastic: nothing hardens, and what sinks in does not pile up beside the contact. The model is that
-/// of Almqvist, Sahlin, Larsson and Glavatskih (Tribology International 40 (2007) 574); Johnson, Contact Mechanics, section 6.4, has
+/// of Almqvist et al. (2007); Johnson (1985), section 6.4, has
 /// the unloading of a sphere.
 namespace salebra {
 

@@ -50,7 +50,7 @@ ContactSet contact_set(const NormalContactState& state);
 /// Frictionless contact of a rigid rough surface with an elastic half-space, for a given nominal pressure:
 ///     minimise ½p·Gp − p·h, 0 <= p <= hardness, mean p = nominal_pressure;  û(q) = 2 p̂(q)/(E*|q|), û(0) = 0 (periodic)
 /// by nested conjugate gradients on the contact set with a preconditioner that needs no transform. It departs from the usual
-/// constrained CG (Polonsky and Keer 1999, doi:10.1016/S0043-1648(99)00113-1) in that CG is not restarted when the set changes.
+/// constrained CG of Polonsky and Keer (1999) in that CG is not restarted when the set changes.
 /// contact_modulus   E* > 0, Pa;   nominal_pressure > 0, Pa, below the hardness
 /// throws            InvalidInput before any work; non-convergence is returned, not thrown
 /// cost              one transform pair an iteration, 15 to 100 iterations; 57 to 67 bytes a cell with heights and result, the more the
