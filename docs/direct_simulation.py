@@ -220,7 +220,7 @@ def mindlin(runs, _):
         greatest = max(abs(x) for x in f["tangential_force"])
         rows.append([f"{n}²", str(k), percent(f["dissipated"] / loop - 1), percent(greatest / initial(q) - 1),
                      f"{abs(f['balance']):.0e}"])
-    return table(["cells", "steps", "loop against Mindlin's", "greatest F_x", "balance"], rows)
+    return table(["cells", "steps", "loop against Mindlin's", "maximum F_x", "balance"], rows)
 
 
 def slip(runs, _):

@@ -114,7 +114,7 @@ struct Premises {
   ///        less, where waves carry away 5 % of the loss: π·0.58 (ωa/c_s) u_x² K_t²/(2G*a).
   Premise inertia;
   /// value  share of the loss that the coupling of pressure and traction changes, 1.3|β|³: interpolates direct simulations of a rough
-  ///        surface at 45° and a paraboloid at 90°, 3 % at ν = 0.3, 17 % at ν = 0, none at ν = 0.5; a paraboloid at 45° has 13 and 56 %.
+  ///        surface at 45° and a paraboloid at 90°, 3 % at ν = 0.3, 17 % at ν = 0, none at ν = 0.5; a paraboloid at 45° has 12 and 52 %.
   /// limits 0.05 and 0.2.
   Premise coupling;
 
