@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -58,6 +59,14 @@ void send(int pipe, Header::Kind kind, std::span<const std::byte> bytes) {
 
 void send_text(int pipe, Header::Kind kind, std::string_view text) {
   send(pipe, kind, std::as_bytes(std::span(text.substr(0, longest_refusal))));
+}
+
+/// Parts behind each other, with a zero between: no part has one.
+void send_refusal(int pipe, const InvalidInput& refusal) {
+  const std::string end(1, '\0');
+  send_text(pipe, Header::refusal,
+            refusal.field() + end + refusal.value() + end + refusal.constraint() +
+                (refusal.remedy().empty() ? "" : "; " + refusal.remedy()));
 }
 
 void limit(int resource, rlim_t most, rlim_t grace = 0) {
@@ -125,13 +134,13 @@ void confine(const Hdf5Reading& reading, int pipe, std::optional<rlim_t> present
       reading.read([&](std::span<const std::byte> bytes) { send(pipe, Header::data, bytes); });
       send(pipe, Header::end, {});
     } catch (const InvalidInput& error) {
-      send_text(pipe, Header::refusal, error.what());
+      send_refusal(pipe, error);
     } catch (const IoError& error) {
       send_text(pipe, Header::failure, error.what());
     } catch (const std::bad_alloc&) {
-      send_text(pipe, Header::refusal,
-                reading.file.string() +
-                    ": takes more memory than a file of its size should; it is damaged");
+      send_refusal(pipe,
+                   InvalidInput(reading.file.string(),
+                                "takes more memory than a file of its size should; it is damaged"));
     }
   } catch (...) {
   }
@@ -206,18 +215,27 @@ class Child {
   bool rests_ = false;
 };
 
+InvalidInput refusal_of(std::string_view text) {
+  std::array<std::string_view, 2> parts;
+  for (std::string_view& part : parts) {
+    part = text.substr(0, text.find('\0'));
+    text.remove_prefix(std::min(part.size() + 1, text.size()));
+  }
+  return {parts[0], parts[1], text};
+}
+
 [[noreturn]] void refuse_dead(const Hdf5Reading& reading, Child& child) {
   const std::string file = reading.file.string();
   if (child.rests())
-    throw InvalidInput(file + ": keeps the HDF5 library waiting; is its disk in order?");
+    throw InvalidInput(file, "keeps the HDF5 library waiting; is its disk in order?");
   const int sign = child.end();
   if (sign == SIGXCPU)
-    throw InvalidInput(file + ": keeps the HDF5 library busy without end; it is damaged");
+    throw InvalidInput(file, "keeps the HDF5 library busy without end; it is damaged");
   if (sign == SIGKILL)
-    throw InvalidInput(file +
-                       ": could not be read, because the system ended the process that reads it; "
-                       "is there enough memory?");
-  throw InvalidInput(file + ": makes the HDF5 library crash; it is damaged");
+    throw InvalidInput(file,
+                       "could not be read, because the system ended the process that reads it; is "
+                       "there enough memory?");
+  throw InvalidInput(file, "makes the HDF5 library crash; it is damaged");
 }
 
 [[noreturn]] void refuse_unread(const Hdf5Reading& reading, int error) {
@@ -264,12 +282,12 @@ void run_confined(const Hdf5Reading& reading) {
           std::string text(header.size, '\0');
           if (!child.receive(std::as_writable_bytes(std::span(text)))) refuse_dead(reading, child);
           if (header.kind == Header::failure) throw IoError(text);
-          throw InvalidInput(text);
+          throw refusal_of(text);
         }
         [[fallthrough]];
       default:
-        throw InvalidInput(reading.file.string() +
-                           ": makes the HDF5 library give a wrong answer; it is damaged");
+        throw InvalidInput(reading.file.string(),
+                           "makes the HDF5 library give a wrong answer; it is damaged");
     }
   }
 }

@@ -150,8 +150,8 @@ void run(const DamperArguments& arguments, Session& session) {
     if (session.has_output()) write_map(map, arguments.falling_slope, session);
     if (!one) figure = damper_figure(map, arguments.falling_slope);
   } else {
-    require(arguments.falling_slope.has_value(), "--normal-amplitude", "missing;",
-            "give it, or --falling-slope to have it computed");
+    require_that(arguments.falling_slope.has_value(), "--normal-amplitude",
+                 "missing; give it, or --falling-slope to have it computed");
     require(!session.has_output(), "--output", session.output().string(),
             "is for a map over --normal-amplitude and --frequency");
   }
@@ -163,8 +163,8 @@ void run(const DamperArguments& arguments, Session& session) {
     object["decay"] = decay_of(decay);
     figure.panels.push_back(decay_panel(decay));
   } else {
-    require(!arguments.spring_stiffness, "--spring-stiffness", "given,",
-            "but there is no --mass to oscillate");
+    require_that(!arguments.spring_stiffness, "--spring-stiffness",
+                 "given, but there is no --mass to oscillate");
   }
   if (arguments.falling_slope) {
     require_positive(*arguments.falling_slope, "--falling-slope");
@@ -178,8 +178,9 @@ void run(const DamperArguments& arguments, Session& session) {
     if (omega.size() > 1) add_border(figure, omega, least);
   }
   if (session.has_plot()) {
-    require(!figure.panels.empty(), "--plot", "one number",
-            "is no picture; give a range, --mass, or --falling-slope with several frequencies");
+    require_that(!figure.panels.empty(), "--plot",
+                 "one number is no picture; give a range, --mass, or --falling-slope with several "
+                 "frequencies");
     session.plot(figure);
   }
   add_first_loading(object, contact.first_loading);

@@ -194,8 +194,8 @@ void follow_motion(const DampingArguments& arguments, const LawOptions::Contact&
 void plot_case(const ContactLaw& law, const DampingCase& one, const DampingResult& result,
                Session& session) {
   if (!session.has_plot()) return;
-  require(!one.force_amplitude, "--plot", "one case",
-          "of --force-amplitude has no picture; give it as a range");
+  require_that(!one.force_amplitude, "--plot",
+               "one case of --force-amplitude has no picture; give it as a range");
   const SampledMotion path = sampled(one.motion, result.indentation, 1000);
   session.plot(cycle_figure(path, trajectory_damping(law, path)));
 }

@@ -27,7 +27,7 @@ constexpr double size = 1e-3;  // m; the ratios do not depend on it
 // u_x = u_z, and v/ω = u_z for drag: the ratios do not depend on the tangential motion.
 Oscillation motion_of(const Figure3Arguments& arguments, double amplitude) {
   if (arguments.mode == "drag") {
-    require(!arguments.phase, "--phase", "given", "for drag, which has none; leave it out");
+    require_that(!arguments.phase, "--phase", "given for drag, which has none; leave it out");
     return Drag{amplitude, amplitude, 1.0};
   }
   return EqualFrequency{amplitude, amplitude, arguments.phase.value_or(std::numbers::pi / 2)};

@@ -219,8 +219,8 @@ void check(const FrictionArguments& arguments) {
   if (arguments.velocities.empty() && arguments.velocity_ratios.empty())
     missing.emplace_back("--velocities (or --velocity-ratios)");
   require_options(missing, "sliding under an oscillation");
-  require(arguments.velocities.empty() || arguments.velocity_ratios.empty(), "--velocity-ratios",
-          "given", "beside --velocities; give one of them");
+  require_that(arguments.velocities.empty() || arguments.velocity_ratios.empty(),
+               "--velocity-ratios", "given beside --velocities; give one of them");
   for (const double velocity : arguments.velocities) require_positive(velocity, "--velocities");
   for (const double ratio : arguments.velocity_ratios) require_positive(ratio, "--velocity-ratios");
   for (const double excursion : arguments.excursions) require_positive(excursion, "--excursions");

@@ -94,8 +94,8 @@ Surface read_unsized(const std::string& file) {
 std::optional<HeightDistribution> distribution_of(const GenerateArguments& arguments) {
   if (!arguments.non_gaussian()) return {};
   const bool johnson = arguments.skewness || arguments.kurtosis;
-  require(johnson + arguments.weibull.has_value() + !arguments.heights_from.empty() == 1,
-          "--skewness", "given", "beside --weibull or --heights-from; give one distribution");
+  require_that(johnson + arguments.weibull.has_value() + !arguments.heights_from.empty() == 1,
+               "--skewness", "given beside --weibull or --heights-from; give one distribution");
   if (arguments.weibull) return weibull_heights(*arguments.weibull);
   if (johnson)
     return johnson_heights(arguments.skewness.value_or(0),
@@ -168,9 +168,9 @@ Surface cropped(const GenerateArguments& arguments, const Surface& surface) {
 void make_profile(const GenerateArguments& arguments, Session& session) {
   require_tables(session, {"profile"});
   const auto [points, lines] = counts_of(arguments.points, "--points", 1);
-  require(lines == points && !arguments.size_y && arguments.crop.empty() &&
-              arguments.composite.empty() && !arguments.non_gaussian() && !session.has_plot(),
-          "--profile", "given", "with an option that only surfaces have; leave that out");
+  require_that(lines == points && !arguments.size_y && arguments.crop.empty() &&
+                   arguments.composite.empty() && !arguments.non_gaussian() && !session.has_plot(),
+               "--profile", "given with an option that only surfaces have; leave that out");
   const double length = *arguments.size_x;
   const SelfAffineProfileSpectrum spectrum = arguments.spectrum.profile_spectrum(length);
   const std::string method = arguments.method.empty() ? "filtered-noise" : arguments.method;

@@ -46,8 +46,8 @@ DescribedLaw of_surface(const GwArguments& arguments, const Material& material, 
        {std::pair{"--summit-density", arguments.summit_density.has_value()},
         {"--radius", arguments.radius.has_value()},
         {"--summit-rms", arguments.summit_rms.has_value()}})
-    require(!given, option, "given",
-            "beside a surface, which has its own summits; leave out one of them");
+    require_that(!given, option,
+                 "given beside a surface, which has its own summits; leave out one of them");
   const Surface surface = arguments.surface.read(session);
   const HeightStatistics heights = height_statistics(surface);
   if (arguments.summits == "deterministic") {
@@ -85,9 +85,8 @@ DescribedLaw of_parameters(const GwArguments& arguments, const Material& materia
 }
 
 void run(const GwArguments& arguments, Session& session) {
-  require(arguments.separations.empty() != arguments.pressures.empty(), "--pressures",
-          arguments.pressures.empty() ? "missing;" : "given beside --separations;",
-          "give exactly one of --pressures and --separations");
+  require_one(!arguments.pressures.empty(), "--pressures", !arguments.separations.empty(),
+              "--separations");
   for (const double pressure : arguments.pressures) require_positive(pressure, "--pressures");
   const Material material = arguments.material.material();
   const DescribedLaw described = arguments.surface.given()

@@ -49,7 +49,7 @@ void run(const SurfaceOptions& options, Session& session) {
     answer = describe(surface, spectrum.hurst);
   } catch (const InvalidInput& refusal) {
     // Such as a grid of two rows, which has no curvature: the statistics do not know which file it came from.
-    throw InvalidInput(options.file + ": " + refusal.what());
+    throw InvalidInput(options.file, refusal.what());
   }
   write_answer(session, "info", answer);
   if (session.has_plot()) session.plot(surface_figure(surface, spectrum));

@@ -126,8 +126,8 @@ void run(const JointArguments& arguments, Session& session) {
   if (arguments.tangential_forces.empty() && arguments.tangential_amplitudes.empty())
     missing.emplace_back("--tangential-forces or --tangential-amplitudes");
   require_options(missing, "a joint");
-  require(arguments.tangential_forces.empty() || arguments.tangential_amplitudes.empty(),
-          "--tangential-amplitudes", "given", "beside --tangential-forces; give one of them");
+  require_that(arguments.tangential_forces.empty() || arguments.tangential_amplitudes.empty(),
+               "--tangential-amplitudes", "given beside --tangential-forces; give one of them");
   require(!arguments.phase || arguments.normal_amplitude, "--phase", arguments.phase.value_or(0),
           "is that of a normal oscillation; give --normal-amplitude");
   if (arguments.frequency) require_positive(*arguments.frequency, "--frequency");

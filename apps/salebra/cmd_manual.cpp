@@ -133,8 +133,9 @@ std::string page_of(const Program& program, const std::string& name) {
     if (command.name() == name) return command_page(command);
     names.push_back(command.name());
   }
-  throw InvalidInput(fmt::format("COMMAND: {} is not a command{}; see salebra --help", name,
-                                 did_you_mean(name, names)));
+  throw InvalidInput(
+      "COMMAND", name,
+      fmt::format("is not a command{}; see salebra --help", did_you_mean(name, names)));
 }
 
 }  // namespace

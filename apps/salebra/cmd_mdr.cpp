@@ -99,9 +99,8 @@ void run(const MdrArguments& arguments, Session& session) {
     follow_file(arguments.follow, law, facts, session);
     return;
   }
-  require(arguments.indentation.has_value() != arguments.force.has_value(), "--indentation",
-          arguments.indentation ? "given beside" : "and --normal-force are both missing;",
-          arguments.indentation ? "--normal-force; give one of them" : "give one of them");
+  require_one(arguments.indentation.has_value(), "--indentation", arguments.force.has_value(),
+              "--normal-force");
   if (arguments.indentation) require_positive(*arguments.indentation, "--indentation");
   for (const std::string* path : {&arguments.stress_map, &arguments.friction_map})
     if (!path->empty()) require_output(*path, session.write_options());
@@ -110,9 +109,9 @@ void run(const MdrArguments& arguments, Session& session) {
       arguments.indentation ? *arguments.indentation : law.indentation_of(*arguments.force);
   Json object;
   if (arguments.motion.normal_amplitude.empty()) {
-    require(!arguments.motion.given() && arguments.stress_map.empty() &&
-                arguments.friction_map.empty() && !arguments.follow.friction_coefficient,
-            "--normal-amplitude", "missing;", "a motion, maps and friction need it");
+    require_that(!arguments.motion.given() && arguments.stress_map.empty() &&
+                     arguments.friction_map.empty() && !arguments.follow.friction_coefficient,
+                 "--normal-amplitude", "missing; a motion, maps and friction need it");
     add_state(object, law, settled);
     write_answer(session, "mdr", object);
     if (session.has_plot()) session.plot(contact_figure(law, settled));

@@ -56,8 +56,8 @@ Body file_of(const OscillateArguments& arguments, Session& session) {
   Body body;
   body.surface = arguments.surface.read(session);
   body.boundary = body.surface.periodic ? Boundary::periodic : Boundary::free;
-  require(arguments.position.count() == 1, "--indentation", "not given",
-          "beside --surface; give one position");
+  require_that(arguments.position.count() == 1, "--indentation",
+               "not given beside --surface; give one position");
   return body;
 }
 
@@ -86,7 +86,7 @@ NormalContactState contact_at(const PositionOptions& position, const Body& body,
 double indentation_of(const OscillateArguments& arguments, const Body& body,
                       const Material& material, const NormalContactOptions& options) {
   const PositionOptions& position = arguments.position;
-  require(position.count() <= 1, "--indentation", "given", "beside another position; give one");
+  require_that(position.count() <= 1, "--indentation", "given beside another position; give one");
   if (position.count() == 0) return body.indentation;
   if (position.indentation) return *position.indentation;
   return contact_at(position, body, material.contact_modulus, body.indentation, options)
@@ -134,15 +134,13 @@ Oscillation motion_of(MotionOptions motion, const Body& body, double indentation
       fill(motion.phase, std::numbers::pi / 2);
     }
   }
-  require(motion.varied().second.empty(), motion.varied().first, "is a range",
-          "of a single simulation; give one value");
+  require_that(motion.varied().second.empty(), motion.varied().first,
+               "is a range of a single simulation; give one value");
   return motion.motions().front();
 }
 
 void check(const OscillateArguments& arguments, const Session& session) {
-  require(arguments.shape.empty() != !arguments.surface.given(), "--shape",
-          arguments.shape.empty() ? "not given;" : "given beside --surface;",
-          "give exactly one of --shape and --surface");
+  require_one(!arguments.shape.empty(), "--shape", arguments.surface.given(), "--surface");
   const bool simulate = arguments.method != "levels";
   arguments.record.check(session);
   require(simulate || (arguments.record.checkpoint.empty() && arguments.record.fields.empty()),

@@ -32,8 +32,8 @@ void run(const SweepArguments& arguments, Session& session) {
   if (arguments.pressures.empty()) missing.insert(missing.begin(), "--pressures");
   require_options(missing, "a sweep");
   SweepOptions options;
-  require(arguments.stiffness || !arguments.stick, "--stick", "given",
-          "without --stiffness; give both");
+  require_that(arguments.stiffness || !arguments.stick, "--stick",
+               "given without --stiffness; give both");
   options.stiffness = arguments.stiffness;
   options.stick = arguments.stick;
   options.contact.boundary = *value_of<Boundary>(arguments.boundary);

@@ -132,9 +132,8 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   const PronySeries prony = PronySeries::of_body(material, parse_terms(arguments.prony));
   prony.validate();
   const IndenterLaw law(arguments.indenter.indenter(), material);
-  require(arguments.indentation.has_value() != arguments.force.has_value(), "--indentation",
-          arguments.indentation ? "given beside" : "and --normal-force are both missing;",
-          arguments.indentation ? "--normal-force; give one of them" : "give one of them");
+  require_one(arguments.indentation.has_value(), "--indentation", arguments.force.has_value(),
+              "--normal-force");
   if (arguments.indentation) require_positive(*arguments.indentation, "--indentation");
   const double indentation =
       arguments.indentation ? *arguments.indentation : law.indentation_of(*arguments.force);

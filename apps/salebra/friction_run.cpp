@@ -122,10 +122,11 @@ void FrictionOptions::check(const Oscillation& motion, double indentation) const
   if (!coupled) return;
   const double amplitude =
       std::visit([](const auto& kind) { return kind.normal_amplitude; }, motion);
-  require(indentation >= amplitude, "--coupled", "given,",
-          fmt::format("but the body leaves the surface ({:g} m < amplitude {:g} m); the coupled "
-                      "cycle needs a contact that stays",
-                      indentation, amplitude));
+  require_that(
+      indentation >= amplitude, "--coupled",
+      fmt::format("given, but the body leaves the surface ({:g} m < amplitude {:g} m); the coupled "
+                  "cycle needs a contact that stays",
+                  indentation, amplitude));
 }
 
 void FrictionOptions::apply(CycleOptions& cycle, const MaterialOptions& bodies,

@@ -47,10 +47,10 @@ std::shared_ptr<const IndenterProfile> IndenterOptions::indenter() const {
         if (option == name)
           values.push_back(required(*value, option, "--profile " + profile + " needs it"));
     for (const auto& [option, value] : known)
-      require(!*value || std::ranges::find(wanted, option) != wanted.end(), option, "given,",
-              "but --profile " + profile + " has none; leave it out");
-    require(table.empty() || profile == "table", "--table", "given,",
-            "but --profile is " + profile + "; leave it out");
+      require_that(!*value || std::ranges::find(wanted, option) != wanted.end(), option,
+                   "given, but --profile " + profile + " has none; leave it out");
+    require_that(table.empty() || profile == "table", "--table",
+                 "given, but --profile is " + profile + "; leave it out");
     return values;
   };
   if (profile == "cone") return cone_profile(only({"--angle"})[0]);
@@ -66,7 +66,7 @@ std::shared_ptr<const IndenterProfile> IndenterOptions::indenter() const {
     return rounded_punch_profile(values[0], values[1]);
   }
   only({});
-  if (table.empty()) throw InvalidInput("--table: not given, but --profile table needs it");
+  if (table.empty()) throw InvalidInput("--table", "not given, but --profile table needs it");
   const auto columns = read_number_table(table, 2);
   return std::make_shared<const TabulatedProfile>(columns[0], columns[1]);
 }

@@ -18,21 +18,44 @@
 namespace salebra::cli {
 namespace {
 
+/// A way to say where a contact stands, and what a curve knows of it.
+struct PositionOption {
+  const char* option;
+  std::vector<double> LawOptions::*values;
+  double ForceSample::*column;
+  Dimension dimension;
+};
+
+const std::map<std::string, PositionOption> position_options{
+    {"force", {"--normal-force", &LawOptions::force, &ForceSample::force, Dimension::force}},
+    {"indentation",
+     {"--indentation", &LawOptions::indentation, &ForceSample::indentation, Dimension::length}},
+    {"pressure",
+     {"--pressure", &LawOptions::pressure, &ForceSample::pressure, Dimension::pressure}},
+    {"mean_gap", {"--mean-gap", &LawOptions::mean_gap, &ForceSample::mean_gap, Dimension::length}}};
+
+const char* option_named(const std::string& position) {
+  return position_options.at(position).option;
+}
+
 /// The one position option that was given, and its values.
 std::pair<std::string, std::vector<double>> position_of(const LawOptions& arguments,
                                                         const std::vector<std::string>& allowed) {
   std::pair<std::string, std::vector<double>> found;
-  for (const auto& [name, values] : {std::pair{"force", &arguments.force},
-                                     {"indentation", &arguments.indentation},
-                                     {"pressure", &arguments.pressure},
-                                     {"mean_gap", &arguments.mean_gap}}) {
-    if (values->empty()) continue;
-    require(found.first.empty(), name, "given", "beside " + found.first + "; give one position");
-    found = {name, *values};
+  for (const auto& [name, position] : position_options) {
+    const std::vector<double>& values = arguments.*position.values;
+    if (values.empty()) continue;
+    require_that(found.first.empty(), position.option,
+                 fmt::format("given beside {}; give one of them",
+                             found.first.empty() ? "" : option_named(found.first)));
+    found = {name, values};
   }
-  require(std::ranges::find(allowed, found.first) != allowed.end(), "position",
-          found.first.empty() ? "none" : found.first,
-          fmt::format("is given, but this law stands at one of: {}", fmt::join(allowed, ", ")));
+  std::vector<std::string> options;
+  for (const std::string& position : allowed) options.push_back(option_named(position));
+  if (found.first.empty())
+    throw InvalidInput(fmt::format("{}", fmt::join(options, ", ")), "not given; give one of them");
+  require_that(std::ranges::find(allowed, found.first) != allowed.end(), option_named(found.first),
+               fmt::format("given, but this contact stands at {}", fmt::join(options, " or ")));
   return found;
 }
 
@@ -54,8 +77,8 @@ std::unique_ptr<ContactLaw> exponential(const LawOptions& arguments,
   const double decay_length =
       required(arguments.decay_length, "--decay-length", "--law exponential needs it");
   require_positive(decay_length, "--decay-length");
-  require(!arguments.force.empty(), "--normal-force", "not given,",
-          "but --law exponential needs it");
+  require_that(!arguments.force.empty(), "--normal-force",
+               "not given, but --law exponential needs it");
   require_positive(arguments.force.front(), "--normal-force");
   // The law has no scale of its own: F'' = F/l² whatever the reference force.
   return std::make_unique<ExponentialLaw>(arguments.force.front(), decay_length,
@@ -72,21 +95,10 @@ std::shared_ptr<const IndenterProfile> profile_of(const LawOptions& arguments) {
                        required(arguments.exponent, "--exponent", "--law power needs it"));
 }
 
-struct CurveColumn {
-  const char* option;
-  double ForceSample::*column;
-  Dimension dimension;
-};
-
 /// Throws InvalidInput in the quantity that was typed, before it becomes the force or the indentation that the law knows.
 void require_on_curve(const std::string& name, const std::vector<double>& values,
                       const ForceCurve& curve) {
-  static const std::map<std::string, CurveColumn> columns{
-      {"force", {"--normal-force", &ForceSample::force, Dimension::force}},
-      {"indentation", {"--indentation", &ForceSample::indentation, Dimension::length}},
-      {"pressure", {"--pressure", &ForceSample::pressure, Dimension::pressure}},
-      {"mean_gap", {"--mean-gap", &ForceSample::mean_gap, Dimension::length}}};
-  const CurveColumn& column = columns.at(name);
+  const PositionOption& column = position_options.at(name);
   const auto [low, high] = std::ranges::minmax(curve.column(column.column));
   for (const double value : values)
     require(!(value < low || value > high), column.option, format_quantity(value, column.dimension),
@@ -173,8 +185,8 @@ void LawOptions::require_own_parameters() const {
         {"--radius", &radius, "parabola"},
         {"--exponent", &exponent, "power"},
         {"--coefficient", &coefficient, "power"}})
-    require(!*value || (law == owner && curve.empty() && !surface.given()), option, "given,",
-            fmt::format("but {} has none; leave it out", chosen));
+    require_that(!*value || (law == owner && curve.empty() && !surface.given()), option,
+                 fmt::format("given, but {} has none; leave it out", chosen));
 }
 
 void LawOptions::add_to(Command& command) {
@@ -212,8 +224,7 @@ void LawOptions::add_to(Command& command) {
 std::unique_ptr<ContactLaw> LawOptions::law_alone(const MaterialOptions& material) const {
   require(!surface.given(), "--surface", surface.file,
           "has no law for a path of indentations; sweep it and give its --curve");
-  require(law.empty() != curve.empty(), "--law", law.empty() ? "missing;" : "given beside --curve;",
-          "give exactly one of --law, --curve and --surface");
+  require_one(!law.empty(), "--law", !curve.empty(), "--curve");
   require_own_parameters();
   if (!curve.empty())
     return std::make_unique<TabulatedLaw>(read_force_curve(curve), material.modulus_ratio());

@@ -43,11 +43,8 @@ std::string in_options(std::string_view message) {
 }
 
 std::string with_option(const InvalidInput& refusal) {
-  // "<field>: <value> <constraint>; <what to do>"
-  const std::string message = refusal.what();
-  const std::size_t end = std::min(message.find(": "), message.size());
-  const std::string option = option_of(message.substr(0, end));
-  return option.empty() ? message : option + message.substr(end);
+  const std::string option = option_of(refusal.field());
+  return option.empty() ? refusal.what() : option + ": " + refusal.statement();
 }
 
 }  // namespace salebra::cli

@@ -59,15 +59,15 @@ Option* add_choice(Command& app, const std::string& name, std::string& target,
 
 double required(const std::optional<double>& value, std::string_view option,
                 std::string_view reason) {
-  if (!value) throw InvalidInput(fmt::format("{}: not given, but {}", option, reason));
+  if (!value) throw InvalidInput(option, fmt::format("not given, but {}", reason));
   return *value;
 }
 
 void require_options(const std::vector<std::string>& missing, const std::string& reason) {
   if (missing.empty()) return;
   const bool one = missing.size() == 1;
-  throw InvalidInput(fmt::format("{}: not given, but {} needs {}; give {}",
-                                 fmt::join(missing, ", "), reason, one ? "it" : "them",
+  throw InvalidInput(fmt::format("{}", fmt::join(missing, ", ")),
+                     fmt::format("not given, but {} needs {}; give {}", reason, one ? "it" : "them",
                                  one ? "it" : "all of them"));
 }
 
@@ -197,8 +197,8 @@ void FrequencyOptions::add_to(Command& app, const std::string& group, bool one) 
 }
 
 std::vector<double> FrequencyOptions::angular() const {
-  require(frequency.empty() || angular_frequency.empty(), "--angular-frequency", "given",
-          "beside --frequency; give one of them");
+  require_that(frequency.empty() || angular_frequency.empty(), "--angular-frequency",
+               "given beside --frequency; give one of them");
   for (const double value : frequency) require_positive(value, "--frequency");
   for (const double value : angular_frequency) require_positive(value, "--angular-frequency");
   std::vector<double> omega = angular_frequency;
@@ -264,8 +264,8 @@ std::vector<Motion> MotionOptions::all_motions() const {
   const bool drag = mode == "drag", two = mode == "two-frequencies";
   require_options(missing(), "--mode " + mode);
   const auto check = [&](const std::vector<double>& values, std::string_view option, bool wanted) {
-    require(values.empty() || wanted, option, "given,",
-            "but --mode " + mode + " has none; leave it out");
+    require_that(values.empty() || wanted, option,
+                 "given, but --mode " + mode + " has none; leave it out");
   };
   check(tangential_amplitude, "--tangential-amplitude", !drag);
   check(phase, "--phase", !drag);

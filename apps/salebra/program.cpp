@@ -190,7 +190,12 @@ Command& Program::add_command(const std::string& name, const std::string& what,
 
 namespace {
 
-/// Parses and runs. Throws InvalidInput for a command line that is not understood.
+/// Thrown for a command line that is not understood.
+struct NotUnderstood : Error {
+  using Error::Error;
+};
+
+/// Parses and runs. Throws NotUnderstood, and what the command throws.
 void run(int argc, char** argv) {
   CLI::App app("Statistics of rough-surface contact and its relaxation damping.", "salebra");
   app.set_version_flag("--version", "salebra " + std::string(version()));
@@ -216,7 +221,7 @@ void run(int argc, char** argv) {
   const std::string word = words.front();
   if (!word.starts_with('-') && std::ranges::find(names, word) == names.end()) {
     throw InvalidInput(
-        fmt::format("{}: is not a command{}; see salebra --help", word, did_you_mean(word, names)));
+        word, fmt::format("is not a command{}; see salebra --help", did_you_mean(word, names)));
   }
   const auto chosen = std::ranges::find(program.commands(), word, &Command::name);
   if (chosen != program.commands().end()) name_options(*chosen);
@@ -228,7 +233,7 @@ void run(int argc, char** argv) {
     app.exit(request, text, text);
     print_answer(wrapped(text.str(), text_width()));
   } catch (const CLI::ParseError& error) {
-    throw InvalidInput(fmt::format("{}; {}", describe(app, error), help_hint(app)));
+    throw NotUnderstood(fmt::format("{}; {}", describe(app, error), help_hint(app)));
   }
 }
 
@@ -265,6 +270,8 @@ int run_program(int argc, char** argv) {
     return fail(2, std::string(error.what()) + " (salebra convert --fill)");
   } catch (const InvalidInput& error) {
     return fail(2, with_option(error));
+  } catch (const NotUnderstood& error) {
+    return fail(2, error.what());
   } catch (const Incomplete& error) {
     return fail(3, error.what());
   } catch (const Interrupted& error) {

@@ -25,8 +25,8 @@ void RecordOptions::add_to(Command& app) {
 }
 
 void RecordOptions::check(const Session& session) const {
-  require(!resume || !checkpoint.empty(), "--resume", "given",
-          "without --checkpoint; name the checkpoint");
+  require_that(!resume || !checkpoint.empty(), "--resume",
+               "given without --checkpoint; name the checkpoint");
   require(!checkpoint_every || *checkpoint_every >= 0, "--checkpoint-every",
           checkpoint_every.value_or(0), "must be >= 0");
   if (!fields.empty()) {
@@ -38,8 +38,8 @@ void RecordOptions::check(const Session& session) const {
   const bool there = std::filesystem::exists(checkpoint);
   require(there || !resume, "--resume", checkpoint,
           "is not there; leave out --resume to begin the cycle");
-  require(!there || resume || session.write_options().overwrite, checkpoint, "exists;",
-          "add --resume to go on from it, or --overwrite to begin anew");
+  require_that(!there || resume || session.write_options().overwrite, checkpoint,
+               "exists; add --resume to go on from it, or --overwrite to begin anew");
 }
 
 CycleRecordOptions RecordOptions::options(int steps, const Session& session) const {

@@ -66,9 +66,9 @@ Session::Session(CommonOptions options, std::string command_line, OutputCheck ch
 
 WriteOptions Session::write_options() const {
   if (const std::string place = place_among_tasks(); !place.empty())
-    throw InvalidInput(fmt::format(
-        "started as {}, which would all write the same file; start one, or use study --shard",
-        place));
+    throw InvalidInput("--output", fmt::format("would be written by each of several tasks, for "
+                                               "this is {}; start one, or use study --shard",
+                                               place));
   return {.overwrite = options_.overwrite};
 }
 

@@ -122,8 +122,8 @@ Surface ShapeOptions::surface(const Grid2D& grid) const {
     values.push_back(required(*found->second, option, "--shape " + shape + " needs it"));
   }
   for (const auto& [option, value] : known)
-    require(!*value || std::ranges::find(named.options, option) != named.options.end(), option,
-            "given,", "but --shape " + shape + " has none; leave it out");
+    require_that(!*value || std::ranges::find(named.options, option) != named.options.end(), option,
+                 "given, but --shape " + shape + " has none; leave it out");
   const bool repeated = shape == "pyramids" || shape == "sinusoid";
   const PlanePoint off_grid = off_grid_center(grid);
   const PlanePoint middle{grid.lx / 2, grid.ly / 2};

@@ -17,7 +17,7 @@ namespace {
 /// Options that a kind of spectrum has no use for must not be given.
 void require_absent(const std::optional<double>& value, std::string_view option,
                     const std::string& kind) {
-  require(!value, option, "given,", "but " + kind + " has none; leave it out");
+  require_that(!value, option, "given, but " + kind + " has none; leave it out");
 }
 
 }  // namespace
@@ -103,8 +103,8 @@ std::shared_ptr<const IsotropicSpectrum> SpectrumOptions::isotropic(double cell)
     require_absent(correlation_length, "--correlation-length", "a self-affine spectrum");
     return std::make_shared<SelfAffineSpectrum>(self_affine(cell));
   }
-  require(table.empty() || correlation.empty(), "--correlation", "given",
-          "beside --psd-table; give one of them");
+  require_that(table.empty() || correlation.empty(), "--correlation",
+               "given beside --psd-table; give one of them");
   for (const auto& [value, option] :
        {std::pair{&hurst, "--hurst"}, std::pair{&long_cutoff, "--long-cutoff"},
         std::pair{&rolloff, "--rolloff"}, std::pair{&rms_slope, "--rms-slope"}})
@@ -126,7 +126,7 @@ std::shared_ptr<const IsotropicSpectrum> SpectrumOptions::isotropic(double cell)
 
 std::shared_ptr<const Spectrum> SpectrumOptions::spectrum(double cell) const {
   if (!stretch_along && !stretch_across) {
-    require(!lay_angle, "--lay-angle", "given", "without --stretch-along or --stretch-across");
+    require_that(!lay_angle, "--lay-angle", "given without --stretch-along or --stretch-across");
     return isotropic(cell);
   }
   return std::make_shared<AnisotropicSpectrum>(isotropic(cell),
@@ -136,10 +136,10 @@ std::shared_ptr<const Spectrum> SpectrumOptions::spectrum(double cell) const {
 }
 
 SelfAffineProfileSpectrum SpectrumOptions::profile_spectrum(double cell) const {
-  require(table.empty() && correlation.empty(), "--profile", "given",
-          "with a spectrum of surfaces; profiles are self-affine, give --hurst");
-  require(!stretch_along && !stretch_across && !lay_angle, "--profile", "given",
-          "with a lay; a profile has none");
+  require_that(table.empty() && correlation.empty(), "--profile",
+               "given with a spectrum of surfaces; profiles are self-affine, give --hurst");
+  require_that(!stretch_along && !stretch_across && !lay_angle, "--profile",
+               "given with a lay; a profile has none");
   return SelfAffineProfileSpectrum(self_affine(cell));
 }
 

@@ -144,7 +144,7 @@ std::string StudyReport::complete() {
 StudyConfiguration StudyArguments::study() const {
   const bool from_file = !configuration.empty();
   if (!from_file && !surface.given())
-    throw InvalidInput("CONFIG: none; give a study file, or --surface with material and motion");
+    throw InvalidInput("CONFIG", "none; give a study file, or --surface with material and motion");
   StudyConfiguration study;
   if (from_file) {
     study = read_study_configuration(configuration);
@@ -343,8 +343,9 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
                                       const StudyArguments& arguments, StudyReport& page,
                                       Session& session) {
   const bool merge = arguments.merge, resume = arguments.resume || merge;
-  require(!resume || session.has_output(), merge ? "--merge" : "--resume", "needs",
-          merge ? "the --output of the shards" : "the --output of the run to go on with");
+  require_that(
+      !resume || session.has_output(), merge ? "--merge" : "--resume",
+      merge ? "needs the --output of the shards" : "needs the --output of the run to continue");
   const std::filesystem::path folder = parts_folder(session);
   if (resume && is_result_of(session.output(), configuration)) {
     StudyParts(folder, true).discard();
@@ -415,20 +416,20 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
 
 bool run_without_results(const StudyConfiguration& configuration, const StudyArguments& arguments,
                          Session& session) {
-  require(arguments.dry_run || !arguments.shard_seconds, "--shard-seconds", "is",
-          "for --dry-run only; add it");
+  require_that(arguments.dry_run || !arguments.shard_seconds, "--shard-seconds",
+               "is for --dry-run only; add it");
   if (arguments.dry_run) {
     answer_dry_run(configuration, arguments.shard_seconds, session);
     return true;
   }
   if (!arguments.shard) return false;
   const Shard& shard = *arguments.shard;
-  require(!arguments.merge, "--merge", "cannot",
-          "be combined with --shard; run it after the shards");
-  require(session.has_output(), "--shard", "needs",
-          "the --output of the study; its surfaces are kept beside it");
-  require(!session.has_plot(), "--plot", "cannot",
-          "be combined with --shard, which has no result; draw with --merge");
+  require_that(!arguments.merge, "--merge",
+               "cannot be combined with --shard; run it after the shards");
+  require_that(session.has_output(), "--shard",
+               "needs the --output of the study; its surfaces are kept beside it");
+  require_that(!session.has_plot(), "--plot",
+               "cannot be combined with --shard, which has no result; draw with --merge");
   const std::string folder = parts_folder(session).string();
   const auto answer = [&](const ShardOutcome& outcome, const std::string& text) {
     session.answer(Json{{"shard", to_text(shard)},

@@ -33,6 +33,14 @@ class MissingFile(_core.InvalidInput, FileNotFoundError):
     """A file that is to be read, or the folder of one that is to be written, is not there. Also an InvalidInput."""
 
 
+def refusal(field: str, value: str, demand: str) -> _core.InvalidInput:
+    """As those of the library are made: "field: value constraint; remedy", and the four as attributes."""
+    constraint, _, remedy = demand.partition("; ")
+    error = _core.InvalidInput(f"{field}: {value} {demand}" if value else f"{field}: {demand}")
+    error.field, error.value, error.constraint, error.remedy = field, value, constraint, remedy
+    return error
+
+
 # Arguments whose unit is that of a quantity with another name.
 _LIKE = {
     "lx": "size_x", "ly": "size_y", "young": "contact_modulus", "pressures": "pressure", "nominal_pressure": "pressure",
@@ -157,7 +165,8 @@ def _number(text: str, argument: str) -> float:
     try:
         return float(_core.parse_quantity(text, like))
     except _core.InvalidInput as error:
-        raise _core.InvalidInput(str(error).replace(like, argument, 1)) from None
+        demand = f"{error.constraint}; {error.remedy}" if error.remedy else error.constraint
+        raise refusal(argument, error.value, demand) from None
 
 
 def _from_text(value: Any, argument: str, annotation: str) -> Any:
@@ -256,6 +265,7 @@ def _missing_file(error: Exception, signature: inspect.Signature, arguments: tup
             writes = "overwrite" in signature.parameters
             if not writes or not os.path.isdir(os.path.dirname(path) or "."):
                 missing = MissingFile(str(error))
+                missing.__dict__.update(error.__dict__)
                 missing.filename = path
                 raise missing from None
 

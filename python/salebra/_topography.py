@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ._core import InvalidInput, Surface
+from ._calls import refusal
+from ._core import Surface
 
 # SurfaceTopography's names of lengths, in metres.
 _METRES = {
@@ -19,12 +20,12 @@ _METRES = {
 def from_topography(topography: Any) -> Surface:
     """See :meth:`salebra.Surface.from_topography`."""
     if getattr(topography, "dim", None) != 2:
-        raise InvalidInput("topography: not two-dimensional; salebra's surfaces are maps, not line scans")
+        raise refusal("topography", "", "not two-dimensional; salebra's surfaces are maps, not line scans")
     unit = topography.unit
     if unit is None:
-        raise InvalidInput("topography: has no unit; give it one with to_unit or scale it to metres")
+        raise refusal("topography", "", "has no unit; give it one with to_unit or scale it to metres")
     if str(unit) not in _METRES:
-        raise InvalidInput(f"topography: unit '{unit}' is no length that salebra knows; call to_unit('m') before")
+        raise refusal("topography", f"unit '{unit}'", "is no length that salebra knows; call to_unit('m') before")
     factor = _METRES[str(unit)]
     heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), np.nan)
     if factor != 1.0:

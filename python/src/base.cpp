@@ -45,11 +45,12 @@ void bind_base(nb::module_& m) {
   static nb::exception<IoError> io(m, "IoError", child(PyExc_OSError));
   static nb::exception<NotConverged> not_converged(m, "NotConverged", child(PyExc_RuntimeError));
   static nb::exception<Interrupted> interrupted(m, "Interrupted", child(PyExc_RuntimeError));
+  for (const char* part : {"field", "value", "constraint", "remedy"}) invalid.attr(part) = "";
   error.attr("__doc__") = "Root of everything that salebra raises on purpose.";
   invalid.attr("__doc__") =
-      "A value or file is unusable; nothing was computed or written. The text is \"<field or "
-      "file>: <value> "
-      "<constraint>; <what to do>\". Also a ValueError.";
+      "A value or file is unusable; nothing was computed or written. The text is \"field: value "
+      "constraint; remedy\", and the four are attributes, empty where there is none: field, the "
+      "argument or file; value, as text; constraint; remedy. Also a ValueError.";
   io.attr("__doc__") =
       "The operating system refused a read or a write (disk full, no permission). Also an OSError.";
   not_converged.attr("__doc__") =
@@ -66,7 +67,12 @@ void bind_base(nb::module_& m) {
     try {
       std::rethrow_exception(thrown);
     } catch (const InvalidInput& what) {
-      raise(invalid, what);
+      nb::object error = invalid(printable(what.what()));
+      for (const auto& [name, part] :
+           {std::pair("field", &what.field()), std::pair("value", &what.value()),
+            std::pair("constraint", &what.constraint()), std::pair("remedy", &what.remedy())})
+        error.attr(name) = printable(*part);
+      PyErr_SetObject(invalid.ptr(), error.ptr());
     } catch (const IoError& what) {
       raise(io, what);
     } catch (const NotConverged& what) {

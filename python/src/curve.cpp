@@ -69,7 +69,7 @@ model : str
         fill(contact_area_fraction, "contact_area_fraction", &ForceSample::contact_area_fraction);
         fill(normal_stiffness, "normal_stiffness", &ForceSample::normal_stiffness);
         fill(tangential_stiffness, "tangential_stiffness", &ForceSample::tangential_stiffness);
-        require(force || pressure, "force", "none", "given; give force or pressure");
+        require_that(force || pressure, "force", "none given; give force or pressure");
         for (auto& sample : made.samples) {
           if (!force) sample.force = sample.pressure * nominal_area;
           if (!pressure) sample.pressure = sample.force / nominal_area;

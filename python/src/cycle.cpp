@@ -170,8 +170,8 @@ template <class Simulate>
 CycleResult simulation(CycleOptions options, const std::optional<std::filesystem::path>& checkpoint,
                        double checkpoint_every, bool resume, CycleSettings settings,
                        const ProgressArgument& progress, const Simulate& simulate) {
-  require(checkpoint || !resume, "resume", "True",
-          "without a checkpoint; name the file of the run to go on with");
+  require_that(checkpoint || !resume, "resume",
+               "given without a checkpoint; name the file of the run to go on with");
   return interruptible(progress, [&](Progress told) {
     options.on_progress = told;
     CycleRecorder recorder({.checkpoint = checkpoint.value_or(std::filesystem::path()),
@@ -312,9 +312,8 @@ friction_coefficient: μ.
          std::optional<double> tangential_force, double normal_amplitude, double phase, int steps,
          int max_periods, double tolerance, int max_iterations, const Choice<Boundary>& boundary,
          const ProgressArgument& progress) {
-        require(tangential_amplitude.has_value() != tangential_force.has_value(),
-                "tangential_force", tangential_force.value_or(0),
-                "and tangential_amplitude were both given, or neither; give exactly one of them");
+        require_one(tangential_amplitude.has_value(), "tangential_amplitude",
+                    tangential_force.has_value(), "tangential_force");
         const TangentialOscillation motion =
             tangential_force ? TangentialOscillation(TangentialForce{*tangential_force})
                              : TangentialOscillation(TangentialAmplitude{*tangential_amplitude});

@@ -134,8 +134,7 @@ InvalidInput
          const ContactFacts* facts, const ForceCurve* curve, bool premises,
          const ProgressArgument& progress) {
         cite({"popov2015"});
-        require(indentation.has_value() != force.has_value(), "force", force ? "given" : "missing",
-                "as indentation is; give exactly one of them");
+        require_one(indentation.has_value(), "indentation", force.has_value(), "force");
         const std::vector<double>& places = force ? force->values : indentation->values;
         const std::size_t count = std::max(places.size(), motions.size());
         require((places.size() == count || places.size() == 1) &&

@@ -293,9 +293,8 @@ void bind_joint(nb::module_& m) {
          std::optional<double> tangential_amplitude, std::optional<double> tangential_force,
          std::optional<double> indentation, std::optional<double> force, double normal_amplitude,
          double phase, int steps) {
-        require(tangential_amplitude.has_value() != tangential_force.has_value(),
-                "tangential_force", tangential_force.value_or(0),
-                "and tangential_amplitude were both given, or neither; give exactly one of them");
+        require_one(tangential_amplitude.has_value(), "tangential_amplitude",
+                    tangential_force.has_value(), "tangential_force");
         const Position position = position_of(indentation, force);
         const TangentialOscillation motion =
             tangential_force ? TangentialOscillation(TangentialForce{*tangential_force})

@@ -50,8 +50,9 @@ nb::bytes pickled(const std::string& bytes) { return nb::bytes(bytes.data(), byt
 /// The bytes of a pickle that this version wrote.
 std::string_view unpickled(const nb::tuple& state) {
   if (nb::len(state) != 2 || nb::cast<std::string>(state[0]) != version())
-    throw InvalidInput("pickle: was written by another version than salebra " +
-                       std::string(version()) + "; write results to files to keep them");
+    throw InvalidInput("pickle", "was written by another version than salebra " +
+                                     std::string(version()) +
+                                     "; write results to files to keep them");
   const auto bytes = nb::borrow<nb::bytes>(state[1]);
   return {bytes.c_str(), bytes.size()};
 }

@@ -1,9 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Check shared by all modules: a value is a finite number > 0.
+// Refusals: the parts of one and the checks that all modules share.
+#include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
 
 namespace salebra {
+namespace {
+
+std::string joined(const std::string& first, std::string_view between, const std::string& second) {
+  return first.empty() || second.empty() ? first + second : first + std::string(between) + second;
+}
+
+std::string text_of(std::string_view field, std::string_view value, std::string_view demand) {
+  return joined(std::string(field), ": ", joined(std::string(value), " ", std::string(demand)));
+}
+
+}  // namespace
+
+InvalidInput::InvalidInput(std::string_view field, std::string_view value, std::string_view demand)
+    : Error(text_of(field, value, demand)) {
+  const std::size_t end = std::min(demand.find("; "), demand.size());
+  parts_ = std::make_shared<const Parts>(
+      Parts{.field = std::string(field),
+            .value = std::string(value),
+            .constraint = std::string(demand.substr(0, end)),
+            .remedy = std::string(demand.substr(std::min(end + 2, demand.size())))});
+}
+
+std::string InvalidInput::statement() const {
+  return joined(value(), " ", joined(constraint(), "; ", remedy()));
+}
+
+void require_that(bool ok, std::string_view field, std::string_view demand) {
+  if (!ok) throw InvalidInput(field, demand);
+}
+
+void require_one(bool given, std::string_view field, bool other_given, std::string_view other) {
+  if (given == other_given)
+    throw InvalidInput(field, (given ? "given beside " : "not given, nor is ") +
+                                  std::string(other) + "; give one of them");
+}
 
 void require_positive(double value, std::string_view field) {
   require(std::isfinite(value) && value > 0, field, value, "must be a finite number > 0");

@@ -37,9 +37,9 @@ void Surface::require_complete(const std::string& purpose) const {
   if (wrong == 0) return;
   const Index undefined = undefined_points();
   if (undefined > 0)
-    throw UndefinedPoints("heights: " + std::to_string(undefined) +
-                          " undefined points cannot be used in " + purpose +
-                          "; fill them or crop them first");
+    throw UndefinedPoints(
+        "heights", std::to_string(undefined),
+        "undefined points cannot be used in " + purpose + "; fill them or crop them first");
   require(false, "heights", "infinity", "cannot be used in " + purpose);
 }
 

@@ -87,10 +87,9 @@ std::string memory_text(double bytes) {
 void require_memory(const Grid2D& grid, double bytes, std::string_view work) {
   if (fits_into_memory(bytes)) return;
   throw InvalidInput(
-      fmt::format("points: {} x {} need {} of memory for {} and {} are available; "
-                  "use fewer points",
-                  grid.nx, grid.ny, memory_text(bytes), work,
-                  memory_text(static_cast<double>(available_memory()))));
+      "points", fmt::format("{} x {}", grid.nx, grid.ny),
+      fmt::format("need {} of memory for {} and {} are available; use fewer points",
+                  memory_text(bytes), work, memory_text(static_cast<double>(available_memory()))));
 }
 
 }  // namespace salebra

@@ -31,9 +31,10 @@ VectorWidth vector_width() {
   if (!wanted || !*wanted) return most;
   for (const VectorWidth width : {VectorWidth::baseline, VectorWidth::avx2, VectorWidth::avx512})
     if (width <= most && std::string(wanted) == name_of(width)) return width;
-  throw InvalidInput(std::string("SALEBRA_VECTOR_WIDTH: ") + wanted +
-                     " must be baseline, avx2 or avx512, and of this processor, which has " +
-                     name_of(most));
+  throw InvalidInput(
+      "SALEBRA_VECTOR_WIDTH", wanted,
+      std::string("must be baseline, avx2 or avx512, and of this processor, which has ") +
+          name_of(most));
 }
 
 const char* name_of(VectorWidth width) {

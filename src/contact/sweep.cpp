@@ -63,7 +63,7 @@ double rms_height_of(const Field& heights) {
 ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                            const std::vector<double>& pressures, const SweepOptions& options) {
   surface.require_complete("a contact calculation");
-  require(!pressures.empty(), "pressures", "none", "given; name at least one");
+  require_that(!pressures.empty(), "pressures", "none given; name at least one");
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     require_positive(pressures[k], "pressures");
     require(k == 0 || pressures[k] > pressures[k - 1], "pressures", pressures[k], "must increase");

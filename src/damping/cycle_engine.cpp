@@ -35,11 +35,10 @@ TrajectoryRange checked_range(const Trajectory& trajectory, const CycleOptions& 
   require(options.stick.hold_lateral || options.direction == 0, "direction", options.direction,
           "must be 0 where the lateral displacement is free; turn the surface instead");
   if (!trajectory.indentation || !trajectory.tangential)
-    throw InvalidInput("trajectory: a function is missing; give indentation and tangential");
+    throw InvalidInput("trajectory", "a function is missing; give indentation and tangential");
   if (trajectory.tangential_force)
-    throw InvalidInput(
-        "tangential_force: is given beside tangential, or to a cycle without friction; leave it "
-        "out");
+    throw InvalidInput("tangential_force",
+                       "is given beside tangential, or to a cycle without friction; leave it out");
   TrajectoryRange range;
   for (int k = 0; k <= options.steps; ++k) {
     const double t = static_cast<double>(k) / options.steps;
@@ -57,7 +56,7 @@ const State* resumed(const CycleOptions& options, const Grid2D& grid) {
   const CycleState& state = *options.resume;
   const auto* body = std::get_if<State>(&state.body);
   if (body == nullptr)
-    throw InvalidInput("resume: is the state of another kind of cycle; name that of this one");
+    throw InvalidInput("resume", "is the state of another kind of cycle; name that of this one");
   require(state.smallest.rows() == grid.nx && state.smallest.cols() == grid.ny, "resume",
           state.smallest.size(), "cells do not match the grid; resume with the run's own settings");
   require(state.step >= 0 && state.step <= options.steps && state.period < options.max_periods,

@@ -38,9 +38,9 @@ void check_below_sliding(double force, double limit, const char* where) {
 }
 
 [[noreturn]] void refuse_deep_slip() {
-  throw InvalidInput(
-      "friction: slip reaches indentation levels below the range of the law; extend the curve to "
-      "lower forces, raise the friction or reduce the motion");
+  throw InvalidInput("friction",
+                     "slip reaches indentation levels below the range of the law; extend the curve "
+                     "to lower forces, raise the friction or reduce the motion");
 }
 
 // Quadratures over the levels that slip, of depth 0 … c below δ = high.

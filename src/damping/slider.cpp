@@ -86,11 +86,11 @@ struct Case {
   void check_velocity(double velocity, const Slider& slider, const char* what) const {
     const double friction = sliding.mean_tangential_force;
     if (!(slider.falling_slope * velocity < friction))
-      throw InvalidInput(
-          "falling_slope: " + format_quantity(slider.falling_slope, Dimension::damping) +
-          " makes friction negative from " +
-          format_quantity(friction / slider.falling_slope, Dimension::velocity) + " on, which " +
-          what + "; give the slope of friction at the velocities of the motion");
+      throw InvalidInput("falling_slope", format_quantity(slider.falling_slope, Dimension::damping),
+                         "makes friction negative from " +
+                             format_quantity(friction / slider.falling_slope, Dimension::velocity) +
+                             " on, which " + what +
+                             "; give the slope of friction at the velocities of the motion");
   }
 
   std::pair<double, double> start(const Slider& slider, SliderStart start,

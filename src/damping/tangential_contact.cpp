@@ -212,9 +212,9 @@ struct TangentialContact::State {
                  double advance) {
     if (!(table->core() > negligible * table->at(table->highest()))) return;
     if (side != carried)
-      throw InvalidInput(
-          "friction: slip reaches indentation levels below the range of the law; extend the curve "
-          "to lower forces, raise the friction or reduce the motion");
+      throw InvalidInput("friction",
+                         "slip reaches indentation levels below the range of the law; extend the "
+                         "curve to lower forces, raise the friction or reduce the motion");
     const double slipped = side * (new_anchor - core_anchor);
     if (!(slipped > 0)) return;
     const double stretch = slope_limit * (new_indentation - core_level);

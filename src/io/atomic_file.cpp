@@ -31,19 +31,19 @@ void require_free_name(const std::filesystem::path& file, const WriteOptions& op
   require(!file.filename().empty(), "output", "'" + file.string() + "'", "names no file");
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored))
-    throw InvalidInput(file.string() + ": the folder " + folder.string() +
-                       " does not exist; create it first");
+    throw InvalidInput(file.string(),
+                       "the folder " + folder.string() + " does not exist; create it first");
   const auto status = std::filesystem::status(file, ignored);
   if (!std::filesystem::exists(status)) {
     if (!options.overwrite && std::filesystem::is_symlink(file, ignored))
-      throw InvalidInput(file.string() +
-                         ": exists as a symbolic link to nothing; remove it or set `overwrite`");
+      throw InvalidInput(file.string(),
+                         "exists as a symbolic link to nothing; remove it or set `overwrite`");
     return;
   }
   if (!std::filesystem::is_regular_file(status))
-    throw InvalidInput(file.string() + ": exists and is not a regular file; name another one");
+    throw InvalidInput(file.string(), "exists and is not a regular file; name another one");
   if (!options.overwrite)
-    throw InvalidInput(file.string() + ": exists; name another file or set `overwrite`");
+    throw InvalidInput(file.string(), "exists; name another file or set `overwrite`");
 }
 
 /// As the call would be repeated by hand where a signal came in between.
@@ -78,8 +78,8 @@ AtomicFile::AtomicFile(const std::filesystem::path& target, const WriteOptions& 
     descriptor_ = without_interruption(
         [&] { return open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
     if (descriptor_ < 0 && errno == ENAMETOOLONG)
-      throw InvalidInput(target.string() +
-                         ": the name is too long for this file system; shorten it to 225 bytes");
+      throw InvalidInput(target.string(),
+                         "the name is too long for this file system; shorten it to 225 bytes");
     if (descriptor_ < 0 && errno != EEXIST) fail("be created", errno);
   }
   if (descriptor_ < 0) fail("be created", EEXIST);

@@ -75,7 +75,7 @@ DisplayAxis display_axis(const PlotAxis& axis, const std::vector<std::span<const
   if (axis.low) least = *axis.low;
   if (axis.high) most = *axis.high;
   const std::string field = "axis '" + axis.label + "'";
-  require(any, field, "no value", "is finite; there is nothing to draw");
+  require_that(any, field, "no value is finite; there is nothing to draw");
   require(least <= most && (!axis.logarithmic || least > 0), field,
           number(least) + " to " + number(most), "is no range for this axis");
   largest = std::max(std::abs(least), std::abs(most));

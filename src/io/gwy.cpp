@@ -279,8 +279,8 @@ void write_gwy(const std::filesystem::path& file, const Surface& surface,
                       bytes = start.size() + heights.size() + values +
                               (mask.empty() ? 0 : mask.size() + values);
   if (bytes > std::numeric_limits<std::uint32_t>::max())
-    throw InvalidInput(file.string() +
-                       ": would be larger than 4 GiB, which .gwy cannot be; write .h5");
+    throw InvalidInput(file.string(),
+                       "would be larger than 4 GiB, which .gwy cannot be; write .h5");
   // Gwyddion computes with every value of a channel: undefined points get a height among the others.
   double sum = 0;
   for (const double height : surface.heights.reshaped()) sum += std::isnan(height) ? 0 : height;

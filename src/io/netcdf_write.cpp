@@ -126,9 +126,9 @@ void write_netcdf(const std::filesystem::path& file, const Surface& surface,
                   const Provenance& provenance, const WriteOptions& options) {
   const Grid2D& grid = surface.grid;
   if (grid.points() > static_cast<Index>(std::numeric_limits<std::uint32_t>::max() / 8))
-    throw InvalidInput(file.string() +
-                       ": would need more than 4 GiB, which NetCDF CDF-2 cannot "
-                       "hold; write HDF5 (.h5)");
+    throw InvalidInput(
+        file.string(),
+        "would need more than 4 GiB, which NetCDF CDF-2 cannot hold; write HDF5 (.h5)");
   const std::string information = description_of(surface, provenance).dump();
   const std::size_t size = header_of(surface, information, 0).size();
   AtomicFile output(file, options);

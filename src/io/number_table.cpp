@@ -21,9 +21,9 @@ std::vector<std::vector<double>> read_number_table(const std::filesystem::path& 
   for (std::string_view raw; lines.next(raw);) {
     const std::string_view line = detail::trimmed(raw);
     if (line.empty() || line.front() == '#') continue;
-    const std::string place = file.string() + ": line " + std::to_string(lines.number());
+    const std::string place = file.string() + ", line " + std::to_string(lines.number());
     if (!detail::starts_with_number(line)) {
-      if (titled || format) throw InvalidInput(place + " holds no numbers; remove it");
+      if (titled || format) throw InvalidInput(place, "holds no numbers; remove it");
       titled = true;
       continue;
     }
@@ -36,11 +36,12 @@ std::vector<std::vector<double>> read_number_table(const std::filesystem::path& 
       table.resize(columns);
     }
     if (values.size() != columns)
-      throw InvalidInput(place + " holds " + std::to_string(values.size()) +
-                         " values; give the same " + std::to_string(columns) + " in each line");
+      throw InvalidInput(place, "holds " + std::to_string(values.size()) +
+                                    " values; give the same " + std::to_string(columns) +
+                                    " in each line");
     for (std::size_t i = 0; i < columns; ++i) table[i].push_back(values[i]);
   }
-  if (!format) throw InvalidInput(file.string() + ": holds no numbers");
+  if (!format) throw InvalidInput(file.string(), "holds no numbers");
   return table;
 }
 

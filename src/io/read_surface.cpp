@@ -58,7 +58,7 @@ void refuse(const std::filesystem::path& file, const std::string& what) {
   std::string line = what;
   std::ranges::replace_if(
       line, [](char symbol) { return (symbol >= '\0' && symbol < ' ') || symbol == '\x7f'; }, '?');
-  throw InvalidInput(file.string() + ": " + line);
+  throw InvalidInput(file.string(), line);
 }
 
 Field heights_of(const std::filesystem::path& file, Index nx, Index ny) {

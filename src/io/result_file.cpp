@@ -26,7 +26,7 @@ struct ResultGroup::Place {
   detail::hdf5::Group group;
 
   Output& open() const {
-    require(output != nullptr, "result file", "a group", "is used after commit; write before");
+    require_that(output != nullptr, "result file", "a group is used after commit; write before");
     return *output;
   }
 };
@@ -127,7 +127,7 @@ ResultGroup ResultFile::group(const std::string& path) {
 }
 
 void ResultFile::commit() {
-  require(state_->output != nullptr, "result file", "commit", "was done already");
+  require_that(state_->output != nullptr, "result file", "commit was done already");
   for (const auto& weak : state_->groups) {
     if (const auto place = weak.lock()) {
       place->group = {};

@@ -132,9 +132,9 @@ const detail::SurfaceFormatEntry& written_format(const std::filesystem::path& fi
     const auto& extensions = format.facts.extensions;
     if (format.write && std::ranges::find(extensions, extension) != extensions.end()) return format;
   }
-  throw InvalidInput(file.string() + ": has the extension '" + extension +
-                     "', which names no format that is written; use one of " +
-                     written_extensions());
+  throw InvalidInput(file.string(), "has the extension '" + extension +
+                                        "', which names no format that is written; use one of " +
+                                        written_extensions());
 }
 
 }  // namespace

@@ -106,12 +106,12 @@ void scale_plane(const std::filesystem::path& file, const std::string& unit,
 void require_points(const std::filesystem::path& file, const Surface& surface) {
   const Grid2D& grid = surface.grid;
   if (grid.nx < 2 || grid.ny < 2)
-    throw InvalidInput(file.string() +
-                       ": would hold a single line of points, which has no step across; write .h5 "
-                       "or .nc");
+    throw InvalidInput(
+        file.string(),
+        "would hold a single line of points, which has no step across; write .h5 or .nc");
   if (2 * surface.undefined_points() > grid.points())
-    throw InvalidInput(file.string() +
-                       ": would hold points on less than half of the grid, which then is not "
+    throw InvalidInput(file.string(),
+                       "would hold points on less than half of the grid, which then is not "
                        "recognised; write .h5 or .nc");
 }
 

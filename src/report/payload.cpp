@@ -129,9 +129,9 @@ class Point {
   std::vector<double> part(const std::string& name, std::size_t first, std::size_t count) const {
     const std::vector<double> values = file_.numbers(where_ + name);
     if (first + count > values.size())
-      throw InvalidInput(fmt::format("{}: {} has {} values, {} are needed; the file is damaged",
-                                     file_.file().string(), where_ + name, values.size(),
-                                     first + count));
+      throw InvalidInput(file_.file().string(),
+                         fmt::format("{} has {} values, {} are needed; the file is damaged",
+                                     where_ + name, values.size(), first + count));
     return {values.begin() + std::ptrdiff_t(first), values.begin() + std::ptrdiff_t(first + count)};
   }
 
@@ -377,8 +377,8 @@ Json report_payload(const ResultReader& results) {
       where.push_back(fmt::format("points/{}/", i));
   }
   if (where.empty())
-    throw InvalidInput(results.file().string() +
-                       ": contains no study; give the result file of a study or comparison");
+    throw InvalidInput(results.file().string(),
+                       "contains no study; give the result file of a study or comparison");
   Json json;
   for (const char* name : {"program", "version", "revision", "libraries", "started", "created",
                            "command_line", "configuration"})
@@ -404,27 +404,29 @@ void add_direct(Json& payload, const ResultReader& oscillation) {
   const std::string file = oscillation.file().string();
   if (payload["points"].size() != 1 || !payload["points"][0].contains("damping"))
     throw InvalidInput(
-        file +
-        ": cannot be combined with these results; they hold no damping, or that of several points");
+        file,
+        "cannot be combined with these results; they hold no damping, or that of several points");
   Json& damping = payload["points"][0]["damping"];
   // A cycle in time steps passes its ends; levels of a quadrature lie a little within them.
   const bool stepped = oscillation.has("cycle/indentation");
   const std::string group = stepped ? "cycle" : "levels";
   if (!oscillation.has(group + "/indentation") || !oscillation.has(group + "/force") ||
       !oscillation.number_attribute(group, "work_per_cycle"))
-    throw InvalidInput(file + ": holds no oscillation; give the result file of a simulated cycle");
+    throw InvalidInput(file, "holds no oscillation; give the result file of a simulated cycle");
   const std::vector<double> indentation = oscillation.numbers(group + "/indentation"),
                             force = oscillation.numbers(group + "/force");
   if (indentation.size() != force.size() || indentation.size() < 2)
-    throw InvalidInput(file + ": has forces that do not belong to its indentations; it is damaged");
+    throw InvalidInput(file, "has forces that do not belong to its indentations; it is damaged");
   const auto [low, high] = std::ranges::minmax(indentation);
   const double amplitude = (high - low) / 2, middle = (high + low) / 2;
   const Json& stated = damping["normal_amplitude"];
   const double wanted = stated.is_number() ? stated.number() : ForceSample::unknown;
   if (!(std::abs(amplitude / wanted - 1) < (stepped ? 0.02 : 0.2)))
-    throw InvalidInput(fmt::format(
-        "{}: oscillates by {}, the study by {}; give direct results of the study's motion", file,
-        format_quantity(amplitude, Dimension::length), format_quantity(wanted, Dimension::length)));
+    throw InvalidInput(
+        file,
+        fmt::format("oscillates by {}, the study by {}; give direct results of the study's motion",
+                    format_quantity(amplitude, Dimension::length),
+                    format_quantity(wanted, Dimension::length)));
   double mean_force = ForceSample::unknown;
   for (std::size_t i = 1; i < force.size(); ++i) {
     const double before = indentation[i - 1] - middle, after = indentation[i] - middle;

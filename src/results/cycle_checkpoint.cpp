@@ -244,10 +244,10 @@ std::vector<CycleState> read_cycle_checkpoint(const std::filesystem::path& file,
   for (const auto& [name, value] : settings) {
     const std::optional<std::string> then = reader.text_attribute("settings", name);
     if (!then || *then != value)
-      throw InvalidInput(
-          fmt::format("{}: {} was {} in the checkpoint and is {} now; resume with the settings of "
-                      "the first run or remove the file",
-                      file.string(), name, then ? *then : "not there", value));
+      throw InvalidInput(file.string(),
+                         fmt::format("{} was {} in the checkpoint and is {} now; resume with the "
+                                     "settings of the first run or remove the file",
+                                     name, then ? *then : "not there", value));
   }
   std::vector<CycleState> states;
   if (holds(kinds[0])) states.push_back(read_state<StuckState>(reader, kinds[0]));

@@ -10,8 +10,8 @@ namespace salebra {
 void CycleRecordOptions::check() const {
   require(checkpoint_every >= 0, "checkpoint_every", checkpoint_every, "must be >= 0, s");
   if (!checkpoint.empty() && !resume && !writing.overwrite && std::filesystem::exists(checkpoint))
-    throw InvalidInput(checkpoint.string() +
-                       ": exists; resume from it, or remove it to start the cycle anew");
+    throw InvalidInput(checkpoint.string(),
+                       "exists; resume from it, or remove it to start the cycle anew");
 }
 
 CycleRecorder::CycleRecorder(CycleRecordOptions options, CycleSettings settings,

@@ -117,8 +117,8 @@ void write_force_curve(const std::filesystem::path& file, const ForceCurve& curv
 void require_curve_name(const std::filesystem::path& file) {
   const std::string extension = file.extension().string();
   if (extension != ".h5" && extension != ".hdf5" && extension != ".csv" && extension != ".txt")
-    throw InvalidInput(file.string() + ": has the extension '" + extension +
-                       "', which names no format of a curve; use .h5 or .csv");
+    throw InvalidInput(file.string(), "has the extension '" + extension +
+                                          "', which names no format of a curve; use .h5 or .csv");
 }
 
 ForceCurve read_force_curve(const std::filesystem::path& file) {

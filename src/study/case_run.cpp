@@ -186,10 +186,11 @@ void require_some_of(StudyParts& parts, const std::vector<StudyConfiguration>& p
       parts.read(key);
       return;
     }
-  throw InvalidInput(fmt::format(
-      "{}: none of its {} surfaces belongs to this study; the settings or the program have changed "
-      "since, restore them or remove the folder",
-      parts.folder().string(), parts.count()));
+  throw InvalidInput(
+      parts.folder().string(),
+      fmt::format("none of its {} surfaces belongs to this study; the settings or the program have "
+                  "changed since, restore them or remove the folder",
+                  parts.count()));
 }
 
 bool PrecisionRule::met_with(const Realisation& realisation) {

@@ -169,8 +169,8 @@ ContactModel contact_model(std::string_view name) {
     if (name == model.name) return model.id;
     known.emplace_back(model.name);
   }
-  throw InvalidInput(
-      fmt::format("models: '{}' is not known; known are {}", name, fmt::join(known, ", ")));
+  throw InvalidInput("models", fmt::format("'{}'", name),
+                     fmt::format("is not known; known are {}", fmt::join(known, ", ")));
 }
 
 const char* name_of(ContactModel model) { return registry[std::size_t(model)].name; }

@@ -41,10 +41,11 @@ void require_countable(const StudyConfiguration& configuration) {
                              8 * (surfaces.seeds.size() + configuration.pressures.size()));
   if (points > 1 && (points > most_points || points * each > most_bytes))
     throw InvalidInput(
-        fmt::format("the lists of [ensemble] make {:.0f} combinations, whose settings would take "
-                    "{:.3g} MB; at most {:.0f} combinations and {:.0f} MB are allowed, split the "
-                    "study",
-                    points, points * each / 1e6, most_points, most_bytes / 1e6));
+        "ensemble",
+        fmt::format(
+            "its lists make {:.0f} combinations, whose settings would take "
+            "{:.3g} MB; at most {:.0f} combinations and {:.0f} MB are allowed; split the study",
+            points, points * each / 1e6, most_points, most_bytes / 1e6));
 }
 
 Index scaled(Index count, double factor, double size) {

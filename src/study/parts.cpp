@@ -136,10 +136,10 @@ StudyParts::StudyParts(const std::filesystem::path& folder, Use use, const std::
 StudyParts::StudyParts(const std::filesystem::path& folder, bool resume)
     : StudyParts(folder, Use::resume, "") {
   if (!resume && count() > 0) {
-    throw InvalidInput(fmt::format(
-        "{}: holds {} finished surfaces of an earlier run; go on with them by `resume`, or "
-        "remove the folder to begin anew",
-        folder.string(), count()));
+    throw InvalidInput(folder.string(),
+                       fmt::format("holds {} finished surfaces of an earlier run; go on with them "
+                                   "by `resume`, or remove the folder to begin anew",
+                                   count()));
   }
 }
 
@@ -188,10 +188,12 @@ std::optional<Realisation> StudyParts::read(std::uint64_t key) {
   try {
     detail::Record record = detail::decode(detail::InputFile(file).content(), key);
     if (state_->use == Use::resume && record.origin.arithmetic != arithmetic())
-      throw OtherArithmetic(fmt::format(
-          "{}: its surfaces were computed by {}, and this program computes by {}: their last "
-          "digits differ; resume where the study was begun, or remove the folder to begin anew",
-          state_->folder.string(), record.origin.arithmetic, arithmetic()));
+      throw OtherArithmetic(
+          state_->folder.string(),
+          fmt::format("its surfaces were computed by {}, and this program computes by {}: their "
+                      "last digits differ; resume where the study was begun, or remove the folder "
+                      "to begin anew",
+                      record.origin.arithmetic, arithmetic()));
     state_->origins.push_back(std::move(record.origin));
     return std::move(record.realisation);
   } catch (const OtherArithmetic&) {

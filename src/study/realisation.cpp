@@ -28,8 +28,8 @@ Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Prog
 }
 
 Surface read(const MeasuredSurface& recipe) {
-  require(!recipe.file.empty(), "surface", "none",
-          "is given; name a file, or describe surfaces to generate");
+  require_that(!recipe.file.empty(), "surface",
+               "none is given; name a file, or describe surfaces to generate");
   ReadOptions options;
   options.size_x = recipe.size_x;
   options.size_y = recipe.size_y;
@@ -251,8 +251,8 @@ double ModelResult::law_bend() const {
 const ModelResult& Realisation::of(ContactModel model) const {
   const auto found = std::ranges::find(models, model, &ModelResult::model);
   if (found == models.end())
-    throw InvalidInput(fmt::format("model: '{}' was not computed; ask for it in the configuration",
-                                   name_of(model)));
+    throw InvalidInput("model", fmt::format("'{}'", name_of(model)),
+                       "was not computed; ask for it in the configuration");
   return *found;
 }
 

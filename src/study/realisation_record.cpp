@@ -67,7 +67,7 @@ class Reader {
 
  private:
   std::string_view take(std::uint64_t count) {
-    if (count > bytes_.size()) throw InvalidInput("realisation: is cut short");
+    if (count > bytes_.size()) throw InvalidInput("realisation", "is cut short");
     const std::string_view taken = bytes_.substr(0, count);
     bytes_.remove_prefix(count);
     return taken;
@@ -85,7 +85,7 @@ class Reader {
     std::uint64_t size = 0;
     get(size);
     // An item has at least a byte: a wrong length must not reserve the memory of the machine.
-    if (size > bytes_.size()) throw InvalidInput("realisation: is cut short");
+    if (size > bytes_.size()) throw InvalidInput("realisation", "is cut short");
     items.resize(size);
     for (Item& item : items) get(item);
   }
@@ -184,12 +184,12 @@ Record decode(std::string_view bytes, std::uint64_t key) {
   const std::string_view payload = bytes.substr(std::min(bytes.size(), header(0, 0, 0).size()));
   if (bytes.substr(0, bytes.size() - payload.size()) !=
       header(key, payload.size(), checksum(payload)))
-    throw InvalidInput("realisation: its checksum is wrong");
+    throw InvalidInput("realisation", "its checksum is wrong");
   Record record;
   PartOrigin& origin = record.origin;
   Reader reader(payload);
   reader(origin.version, origin.arithmetic, origin.host, origin.shard, record.realisation);
-  if (!reader.at_end()) throw InvalidInput("realisation: is longer than it should be");
+  if (!reader.at_end()) throw InvalidInput("realisation", "is longer than it should be");
   return record;
 }
 

@@ -246,8 +246,8 @@ class ShardRun {
 
 ShardOutcome run_shard(const StudyConfiguration& configuration, const Shard& shard,
                        const StudyRun& run) {
-  require(run.parts != nullptr, "parts", "none",
-          "is given; a shard needs the folder that it shares with the others");
+  require_that(run.parts != nullptr, "parts",
+               "none is given; a shard needs the folder that it shares with the others");
   configuration.material.modulus_ratio();
   const std::vector<StudyConfiguration> points = parameter_combinations(configuration);
   if (run.parts->count() > 0) detail::require_some_of(*run.parts, points);

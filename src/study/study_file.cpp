@@ -33,7 +33,7 @@ bool is_result_of(const std::filesystem::path& file, const StudyConfiguration& s
 
 void write_ensembles(const std::filesystem::path& file, const std::vector<StudyResult>& results,
                      Provenance provenance, const WriteOptions& options) {
-  require(!results.empty(), "study", "no surface", "was finished; there is nothing to write");
+  require_that(!results.empty(), "study", "no surface was finished; there is nothing to write");
   provenance.configuration = results.front().configuration.text;
   if (!results.front().realisations.empty())
     provenance.seed = results.front().realisations.front().seed;

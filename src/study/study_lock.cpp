@@ -124,7 +124,7 @@ std::optional<Found> look_at(const std::filesystem::path& file, const struct sta
   std::error_code ignored;
   const auto kind = std::filesystem::symlink_status(file, ignored).type();
   if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
-    throw InvalidInput(fmt::format("{}: is no regular file; remove it", file.string()));
+    throw InvalidInput(file.string(), "is no regular file; remove it");
   struct stat present = {};
   const auto text = read_text(file);
   if (!text || stat(file.c_str(), &present) != 0) return {};
@@ -139,8 +139,8 @@ std::optional<Found> look_at(const std::filesystem::path& file, const struct sta
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& holder) {
-  throw InvalidInput(fmt::format("{}: in use by {}; wait for it to end, or end it",
-                                 file.parent_path().string(), holder));
+  throw InvalidInput(file.parent_path().string(),
+                     fmt::format("in use by {}; wait for it to end, or end it", holder));
 }
 
 }  // namespace

@@ -45,8 +45,8 @@ void require_shallow_keys(std::string_view text, const std::string& name) {
     const bool number = dots == 1 && std::isdigit(static_cast<unsigned char>(*begin));
     if (!number) parts += std::min(dots, most + 1);
     if (parts > most)
-      throw InvalidInput(
-          fmt::format("{}:{}: has a key of more than {} parts; correct it", name, line, most));
+      throw InvalidInput(fmt::format("{}:{}", name, line),
+                         fmt::format("has a key of more than {} parts; correct it", most));
     i = std::max(i + 1, static_cast<std::size_t>(end - text.begin()));
   }
 }
@@ -80,8 +80,8 @@ TomlTable TomlTable::parse(const std::string& text, const std::string& name) {
     auto document = std::make_shared<const toml::table>(toml::parse(text, name));
     return TomlTable(name, "", {document, document.get()}, 1);
   } catch (const toml::parse_error& error) {
-    throw InvalidInput(fmt::format("{}:{}: is not TOML: {}", name, error.source().begin.line,
-                                   error.description()));
+    throw InvalidInput(fmt::format("{}:{}", name, error.source().begin.line),
+                       fmt::format("is not TOML: {}", error.description()));
   }
 }
 
@@ -99,19 +99,15 @@ std::uint32_t TomlTable::line_of(std::string_view key) const {
 }
 
 void TomlTable::fail(std::string_view key, const std::string& message) const {
-  throw InvalidInput(fmt::format("{}:{}: {}: {}", file_, line_of(key), path_of(key), message));
+  throw InvalidInput(fmt::format("{}:{}: {}", file_, line_of(key), path_of(key)), message);
 }
 
 void TomlTable::check(bool ok, std::string_view key, const std::string& message) const {
   if (!ok) fail(key, message);
 }
 
-void TomlTable::rethrow_located(const std::string& message) const {
-  const auto colon = message.find(": ");
-  if (colon == std::string::npos) {
-    throw InvalidInput(fmt::format("{}:{}: {}", file_, line_, message));
-  }
-  fail(message.substr(0, colon), message.substr(colon + 2));
+void TomlTable::rethrow_located(const InvalidInput& refusal) const {
+  fail(refusal.field(), refusal.statement());
 }
 
 std::optional<TomlTable> TomlTable::table(std::string_view key) {
@@ -173,7 +169,7 @@ double TomlTable::Access::quantity_of(const TomlTable& table, const toml::node& 
   try {
     return parse_quantity(*node.value<std::string>(), dimension, key);
   } catch (const InvalidInput& error) {
-    table.rethrow_located(error.what());
+    table.rethrow_located(error);
   }
 }
 
@@ -190,8 +186,8 @@ double TomlTable::required_quantity(std::string_view key, Dimension dimension) {
     for (const auto& [name, node] : *content_->table)
       if (!nearest_name(name.str(), {std::string(key)}).empty())
         fail(name.str(), fmt::format("this key is not known (did you mean {}?)", key));
-    throw InvalidInput(
-        fmt::format("{}:{}: {}: is missing; add it to [{}]", file_, line_, path_of(key), path_));
+    throw InvalidInput(fmt::format("{}:{}: {}", file_, line_, path_of(key)),
+                       fmt::format("is missing; add it to [{}]", path_));
   }
   return *value;
 }
@@ -208,7 +204,7 @@ std::vector<double> TomlTable::values(std::string_view key, Dimension dimension)
     try {
       all = parse_values(*node->value<std::string>(), dimension, key);
     } catch (const InvalidInput& error) {
-      rethrow_located(error.what());
+      rethrow_located(error);
     }
   } else {
     all.push_back(Access::quantity_of(*this, *node, key, dimension));

@@ -45,7 +45,7 @@ class TomlTable {
     try {
       return action();
     } catch (const InvalidInput& error) {
-      rethrow_located(error.what());
+      rethrow_located(error);
     }
   }
 
@@ -60,7 +60,7 @@ class TomlTable {
   TomlTable(std::string file, std::string path, Content content, std::uint32_t line);
   std::uint32_t line_of(std::string_view key) const;
   std::string path_of(std::string_view key) const;
-  [[noreturn]] void rethrow_located(const std::string& message) const;
+  [[noreturn]] void rethrow_located(const InvalidInput& refusal) const;
 
   std::string file_, path_;
   std::shared_ptr<const Content> content_;

@@ -39,7 +39,7 @@ struct Tried {
     reading.seconds = 1;
     reading.read = std::move(work);
     reading.place = [this](std::size_t count) {
-      if (count > 1 << 20) throw InvalidInput("a.h5: hands over too much");
+      if (count > 1 << 20) throw InvalidInput("a.h5", "hands over too much");
       text.resize(text.size() + count);
       return std::as_writable_bytes(std::span(text)).last(count);
     };
@@ -115,7 +115,7 @@ TEST_CASE("A child that dies, runs on, fills the memory or lies is the file's fa
   });
   CHECK_THROWS_WITH(fills.run(), Contains("a.h5: takes more memory"));
 #endif
-  const Tried refuses([](const HandOver&) { throw InvalidInput("a.h5: is damaged"); });
+  const Tried refuses([](const HandOver&) { throw InvalidInput("a.h5", "is damaged"); });
   CHECK_THROWS_WITH(refuses.run(), "a.h5: is damaged");
   const Tried lies([](const HandOver& hand_over) { say(hand_over, std::string(2 << 20, 'x')); });
   CHECK_THROWS_WITH(lies.run(), "a.h5: hands over too much");

@@ -251,7 +251,8 @@ TEST_CASE("Damping without what it needs is refused by name", "[damping]") {
   const ProgramTest test;
   const std::string law = "damping --law exponential --decay-length 100nm ";
   check_refused(test.run(law + "--normal-force 1 " + drag), "--tangential-modulus");
-  check_refused(test.run(law + "--poisson 0.3 " + drag), "position");
+  check_refused(test.run(law + "--poisson 0.3 " + drag),
+                "--normal-force: not given; give one of them");
   check_refused(test.run(law + "--poisson 0.3 --normal-force -1 " + drag), "--normal-force");
   check_refused(test.run(law + "--poisson 0.3 --normal-force 1 --mode equal-frequency " + drag),
                 "--tangential-amplitude");

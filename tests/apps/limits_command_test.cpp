@@ -108,7 +108,7 @@ TEST_CASE("A study file of few kilobytes cannot fill the memory by its combinati
   test.write("study.toml", text);
   for (const std::string dry : {"", " --dry-run"})
     check_refused(test.run("study study.toml -o result.h5" + dry, "ulimit -v 1000000;"),
-                  "the lists of [ensemble] make 8000000000 combinations");
+                  "ensemble: its lists make 8000000000 combinations");
   CHECK(test.files() == std::set<std::string>{"study.toml"});
 }
 

@@ -355,7 +355,7 @@ TEST_CASE("A recorded cycle that fails or is stopped resumes from its last step"
     CycleOptions options{.friction_coefficient = 0.3, .steps = 8, .max_periods = 2};
     options.on_progress = [&](const ProgressReport& report) {
       if (runs.first_step < 0) runs.first_step = report.step;
-      if (fail && report.step == stop_at) throw InvalidInput("broken");
+      if (fail && report.step == stop_at) throw InvalidInput("step", "is broken");
       return report.step != stop_at;
     };
     runs.frictional = recorder.run(options, [&](const CycleOptions& with_states) {

@@ -248,8 +248,22 @@ def test_texts_with_units_are_numbers(surface: salebra.Surface) -> None:
     curve = salebra.sweep_pressures(surface, 1e9, ["100kPa", "1MPa"])
     assert np.allclose(curve.pressure, [1e5, 1e6], rtol=1e-12)
     assert salebra.Drag(normal_amplitude="1nm", drag_velocity="1mm/s", angular_frequency=1e5).normal_amplitude == 1e-9  # type: ignore[arg-type]
-    with pytest.raises(salebra.InvalidInput, match="nominal_pressure: '5mm'|nominal_pressure: 5mm"):
+    with pytest.raises(salebra.InvalidInput, match="nominal_pressure: '5mm'") as raised:
         salebra.press_to_pressure(surface, 1e9, "5mm")  # type: ignore[arg-type]
+    assert (raised.value.field, raised.value.value) == ("nominal_pressure", "'5mm'")
+
+
+def test_a_refusal_has_its_parts(surface: salebra.Surface, tmp_path: Path) -> None:
+    with pytest.raises(salebra.InvalidInput) as raised:
+        salebra.Surface(np.zeros((4, 4)), -1.5, 1.0)
+    refused = raised.value
+    assert (refused.field, refused.value) == ("size_x", "-1.5")
+    assert str(refused) == f"size_x: -1.5 {refused.constraint}"
+    with pytest.raises(FileNotFoundError) as gone:
+        salebra.read_surface(tmp_path / "nowhere.h5")
+    assert isinstance(gone.value, salebra.InvalidInput)
+    assert gone.value.field == str(tmp_path / "nowhere.h5")
+    assert gone.value.constraint and gone.value.value == ""
 
 
 def test_one_name_for_the_material_and_the_old_one_answered(surface: salebra.Surface) -> None:

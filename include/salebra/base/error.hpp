@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -15,10 +16,26 @@ class Error : public std::runtime_error {
 };
 
 /// The caller's value or file is unusable; nothing was computed or written. The CLI exits with 2.
-/// The message is one line: "<field or file>: <value> <violated constraint>; <what to do>".
+/// what() is one line, "field: value constraint; remedy", without the parts that are empty. The parts are there for a program that
+/// calls its fields by other names, such as options.
 class InvalidInput : public Error {
  public:
-  using Error::Error;
+  /// demand: "constraint; remedy", which reads on from the value: "must be > 0; leave it out for none".
+  InvalidInput(std::string_view field, std::string_view value, std::string_view demand);
+  /// Where the value says nothing, or the field is a file and the demand what is wrong with it: "holds no numbers".
+  InvalidInput(std::string_view field, std::string_view demand) : InvalidInput(field, "", demand) {}
+
+  const std::string& field() const noexcept { return parts_->field; }  ///< an argument or a file
+  const std::string& value() const noexcept { return parts_->value; }
+  const std::string& constraint() const noexcept { return parts_->constraint; }
+  const std::string& remedy() const noexcept { return parts_->remedy; }
+  std::string statement() const;  ///< what() behind the field: "value constraint; remedy"
+
+ private:
+  struct Parts {
+    std::string field, value, constraint, remedy;
+  };
+  std::shared_ptr<const Parts> parts_;  // a copy of an exception must not throw
 };
 
 /// The operating system refused a read or a write (disk full, no permission, broken disk). The CLI exits with 1.
@@ -39,16 +56,21 @@ class Interrupted : public Error {
   using Error::Error;
 };
 
-/// Throws InvalidInput "<field>: <value> <constraint>" unless ok.
-/// constraint reads on from the value: "must be > 0", "is not a number; remove or fill undefined points".
+/// Throws InvalidInput(field, value, demand) unless ok.
 template <class T>
-void require(bool ok, std::string_view field, const T& value, std::string_view constraint) {
+void require(bool ok, std::string_view field, const T& value, std::string_view demand) {
   if (ok) return;
-  std::ostringstream message;
-  message.precision(12);
-  message << field << ": " << value << ' ' << constraint;
-  throw InvalidInput(message.str());
+  std::ostringstream text;
+  text.precision(12);
+  text << value;
+  throw InvalidInput(field, text.str(), demand);
 }
+
+/// Throws InvalidInput(field, demand) unless ok: for what no value shows, "given beside size_x; give one of them".
+void require_that(bool ok, std::string_view field, std::string_view demand);
+
+/// Throws InvalidInput unless exactly one of two things is given.
+void require_one(bool given, std::string_view field, bool other_given, std::string_view other);
 
 /// require(value > 0 and finite).
 void require_positive(double value, std::string_view field);

@@ -135,8 +135,8 @@ NumberOf<T> number_of(std::string_view name, std::string_view field) {
     known += (known.empty() ? "" : ", ") + std::string(quantity.name);
   });
   if (!found)
-    throw InvalidInput(std::string(field) + ": '" + std::string(name) + "' is none of " + known +
-                       "; choose one of them");
+    throw InvalidInput(field, "'" + std::string(name) + "'",
+                       "is none of " + known + "; choose one of them");
   return found;
 }
 

@@ -107,7 +107,8 @@ class Reader {
   static constexpr bool reads = true;
   explicit Reader(std::string_view bytes) : rest_(bytes) {}
   void raw(void* data, std::size_t size) {
-    if (size > rest_.size()) throw InvalidInput("pickle: ends too early; pickle the object again");
+    if (size > rest_.size())
+      throw InvalidInput("pickle", "ends too early; pickle the object again");
     if (size > 0) std::memcpy(data, rest_.data(), size);
     rest_.remove_prefix(size);
   }
@@ -147,7 +148,7 @@ std::size_t archive_count(Archive& through, std::size_t count, std::size_t size)
   through.raw(&count, sizeof count);
   if constexpr (Archive::reads)
     if (count > through.left() / size)
-      throw InvalidInput("pickle: ends too early; pickle the object again");
+      throw InvalidInput("pickle", "ends too early; pickle the object again");
   return count;
 }
 
@@ -172,7 +173,7 @@ void archive_alternative(Archive& through, T& value) {
       return ((index == I && (value.template emplace<I>(), true)) || ...);
     };
     if (!choose(std::make_index_sequence<std::variant_size_v<T>>()))
-      throw InvalidInput("pickle: is damaged; pickle the object again");
+      throw InvalidInput("pickle", "is damaged; pickle the object again");
   }
   std::visit([&](auto& held) { archive(through, held); }, value);
 }
@@ -185,7 +186,7 @@ void archive_field(Archive& through, T& value) {
   if constexpr (Archive::reads) {
     const auto left = static_cast<Eigen::Index>(through.left() / sizeof(typename T::Scalar));
     if (rows < 0 || columns < 0 || (columns > 0 && rows > left / columns))
-      throw InvalidInput("pickle: ends too early; pickle the object again");
+      throw InvalidInput("pickle", "ends too early; pickle the object again");
     value.resize(rows, columns);
   }
   through.raw(value.data(), static_cast<std::size_t>(value.size()) * sizeof(typename T::Scalar));

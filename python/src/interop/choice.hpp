@@ -26,8 +26,7 @@ struct Choice {
     std::string allowed;
     for (const std::string& word : words_of<Enum>())
       allowed += (allowed.empty() ? "" : ", ") + word;
-    throw InvalidInput(std::string(field) + ": '" + text + "' is none of " + allowed +
-                       "; choose one of them");
+    throw InvalidInput(field, "'" + text + "'", "is none of " + allowed + "; choose one of them");
   }
 };
 

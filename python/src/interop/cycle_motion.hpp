@@ -30,8 +30,7 @@ auto with_motion(const AnyMotion& motion, const Function& function) {
 
 /// Where the contact stands: exactly one of the two keywords.
 inline Position position_of(std::optional<double> indentation, std::optional<double> force) {
-  require(indentation.has_value() != force.has_value(), "force", force.value_or(0),
-          "and indentation were both given, or neither; give exactly one of them");
+  require_one(indentation.has_value(), "indentation", force.has_value(), "force");
   if (force) return AtForce{*force};
   return AtIndentation{*indentation};
 }

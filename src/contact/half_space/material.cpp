@@ -20,10 +20,9 @@ void require_poisson(double poisson) {
 
 double Material::modulus_ratio() const {
   if (!(tangential_modulus > 0))
-    throw InvalidInput(
-        "tangential_modulus: not given, but tangential stiffness and damping need it; give "
-        "Poisson's "
-        "ratio or the tangential modulus");
+    throw InvalidInput("tangential_modulus",
+                       "not given, but tangential stiffness and damping need it; give Poisson's "
+                       "ratio or the tangential modulus");
   return tangential_modulus / contact_modulus;
 }
 

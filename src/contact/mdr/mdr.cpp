@@ -90,7 +90,7 @@ IndenterLaw::IndenterLaw(std::shared_ptr<const IndenterProfile> profile, const M
     : ContactLaw(material.modulus_ratio()),
       profile_(std::move(profile)),
       contact_modulus_(material.contact_modulus) {
-  if (!profile_) throw InvalidInput("profile: none given; choose a shape or a table");
+  if (!profile_) throw InvalidInput("profile", "none given; choose a shape or a table");
 }
 
 double IndenterLaw::contact_radius(double indentation) const {

@@ -69,7 +69,8 @@ CoupledContact::CoupledContact(const Surface& surface, const Material& material,
           "must lie in 1e-12 … 0.1");
   require(options.max_sweeps >= 1, "max_sweeps", options.max_sweeps, "must be >= 1");
   if (options.contact.boundary != options.sliding.stick.boundary)
-    throw InvalidInput("boundary: differs between the normal and the tangential solves; give one");
+    throw InvalidInput("boundary",
+                       "differs between the normal and the tangential solves; give one");
   parts_ = std::make_unique<Parts>(surface, material, options);
 }
 CoupledContact::CoupledContact(CoupledContact&&) noexcept = default;

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <salebra/base/error.hpp>
+#include <type_traits>
+
+using namespace salebra;
+
+namespace {
+
+template <class Action>
+InvalidInput refusal(Action action) {
+  try {
+    action();
+  } catch (const InvalidInput& refused) {
+    return refused;
+  }
+  throw std::logic_error("nothing was refused");
+}
+
+}  // namespace
+
+TEST_CASE("A refusal is one line, and has its parts", "[error]") {
+  const InvalidInput whole = refusal(
+      [] { require(false, "hurst", 1.5, "must be below 1; check that it is not a dimension"); });
+  CHECK(whole.what() ==
+        std::string("hurst: 1.5 must be below 1; check that it is not a dimension"));
+  CHECK(whole.field() == "hurst");
+  CHECK(whole.value() == "1.5");
+  CHECK(whole.constraint() == "must be below 1");
+  CHECK(whole.remedy() == "check that it is not a dimension");
+  CHECK(whole.statement() == "1.5 must be below 1; check that it is not a dimension");
+
+  // Only the first semicolon ends the constraint: what to do may be two things.
+  const InvalidInput two = refusal([] { throw InvalidInput("a.h5", "is cut; copy it; or not"); });
+  CHECK(two.what() == std::string("a.h5: is cut; copy it; or not"));
+  CHECK(two.field() == "a.h5");
+  CHECK(two.value().empty());
+  CHECK(two.constraint() == "is cut");
+  CHECK(two.remedy() == "copy it; or not");
+
+  const InvalidInput bare = refusal([] { require_positive(-0.25, "tolerance"); });
+  CHECK(bare.what() == std::string("tolerance: -0.25 must be a finite number > 0"));
+  CHECK(bare.constraint() == "must be a finite number > 0");
+  CHECK(bare.remedy().empty());
+}
+
+TEST_CASE("Of two things exactly one is given", "[error]") {
+  CHECK_NOTHROW(require_one(true, "force", false, "indentation"));
+  CHECK_NOTHROW(require_one(false, "force", true, "indentation"));
+  CHECK(refusal([] { require_one(true, "force", true, "indentation"); }).what() ==
+        std::string("force: given beside indentation; give one of them"));
+  CHECK(refusal([] { require_one(false, "force", false, "indentation"); }).what() ==
+        std::string("force: not given, nor is indentation; give one of them"));
+}
+
+// One that throws while it is copied ends the program.
+static_assert(std::is_nothrow_copy_constructible_v<InvalidInput>);
