@@ -243,7 +243,7 @@ void add_joint_command(Program& program) {
       ->group(motion);
   add_quantity(command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,
                "for results per area too; default: that of --curve");
-  arguments->premises.add_to(command);
+  arguments->premises.add_to(command, false);
 }
 
 }  // namespace salebra::cli

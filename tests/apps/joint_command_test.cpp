@@ -102,4 +102,6 @@ TEST_CASE("Bad input of joint is refused by its option", "[joint][input]") {
   check_refused(test.run(law + "--tangential-amplitudes 0nm"), "tangential");
   check_refused(test.run(law + "--tangential-forces 0.1 --nominal-area 0mm2"), "--nominal-area");
   check_refused(test.run(law + "--tangential-forces 0.1 --direct-steps 32"), "--surface");
+  // Its premises leave out slip, which it computes: no option without effect.
+  check_refused(test.run(law + "--tangential-forces 0.1 --excursion 1nm"), "--excursion");
 }
