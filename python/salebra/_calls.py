@@ -270,7 +270,7 @@ def _missing_file(error: Exception, signature: inspect.Signature, arguments: tup
                 raise missing from None
 
 
-def _warn(name: str, result: Any) -> None:
+def _warn(name: str, signature: inspect.Signature, result: Any) -> None:
     converged = getattr(result, "converged", True)
     if converged is True or getattr(result, "interrupted", False) is True:
         return
@@ -285,7 +285,8 @@ def _warn(name: str, result: Any) -> None:
         what += "; its numbers are not an answer"
     else:
         return
-    warnings.warn(f"{name}: {what}. Raise max_iterations or tolerance", ConvergenceWarning, stacklevel=3)
+    remedies = " or ".join(option for option in ("max_iterations", "tolerance") if option in signature.parameters)
+    warnings.warn(f"{name}: {what}" + (f". Raise {remedies}" if remedies else ""), ConvergenceWarning, stacklevel=3)
 
 
 def _refused(error: TypeError) -> bool:
@@ -323,7 +324,7 @@ def function(native: Any, name: str, method: bool = False) -> Callable[..., Any]
         except (_core.InvalidInput, _core.IoError) as error:
             _missing_file(error, whole, arguments, keywords)
             raise
-        _warn(name, result)
+        _warn(name, whole, result)
         _remember(result, name, arguments, keywords)
         return result
 

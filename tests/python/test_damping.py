@@ -128,8 +128,10 @@ def test_steady_sliding_of_a_paraboloid_tends_to_coulomb_and_to_its_static_frict
     assert critical == pytest.approx(0.4 / (1.4 / 1.7) * 3e-7 * 1e5, rel=1e-9)
     assert at(1.01 * critical).friction_coefficient == pytest.approx(0.4, rel=1e-12)
     static = 0.4 * law.force(0.7e-6) / salebra.mean_force_of_cycle(law, 1e-6, 3e-7)
-    # What is left is Γv: 1e-6 of it.
-    assert at(1e-9 * critical).friction_coefficient == pytest.approx(static, rel=1e-6)
+    # What is left is Γv: (1 − μ_macro/μ falls by Δ/u_0 π v/v_c) 1.6e-6 of it.
+    slow = at(1e-6 * critical)
+    assert slow.converged
+    assert slow.friction_coefficient == pytest.approx(static, rel=3e-6)
 
 
 def test_a_damping_curve_is_its_points() -> None:
