@@ -4,6 +4,7 @@
 #include <complex>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/profile.hpp>
 #include <salebra/generators/random_phase.hpp>
 
@@ -96,11 +97,16 @@ TEST_CASE("A profile has nothing in common with the surface of its seed", "[gene
   // of 0.07.
   const SelfAffineParameters parameters{
       .long_cutoff = 1, .rolloff = 1.0 / 12, .short_cutoff = 1.0 / 12, .rms_height = 1};
+  const Grid2D grid{64, 64, 1, 1};
+  const SelfAffineSpectrum of_surface(parameters);
+  const SelfAffineProfileSpectrum of_profile(parameters);
+  const bool noise = GENERATE(false, true);
   double mean = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const Surface surface = random_phase({64, 64, 1, 1}, SelfAffineSpectrum(parameters), seed);
-    const Profile profile =
-        random_phase_profile(64, 1, SelfAffineProfileSpectrum(parameters), seed);
+    const Surface surface = noise ? filtered_noise(grid, of_surface, seed, {})
+                                  : random_phase(grid, of_surface, seed, {});
+    const Profile profile = noise ? filtered_noise_profile(64, 1, of_profile, seed)
+                                  : random_phase_profile(64, 1, of_profile, seed);
     double product = 0, first = 0, second = 0;
     for (Index ix = 0; ix < 64; ++ix) {
       const double along = surface.heights.row(ix).mean(),

@@ -126,6 +126,19 @@ TEST_CASE("Offsets of scan lines are found by the median of differences, whateve
   CHECK(worst < 1e-11);
 }
 
+TEST_CASE("The median of an even number of differences is the mean of the two in the middle",
+          "[detrend]") {
+  // The second line differs from the first by 0, 1, 3 and 10, hence by 2, and the third is the second without these 2. Other offsets of
+  // these two lines would be no plane. Its removal, which follows, therefore keeps them, and rounds to a few 1e-16 of 10.
+  Surface scan{{4, 3, 4.0, 3.0}, Field::Zero(4, 3), false, "three lines"};
+  scan.heights.col(1) << 10, 0, 3, 1;
+  scan.heights.col(2) = scan.heights.col(1) - 2;
+  Surface levelled = scan;
+  levelled.heights.col(1) -= 2;
+  const Field flat = detrended(scan, Detrend::median_differences).heights;
+  CHECK((flat - detrended(levelled, Detrend::plane).heights).abs().maxCoeff() < 1e-14);
+}
+
 TEST_CASE("What stands out of a flat ground comes out of its scan as it is", "[detrend]") {
   // A tilted ground with a block over 45 % of the lines 20 to 39, a hole, and an edge along x that a third of a line has.
   const Surface truth = sampled({60, 50, 60.0, 50.0}, false, [](double x, double y) {
