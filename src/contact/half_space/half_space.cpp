@@ -13,6 +13,8 @@
 #include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
 
+#include "normal_symbol.hpp"
+
 namespace salebra {
 namespace {
 
@@ -111,29 +113,48 @@ CellIntegrals cell_integrals(double x, double y, double dx, double dy) {
   return sum;
 }
 
-template <class Real>
-Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus,
-                                      Boundary boundary) {
+namespace detail {
+
+NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary boundary) {
   grid.validate();
   require_positive(contact_modulus, "contact_modulus");
-  const auto shape = shape_of<Real>(grid, boundary);
-  Convolution2D<Real> compliance(shape);
+  const auto shape = shape_of<double>(grid, boundary);
+  NormalSymbol symbol{shape.period_x, shape.period_y, {}};
   if (boundary == Boundary::periodic) {
     const double x = 2 * pi / grid.lx, y = 2 * pi / grid.ly;
-    compliance.set_symbol(0, 0, [=](Index i, Index j) {
+    symbol.value = [=](Index i, Index j) {
       const double qx = x * static_cast<double>(i), qy = y * static_cast<double>(j);
       return i == 0 && j == 0 ? 0 : 2 / (contact_modulus * std::sqrt(qx * qx + qy * qy));
-    });
+    };
   } else {
-    compliance.set_symbol(
-        0, 0, padded_symbol(shape.period_x, shape.period_y, Parity::even, [&](Index a, Index b) {
+    symbol.value =
+        padded_symbol(shape.period_x, shape.period_y, Parity::even, [&](Index a, Index b) {
           const double x = static_cast<double>(a) * grid.dx(),
                        y = static_cast<double>(b) * grid.dy();
           return cell_integrals(x, y, grid.dx(), grid.dy()).inverse_distance /
                  (pi * contact_modulus);
-        }));
+        });
   }
+  return symbol;
+}
+
+template <class Real>
+Convolution2D<Real> normal_compliance(const Grid2D& grid, const NormalSymbol& symbol) {
+  Convolution2D<Real> compliance({grid.nx, grid.ny, symbol.period_x, symbol.period_y});
+  compliance.set_symbol(0, 0, symbol.value);
   return compliance;
+}
+
+template Convolution2D<float> normal_compliance<float>(const Grid2D&, const NormalSymbol&);
+template Convolution2D<double> normal_compliance<double>(const Grid2D&, const NormalSymbol&);
+
+}  // namespace detail
+
+template <class Real>
+Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus,
+                                      Boundary boundary) {
+  return detail::normal_compliance<Real>(grid,
+                                         detail::normal_symbol(grid, contact_modulus, boundary));
 }
 
 template <class Real>

@@ -75,8 +75,8 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, double contact_modulus, Bound
       heights_(heights),
       rms_height_(rms_height),
       cell_compliance_(salebra::cell_compliance(grid, contact_modulus)),
-      contact_modulus_(contact_modulus),
-      compliance_(normal_compliance<Real>(grid, contact_modulus, boundary)),
+      symbol_(normal_symbol(grid, contact_modulus, boundary)),
+      compliance_(normal_compliance<Real>(grid, symbol_)),
       kernels_(tile_kernels<Real>()),
       tiles_per_row_((grid.ny + tile_width - 1) / tile_width),
       framed_stride_((grid.ny + tile_width - 1) / tile_width * tile_width + 2 * side_frame) {
@@ -127,8 +127,7 @@ Convolution2D<double>& ActiveSetCg<Real>::exact_compliance() {
   if constexpr (std::is_same_v<Real, double>) {
     return compliance_;
   } else {
-    if (!exact_compliance_)
-      exact_compliance_ = normal_compliance<double>(grid_, contact_modulus_, boundary_);
+    if (!exact_compliance_) exact_compliance_ = normal_compliance<double>(grid_, symbol_);
     // The tiles are listed anew after it is used.
     exact_compliance_->keep_spectrum_in(pool(exact_compliance_->spectrum_bytes()));
     return *exact_compliance_;

@@ -11,6 +11,7 @@
 #include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
 
+#include "contact/half_space/normal_symbol.hpp"
 #include "contact_residual.hpp"
 #include "load_correction.hpp"
 #include "tile_kernels.hpp"
@@ -150,7 +151,7 @@ class ActiveSetCg {
   Heights heights_;
   double rms_height_;
   double cell_compliance_;
-  double contact_modulus_;
+  NormalSymbol symbol_;
   Convolution2D<Real> compliance_;
   std::optional<Convolution2D<double>> exact_compliance_;  // made when it is first needed
   std::array<Real, stencil_size> stencil_;
