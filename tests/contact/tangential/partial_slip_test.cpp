@@ -222,6 +222,21 @@ TEST_CASE("The fallback finds the same tractions, and an unfinished solve says s
   CHECK(found(false, 5).first.residual > 1e-14);
 }
 
+TEST_CASE("The residual of a partial-slip solve is in units of the scale", "[slip]") {
+  // Without tractions every cell that sticks misses its whole displacement, of length 5e-9 m: 1e-3 of the scale. That is within the
+  // tolerance, so that nothing is solved.
+  const Grid2D grid{16, 16, 1e-3, 1e-3};
+  const Field pressure = hertz_pressure(grid, 3e-4, 1e6);
+  PartialSlipSolver solver(grid, Material::of_contact_modulus(contact_modulus, 0.3),
+                           {.tolerance = 1e-2});
+  TangentialField traction, slip;
+  const PartialSlipReport report =
+      solver.solve((pressure > 0).select(Field::Constant(16, 16, infinite), 0.0),
+                   uniform(grid, 3e-9, 4e-9), 5e-6, traction, slip);
+  CHECK(report.iterations == 0);
+  CHECK(report.residual == Approx(1e-3).epsilon(1e-12));
+}
+
 TEST_CASE("Bad input of a partial-slip solve is named", "[slip]") {
   const Grid2D grid{8, 8, 1e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
