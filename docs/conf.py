@@ -2,6 +2,7 @@
 """Sphinx configuration of the documentation; scripts/docs runs it on the tree that stage.py lays out."""
 
 import importlib.util
+import inspect
 import pathlib
 import re
 
@@ -19,9 +20,16 @@ author = "The salebra developers"
 copyright = author
 release = version = re.search(r"project\(salebra VERSION (\S+)", _cmake)[1]
 
-extensions = ["myst_parser", "breathe", "sphinxcontrib.bibtex"]
+extensions = ["myst_parser", "breathe", "sphinx_copybutton", "sphinxcontrib.bibtex"]
 if importlib.util.find_spec("salebra"):
     extensions += ["sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+autodoc_member_order = "groupwise"
+python_use_unqualified_type_names = True
+# Of a console block only what one types.
+copybutton_prompt_text = r"\$ |> "
+copybutton_prompt_is_regexp = True
+copybutton_line_continuation_character = "\\"
+copybutton_selector = "div.highlight:not(.highlight-text *) pre"
 root_doc = "docs/index"
 exclude_patterns = ["docs/README.md"]  # the index for readers of the tree
 
@@ -42,6 +50,7 @@ html_title = f"salebra {release}"
 html_static_path = ["static"]
 html_css_files = ["salebra.css"]
 html_copy_source = False
+html_search_scorer = str(_root / "docs/scorer.js")
 html_show_sphinx = False
 
 
@@ -76,9 +85,22 @@ def _plain_text(app, what, name, subject, options, lines):
             lines[i] = "".join(pieces)
 
 
+# A type is one of the submodule that documents it, not of the extension that holds it.
+def _documented_types(app, what, name, subject, options, signature, returned):
+    import salebra
+
+    def documented(found):
+        topics = [module for name, module in inspect.getmembers(salebra, inspect.ismodule) if not name.startswith("_")]
+        owner = next((topic for topic in topics if hasattr(topic, found[1])), salebra)
+        return f"{owner.__name__}.{found[1]}"
+
+    return tuple(text and re.sub(r"salebra\._core\.(\w+)", documented, text) for text in (signature, returned))
+
+
 def setup(app):
     if "sphinx.ext.autodoc" in extensions:
         app.connect("autodoc-process-docstring", _plain_text, priority=400)
+        app.connect("autodoc-process-signature", _documented_types)
     app.add_html_math_renderer(
         "mathml",
         (lambda translator, node: _formula(translator, node, False), None),

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """stage.py PROGRAM DOXYGEN-XML FOLDER: lays out what Sphinx reads: the pages at the places that they have in the tree, so that a link between
-two of them holds in both, the reference of the commands from the program's own help, the names of results from the table in the sources, and a page
-of headers for each C++ module."""
+two of them holds in both, the reference of the commands from the program's own help, the names of results from the table in the sources, a page for
+each C++ header and each submodule of the Python package, and the notebooks, which are scripts of examples/ that it executes."""
 
 import importlib.util
 import pathlib
@@ -11,6 +11,7 @@ import subprocess
 import sys
 
 import names
+import notebook
 
 root = pathlib.Path(__file__).resolve().parent.parent
 
@@ -23,27 +24,46 @@ MODULES = {
     "io": "files and pictures",
     "study": "the whole path for an ensemble",
 }
+NOTEBOOKS = ("10_damping_of_scan", "12_joint", "13_tunable_damper", "15_own_law")
+# The submodules of the Python package.
+TOPICS = {
+    "surfaces": "surfaces and what is measured on them",
+    "generators": "rough surfaces and analytic shapes",
+    "contact": "boundary elements, force curves, exponential law",
+    "models": "Greenwood–Williamson, dimensionality reduction, theories, laws",
+    "damping": "what moves, losses with and without slip, direct simulation",
+    "closed_form": "formulas of the paper",
+    "studies": "the whole path for an ensemble",
+    "files": "files of surfaces, curves and results",
+    "session": "threads, versions, errors, quantities",
+}
 
 
-def python_reference():
-    """The page of the package, a section for each submodule."""
+def python_pages():
+    """docs/python/<submodule>.rst: the names of each submodule, and docs/python_reference.rst, which lists the submodules."""
     import salebra
 
-    modules = sorted(name for name in dir(salebra) if type(getattr(salebra, name)).__name__ == "module")
-    sections = "\n".join(
-        f"""salebra.{name}
-{"-" * len("salebra." + name)}
+    modules = {name for name in dir(salebra) if type(getattr(salebra, name)).__name__ == "module"}
+    if modules != set(TOPICS):
+        sys.exit(f"stage.py: TOPICS and the submodules of the Python package differ by {modules ^ set(TOPICS)}; list all of them in TOPICS")
+    for name, about in TOPICS.items():
+        title = f"salebra.{name}: {about}"
+        yield f"python/{name}", f"""{title}
+{"=" * len(title)}
 
 .. automodule:: salebra.{name}
    :members:
    :imported-members:
-""" for name in modules)
-    return f"""Python reference
+"""
+    yield "python_reference", """Python reference
 ================
 
 .. automodule:: salebra
 
-{sections}"""
+.. toctree::
+   :maxdepth: 1
+
+""" + "".join(f"   python/{name}\n" for name in TOPICS)
 
 
 def put(target, text):
@@ -115,17 +135,19 @@ def preamble(header):
     return text + "\n"
 
 
-def module_pages():
-    """docs/cpp/<module>.rst: every public header of a module, in the order of their names."""
+def header_pages():
+    """docs/cpp/<module>.rst lists the public headers of a module, docs/cpp/<module>/….rst is what one of them declares."""
     for module, about in MODULES.items():
         above = root / ("generators/include" if module == "generators" else "include")
         headers = sorted(p.relative_to(above) for p in (above / "salebra" / module).rglob("*.hpp"))
         title = f"salebra/{module}: {about}"
-        text = f"{title}\n{'=' * len(title)}\n\n"
+        text = f"{title}\n{'=' * len(title)}\n\n.. toctree::\n   :maxdepth: 1\n\n"
         for header in headers:
-            text += f"{header.stem}\n{'-' * len(header.stem)}\n\n.. code-block:: cpp\n\n   #include <{header}>\n\n"
-            text += preamble(above / header)
-            text += f".. doxygenfile:: {header}\n   :project: salebra\n\n"
+            page = header.relative_to("salebra").with_suffix("")
+            text += f"   {page}\n"
+            name = str(page.relative_to(module))
+            yield page, (f"{name}\n{'=' * len(name)}\n\n.. code-block:: cpp\n\n   #include <{header}>\n\n" + preamble(above / header)
+                         + f".. doxygenfile:: {header}\n   :project: salebra\n")
         yield module, text
 
 
@@ -144,7 +166,7 @@ def suit_breathe(doxygen):
         shorter = re.sub(r"<initializer>= ?\{\..*?</initializer>", "", text)
         if shorter != text:
             page.write_text(shorter)
-    # What stands before `namespace salebra` in a header would stand under that namespace in all of them; module_pages shows it.
+    # What stands before `namespace salebra` in a header would stand under that namespace in all of them; header_pages shows it.
     namespace = doxygen / "namespacesalebra.xml"
     text = namespace.read_text()
     head, members = text.rsplit("</sectiondef>", 1)
@@ -167,15 +189,22 @@ def main(program, doxygen, folder):
         for source in root.glob(pattern):
             kept.add(copy(source, folder / source.relative_to(root)))
     if importlib.util.find_spec("salebra"):
-        kept.add(put(folder / "docs/python_reference.rst", python_reference()))
+        for page, text in python_pages():
+            kept.add(put(folder / f"docs/{page}.rst", text))
+        if importlib.util.find_spec("matplotlib"):
+            for name in NOTEBOOKS:
+                kept.update(notebook.make(root / f"examples/{name}.py", root, folder / "docs/notebooks"))
+            gallery = folder / "docs/examples.md"
+            text = re.sub(rf"\(\.\./examples/({'|'.join(NOTEBOOKS)})\.py\)", r"(notebooks/\1.md)", gallery.read_text())
+            put(gallery, text + "\n```{toctree}\n:hidden:\n" + "".join(f"notebooks/{name}\n" for name in NOTEBOOKS) + "```\n")
     # Pages that not every tree has.
     index = folder / "docs/index.md"
     missing = [name for name in ("python", "python_reference", "report") if name not in {page.stem for page in kept}]
     put(index, re.sub(rf"^({'|'.join(missing)})\n" if missing else "$^", "", index.read_text(), flags=re.M))
     kept.add(put(folder / "docs/cli.md", command_reference(program)))
     kept.add(put(folder / "docs/names.md", names_of_results()))
-    for module, text in module_pages():
-        kept.add(put(folder / f"docs/cpp/{module}.rst", text))
+    for page, text in header_pages():
+        kept.add(put(folder / f"docs/cpp/{page}.rst", text))
     for old in folder.rglob("*"):
         if old.is_file() and old not in kept:
             old.unlink()
