@@ -45,7 +45,7 @@ std::vector<std::string> doubts_of_path(double drag_velocity, double angular_fre
   const double path = 2 * std::numbers::pi * drag_velocity / angular_frequency;
   if (!(path > 2 * patch_radius)) return {};
   return {fmt::format(
-      "the slow motion moves on by 2 pi v/w = {} in one normal cycle, beyond a contact patch of {} "
+      "the slow motion moves on by 2 pi v/w = {} in one normal cycle, beyond a contact spot of {} "
       "across; take a lower --drag-velocity or a higher --frequency",
       format_quantity(path, Dimension::length),
       format_quantity(2 * patch_radius, Dimension::length))};
