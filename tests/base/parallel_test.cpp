@@ -46,8 +46,9 @@ TEST_CASE("More threads than any machine can use are refused before one is made"
 }
 
 TEST_CASE("An exception in a slab reaches the caller", "[parallel]") {
-  CHECK_THROWS_AS(parallel::for_slabs(10, [](Index, Index) { throw InvalidInput("x", "is refused"); }),
-                  InvalidInput);
+  CHECK_THROWS_AS(
+      parallel::for_slabs(10, [](Index, Index) { throw InvalidInput("x", "is refused"); }),
+      InvalidInput);
 }
 
 TEST_CASE("A parallel loop tells its progress from one thread and ends when that says stop",

@@ -245,9 +245,9 @@ class Bench {
  public:
   Bench(std::string program, std::string library)
       : program_(std::move(program)), library_(std::move(library)) {
-    // In memory where there is such a place: what is tested here is not the disk.
+    // In memory where there is such a place for this user: what is tested here is not the disk.
     const fs::path parent =
-        fs::is_directory("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path();
+        access("/dev/shm", W_OK) == 0 ? fs::path("/dev/shm") : fs::temp_directory_path();
     std::string name = (parent / "salebra-faults-XXXXXX").string();
     if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
     root_ = name;

@@ -20,12 +20,12 @@
 namespace salebra::fuzz {
 namespace {
 
-/// A file, in memory where the system has such a folder, for what is read through a path.
+/// A file, in memory where the system has such a folder for this user, for what is read through a path.
 class ScratchFile {
  public:
   ScratchFile() {
     const std::filesystem::path memory = "/dev/shm";
-    name_ = (std::filesystem::exists(memory) ? memory : std::filesystem::temp_directory_path()) /
+    name_ = (access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path()) /
             "salebra-fuzz-XXXXXX";
     descriptor_ = mkstemp(name_.data());
     if (descriptor_ < 0) throw std::runtime_error("no scratch file");
