@@ -59,6 +59,10 @@ TEST_CASE("One quantity may be a range and makes the answers arrays", "[damping]
           law +
           "--normal-force 1,2 --normal-amplitude 1nm,2nm --drag-velocity 1mm/s --frequency 1kHz"),
       "range");
+  // Of the same length they would look like pairs.
+  check_refused(test.run(law + "--normal-force 1 --mode equal-frequency --normal-amplitude 1nm,2nm "
+                               "--tangential-amplitude 1nm,2nm --phase 90deg"),
+                "--tangential-amplitude: 2 values are a second range");
 }
 
 TEST_CASE("A damping curve is kept with units where a file is asked for", "[damping]") {

@@ -160,6 +160,30 @@ TEST_CASE("Broken premises stand above the table, open ones below it", "[premise
         json({"holds", "doubtful", "doubtful", "broken"}));
 }
 
+TEST_CASE("The inertia of a damper over frequencies is that of the highest one", "[premises]") {
+  const ProgramTest test;
+  REQUIRE(test.run("generate --points 32 --size-x 1mm --hurst 0.8 --rolloff 0.5mm --short-cutoff "
+                   "0.25mm --rms-height 1um -o rough.h5")
+              .status == 0);
+  const std::string body = " --contact-modulus 1GPa --poisson 0.3 ";
+  REQUIRE(
+      test.run("sweep rough.h5 --stiffness --pressures 10kPa:10MPa:8 -o curve.h5" + body).status ==
+      0);
+  const auto inertia = [&](const std::string& frequencies) {
+    const auto run = test.run(
+        "damper --curve curve.h5 --pressure 1MPa --normal-amplitude 1nm "
+        "--density 7800 --json --frequency " +
+        frequencies + body);
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    return run.json()["premises"]["inertia"]["value"];
+  };
+  const json highest = inertia("20kHz");
+  CHECK(highest.get<double>() > 0);
+  CHECK(inertia("10kHz,20kHz") == highest);
+  CHECK(inertia("20kHz,10kHz") == highest);
+}
+
 TEST_CASE("Every command that prints a damping constant or a loss prints its premises",
           "[premises]") {
   const ProgramTest test;

@@ -279,6 +279,14 @@ TEST_CASE("Eq (13): case (b) releases a spring by the way between touching and l
   const double level = GENERATE(-2.9e-7, -1e-7, 0.0, 2e-7);
   CHECK(cf::released_distance(level, drag) ==
         Approx(-distance_on_path(level, drag)).epsilon(1e-12));
+  // With −u_z the path is that of u_z half a period later: the point touches within (0, π) and leaves within (π, 2π).
+  Drag downwards = drag;
+  downwards.normal_amplitude = -drag.normal_amplitude;
+  const auto above = [&](double angle) { return height(level, angle + pi); };
+  // The tolerance is that of the bisection, 1e-16 of a phase of order 1, over the smallest distance here, 0.26 of a phase.
+  CHECK(cf::released_distance(level, downwards) ==
+        Approx(position(drag, bisect(above, pi, 2 * pi)) - position(drag, bisect(above, 0, pi)))
+            .epsilon(1e-12));
 }
 
 TEST_CASE("Eq (14): case (b) for the cone at any amplitude, and its power and γ", "[paper]") {

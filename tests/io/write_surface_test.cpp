@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
+#include <set>
 
 #include "scratch.hpp"
 
@@ -46,7 +48,8 @@ TEST_CASE("A surface survives every format to the last bit", "[write]") {
 
 TEST_CASE("A GSF file keeps float32 of the heights, whatever the length of its header", "[write]") {
   const Scratch scratch;
-  for (const double size : {1.0, 1.5, 1.25, 1.125}) {
+  std::set<std::size_t> lengths;
+  for (const double size : {1.0, 12.0, 1.5, 1.25}) {
     Surface surface = example();
     surface.grid.lx = size;
     const auto file = scratch / ("surface" + std::to_string(size) + ".gsf");
@@ -54,7 +57,13 @@ TEST_CASE("A GSF file keeps float32 of the heights, whatever the length of its h
     const Surface read = read_surface(file);
     CHECK(read.grid == surface.grid);
     CHECK(same(read.heights, surface.heights.cast<float>().cast<double>()));
+    std::ifstream stream(file, std::ios::binary);
+    std::string header;
+    std::getline(stream, header, '\0');
+    lengths.insert(header.size() % 4);
   }
+  // The padding has 1 to 4 bytes: each of them was written and read.
+  CHECK(lengths == std::set<std::size_t>{0, 1, 2, 3});
 }
 
 TEST_CASE("The HDF5 file of a surface says where it comes from", "[write]") {

@@ -217,6 +217,15 @@ TEST_CASE("The lists of an ensemble make every combination, cells or size held",
   configuration.ensemble = {.points = {64, 128}};
   CHECK(std::get<GeneratedSurfaces>(parameter_combinations(configuration)[1].surfaces).grid ==
         Grid2D{128, 128, 4e-6, 4e-6});
+  // A strip keeps its shape and its cells stay square.
+  StudyConfiguration strip = configuration;
+  std::get<GeneratedSurfaces>(strip.surfaces).grid = {64, 32, 4e-6, 2e-6};
+  const auto strips = parameter_combinations(strip);
+  REQUIRE(strips.size() == 2);
+  for (const Index factor : {1, 2})
+    CHECK(std::get<GeneratedSurfaces>(strips[std::size_t(factor - 1)].surfaces).grid ==
+          Grid2D{64 * factor, 32 * factor, 4e-6, 2e-6});
+  CHECK(describe_point(strip.ensemble, strips[1]) == "128 x 64 points");
   configuration.ensemble = {.size_x = {4.01e-6}};
   CHECK_THROWS_WITH(parameter_combinations(configuration), Catch::Contains("whole numbers"));
   configuration.ensemble = {.short_cutoff = {0.01e-6}};
