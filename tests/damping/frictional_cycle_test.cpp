@@ -492,14 +492,17 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
   CycleOptions hasty{.friction_coefficient = 0.5, .steps = 8};
   hasty.stick.max_iterations = 2;
   CHECK_FALSE(simulate_frictional_cycle(levels, grid, material, motion, hasty).converged);
-  const PressureLevels doubtful = [&](double indentation) {
-    PressureAt level = levels(indentation);
-    level.converged = indentation < 0.9;
-    return level;
-  };
-  CHECK_FALSE(simulate_frictional_cycle(doubtful, grid, material, motion,
-                                        {.friction_coefficient = 0.5, .steps = 8})
-                  .converged);
+  // The deepest level, which is solved last, and the highest, which comes first.
+  for (const bool deepest : {true, false}) {
+    const PressureLevels doubtful = [&](double indentation) {
+      PressureAt level = levels(indentation);
+      level.converged = deepest ? indentation < 0.9 : indentation > 0.1;
+      return level;
+    };
+    CHECK_FALSE(simulate_frictional_cycle(doubtful, grid, material, motion,
+                                          {.friction_coefficient = 0.5, .steps = 8})
+                    .converged);
+  }
   CHECK(simulate_frictional_cycle(levels, grid, material, motion,
                                   {.friction_coefficient = 0.5, .steps = 8, .max_periods = 1})
             .periods == 1);
