@@ -264,8 +264,8 @@ void run(const DampingArguments& arguments, Session& session) {
     const auto* drag = std::get_if<Drag>(&cases[i].motion);
     const auto doubts =
         drag ? doubts_of_path(drag->drag_velocity, drag->angular_frequency,
-                              patch_radius(facts, law, contact.curve ? &*contact.curve : nullptr,
-                                           results[i].indentation))
+                              spot_radius(facts, law, contact.curve ? &*contact.curve : nullptr,
+                                          results[i].indentation))
              : std::vector<std::string>{};
     for (const std::string& line : doubts) session.warn(line);
     if (!doubts.empty()) break;  // one line for a range

@@ -81,7 +81,7 @@ tangential_stiffness = "stick"       # K_t by a solve on each contact; "proporti
 [damping]
 mode = "drag"                # slow tangential motion under a normal oscillation, Eqs (13) to (16)
 normal_amplitude = {amplitude}     # small against the decay length l (about half the rms height) for Eq. (16) to hold
-drag_velocity = "100nm/s"    # of a slow oscillation, far below (mu E*/G*) u_z omega; a drag that goes on slides
+drag_velocity = "100nm/s"    # of a slow oscillation, far below (mu E*/G*) u_z omega; a drag without end slides
 # excursion = "0.1nm"          # of the slow oscillation, from one turning point to the other, to judge its slip
 frequency = "20kHz"
 # angular_frequency = 125664   # rad/s, instead of frequency

@@ -41,14 +41,14 @@ std::vector<std::string> doubts_of_pressures(std::span<const double> nominal_pre
 }
 
 std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
-                                        double patch_radius) {
+                                        double spot_radius) {
   const double path = 2 * std::numbers::pi * drag_velocity / angular_frequency;
-  if (!(path > 2 * patch_radius)) return {};
+  if (!(path > 2 * spot_radius)) return {};
   return {fmt::format(
       "the slow motion moves on by 2 pi v/w = {} in one normal cycle, beyond a contact spot of {} "
       "across; take a lower --drag-velocity or a higher --frequency",
       format_quantity(path, Dimension::length),
-      format_quantity(2 * patch_radius, Dimension::length))};
+      format_quantity(2 * spot_radius, Dimension::length))};
 }
 
 }  // namespace salebra::cli

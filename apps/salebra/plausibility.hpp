@@ -16,9 +16,9 @@ std::vector<std::string> doubts_of_cells(const Grid2D& grid);
 std::vector<std::string> doubts_of_pressures(std::span<const double> nominal_pressures,
                                              double contact_modulus);
 
-/// Slow motion, case (b), that moves on by more than a contact patch in one normal cycle: what sticks then is no longer the same patch
+/// Slow motion, case (b), that moves on by more than a contact spot in one normal cycle: what sticks then is no longer the same spot
 /// when it opens. A radius that is not known is NaN.
 std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
-                                        double patch_radius);
+                                        double spot_radius);
 
 }  // namespace salebra::cli

@@ -39,7 +39,7 @@ void RecordOptions::check(const Session& session) const {
   require(there || !resume, "--resume", checkpoint,
           "is not there; leave out --resume to begin the cycle");
   require_that(!there || resume || session.write_options().overwrite, checkpoint,
-               "exists; add --resume to go on from it, or --overwrite to begin anew");
+               "exists; add --resume to continue from it, or --overwrite to begin anew");
 }
 
 CycleRecordOptions RecordOptions::options(int steps, const Session& session) const {

@@ -391,8 +391,8 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
                            std::ranges::any_of(results, &StudyResult::interrupted);
   if (interrupted && parts && parts->count() > 0) {
     throw Interrupted(fmt::format(
-        "study: interrupted; {} finished surfaces are kept in {}; go on with the same command and "
-        "--resume",
+        "study: interrupted; {} finished surfaces are kept in {}; continue with the same command "
+        "and --resume",
         parts->count(), parts->folder().string()));
   }
   if (finished == 0) throw Interrupted("study: interrupted before the first surface was finished");
@@ -450,8 +450,8 @@ bool run_without_results(const StudyConfiguration& configuration, const StudyArg
   warn_of_parts(*parts, {}, false, session);
   if (outcome.interrupted)
     throw Interrupted(fmt::format(
-        "study: interrupted; {} finished surfaces of this shard are kept in {}; go on with the "
-        "same command",
+        "study: interrupted; {} finished surfaces of this shard are kept in {}; continue with "
+        "the same command",
         outcome.present + outcome.computed, folder));
   return answer(
       outcome,

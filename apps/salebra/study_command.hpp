@@ -74,7 +74,7 @@ struct StudyFiles {
 /// an output nothing is kept. Where a resumed study has its result already, tidies up after it, makes a page that is missing, answers so
 /// and returns nothing.
 /// With --merge nothing is computed: throws Incomplete where surfaces are missing. Otherwise returns at least one finished surface; what stopped the run before its end throws Interrupted, which says
-/// how to go on, after the surfaces that were finished have been answered where they are not kept.
+/// how to continue, after the surfaces that were finished have been answered where they are not kept.
 std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
                                       const StudyArguments& arguments, StudyReport& page,
                                       Session& session);

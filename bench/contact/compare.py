@@ -312,7 +312,7 @@ def parse():
                         help=f"runs of a solve of less than {WORTH_REPEATING} s; the median counts")
     parser.add_argument("--limit", type=float, default=900, help="seconds of wall time for one solve of a peer")
     parser.add_argument("--budget", type=float, default=float("inf"), help="begin no further case after so many seconds")
-    parser.add_argument("--results", type=Path, default=Path("contact-bench.jsonl"), help="appended to, and read to go on")
+    parser.add_argument("--results", type=Path, default=Path("contact-bench.jsonl"), help="appended to, and read to continue")
     parser.add_argument("--quick", action="store_true", help="512 only, cut-off 8, one core, one run each: about two minutes")
     parser.add_argument("--report", action="store_true", help="print the tables of the results file and run nothing")
     arguments = parser.parse_args()
@@ -348,7 +348,7 @@ def main():
             for case in cases:
                 if case not in results.rows:
                     if time.monotonic() - started > arguments.budget:
-                        print("The budget is used up: call again to go on.")
+                        print("The budget is used up: call again to continue.")
                         break
                     results.add(runner.case(results, *case))
                 print(text_of(results.rows[case]), flush=True)

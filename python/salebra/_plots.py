@@ -171,18 +171,18 @@ def _(result: _core.StudyResult, ax: Axes | None = None, **keywords: Any) -> Axe
 
 @plot.register(_core.ContactSpots)
 def _(result: _core.ContactSpots, ax: Axes | None = None, **keywords: Any) -> Axes:
-    """The number of patches that are at least as large."""
+    """The number of spots that are at least as large."""
     keywords = {"drawstyle": "steps-pre"} | keywords
     count = np.arange(1, len(result) + 1)
-    return _line(ax, (result.area, "area of a patch", "m²"), (count, "patches at least as large", "1"), "xy", keywords)
+    return _line(ax, (result.area, "area of a spot", "m²"), (count, "spots at least as large", "1"), "xy", keywords)
 
 
 @plot.register(_core.SpotStatistics)
 def _(result: _core.SpotStatistics, ax: Axes | None = None, **keywords: Any) -> Axes:
-    """The number of patches by their size, in classes that double."""
+    """The number of spots by their size, in classes that double."""
     cells = 2.0 ** np.arange(len(result.spots_by_size))
     keywords = {"drawstyle": "steps-post"} | keywords
-    return _line(ax, (cells, "cells of a patch, at least", "1"), (result.spots_by_size, "patches", "1"), "x", keywords)
+    return _line(ax, (cells, "cells of a spot, at least", "1"), (result.spots_by_size, "spots", "1"), "x", keywords)
 
 
 @plot.register(_core.SummitList)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bindings of material, normal contact and contact patches.
+// Bindings of material, normal contact and contact spots.
 #include "interop/contact.hpp"
 
 #include <nanobind/stl/optional.h>
@@ -341,11 +341,11 @@ section 6.4.
 }
 
 void bind_spots(nb::module_& m) {
-  nb::class_<ContactSpot>(m, "ContactSpot", "A connected patch of contact.")
+  nb::class_<ContactSpot>(m, "ContactSpot", "A connected part of the contact area.")
       .def_ro("area", &ContactSpot::area, "m²")
       .def_ro("force", &ContactSpot::force, "N");
-  nb::class_<ContactSpots> spots(
-      m, "ContactSpots", "The patches of a contact, largest area first; columns are views.");
+  nb::class_<ContactSpots> spots(m, "ContactSpots",
+                                 "The contact spots, largest area first; columns are views.");
   spots
       .def_ro("contact_area_fraction", &ContactSpots::contact_area_fraction,
               "Cells with p > 0 over all cells.")
@@ -364,7 +364,7 @@ void bind_spots(nb::module_& m) {
         return unlocked([&] { return contact_spots(state.pressure, state.grid, state.boundary); });
       },
       nb::arg("state"),
-      "Connected patches of cells with p > 0; neighbours wrap for periodic boundaries.");
+      "Contact spots: connected cells with p > 0; neighbours wrap for periodic boundaries.");
 }
 
 }  // namespace

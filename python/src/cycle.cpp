@@ -171,7 +171,7 @@ CycleResult simulation(CycleOptions options, const std::optional<std::filesystem
                        double checkpoint_every, bool resume, CycleSettings settings,
                        const ProgressArgument& progress, const Simulate& simulate) {
   require_that(checkpoint || !resume, "resume",
-               "given without a checkpoint; name the file of the run to go on with");
+               "given without a checkpoint; name the file of the run to continue");
   return interruptible(progress, [&](Progress told) {
     options.on_progress = told;
     CycleRecorder recorder({.checkpoint = checkpoint.value_or(std::filesystem::path()),
@@ -244,7 +244,7 @@ checkpoint : str or os.PathLike, optional
 checkpoint_every : float
     Time between checkpoints, s; 0 for every step.
 resume : bool
-    Go on from the checkpoint where there is one, to the same bits. Levels by a Python function must be the same function.
+    Continue from the checkpoint where there is one, to the same bits. Levels by a Python function must be the same function.
 progress : bool or callable
 
 Raises

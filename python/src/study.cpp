@@ -294,7 +294,7 @@ Parameters
 ----------
 configuration : StudyConfiguration
 parts : str or os.PathLike, optional
-    Folder in which each finished surface is kept, so that a run that was stopped can go on.
+    Folder in which each finished surface is kept, so that a run that was stopped can continue.
 resume : bool
     A folder that holds surfaces already is accepted.
 progress : bool or callable

@@ -186,7 +186,7 @@ function gapMap(parent, point) {
     caption: (load) => `Gap between the deformed surfaces at the nominal pressure ${load}; 0 in contact. What lies in blue is open to fluids.`});
 }
 
-/** Number and size of the patches of contact. */
+/** Number and size of the contact spots. */
 function spotsFigure(parent, point) {
   const spots = point.spots ?? {}, count = spots.spot_count;
   if (!count?.mean.some(known)) return;
@@ -195,7 +195,7 @@ function spotsFigure(parent, point) {
   addFigure(parent, {
     id: "spots", title: "Contact spots", height: mapHeight(),
     alt: () => `Number of contact spots and their areas against pressure: ${number(count.mean[0], 3)} spots at ${quantity(point.pressure[0], "Pa", 3)}, at most ${number(Math.max(...count.mean.filter(known)), 3)}, ${number(count.mean[last], 3)} at ${quantity(point.pressure[last], "Pa", 3)}.`,
-    caption: "Patches of neighbouring points in contact, by boundary elements: how many there are, above, and how large, below. A law of statistics needs many of them.",
+    caption: "Contact spots, by boundary elements, each of neighbouring points in contact: how many there are, above, and how large, below. A law of statistics needs many of them.",
     axes: {x: {label: "pressure ‹p›", short: "‹p›", unit: "Pa", log: true}, y: {label: "spots", unit: "1", log: true, layout: {domain: [0.55, 1]}}, y2: {label: "area", unit: "m^2", log: true, layout: {domain: [0, 0.45]}}},
     columns: () => [{label: "pressure", key: "pressure", unit: "Pa", values: point.pressure}, ...estimateColumns("spots", "spot_count", "1", count), ...sizes.flatMap(([key, label]) => estimateColumns(`${label} area`, key, "m^2", spots[key]))],
     plot: () => ({axes: {xaxis: {anchor: "y2"}}, series: [

@@ -646,8 +646,8 @@ ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurv
   return facts;
 }
 
-double patch_radius(const ContactFacts& facts, const ContactLaw& law, const ForceCurve* curve,
-                    double indentation) {
+double spot_radius(const ContactFacts& facts, const ContactLaw& law, const ForceCurve* curve,
+                   double indentation) {
   if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law))
     return indenter->contact_radius(indentation);
   if (curve == nullptr) return ContactFacts::unknown;

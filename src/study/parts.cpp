@@ -137,8 +137,8 @@ StudyParts::StudyParts(const std::filesystem::path& folder, bool resume)
     : StudyParts(folder, Use::resume, "") {
   if (!resume && count() > 0) {
     throw InvalidInput(folder.string(),
-                       fmt::format("holds {} finished surfaces of an earlier run; go on with them "
-                                   "by `resume`, or remove the folder to begin anew",
+                       fmt::format("holds {} finished surfaces of an earlier run; continue with "
+                                   "them by `resume`, or remove the folder to begin anew",
                                    count()));
   }
 }
@@ -226,7 +226,7 @@ void StudyParts::write(std::uint64_t key, const Realisation& realisation) {
   } catch (const IoError& error) {
     throw IoError(fmt::format("{}; the surfaces finished before are kept: make room and {}",
                               error.what(),
-                              shared ? "run the shard again" : "go on with `resume`"));
+                              shared ? "run the shard again" : "continue with `resume`"));
   }
 }
 

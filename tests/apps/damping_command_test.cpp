@@ -328,7 +328,7 @@ TEST_CASE("What contradicts a curve is said in the quantity that was typed", "[d
              Catch::Contains("--poisson: has no effect beside --contact-modulus"));
 }
 
-TEST_CASE("A slow motion that passes a contact patch in one normal cycle is told", "[damping]") {
+TEST_CASE("A slow motion that passes a contact spot in one normal cycle is told", "[damping]") {
   const ProgramTest test;
   const std::string sphere =
       "--indentation 10nm --contact-modulus 1GPa --poisson 0.3 --normal-amplitude 1nm --frequency "

@@ -419,7 +419,7 @@ TEST_CASE("A sliding rough surface has the mean friction of the springs of its o
   const double middle = 5e6, amplitude = 4e-9, friction = 0.3, omega = 1;  // Pa, m, –, rad/s
   // At ν = 0 tractions and pressures have one kernel and nothing slips to the side: the superposition is exact on the same cells. What is
   // left is of 16 steps (1e-3, against 64) and of a law through 15 forces (5e-4, against 57). At ν > 0 slip turns, and K_t depends on the
-  // shape of the contact patches: with 64 steps and 57 forces it is 1e-4 at ν = 0.3, 1e-3 at 0.5.
+  // shape of the contact spots: with 64 steps and 57 forces it is 1e-4 at ν = 0.3, 1e-3 at 0.5.
   const auto [poisson, speed] =
       GENERATE(table<double, double>({{0.0, 0.2}, {0.0, 0.4}, {0.3, 0.3}}));
   const double tolerance = 4e-3;

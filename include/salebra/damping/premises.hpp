@@ -42,10 +42,10 @@ struct ContactFacts {
 ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
                       double indentation);
 
-/// Radius of a typical contact patch, m: of an indenter's one contact; of a curve 2E*A/(πK), since patches of radius a have K = 2E*Σa
+/// Radius of a typical contact spot, m: of an indenter's one contact; of a curve 2E*A/(πK), since spots of radius a have K = 2E*Σa
 /// and A = πΣa². NaN where E* or K is not known.
-double patch_radius(const ContactFacts& facts, const ContactLaw& law, const ForceCurve* curve,
-                    double indentation);
+double spot_radius(const ContactFacts& facts, const ContactLaw& law, const ForceCurve* curve,
+                   double indentation);
 
 enum class Verdict {
   holds,     ///< within the limit of 5 %

@@ -168,7 +168,7 @@ constexpr void describe(Visitor&& visit, std::type_identity<ModelResult>) {
                  "decay length in the limit of small pressures over rms height"});
 }
 
-/// Patches of contact of the boundary elements at one pressure.
+/// Contact spots of the boundary elements at one pressure.
 struct SpotStatistics {
   double spot_count = ForceSample::unknown;
   double corrected_area_fraction = ForceSample::unknown;  ///< see ContactSpots

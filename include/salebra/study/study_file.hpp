@@ -15,7 +15,7 @@ namespace salebra {
 ///   fit          decay length, its limits, area slope, … (model, realisation); ensemble means with limits (model)
 ///   damping      law_…: Eq. (16); small_…: Eq. (15) with F'' of the curve; curve_…: the theorem on the curve
 ///                (model, realisation, pressure), deviation and ensemble means with limits (model, pressure)
-///   spots        patches of contact of the boundary elements (realisation, pressure), by size (…, min_cells)
+///   spots        contact spots of the boundary elements (realisation, pressure), by size (…, min_cells)
 ///   comparison   each model over the boundary elements on the same surfaces, means with limits (model, pressure)
 ///   convergence  mean l/h_rms over the first surfaces, with limits (surfaces)
 ///   picture      of the first surface: heights and the least load that touches each point (x, y), spectrum (wavenumber),

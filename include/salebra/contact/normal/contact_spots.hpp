@@ -6,7 +6,7 @@
 
 namespace salebra {
 
-/// A connected patch of contact: cells with p > 0 that share edges.
+/// A connected part of the contact area: cells with p > 0 that share edges.
 struct ContactSpot {
   double area = 0;   ///< m²
   double force = 0;  ///< N
