@@ -94,7 +94,7 @@ def _documented_types(app, what, name, subject, options, signature, returned):
         owner = next((topic for topic in topics if hasattr(topic, found[1])), salebra)
         return f"{owner.__name__}.{found[1]}"
 
-    return tuple(text and re.sub(r"salebra\._core\.(\w+)", documented, text) for text in (signature, returned))
+    return tuple(text and re.sub(r"salebra\.(\w+)(?![\w.])", documented, text) for text in (signature, returned))
 
 
 def setup(app):

@@ -68,7 +68,7 @@ class _Annotation(str):
     """An annotation as a text, which inspect shows without quotes."""
 
     def __repr__(self) -> str:
-        return self.replace("salebra._core.", "")
+        return self.replace("salebra.", "")
 
 
 def signatures_of(native: Any) -> list[inspect.Signature]:
@@ -307,8 +307,8 @@ def _once_more(
     raise refusals[0] from None
 
 
-def function(native: Any, name: str, method: bool = False) -> Callable[..., Any]:
-    """A Python function of one of the extension."""
+def function(native: Any, name: str, module: str = "salebra", method: bool = False) -> Callable[..., Any]:
+    """A Python function of one of the extension, which a user finds in the module."""
     overloads = signatures_of(native)
     whole = overloads[0]
     signatures = [_without_self(overload) for overload in overloads] if method else overloads
@@ -330,7 +330,7 @@ def function(native: Any, name: str, method: bool = False) -> Callable[..., Any]
 
     call.__name__ = name.rsplit(".", 1)[-1]
     call.__qualname__ = name
-    call.__module__ = "salebra"
+    call.__module__ = module
     call.__doc__ = native.__doc__.split("\n", 2)[-1].strip() if native.__doc__ else None
     call.__signature__ = whole  # type: ignore[attr-defined]
     return call
@@ -413,6 +413,8 @@ def _answer_class(kind: Any) -> None:
             setattr(kind, key, function(value, f"{name}.{key}", method=True))
         elif type(value).__name__ == "nb_func":
             setattr(kind, key, staticmethod(function(value, f"{name}.{key}")))
+        elif isinstance(value, property) and value.__doc__:  # of those without a text: what they return, as it was called at first
+            value.__doc__ = value.__doc__.replace("salebra._core.", "salebra.")
     if issubclass(kind, _REMADE):
         kind.__reduce__ = _reduce
         kind.__eq__ = _equal
@@ -426,11 +428,15 @@ def _answer_class(kind: Any) -> None:
 
 def answer() -> None:
     """Puts everything of this file around the extension. Called once, when the package is imported."""
-    for module in (_core, _core._closed_form):
+    # First of all, since signatures and documentation name the module of every class. Messages and pickles show it too.
+    for kind in [*vars(_core).values(), MissingFile, ConvergenceWarning]:
+        if isinstance(kind, type):
+            kind.__module__ = "salebra"
+    for module, public in ((_core, "salebra"), (_core._closed_form, "salebra.closed_form")):
         for name, value in list(vars(module).items()):
             if name.startswith("_"):
                 continue
             if type(value).__name__ == "nb_func":
-                setattr(module, name, function(value, name))
+                setattr(module, name, function(value, name, public))
             elif isinstance(value, type) and not issubclass(value, BaseException):
                 _answer_class(value)

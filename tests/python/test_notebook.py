@@ -7,6 +7,7 @@ import copy
 import inspect
 import math
 import pickle
+import traceback
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -157,6 +158,22 @@ def test_every_object_survives_pickle_and_copy_and_equals_itself(objects: dict[s
             assert type(again) is type(value), name
             assert again == value and not again != value, name
         assert value != 1.0 and value != "x", name
+
+
+def test_no_name_or_text_shows_the_module_of_the_extension() -> None:
+    for holder in (salebra, *(kind for kind in vars(salebra).values() if isinstance(kind, type))):
+        for name, thing in vars(holder).items():
+            if name.startswith("_"):
+                continue
+            assert "_core" not in (thing.__doc__ or ""), name
+            if isinstance(thing, type):
+                assert "_core" not in thing.__module__, name
+    assert pickle.loads(pickle.dumps(salebra.closed_form.power)) is salebra.closed_form.power
+    error = pickle.loads(pickle.dumps(salebra.InvalidInput("radius: -1 must be > 0")))
+    assert type(error) is salebra.InvalidInput and error.args == ("radius: -1 must be > 0",)
+    with pytest.raises(salebra.InvalidInput) as raised:
+        salebra.power_profile(-1.0, 2.0)
+    assert traceback.format_exception_only(raised.value)[0].startswith("salebra.InvalidInput: ")
 
 
 def test_a_pickled_result_is_the_result(objects: dict[str, Any]) -> None:
