@@ -306,6 +306,32 @@ TEST_CASE("A step at the seam has its error, which a surface without a step has 
   CHECK(of_stepped > 1.5 * of_smooth);
 }
 
+TEST_CASE("The error of a seam is the change of the loss beyond the scatter of both solves") {
+  const Surface surface = rough(32, 71);
+  SurfaceDampingOptions options;
+  options.refinements = 0;
+  const auto curve = curve_of(surface, loads(6), Boundary::periodic, false);
+  const Drag motion = drag(surface, 0.3);
+  options.seam = SeamCheck::free;
+  const auto seamed = surface_damping(surface, material, motion, curve, options);
+  options.seam = {};
+  options.boundary = Boundary::free;
+  const auto free = surface_damping(surface, material, motion, curve, options);
+  int told_apart = 0;
+  for (std::size_t k = 0; k < seamed.size(); ++k) {
+    // A wider window adds the chance of spots to the scatter.
+    if (!seamed[k].converged || !free[k].converged || seamed[k].window != motion.normal_amplitude)
+      continue;
+    const double change = free[k].work_per_cycle - seamed[k].work_per_cycle;
+    const double deviation = seamed[k].scatter / 1.645;  // 90 % of cases
+    const double beyond = change * change - 2 * deviation * deviation;
+    // The same numbers in another order. A scatter of a thousandth of the change changes the result by 1e-6 of it.
+    CHECK(seamed[k].seam_error == Approx(std::sqrt(std::max(0.0, beyond))).epsilon(1e-9));
+    if (beyond > 0 && deviation > 1e-3 * std::abs(change)) ++told_apart;
+  }
+  CHECK(told_apart > 0);
+}
+
 TEST_CASE("Damping of a surface refuses what it cannot use") {
   const Surface surface = rough(16, 1, 4);
   const Drag motion = drag(surface, 0.1);

@@ -23,6 +23,7 @@
 
 #include "io/scratch.hpp"
 #include "small_study.hpp"
+#include "study/case_run.hpp"
 
 using namespace salebra;
 
@@ -262,6 +263,15 @@ TEST_CASE("A study ends at the surface that makes its mean precise enough, on an
   REQUIRE(one.realisations.size() >= 3);
   REQUIRE(one.realisations.size() < 40);
   REQUIRE(three.realisations.size() == one.realisations.size());
+  // The least number is enough where it is precise enough; where there are no more seeds, none was spared.
+  configuration.target_precision = 100;
+  const StudyResult least = run_study(configuration);
+  CHECK(least.realisations.size() == 3);
+  CHECK(least.precision_reached);
+  std::get<GeneratedSurfaces>(configuration.surfaces).seeds.resize(3);
+  const StudyResult all = run_study(configuration);
+  CHECK(all.realisations.size() == 3);
+  CHECK_FALSE(all.precision_reached);
   const EnsembleMean mean = one.decay_length_over_rms_height(ContactModel::bem);
   CHECK(mean.relative_precision() <= 0.2);
   CHECK(three.decay_length(ContactModel::bem).low == one.decay_length(ContactModel::bem).low);
@@ -310,6 +320,31 @@ TEST_CASE("A study goes on until its decay length and its area slope are both pr
   REQUIRE(configuration.target_precision > 0);
   CHECK(run_study(configuration).realisations.size() ==
         enough(configuration.target_precision, true));
+  // Without the light load there is no area slope to wait for, and the fit has the same loads.
+  configuration.pressures.erase(configuration.pressures.begin());
+  const StudyResult heavy = run_study(configuration);
+  CHECK(std::isnan(heavy.realisations.front().of(ContactModel::bem).area_slope));
+  CHECK(heavy.realisations.size() == enough(configuration.target_precision, false));
+}
+
+TEST_CASE("A precision ends an ensemble at a milestone only, from the least number on",
+          "[ensemble]") {
+  StudyConfiguration configuration;
+  configuration.target_precision = 0.5;
+  Realisation realisation;
+  realisation.heights.rms_height = 1;
+  ModelResult bem;
+  bem.model = ContactModel::bem;
+  bem.fit.decay_length = bem.area_slope = 2;
+  realisation.models = {bem};
+  // Equal surfaces are precise enough at once. Beyond 128 every fourth number is a milestone.
+  for (const auto& [least, end] : {std::pair{2, 2}, {7, 7}, {129, 132}, {132, 132}}) {
+    configuration.min_realisations = least;
+    detail::PrecisionRule rule(configuration);
+    int count = 1;
+    while (!rule.met_with(realisation) && count < 200) ++count;
+    CHECK(count == end);
+  }
 }
 
 TEST_CASE("Contacts that did not converge take no part in means and ratios", "[ensemble]") {
