@@ -107,6 +107,8 @@ void run(const MdrArguments& arguments, Session& session) {
 
   const double settled =
       arguments.indentation ? *arguments.indentation : law.indentation_of(*arguments.force);
+  for (const std::string& line : doubts_of_profile(law.profile(), law.contact_radius(settled)))
+    session.warn(line);
   Json object;
   if (arguments.motion.normal_amplitude.empty()) {
     require_that(!arguments.motion.given() && arguments.stress_map.empty() &&
@@ -119,8 +121,9 @@ void run(const MdrArguments& arguments, Session& session) {
     return;
   }
   const std::vector<Motion> motions = arguments.motion.all_motions();
-  require(motions.size() == 1, "--mode", fmt::format("{} motions", motions.size()),
-          "are given; mdr takes one, salebra damping takes ranges");
+  const auto [quantity, values] = arguments.motion.varied();
+  require(motions.size() == 1, quantity, fmt::format("{} values", values.size()),
+          "are given, but mdr takes one motion; " + arguments.indenter.advice_for_ranges());
   const Motion& motion = motions.front();
   const auto* equal = std::get_if<EqualFrequency>(&motion);
   const auto* drag = std::get_if<Drag>(&motion);

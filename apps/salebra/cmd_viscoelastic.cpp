@@ -13,6 +13,7 @@
 #include "figures.hpp"
 #include "indenter_options.hpp"
 #include "options.hpp"
+#include "plausibility.hpp"
 #include "premise_options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
@@ -137,6 +138,8 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   if (arguments.indentation) require_positive(*arguments.indentation, "--indentation");
   const double indentation =
       arguments.indentation ? *arguments.indentation : law.indentation_of(*arguments.force);
+  for (const std::string& line : doubts_of_profile(law.profile(), law.contact_radius(indentation)))
+    session.warn(line);
   const ContactFacts facts =
       at_state(arguments.premises.facts(arguments.material), law, nullptr, indentation);
 

@@ -71,4 +71,10 @@ std::shared_ptr<const IndenterProfile> IndenterOptions::indenter() const {
   return std::make_shared<const TabulatedProfile>(columns[0], columns[1]);
 }
 
+std::string IndenterOptions::advice_for_ranges() const {
+  if (profile == "cone" || profile == "parabola" || profile == "power")
+    return "use salebra damping --law " + profile + ", which takes ranges";
+  return "run it once for each value";
+}
+
 }  // namespace salebra::cli

@@ -18,6 +18,8 @@ struct IndenterOptions {
   void add_to(Command& app);
   /// Throws InvalidInput naming the option that is missing, and those that the profile does not have.
   std::shared_ptr<const IndenterProfile> indenter() const;
+  /// What to do with several motions where a command takes one: `salebra damping` has some of the profiles as laws.
+  std::string advice_for_ranges() const;
 };
 
 }  // namespace salebra::cli

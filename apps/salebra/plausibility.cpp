@@ -51,4 +51,16 @@ std::vector<std::string> doubts_of_path(double drag_velocity, double angular_fre
       format_quantity(2 * spot_radius, Dimension::length))};
 }
 
+std::vector<std::string> doubts_of_profile(const IndenterProfile& profile, double contact_radius) {
+  constexpr double most_change = 0.01;
+  const auto* table = dynamic_cast<const TabulatedProfile*>(&profile);
+  if (table == nullptr) return {};
+  const double change = table->image_error(contact_radius);
+  if (!(change > most_change)) return {};
+  return {fmt::format(
+      "the table is coarse: without every other point the indentation at the contact radius {} "
+      "changes by {:.2g} %; sample it more finely",
+      format_quantity(contact_radius, Dimension::length), 100 * change)};
+}
+
 }  // namespace salebra::cli

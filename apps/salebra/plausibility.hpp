@@ -2,6 +2,7 @@
 #pragma once
 
 #include <salebra/base/grid.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,5 +21,8 @@ std::vector<std::string> doubts_of_pressures(std::span<const double> nominal_pre
 /// when it opens. A radius that is not known is NaN.
 std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
                                         double spot_radius);
+
+/// A table so coarse that the indentation at this contact radius changes by more than 1 % without every other point.
+std::vector<std::string> doubts_of_profile(const IndenterProfile& profile, double contact_radius);
 
 }  // namespace salebra::cli

@@ -145,6 +145,33 @@ TEST_CASE("mdr draws the contact at rest and a period of any of its motions", "[
   CHECK_THAT(test.read("cycle.svg"), Catch::Contains("in contact"));
 }
 
+TEST_CASE("mdr refuses ranges with a way that its profile has, and warns of a coarse table",
+          "[mdr]") {
+  const ProgramTest test;
+  // A ball of 1 mm radius with a cap worn to 2 mm within 30 µm, in steps of 2.5 and 10 µm.
+  for (const int step : {1, 4}) {
+    std::string rows;
+    for (int i = 0; i <= 40; i += step) {
+      const double r = 2.5e-6 * i;
+      rows += std::to_string(r * 1e6) + "e-6 " +
+              std::to_string((r < 30e-6 ? 0.5 * r * r : r * r - 4.5e-10) / 2e-3 * 1e12) + "e-12\n";
+    }
+    test.write("table" + std::to_string(step) + ".txt", rows);
+  }
+  const std::string at = "--indentation 500nm " + body;
+  const std::string table = "mdr --profile table --table table",
+                    ranges =
+                        "--normal-amplitude 10nm:50nm:5 --drag-velocity 1um/s --frequency 20kHz";
+  check_refused(test.run(table + "1.txt " + at + ranges),
+                "--normal-amplitude: 5 values are given, but mdr takes one motion; run it once");
+  check_refused(test.run("mdr --profile parabola --radius 1mm " + at + ranges),
+                "use salebra damping --law parabola, which takes ranges");
+  CHECK(test.run(table + "1.txt " + at).err.empty());
+  const auto coarse = test.run(table + "4.txt " + at);
+  CHECK(coarse.status == 0);
+  CHECK_THAT(coarse.err, Catch::Contains("warning: the table is coarse"));
+}
+
 TEST_CASE("The CLI refuses each unusable input of a damped contact with its reason",
           "[mdr][damping][bad-input]") {
   const ProgramTest test;
