@@ -68,7 +68,8 @@ void StudyArguments::add_to(Command& command) {
                "of each damping constant, such as 5%: halves the cells until it is met");
   command.add_option("--levels", levels,
                      "intervals between contacts inside the oscillation, 4, 8, 16 or 32; default "
-                     "8 for one surface, 4 for each of several");
+                     "8 for one surface, 4 for each of several; 0: none, the loss from the curve "
+                     "between loads, faster and without an error");
   add_choice<SeamCheck>(
       command, "--seam-error", seam_error,
       "add the error of the seam of a scan that is continued: from its heights with a "
@@ -181,9 +182,9 @@ StudyConfiguration StudyArguments::study() const {
             "must be between 0 and 1, such as 5%");
     study.relative_error = *relative_error;
   }
-  if (levels != 0) {
-    require(levels == 4 || levels == 8 || levels == 16 || levels == 32, "--levels", levels,
-            "must be 4, 8, 16 or 32");
+  if (levels) {
+    require(*levels == 0 || *levels == 4 || *levels == 8 || *levels == 16 || *levels == 32,
+            "--levels", *levels, "must be 0, 4, 8, 16 or 32");
     study.levels = levels;
   }
   if (const auto seam = value_of<SeamCheck>(seam_error)) study.seam = seam;

@@ -23,7 +23,7 @@ struct StudyArguments {
   PremiseOptions premises;
   std::vector<double> pressures;
   std::optional<double> precision, relative_error;
-  int levels = 0;
+  std::optional<int> levels;
   std::string seam_error;
   bool no_stick = false;
   bool resume = false;

@@ -50,6 +50,7 @@ double transform_seconds() {
 
 /// Contacts inside the oscillation for each load, those of finer and coarser cells by their size; mean over the surfaces.
 double levels_of(const StudyConfiguration& point, const Grid2D& grid) {
+  if (point.levels == 0) return 0;
   const auto of = [&](std::uint64_t seed) {
     const SurfaceDampingOptions options = surface_damping_options(point, grid, seed);
     // One to begin with, and about two to choose the range.

@@ -223,7 +223,7 @@ SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configur
   SurfaceDampingOptions options;
   options.hold = configuration.damping.hold;
   options.amplitude = configuration.damping.amplitude;
-  options.levels = configuration.levels > 0 ? configuration.levels : alone || to_error ? 8 : 4;
+  options.levels = configuration.levels.value_or(alone || to_error ? 8 : 4);
   options.choose_levels = alone || to_error;
   options.relative_error = configuration.relative_error;
   options.seam = configuration.seam;
@@ -287,6 +287,10 @@ std::vector<double> study_pressures(const StudyConfiguration& configuration) {
   require(!(pressures.back() > hardness), "hardness", hardness,
           "Pa is below the largest pressure of the study; reduce the pressures or give the "
           "hardness in Pa");
+  require(configuration.levels != 0 || !(configuration.relative_error > 0 || configuration.seam),
+          "levels", 0,
+          "levels state no error; use 4 or more, or leave out `relative_error` and "
+          "`seam_error`");
   if (const auto& window = configuration.window) {
     const auto inside = std::ranges::count_if(
         pressures, [&](double pressure) { return window->contains(pressure); });
@@ -339,7 +343,8 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
     result.model = model.id;
     if (model.id == ContactModel::bem) require_converged(result.curve, configuration);
     analyse(result, configuration, scale);
-    if (model.id == ContactModel::bem) resolve_damping(result, surface, configuration, seed, part);
+    if (model.id == ContactModel::bem && configuration.levels != 0)
+      resolve_damping(result, surface, configuration, seed, part);
     realisation.models.push_back(std::move(result));
     spent += model.seconds_per_cell;
   }

@@ -245,6 +245,41 @@ TEST_CASE("A comparison of chosen models draws every point of the ensemble", "[s
   check_refused(test.run("compare study.toml --plot all.svg"), "exists");
 }
 
+TEST_CASE("Without levels the loss is that of the curve, and no error is stated", "[study]") {
+  const ProgramTest test;
+  test.write("study.toml", study_text("seeds = [3]"));
+  const std::string study = "study study.toml --no-stick --levels 0 ";
+  const auto run = test.run(study + "--json -o curve.h5");
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const auto damping = run.json()["damping"];
+  int known = 0;
+  for (std::size_t k = 0; k < damping["pressure"].size(); ++k) {
+    CHECK(damping["damping_constant"]["error"][k].is_null());
+    if (damping["work_per_cycle"]["mean"][k].is_null()) continue;
+    ++known;
+    // The same law, read from the file; a force is sought in it to 1e-12.
+    const auto alone = test.run(
+        "damping --curve curve.h5 --poisson 0.3 --normal-amplitude 0.1nm --drag-velocity 1mm/s "
+        "--frequency 20kHz --json --pressure " +
+        damping["pressure"][k].dump());
+    INFO(alone.err);
+    REQUIRE(alone.status == 0);
+    CHECK(alone.json()["work_per_cycle"].get<double>() ==
+          Approx(damping["work_per_cycle"]["mean"][k].get<double>()).epsilon(1e-9));
+  }
+  CHECK(known > 5);
+  CHECK(test.run(study + "--dry-run --json").json()["points"][0]["levels"] == 0);
+  const auto compared = test.run("compare study.toml --no-stick --levels 0 --models gw_moments");
+  CHECK(compared.status == 0);
+  CHECK_THAT(compared.out, Contains("theorem"));
+  check_refused(test.run(study + "--relative-error 5%"), "--levels: 0 levels state no error");
+  check_refused(test.run(study + "--seam-error window"), "--levels: 0 levels state no error");
+  std::string text = study_text("seeds = [3]");
+  test.write("study.toml", text + "levels = 0\n");
+  CHECK(test.run("study study.toml --no-stick --json").json()["damping"] == damping);
+}
+
 TEST_CASE("A comparison has every model, its ratios and the theories", "[study]") {
   const ProgramTest test;
   std::string text = study;
