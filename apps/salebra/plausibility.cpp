@@ -52,7 +52,7 @@ std::vector<std::string> doubts_of_path(double drag_velocity, double angular_fre
 }
 
 std::vector<std::string> doubts_of_profile(const IndenterProfile& profile, double contact_radius) {
-  constexpr double most_change = 0.01;
+  constexpr double most_change = 0.05;
   const auto* table = dynamic_cast<const TabulatedProfile*>(&profile);
   if (table == nullptr) return {};
   const double change = table->image_error(contact_radius);

@@ -22,7 +22,7 @@ std::vector<std::string> doubts_of_pressures(std::span<const double> nominal_pre
 std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
                                         double spot_radius);
 
-/// A table so coarse that the indentation at this contact radius changes by more than 1 % without every other point.
+/// A table so coarse that the indentation at this contact radius changes by more than 5 % without every other point.
 std::vector<std::string> doubts_of_profile(const IndenterProfile& profile, double contact_radius);
 
 }  // namespace salebra::cli

@@ -289,8 +289,8 @@ std::vector<double> study_pressures(const StudyConfiguration& configuration) {
           "hardness in Pa");
   require(configuration.levels != 0 || !(configuration.relative_error > 0 || configuration.seam),
           "levels", 0,
-          "levels state no error; use 4 or more, or leave out `relative_error` and "
-          "`seam_error`");
+          "levels state no error; use 4 or more, or leave out `relative_error` and the error of "
+          "the seam");
   if (const auto& window = configuration.window) {
     const auto inside = std::ranges::count_if(
         pressures, [&](double pressure) { return window->contains(pressure); });

@@ -148,8 +148,9 @@ TEST_CASE("mdr draws the contact at rest and a period of any of its motions", "[
 TEST_CASE("mdr refuses ranges with a way that its profile has, and warns of a coarse table",
           "[mdr]") {
   const ProgramTest test;
-  // A ball of 1 mm radius with a cap worn to 2 mm within 30 µm, in steps of 2.5 and 10 µm.
-  for (const int step : {1, 4}) {
+  // A ball of 1 mm radius with a cap worn to 2 mm within 30 µm, in steps of 2.5 and 7.5 µm: at 500 nm g(a) changes by 2.6
+  // and 12 % without every other point.
+  for (const int step : {1, 3}) {
     std::string rows;
     for (int i = 0; i <= 40; i += step) {
       const double r = 2.5e-6 * i;
@@ -159,15 +160,15 @@ TEST_CASE("mdr refuses ranges with a way that its profile has, and warns of a co
     test.write("table" + std::to_string(step) + ".txt", rows);
   }
   const std::string at = "--indentation 500nm " + body;
-  const std::string table = "mdr --profile table --table table",
-                    ranges =
-                        "--normal-amplitude 10nm:50nm:5 --drag-velocity 1um/s --frequency 20kHz";
+  const std::string table = "mdr --profile table --table table";
+  const std::string ranges =
+      "--normal-amplitude 10nm:50nm:5 --drag-velocity 1um/s --frequency 20kHz";
   check_refused(test.run(table + "1.txt " + at + ranges),
                 "--normal-amplitude: 5 values are given, but mdr takes one motion; run it once");
   check_refused(test.run("mdr --profile parabola --radius 1mm " + at + ranges),
                 "use salebra damping --law parabola, which takes ranges");
   CHECK(test.run(table + "1.txt " + at).err.empty());
-  const auto coarse = test.run(table + "4.txt " + at);
+  const auto coarse = test.run(table + "3.txt " + at);
   CHECK(coarse.status == 0);
   CHECK_THAT(coarse.err, Catch::Contains("warning: the table is coarse"));
 }
