@@ -526,6 +526,9 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
   REQUIRE(wide.minCoeff(&open_x, &open_y) == 0);
   lone(open_x, open_y) = 1e6;
   CHECK_FALSE(opening.advance(lone, {1e-6, 0}).converged);
+  // A later step that converges does not mend it.
+  REQUIRE(opening.advance(lone).converged);
+  CHECK_FALSE(opening.converged());
   CycleOptions stopped{.friction_coefficient = 0.5, .steps = 8};
   stopped.on_progress = [](const ProgressReport& report) { return report.step < 3; };
   const CycleResult partial = simulate_frictional_cycle(levels, grid, material, motion, stopped);
