@@ -149,6 +149,7 @@ void run(const ContactArguments& arguments, Session& session) {
                  {"elastic_energy", state.elastic_energy},
                  {"iterations", state.iterations},
                  {"fft_count", state.fft_count},
+                 {"ladder_count", state.ladder_count},
                  {"residual", state.residual},
                  {"converged", state.converged},
                  {"seconds", elapsed.count()}};

@@ -168,6 +168,8 @@ Unless `converged`, the numbers describe the last iterate and must not be used a
       .def_ro("iterations", &BoundContact::iterations, "On the finest level.")
       .def_ro("fft_count", &BoundContact::fft_count,
               "Forward-and-backward pairs of the finest level.")
+      .def_ro("ladder_count", &BoundContact::ladder_count,
+              "Applications of the near-field ladder there, each in place of a pair.")
       .def_ro("converged", &BoundContact::converged)
       .def_ro("interrupted", &BoundContact::interrupted, "The progress function said stop.")
       .def("__repr__", [](const BoundContact& s) {

@@ -82,6 +82,7 @@ InvalidInput
       .def_ro("normal_stiffness", &PunchStiffness::normal_stiffness, "N/m")
       .def_ro("iterations", &PunchStiffness::iterations)
       .def_ro("fft_count", &PunchStiffness::fft_count)
+      .def_ro("ladder_count", &PunchStiffness::ladder_count)
       .def_ro("residual", &PunchStiffness::residual)
       .def_ro("converged", &PunchStiffness::converged)
       .def_ro("interrupted", &PunchStiffness::interrupted);

@@ -93,6 +93,8 @@ const Quantity others[] = {
     Quantity{"residual", dimensionless, "residual of the contact"},
     Quantity{"iterations", dimensionless, "iterations of the solver"},
     Quantity{"fft_count", dimensionless, "Fourier transforms of the solver, in pairs"},
+    Quantity{"ladder_count", dimensionless,
+             "applications of the near-field ladder in place of a pair"},
     Quantity{"relative_pressure", dimensionless, "nominal pressure over E* times rms slope"},
     Quantity{"bearing_area_fraction", dimensionless,
              "part of the undeformed surface above the mean gap of the contact"},

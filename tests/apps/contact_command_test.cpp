@@ -33,7 +33,7 @@ TEST_CASE("A contact is described by the agreed keys and is the same for one and
   CHECK(keys(answer) == std::set<std::string>{"pressure", "force", "contact_area_fraction",
                                               "mean_gap", "indentation", "max_pressure",
                                               "elastic_energy", "iterations", "fft_count",
-                                              "residual", "converged", "seconds"});
+                                              "ladder_count", "residual", "converged", "seconds"});
   CHECK(answer["converged"] == true);
   CHECK(answer["pressure"].get<double>() == Approx(2e7).epsilon(1e-9));
   CHECK(answer["force"].get<double>() == Approx(2e7 * 16e-12).epsilon(1e-9));

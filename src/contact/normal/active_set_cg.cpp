@@ -18,8 +18,14 @@ constexpr double widest_margin = 0.1, narrowest_margin = 0.03;
 constexpr double usual_threshold = 0.5;
 // … and when CG stalls, of these, one after the other.
 constexpr std::array<double, 2> other_thresholds = {1.0, 0.1};
-// In float, the residual is computed afresh when the estimate of e_c has fallen by this factor.
+// In float, the residual is computed afresh when the estimate of e_c has fallen by this factor …
 constexpr double refresh_after = 1e-4;
+// … and on the ladder, whose own error is a few per cent.
+constexpr double ladder_refresh_after = 0.03;
+// Fresh residuals on the ladder are computed in double once e_c is below this.
+constexpr double exact_below = 2e-6;
+// Where so many fresh residuals in a row did not halve e_c, the ladder is left.
+constexpr int most_misses = 2;
 // A start for a finer level needs no more than this many refreshes.
 constexpr int most_inexact_refreshes = 3;
 
@@ -74,12 +80,12 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, double contact_modulus, Bound
       boundary_(boundary),
       heights_(heights),
       rms_height_(rms_height),
+      contact_modulus_(contact_modulus),
       cell_compliance_(salebra::cell_compliance(grid, contact_modulus)),
       symbol_(normal_symbol(grid, contact_modulus, boundary)),
       compliance_(normal_compliance<Real>(grid, symbol_)),
       kernels_(tile_kernels<Real>()),
-      tiles_per_row_((grid.ny + tile_width - 1) / tile_width),
-      framed_stride_((grid.ny + tile_width - 1) / tile_width * tile_width + 2 * side_frame) {
+      tiles_per_row_((grid.ny + tile_width - 1) / tile_width) {
   const InverseStencil inverse(grid);
   for (int i = -frame; i <= frame; ++i)
     for (int j = -frame; j <= frame; ++j)
@@ -134,6 +140,17 @@ Convolution2D<double>& ActiveSetCg<Real>::exact_compliance() {
   }
 }
 
+// Its spectrum is where the tiles are while the iterations do without it, and then in memory of its own.
+template <class Real>
+Convolution2D<Real>& ActiveSetCg<Real>::dense_compliance() {
+  if (on_ladder_ || tiles_.empty()) {
+    // With room for that of the exact check, which is twice as large and comes later: memory counts once it is touched.
+    compliance_.keep_spectrum_in(pool(2 * compliance_.spectrum_bytes()));
+    spectrum_in_pool_ = true;
+  }
+  return compliance_;
+}
+
 template <class Real>
 CurvatureSums ActiveSetCg<Real>::take_direction(double z_mean, double beta, double t_mean) {
   const auto a = arrays(std::numeric_limits<double>::infinity());
@@ -168,7 +185,7 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
           [&](Index row, double*) { return run.p + row * grid_.ny; },
           [&](Index row, const double* values) { take(kernels_.exact_gap, row, values); });
     } else {
-      compliance_.apply(
+      dense_compliance().apply(
           [&](Index row, Real* room) {
             std::transform(run.p + row * grid_.ny, run.p + (row + 1) * grid_.ny, room,
                            [](double p) { return static_cast<Real>(p); });
@@ -224,8 +241,7 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
 
   CurvatureSums curvature;
   {
-    const Stopwatch stopwatch(run.outcome.fft_seconds);
-    ++run.outcome.fft_count;
+    const Applying applying(*this, run.outcome);
     curvature = take_direction(z_mean, beta, t_mean);
   }
   run.has_direction = true;
@@ -276,12 +292,20 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
 template <class Real>
 void ActiveSetCg<Real>::refresh(Run& run) {
   collect_pressure(run);
-  const auto [level, residual] = dense_gap(run, run.limits.exact);
+  const bool exact =
+      run.limits.exact &&
+      !(on_ladder_ && run.estimate > std::max(exact_below, 0.7 * run.limits.tolerance));
+  const auto [level, residual] = dense_gap(run, exact);
   run.level = level;
   run.outcome.residual = residual;
+  if (on_ladder_) {
+    run.misses = residual > 0.5 * run.at_refresh ? run.misses + 1 : 0;
+    if (run.misses >= most_misses) leave_ladder();
+    run.best = std::max(run.best, residual);
+  }
   run.at_refresh = std::max(residual, std::numeric_limits<double>::min());
   ++run.refreshes;
-  run.outcome.converged = residual < run.limits.tolerance;
+  run.outcome.converged = residual < run.limits.tolerance && exact == run.limits.exact;
   run.finished = run.outcome.converged || run.outcome.interrupted ||
                  run.outcome.iterations >= run.limits.max_iterations ||
                  (!run.limits.exact && run.refreshes >= most_inexact_refreshes);
@@ -300,17 +324,21 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
   } else {
     run.level = target.value;
   }
-  run.level = dense_gap(run, false).level;
+  ladder_share_ = limits.ladder_share;
+  const auto [level, residual] = dense_gap(run, false);
+  run.level = level;
   choose_tiles(run, widest_margin);
+  if (on_ladder_) run.at_refresh = residual;
   for (;;) {
     const bool progressed = iterate(run);
     if (limits.keep_going && !limits.keep_going(run.outcome.iterations, run.estimate))
       run.outcome.interrupted = true;
     const bool stalled = run.stalls > other_thresholds.size();
+    const double factor = on_ladder_ && limits.exact ? ladder_refresh_after : refresh_after;
     const bool fresh_needed =
         run.estimate < 0.7 * limits.tolerance || run.outcome.interrupted ||
         run.outcome.iterations >= limits.max_iterations ||
-        (std::is_same_v<Real, float> && run.estimate < refresh_after * run.at_refresh);
+        (std::is_same_v<Real, float> && run.estimate < factor * run.at_refresh);
     if (fresh_needed || stalled || !progressed) refresh(run);
     if (run.finished) break;
     if (stalled || !progressed) {

@@ -11,6 +11,8 @@
 #include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
 
+#include "contact/half_space/framed_field.hpp"
+#include "contact/half_space/near_field_ladder.hpp"
 #include "contact/half_space/normal_symbol.hpp"
 #include "contact_residual.hpp"
 #include "load_correction.hpp"
@@ -72,6 +74,7 @@ class ActiveSetCg {
     std::size_t stalls = 0;
     double at_refresh = 1;  // e_c at the last refresh
     int refreshes = 0;
+    int misses = 0;  // refreshes on the ladder that did not find e_c much smaller
     double estimate = 0;
     bool finished = false;
 
@@ -108,11 +111,30 @@ class ActiveSetCg {
     return parallel::map_slabs<Sums>(static_cast<Index>(tiles_.size()), body, tile_points());
   }
 
-  // Gx of a field x that lives on the tiles: spread(begin, end, row) writes the tiles [begin, end) of a row into it, collect(begin, end,
-  // row) takes them from the row of Gx and returns its sums. Row by row, those of rows without tiles being Sums{}.
+  // Gx, or G~x on the ladder, of a field x that lives on the tiles: spread(begin, end, row) writes the tiles [begin, end) of a row into
+  // it, collect(begin, end, row) takes them from the row of Gx and returns its sums. Row by row, those of rows without tiles being
+  // Sums{}. On the ladder x is spread over the residual, which is made anew before it is read again.
   template <class Sums, class Spread, class Collect>
   std::vector<Sums> displace(const Spread& spread, const Collect& collect) {
     std::vector<Sums> sums(static_cast<std::size_t>(grid_.nx));
+    if constexpr (std::is_same_v<Real, float>) {
+      if (on_ladder_) {
+        for_rows_in_use(
+            [&](Index row, Index begin, Index end) { spread(begin, end, r_.row(row)); });
+        ladder_->descend(r_);
+        for_rows_in_use([&](Index row, Index begin, Index end) {
+          thread_local std::vector<float> room;
+          room.resize(static_cast<std::size_t>(grid_.ny));
+          ladder_->collect(tiles_.data(), begin, end, room.data());
+          sums[static_cast<std::size_t>(row)] = collect(begin, end, room.data());
+        });
+        return sums;
+      }
+    }
+    if (spectrum_in_pool_) {
+      compliance_.keep_spectrum_in(nullptr);
+      spectrum_in_pool_ = false;
+    }
     compliance_.apply(
         [&](Index row, Real* room) -> const Real* {
           const Index begin = first_tile(row), end = first_tile(row + 1);
@@ -127,15 +149,45 @@ class ActiveSetCg {
         });
     return sums;
   }
+  // body(row, begin, end) for the rows that have tiles.
+  template <class Body>
+  void for_rows_in_use(const Body& body) const {
+    parallel::for_slabs(
+        grid_.nx,
+        [&](Index first, Index last) {
+          for (Index row = first; row < last; ++row) {
+            const Index begin = first_tile(row), end = first_tile(row + 1);
+            if (begin < end) body(row, begin, end);
+          }
+        },
+        tile_points());
+  }
+
+  // Counts an application of G or G~, and the seconds until its end.
+  class Applying {
+   public:
+    template <class Outcome>
+    Applying(const ActiveSetCg& solver, Outcome& outcome)
+        : stopwatch_(solver.on_ladder_ ? outcome.ladder_seconds : outcome.fft_seconds) {
+      ++(solver.on_ladder_ ? outcome.ladder_count : outcome.fft_count);
+    }
+
+   private:
+    Stopwatch stopwatch_;
+  };
   // w = Gt for the next direction t, with <t, w> and Σw over the free cells.
   CurvatureSums take_direction(double z_mean, double beta, double t_mean);
 
   void reset();
   void correct_load(const ContactTarget& target, double* p) const;
   Convolution2D<double>& exact_compliance();
+  Convolution2D<Real>& dense_compliance();
   ContactResidual dense_gap(Run& run, bool exact);
   void choose_tiles(Run& run, double margin);
   void list_tiles();
+  void choose_operator();
+  void leave_ladder();
+  void renew_punch_residual();
   void keep_directions(const std::vector<Tile>& before, const std::vector<Index>& begins_before);
   std::byte* pool(std::size_t bytes);
   void collect_pressure(Run& run);
@@ -150,25 +202,31 @@ class ActiveSetCg {
   Boundary boundary_;
   Heights heights_;
   double rms_height_;
+  double contact_modulus_;
   double cell_compliance_;
   NormalSymbol symbol_;
   Convolution2D<Real> compliance_;
   std::optional<Convolution2D<double>> exact_compliance_;  // made when it is first needed
   std::array<Real, stencil_size> stencil_;
   const TileKernels<Real>& kernels_;
+  std::optional<NearFieldLadder> ladder_;  // made when it is first needed
+  bool ladder_failed_ = false;             // or the grid has none
+  LadderShare ladder_share_;               // of the limits
+  bool spectrum_in_pool_ = false;          // that of compliance_
+  bool on_ladder_ = false;  // the iterations apply the ladder in place of a transform
 
-  Index tiles_per_row_, framed_stride_;
+  Index tiles_per_row_;
   std::vector<Tile> tiles_;            // row by row
   std::vector<Index> row_begins_;      // the first tile of each row, and the number of tiles
   std::vector<unsigned char> in_use_;  // (nx, tiles_per_row)
   // See TileArrays. Between two refreshes p and g are up to date only on the tiles.
-  LargeArray<Real> r_;
+  FramedField<Real> r_;
   double *p_ = nullptr, *g_ = nullptr;
   Real *z_ = nullptr, *m_ = nullptr;
   LargeArray<Real> t_, w_;  // outlive a new list of tiles
   std::size_t directions_size_ = 0;
   std::vector<unsigned char> quiet_;
-  // Holds the tiles' other arrays and, while they are not needed, the spectrum of the exact check.
+  // Holds the tiles' other arrays and, while they are not needed, the spectrum of a dense residual.
   LargeArray<std::byte> pool_;
   std::size_t pool_size_ = 0;
 };

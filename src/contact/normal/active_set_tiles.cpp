@@ -2,18 +2,29 @@
 // Choice of the tiles that the active-set CG works on, and change of its set of free cells.
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "active_set_cg.hpp"
 
 namespace salebra::detail {
+namespace {
+
+// Measured on one core (docs/performance.md): the ladder is as fast as a transform of 512² where a fifth of the points are in tiles in use,
+// of 1024² at half of them and of 2048² at four fifths; what surrounds the stencils weighs less on large grids.
+double worthwhile_share(double points) {
+  const double doublings = 0.5 * std::log2(points / (512.0 * 512.0));
+  return doublings < -0.1 ? 0 : std::min(0.2 + 0.3 * std::max(doublings, 0.0), 0.8);
+}
+
+}  // namespace
 
 template <class Real>
 TileArrays<Real> ActiveSetCg<Real>::arrays(double bound) {
   return {tiles_.data(),
           static_cast<Index>(tiles_.size()),
           grid_.ny,
-          framed_stride_,
-          r_.get(),
+          r_.stride(),
+          r_.row(-frame) - side_frame,
           p_,
           g_,
           t_.get(),
@@ -30,15 +41,11 @@ void ActiveSetCg<Real>::reset() {
   tiles_.clear();
   row_begins_.assign(static_cast<std::size_t>(grid_.nx + 1), 0);
   in_use_.assign(static_cast<std::size_t>(grid_.nx * tiles_per_row_), 0);
-  const Index framed_rows = grid_.nx + 2 * frame;
-  // A tile's vectors may end beyond the frame of the last row.
-  if (!r_)
-    r_ = large_array<Real>(static_cast<std::size_t>(framed_rows * framed_stride_ + tile_width));
-  for_rows([&](Index begin, Index end) {
-    const Index last = end == grid_.nx ? framed_rows : end;
-    std::fill(r_.get() + begin * framed_stride_, r_.get() + last * framed_stride_, Real(0));
-  });
-  std::fill_n(r_.get() + framed_rows * framed_stride_, tile_width, Real(0));
+  if (r_) {
+    r_.clear();
+  } else {
+    r_ = FramedField<Real>(grid_.nx, grid_.ny);
+  }
 }
 
 template <class Real>
@@ -75,6 +82,31 @@ void ActiveSetCg<Real>::list_tiles() {
   m_ = z_ + size;
   keep_directions(before, begins_before);
   quiet_.assign(tiles_.size(), 0);
+  choose_operator();
+}
+
+// The ladder where few tiles are in use: its work goes with their number, that of a transform does not.
+template <class Real>
+void ActiveSetCg<Real>::choose_operator() {
+  on_ladder_ = false;
+  if constexpr (std::is_same_v<Real, float>) {
+    const double points = static_cast<double>(symbol_.period_x * symbol_.period_y);
+    const double most = ladder_share_.value_or(worthwhile_share(points));
+    if (ladder_failed_ || static_cast<double>(tile_points()) > most * points) return;
+    if (!ladder_) {
+      ladder_ = NearFieldLadder::make(grid_, symbol_, contact_modulus_, boundary_);
+      ladder_failed_ = !ladder_;
+    }
+    if (ladder_failed_) return;
+    ladder_->list_tiles(in_use_);
+    on_ladder_ = true;
+  }
+}
+
+template <class Real>
+void ActiveSetCg<Real>::leave_ladder() {
+  ladder_failed_ = true;
+  on_ladder_ = false;
 }
 
 // Moves t and w to the places of the new tiles. A tile that is new has no direction yet, and its w comes with the next transform.
@@ -123,9 +155,7 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
         bool needed = false;
         for (Index i = 0; i < width; ++i) needed |= (p[i] > 0) | (g[i] < near);
         unsigned char& used = in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)];
-        if (used && !needed)
-          std::fill_n(r_.get() + (row + frame) * framed_stride_ + column + side_frame, width,
-                      Real(0));
+        if (used && !needed) std::fill_n(r_.row(row) + column, width, Real(0));
         used = needed;
       }
   });
@@ -152,8 +182,6 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
           if (busy) continue;
           quiet_[static_cast<std::size_t>(k)] = 1;
           std::fill_n(t_.get() + packed, tile_width, Real(0));
-          std::fill_n(r_.get() + (tile.row + frame) * framed_stride_ + tile.column + side_frame,
-                      width, Real(0));
         }
         return sums;
       }));
@@ -195,29 +223,10 @@ void ActiveSetCg<Real>::begin_set(Run& run, const std::vector<SetSums>& parts) {
   for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, run.level); });
 }
 
-// Copies the edges of the residual into its frame, so that the stencil sees the periodic images.
+// Fills the frame of the residual, so that the stencil sees the periodic images.
 template <class Real>
 void ActiveSetCg<Real>::frame_residual() {
-  if (boundary_ == Boundary::free) return;
-  const Index nx = grid_.nx, ny = grid_.ny;
-  const auto wrapped = [](Index k, Index n) { return (k % n + n) % n; };
-  for_rows([&](Index begin, Index end) {
-    for (Index row = begin; row < end; ++row) {
-      Real* r = r_.get() + (row + frame) * framed_stride_ + side_frame;
-      for (Index k = 1; k <= frame; ++k) {
-        r[-k] = r[wrapped(-k, ny)];
-        r[ny + k - 1] = r[wrapped(k - 1, ny)];
-      }
-    }
-  });
-  const auto copy_row = [&](Index to, Index from) {
-    std::copy_n(r_.get() + (from + frame) * framed_stride_, framed_stride_,
-                r_.get() + (to + frame) * framed_stride_);
-  };
-  for (Index k = 1; k <= frame; ++k) {
-    copy_row(-k, wrapped(-k, nx));
-    copy_row(nx + k - 1, wrapped(k - 1, nx));
-  }
+  if (boundary_ == Boundary::periodic) r_.wrap();
 }
 
 // The correction that puts p on the tiles back to the load, given Σp over the cells below the bound.
@@ -243,7 +252,7 @@ LoadCorrection ActiveSetCg<Real>::correction_over_tiles(const Run& run, double p
 }
 
 // Takes new free cells; with truncate also puts p back within its bounds and to
-// its load, at the cost of one transform pair.
+// its load, at the cost of one application of G.
 template <class Real>
 void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
   const auto a = arrays(run.target.bound);
@@ -256,13 +265,13 @@ void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
   const LoadCorrection correction =
       run.load_given() ? correction_over_tiles(run, pressure) : LoadCorrection{};
   for_tiles([&](Index begin, Index end) {
-    kernels_.truncate(a, begin, end, run.level, correction.scale, correction.shift);
+    kernels_.truncate(a, begin, end, run.level, correction.scale, correction.shift,
+                      correction.full_from);
   });
   // The last direction and its image stay as they are: CG goes on without a restart.
   std::vector<SetSums> sums;
   {
-    const Stopwatch stopwatch(run.outcome.fft_seconds);
-    ++run.outcome.fft_count;
+    const Applying applying(*this, run.outcome);
     sums = displace<SetSums>(
         [&](Index begin, Index end, Real* row) { kernels_.spread_change(a, begin, end, row); },
         [&](Index begin, Index end, const Real* row) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <salebra/base/grid.hpp>
 
 namespace salebra::detail {
@@ -23,12 +24,17 @@ struct ContactTarget {
   bool load_given() const { return kind == Kind::mean_pressure; }
 };
 
+// Part of the transform's points that may be in tiles in use where the near-field ladder takes the place of transforms; 0: it never does.
+// Its work goes with the tiles, that of a transform does not. No value: what is faster, as measured (active_set_tiles.cpp).
+using LadderShare = std::optional<double>;
+
 struct PunchLimits {
   // Stop when the load grew by less than this part of itself in two iterations running. The load is a maximum over q: its error is
   // the square of the error of q.
   double relative_gain = 1e-11;
   int max_iterations = 1000;
   std::function<bool(int iteration)> keep_going = {};
+  LadderShare ladder_share = {};
 };
 
 struct PunchOutcome {
@@ -36,6 +42,8 @@ struct PunchOutcome {
   double residual = 0;  // rms of 1 − Gq over the punch
   int iterations = 0;
   int fft_count = 0;
+  int ladder_count = 0;
+  double fft_seconds = 0, ladder_seconds = 0;  // for profiles
   bool converged = false;
   bool interrupted = false;
 };
@@ -49,6 +57,7 @@ struct ActiveSetLimits {
   // When e_c has not halved in this many iterations, CG restarts with another threshold, and at last gives way to
   // gradient_projection().
   int patience = 40;
+  LadderShare ladder_share = {};
 };
 
 struct ActiveSetOutcome {
@@ -57,8 +66,9 @@ struct ActiveSetOutcome {
   int iterations = 0;
   int fft_count = 0;
   int exact_fft_count = 0;  // of them in double precision, where the inner loop is not
-  // For profiles: seconds in transforms, of them in exact ones, and the cells of the tiles summed over the iterations.
-  double fft_seconds = 0, exact_fft_seconds = 0;
+  int ladder_count = 0;     // applications of the near-field ladder in place of a transform
+  // For profiles: seconds in transforms, of them in exact ones, on the ladder, and the cells of the tiles summed over the iterations.
+  double fft_seconds = 0, exact_fft_seconds = 0, ladder_seconds = 0;
   double active_cells = 0, resting_cells = 0;
   bool converged = false;
   bool interrupted = false;

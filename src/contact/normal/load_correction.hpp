@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace salebra::detail {
 
-// A load of the form Σ min(scale·max(p, 0) + shift, bound).
+// The load of pressures within their bounds, as a correction makes them.
 struct LoadSums {
   double below = 0;                       // Σ of the cells below the bound
   double unsaturated = 0, saturated = 0;  // numbers of cells
@@ -25,34 +26,40 @@ struct LoadSums {
     return *this;
   }
 };
+// min(scale·max(p, 0) + shift, bound), and the bound where p has reached full_from.
 struct LoadCorrection {
-  double scale = 1, shift = 0;
+  double scale = 1, shift = 0, full_from = std::numeric_limits<double>::infinity();
   double operator()(double p, double bound) const {
-    return std::min(scale * std::max(p, 0.0) + shift, bound);
+    return p >= full_from ? bound : std::min(scale * std::max(p, 0.0) + shift, bound);
   }
 };
 
-// The correction that gives the load asked, found from sums_of(correction). Pressures are scaled; where that would have to
-// more than double them, because most loaded cells are at the bound, all are shifted. Both sums are concave, so that Newton's
-// method cannot fail once it is below the load, where its first step leads.
+// The correction that gives the load asked, found from sums_of(correction). Pressures below the bound are scaled, and cells at the bound
+// stay there: a scale a little below 1 would free them all, with gaps far from the plane. Where that would have to halve or more than
+// double what is below, all are scaled; where most loaded cells are at the bound, all are shifted. The sums are concave, so that
+// Newton's method cannot fail once it is below the load, where its first step leads.
 template <class SumsOf>
 LoadCorrection correction_for_load(double load, double bound, const SumsOf& sums_of) {
   constexpr double rounding = 1e-14;
   constexpr int most_rounds = 60;
-  LoadCorrection correction;
   const auto missing = [&](const LoadSums& sums) {
     return load - (sums.saturated > 0 ? sums.saturated * bound : 0);
   };
-  for (int round = 0; round < most_rounds; ++round) {
-    const LoadSums sums = sums_of(correction);
-    const double factor = sums.below > 0      ? missing(sums) / sums.below
-                          : missing(sums) > 0 ? 4.0
-                                              : 0.0;
-    correction.scale *= factor > 0 ? factor : 0.5;
-    if (correction.scale > 2 && std::isfinite(bound)) break;
-    if (!std::isfinite(bound) || std::abs(factor - 1) < rounding) return correction;
+  for (const bool keeps_full : {true, false}) {
+    LoadCorrection correction;
+    if (keeps_full) correction.full_from = bound;
+    for (int round = 0; round < most_rounds; ++round) {
+      const LoadSums sums = sums_of(correction);
+      const double factor = sums.below > 0      ? missing(sums) / sums.below
+                            : missing(sums) > 0 ? 4.0
+                                                : 0.0;
+      correction.scale *= factor > 0 ? factor : 0.5;
+      if (std::isfinite(bound) && (correction.scale > 2 || (keeps_full && correction.scale <= 0.5)))
+        break;
+      if (!std::isfinite(bound) || std::abs(factor - 1) < rounding) return correction;
+    }
   }
-  correction = {};
+  LoadCorrection correction;
   for (int round = 0; round < most_rounds; ++round) {
     const LoadSums sums = sums_of(correction);
     if (!(sums.unsaturated > 0)) break;

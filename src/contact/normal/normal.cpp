@@ -147,13 +147,13 @@ Solution solve_nested(const Scaled& scaled, const Heights& heights, double rms_h
       pressure = Field::Constant(
           nx, ny, target.kind == ContactTarget::Kind::mean_pressure ? target.value : 0.0);
     } else {
-      pressure.resize(nx, ny);
+      pressure = uninitialised_field(nx, ny);
       const double step = prediction / cell_compliance(level.grid, 1);
       detail::prolong(levels[k + 1], solution.pressure, solution.gap, solution.outcome.level, level,
                       options.boundary, step, pressure.data());
     }
     solution.pressure = std::move(pressure);
-    solution.gap = Field(nx, ny);
+    solution.gap = uninitialised_field(nx, ny);
     ActiveSetLimits limits{
         k == 0 ? options.tolerance : std::max(coarse_tolerance, options.tolerance),
         options.max_iterations, k == 0};
@@ -224,6 +224,7 @@ NormalContactState state_of(Solution&& solution, const ContactTarget& target, co
   state.residual = outcome.residual;
   state.iterations = outcome.iterations;
   state.fft_count = outcome.fft_count;
+  state.ladder_count = outcome.ladder_count;
   // Numbers beyond the range of double pass every comparison.
   const bool finite = std::isfinite(state.force) && std::isfinite(state.mean_gap) &&
                       std::isfinite(state.elastic_energy);

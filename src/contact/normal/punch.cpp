@@ -8,6 +8,7 @@
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/normal/punch.hpp>
+#include <utility>
 
 #include "active_set_cg.hpp"
 #include "contact/half_space/cell_window.hpp"
@@ -18,16 +19,20 @@ namespace {
 
 // The load is a maximum over q, so its error is the square of the error of q: a loose solve is enough for a sharp load.
 constexpr int gains_in_a_row = 2;
+// On the ladder a round of CG ends, and the residual is computed afresh, when a step gains less than this part of what the round gained.
+constexpr double round_ends = 1e-4;
 
 }  // namespace
 
 // CG as in solve(), on a set of cells that does not change: minimises ½q·Gq − Σq. The load is then taken from
-// 2Σq − q·Gq in double precision, whose error is quadratic in that of q.
+// 2Σq − q·Gq in double precision, whose error is quadratic in that of q. On the ladder CG goes in rounds, each about an exact residual:
+// what is left to gain falls by (eps/(1 − eps))² or more from round to round.
 template <class Real>
 PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const PunchLimits& limits,
                                            Field* pressure) {
   PunchOutcome outcome;
   reset();
+  ladder_share_ = limits.ladder_share;
   const auto in_set = [bound](double x) { return x > 0 && x < bound; };
   for_rows([&](Index begin, Index end) {
     for (Index k = begin * tiles_per_row_; k < end * tiles_per_row_; ++k) {
@@ -49,7 +54,10 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
   }
   const auto a = arrays(std::numeric_limits<double>::infinity());
   for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, 0); });
-  double curvature = 1, gained = 0;
+  double curvature = 1, gained = 0, round_gained = 0;
+  double contraction = 1;  // of what is left to gain, from round to round
+  if (on_ladder_) contraction = std::pow(ladder_->error() / (1 - ladder_->error()), 2);
+  double last_round = 0;
   int small_gains = 0;
   while (small_gains < gains_in_a_row && outcome.iterations < limits.max_iterations) {
     if (limits.keep_going && !limits.keep_going(outcome.iterations)) {
@@ -66,8 +74,10 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
     }
     const double beta = outcome.iterations > 0 ? -zw / curvature : 0;
     const double descent = zr + beta * tr;
-    const double tw = take_direction(0, beta, 0).tw;
-    ++outcome.fft_count;
+    const double tw = [&] {
+      const Applying applying(*this, outcome);
+      return take_direction(0, beta, 0).tw;
+    }();
     if (!(tw > 0)) {
       // Nothing is left to gain, as after one step on a single cell; or the values are NaN.
       if (tw == 0) small_gains = gains_in_a_row;
@@ -78,8 +88,22 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
         [&](Index begin, Index end) { return kernels_.step(a, begin, end, descent / tw, 0); });
     const double gain = descent * descent / tw;
     gained += gain;
-    small_gains = gain < limits.relative_gain * gained ? small_gains + 1 : 0;
+    round_gained += gain;
     ++outcome.iterations;
+    if (!on_ladder_) {
+      small_gains = gain < limits.relative_gain * gained ? small_gains + 1 : 0;
+    } else if (gain < std::max(round_ends * round_gained, limits.relative_gain * gained)) {
+      if (last_round > 0) contraction = round_gained / last_round;
+      last_round = round_gained;
+      round_gained = 0;
+      if (contraction * last_round < limits.relative_gain * gained) {
+        small_gains = gains_in_a_row;
+      } else {
+        if (contraction > 0.25) leave_ladder();
+        renew_punch_residual();
+        ++outcome.fft_count;
+      }
+    }
   }
   outcome.converged = small_gains == gains_in_a_row;
   Field q = Field::Zero(grid_.nx, grid_.ny), image(grid_.nx, grid_.ny);
@@ -111,6 +135,34 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
   outcome.load = total.load;
   outcome.residual = std::sqrt(total.misfit / total.cells);
   return outcome;
+}
+
+// g = Gq − 1 on the tiles, by a transform, and r.
+template <class Real>
+void ActiveSetCg<Real>::renew_punch_residual() {
+  const bool on_ladder = std::exchange(on_ladder_, false);
+  struct Nothing {};
+  displace<Nothing>(
+      [&](Index begin, Index end, Real* row) {
+        for (Index k = begin; k < end; ++k) {
+          const Index column = tiles_[static_cast<std::size_t>(k)].column,
+                      width = std::min<Index>(tile_width, grid_.ny - column);
+          for (Index i = 0; i < width; ++i)
+            row[column + i] = static_cast<Real>(p_[k * tile_width + i]);
+        }
+      },
+      [&](Index begin, Index end, const Real* row) {
+        for (Index k = begin; k < end; ++k) {
+          const Index column = tiles_[static_cast<std::size_t>(k)].column,
+                      width = std::min<Index>(tile_width, grid_.ny - column);
+          for (Index i = 0; i < width; ++i)
+            g_[k * tile_width + i] = static_cast<double>(row[column + i]) - 1;
+        }
+        return Nothing{};
+      });
+  on_ladder_ = on_ladder;
+  const auto a = arrays(std::numeric_limits<double>::infinity());
+  for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, 0); });
 }
 
 template PunchOutcome ActiveSetCg<float>::punch_load(const double*, double, const PunchLimits&,
@@ -149,6 +201,7 @@ PunchStiffness press_punch(const Field& p, double bound, const Grid2D& grid, dou
   return {.normal_stiffness = outcome.load * contact_modulus * cell,
           .iterations = outcome.iterations,
           .fft_count = outcome.fft_count,
+          .ladder_count = outcome.ladder_count,
           .residual = outcome.residual,
           .converged = outcome.converged,
           .interrupted = outcome.interrupted};

@@ -40,8 +40,9 @@ void for_active_cells(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrd
 
 template <class Real>
 void residual(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double level) {
-  for_active_cells(a, begin, end, [&](const Cell& c) {
-    a.r[c.framed] = a.m[c.packed] * static_cast<Real>(a.g[c.packed] - level);
+  for_cells(a, begin, end, [&](const Cell& c) {
+    a.r[c.framed] =
+        a.quiet[c.tile] ? Real(0) : a.m[c.packed] * static_cast<Real>(a.g[c.packed] - level);
   });
 }
 
@@ -139,7 +140,7 @@ bool any_below(const TileArrays<Real>& a, std::ptrdiff_t k, double level) {
   return below;
 }
 
-// A tile without free and loaded cells becomes quiet, with t = r = 0.
+// A tile without free and loaded cells becomes quiet, with t = 0.
 template <class Real>
 void rest(const TileArrays<Real>& a, std::ptrdiff_t k) {
   bool active = false;
@@ -147,7 +148,7 @@ void rest(const TileArrays<Real>& a, std::ptrdiff_t k) {
             [&](const Cell& c) { active = active || a.m[c.packed] != 0 || a.p[c.packed] != 0; });
   if (active) return;
   a.quiet[k] = 1;
-  for_cells(a, k, k + 1, [&](const Cell& c) { a.t[c.packed] = a.r[c.framed] = 0; });
+  for_cells(a, k, k + 1, [&](const Cell& c) { a.t[c.packed] = 0; });
 }
 
 template <class Real>
@@ -171,13 +172,14 @@ SetSums change_set(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff
 
 template <class Real>
 void truncate(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double level,
-              double scale, double shift) {
+              double scale, double shift, double full_from) {
   for (std::ptrdiff_t k = begin; k < end; ++k) {
     if (a.quiet[k] && shift == 0 && !any_below(a, k, level)) continue;
     a.quiet[k] = 0;
     for_cells(a, k, k + 1, [&](const Cell& c) {
       double& p = a.p[c.packed];
-      const double corrected = std::min(scale * std::max(p, 0.0) + shift, a.bound);
+      const double corrected =
+          p >= full_from ? a.bound : std::min(scale * std::max(p, 0.0) + shift, a.bound);
       const bool inside = corrected > 0 && corrected < a.bound;
       a.m[c.packed] = inside || becomes_free(a.m[c.packed] != 0, p, a.g[c.packed], level, a.bound);
       a.z[c.packed] = static_cast<Real>(corrected - p);

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
+
+#include "contact/half_space/tile.hpp"
 
 namespace salebra::detail {
 
@@ -11,15 +12,7 @@ namespace salebra::detail {
 // compiled for each vector width; no header with inline functions may be included there, because the linker could then give code for a
 // wide machine to a narrow one.
 
-inline constexpr int tile_width = 16;
-inline constexpr int frame = 3;  // cells around the residual: the radius of InverseStencil
-// The frame to the left and right is as wide as a tile, so that tiles of the residual begin on cache lines.
-inline constexpr int side_frame = tile_width;
 inline constexpr int stencil_size = (2 * frame + 1) * (2 * frame + 1);
-
-struct Tile {
-  std::int32_t row, column;  // of the first cell; the last tile of a row may be narrower
-};
 
 // A field is either framed, or tile after tile (packed) with zeros where a row ends within a tile. Directions and their images are
 // packed too: as whole fields they would be the half of what an iteration reads and writes. The transform spreads and collects
@@ -38,7 +31,7 @@ struct TileArrays {
   Real* z;                       // packed: preconditioned residual, and what truncate() changes
   Real* m;  // packed: 1 on free cells, where g = level is wanted; 0 where p is held at a bound
   unsigned char*
-      quiet;  // of each tile: 1 where no cell is free or loaded, and then r and t are zero
+      quiet;  // of each tile: 1 where no cell is free or loaded, and then t is zero, and r from the next residual() on
   const Real* stencil;  // stencil_size weights, symmetric about both axes
   double bound;         // largest pressure allowed; may be infinite
 };
@@ -91,9 +84,9 @@ struct TileKernels {
   // Frees held cells whose gap has the wrong sign, holds free cells whose pressure left its bounds.
   SetSums (*change_set)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                         double level);
-  // The same, and p becomes min(scale·max(p, 0) + shift, bound), z the change of p.
+  // The same, and p becomes min(scale·max(p, 0) + shift, bound), or the bound where it is full_from or more, z the change of p.
   void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double level,
-                   double scale, double shift);
+                   double scale, double shift, double full_from);
   // z into the row
   void (*spread_change)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                         Real* row);

@@ -2,18 +2,9 @@
 // Included once for each instruction set, with SALEBRA_SIMD naming it.
 #include "tile_kernels.hpp"
 
-#define SALEBRA_INLINE inline __attribute__((always_inline))
+#include "contact/half_space/stencil_loop.inl"
 
 namespace salebra::detail::SALEBRA_SIMD {
-
-// A vector type wider than the registers compiles to code that is several times slower than no vectors at all.
-#if defined(__AVX512F__)
-inline constexpr int register_bytes = 64;
-#elif defined(__AVX__)
-inline constexpr int register_bytes = 32;
-#else
-inline constexpr int register_bytes = 16;
-#endif
 
 using Size = std::ptrdiff_t;
 
@@ -102,10 +93,7 @@ template <class Real, class Width>
 SALEBRA_INLINE void rest(const TileArrays<Real>& a, const Place& place, Width width) {
   if (any(a.m + place.packed, width) || any(a.p + place.packed, width)) return;
   a.quiet[place.packed / tile_width] = 1;
-  for (Size i = 0; i < width; ++i) {
-    a.t[place.packed + i] = 0;
-    a.r[place.framed + i] = 0;
-  }
+  for (Size i = 0; i < width; ++i) a.t[place.packed + i] = 0;
 }
 
 // Whether a cell without load is below the plane.
@@ -118,100 +106,23 @@ SALEBRA_INLINE bool any_below(const double* g, double level, Width width) {
 
 template <class Real>
 void residual(const TileArrays<Real>& a, Size begin, Size end, double level) {
-  for_active_tiles<Reads::residual>(a, begin, end, [&](const Place& place, auto width) {
-    const double* g = a.g + place.packed;
-    const Real* m = a.m + place.packed;
-    Real* r = a.r + place.framed;
-    for (Size i = 0; i < width; ++i) r[i] = m[i] * static_cast<Real>(g[i] - level);
-  });
+  for_tiles<Reads::residual>(
+      a, begin, end,
+      [&](const Place& place, auto width) {
+        const double* g = a.g + place.packed;
+        const Real* m = a.m + place.packed;
+        Real* r = a.r + place.framed;
+        for (Size i = 0; i < width; ++i) r[i] = m[i] * static_cast<Real>(g[i] - level);
+      },
+      [&](const Place& place, auto width) {
+        for (Size i = 0; i < width; ++i) a.r[place.framed + i] = 0;
+      });
 }
-
-#if defined(__AVX512F__)
-// 16 sums over the stencil from whole cache lines: rows above and below are added before they are weighted, and neighbours in a row
-// come from two registers by one permutation, which is cheaper than a load that crosses a line.
-template <class Real>
-struct StencilLoop {
-  typedef Real Vector __attribute__((vector_size(register_bytes)));
-  static constexpr int lanes = register_bytes / static_cast<int>(sizeof(Real)),
-                       registers = tile_width / lanes;
-
-  // The numbers that begin `shift` places after the first of low, where high follows low.
-  template <int shift>
-  static SALEBRA_INLINE Vector shifted(Vector low, Vector high) {
-    if constexpr (lanes == 16) {
-      return __builtin_shufflevector(low, high, shift, shift + 1, shift + 2, shift + 3, shift + 4,
-                                     shift + 5, shift + 6, shift + 7, shift + 8, shift + 9,
-                                     shift + 10, shift + 11, shift + 12, shift + 13, shift + 14,
-                                     shift + 15);
-    } else {
-      return __builtin_shufflevector(low, high, shift, shift + 1, shift + 2, shift + 3, shift + 4,
-                                     shift + 5, shift + 6, shift + 7);
-    }
-  }
-
-  static SALEBRA_INLINE void apply(const TileArrays<Real>& a, Size framed, Real* sums) {
-    Vector total[registers] = {};
-    const Real* centre = a.r + framed;
-#pragma GCC unroll 4
-    for (int i = 0; i <= frame; ++i) {
-      Vector row[registers + 2];
-      for (int k = 0; k < registers + 2; ++k) {
-        const Real* place = centre + (k - 1) * lanes;
-        __builtin_memcpy(&row[k], place + i * a.framed_stride, sizeof(Vector));
-        if (i > 0) {
-          Vector other;
-          __builtin_memcpy(&other, place - i * a.framed_stride, sizeof(Vector));
-          row[k] += other;
-        }
-      }
-      const Real* weight = a.stencil + (frame + i) * (2 * frame + 1) + frame;
-      for (int k = 1; k <= registers; ++k) {
-        Vector& sum = total[k - 1];
-        sum += weight[0] * row[k];
-        sum +=
-            weight[1] * (shifted<1>(row[k], row[k + 1]) + shifted<lanes - 1>(row[k - 1], row[k]));
-        sum +=
-            weight[2] * (shifted<2>(row[k], row[k + 1]) + shifted<lanes - 2>(row[k - 1], row[k]));
-        sum +=
-            weight[3] * (shifted<3>(row[k], row[k + 1]) + shifted<lanes - 3>(row[k - 1], row[k]));
-      }
-    }
-    static_assert(frame == 3);
-    for (int k = 0; k < registers; ++k)
-      __builtin_memcpy(sums + k * lanes, &total[k], sizeof(Vector));
-  }
-};
 
 template <class Real>
 SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, FullWidth, Real* sums) {
-  StencilLoop<Real>::apply(a, framed, sums);
+  StencilLoop<Real, frame>::apply(a.r + framed, a.framed_stride, a.stencil, sums);
 }
-#else
-// 16 sums over the stencil in as many registers as they need, in two chains so that additions overlap.
-template <class Real>
-SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, FullWidth, Real* sums) {
-  typedef Real Vector __attribute__((vector_size(register_bytes)));
-  constexpr int lanes = register_bytes / static_cast<int>(sizeof(Real)),
-                registers = tile_width / lanes;
-  Vector chain[2][registers] = {};
-  for (int i = -frame; i <= frame; ++i) {
-    const Real* r = a.r + framed + i * a.framed_stride;
-    const Real* weight = a.stencil + (i + frame) * (2 * frame + 1) + frame;
-#pragma GCC unroll 7
-    for (int j = -frame; j <= frame; ++j)
-#pragma GCC unroll 8
-      for (int k = 0; k < registers; ++k) {
-        Vector neighbour;
-        __builtin_memcpy(&neighbour, r + j + k * lanes, sizeof(neighbour));
-        chain[j & 1][k] += weight[j] * neighbour;
-      }
-  }
-  for (int k = 0; k < registers; ++k) {
-    const Vector total = chain[0][k] + chain[1][k];
-    __builtin_memcpy(sums + k * lanes, &total, sizeof(total));
-  }
-}
-#endif
 
 template <class Real>
 SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, Size width, Real* sums) {
@@ -377,7 +288,7 @@ SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level
 
 template <class Real>
 void truncate(const TileArrays<Real>& a, Size begin, Size end, double level, double scale,
-              double shift) {
+              double shift, double full_from) {
   const double bound = a.bound;
   const auto cut = [&](const Place& place, auto width) {
     Real *z = a.z + place.packed, *m = a.m + place.packed;
@@ -385,7 +296,8 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double level, dou
     const double* g = a.g + place.packed;
     for (Size i = 0; i < width; ++i) {
       const double above = (p[i] < 0 ? 0 : p[i] * scale) + shift;
-      const double kept = above < bound ? above : bound;
+      const double within = above < bound ? above : bound;
+      const double kept = p[i] < full_from ? within : bound;
       const double free = freed(m[i], p[i], g[i], level, bound);
       // A held cell that the correction of the load took off its bound is free again.
       const double loaded = kept > 0 ? 1.0 : 0.0, inside = kept < bound ? loaded : 0.0;

@@ -39,7 +39,8 @@ struct NormalContactState {
   double elastic_energy = 0;         ///< ½∫p u dA with zero-mean u (periodic), J
   double residual = 0;               ///< e_c reached
   int iterations = 0;                ///< on the finest level
-  int fft_count = 0;  ///< forward-and-backward pairs of the finest level, both precisions
+  int fft_count = 0;     ///< forward-and-backward pairs of the finest level, both precisions
+  int ladder_count = 0;  ///< applications of the near-field ladder there, each in place of a pair
   bool converged = false;
   bool interrupted = false;  ///< the progress callback said stop
 };
@@ -50,10 +51,11 @@ ContactSet contact_set(const NormalContactState& state);
 /// Frictionless contact of a rigid rough surface with an elastic half-space, for a given nominal pressure:
 ///     minimise ½p·Gp − p·h, 0 <= p <= hardness, mean p = nominal_pressure;  û(q) = 2 p̂(q)/(E*|q|), û(0) = 0 (periodic)
 /// by nested conjugate gradients on the contact set with a preconditioner that needs no transform. It departs from the usual
-/// constrained CG of Polonsky and Keer (1999) in that CG is not restarted when the set changes.
+/// constrained CG of Polonsky and Keer (1999) in that CG is not restarted when the set changes. On large grids of which the contact and
+/// its neighbourhood are a small part, the iterations apply a ladder of stencils in place of G, and exact transforms only renew the gap.
 /// contact_modulus   E* > 0, Pa;   nominal_pressure > 0, Pa, below the hardness
 /// throws            InvalidInput before any work; non-convergence is returned, not thrown
-/// cost              one transform pair an iteration, 15 to 100 iterations; 57 to 67 bytes a cell with heights and result, the more the
+/// cost              15 to 100 iterations of one transform pair each, or of one application of the ladder and 6 or 7 pairs in all; 57 to 67 bytes a cell with heights and result, the more the
 ///                   larger the contact (docs/performance.md)
 NormalContactState press_to_pressure(const Surface& surface, double contact_modulus,
                                      double nominal_pressure,

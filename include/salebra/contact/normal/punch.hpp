@@ -21,6 +21,7 @@ struct PunchStiffness {
   double normal_stiffness = 0;  ///< N/m
   int iterations = 0;
   int fft_count = 0;
+  int ladder_count = 0;  ///< applications of the near-field ladder, each in place of a pair
   double residual =
       0;  ///< rms error of the displacement over the set, relative; that of K is of the order of its square
   bool converged = false;    ///< K settled to the square of the tolerance, or to 1e-14

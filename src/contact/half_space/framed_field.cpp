@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A field with a frame around it, which repeats the opposite edge or is zero.
+#include "framed_field.hpp"
+
+#include <algorithm>
+#include <salebra/base/parallel.hpp>
+
+namespace salebra::detail {
+namespace {
+
+// Vectors of a tile, and of twice a tile on the finer grid, may end beyond the frame of the last row.
+constexpr Index slack = 4 * tile_width;
+
+}  // namespace
+
+template <class Real>
+FramedField<Real>::FramedField(Index nx, Index ny)
+    : nx_(nx),
+      ny_(ny),
+      stride_((ny + tile_width - 1) / tile_width * tile_width + 2 * side_frame),
+      data_(large_array<Real>(static_cast<std::size_t>((nx + 2 * rows_around) * stride_ + slack))) {
+  clear();
+}
+
+template <class Real>
+void FramedField<Real>::clear() {
+  const Index rows = nx_ + 2 * rows_around;
+  parallel::for_slabs(
+      nx_,
+      [&](Index begin, Index end) {
+        const Index last = end == nx_ ? rows : end;
+        std::fill(data_.get() + begin * stride_, data_.get() + last * stride_, Real(0));
+      },
+      nx_ * ny_);
+  std::fill_n(data_.get() + rows * stride_, slack, Real(0));
+}
+
+template <class Real>
+void FramedField<Real>::wrap() {
+  const auto wrapped = [](Index k, Index n) { return (k % n + n) % n; };
+  parallel::for_slabs(
+      nx_,
+      [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+          Real* cells = row(i);
+          for (Index k = 1; k <= frame; ++k) {
+            cells[-k] = cells[wrapped(-k, ny_)];
+            cells[ny_ + k - 1] = cells[wrapped(k - 1, ny_)];
+          }
+        }
+      },
+      nx_ * ny_);
+  for (Index k = 1; k <= frame; ++k) {
+    std::copy_n(row(wrapped(-k, nx_)) - side_frame, stride_, row(-k) - side_frame);
+    std::copy_n(row(wrapped(k - 1, nx_)) - side_frame, stride_, row(nx_ + k - 1) - side_frame);
+  }
+}
+
+template class FramedField<float>;
+template class FramedField<double>;
+
+}  // namespace salebra::detail

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/base/memory.hpp>
+
+#include "tile.hpp"
+
+namespace salebra::detail {
+
+// A field (nx, ny) with a frame around it, so that a stencil needs no test for the edge: as many rows as the widest stencil reaches and
+// one more, for splines of the next coarser grid, and at least a tile at both sides.
+template <class Real>
+class FramedField {
+ public:
+  FramedField() = default;
+  FramedField(Index nx, Index ny);  // zero
+
+  explicit operator bool() const { return data_ != nullptr; }
+  Index nx() const { return nx_; }
+  Index ny() const { return ny_; }
+  Index stride() const { return stride_; }
+  // The first cell of a row, −rows_around <= row < nx + rows_around.
+  Real* row(Index row) const { return data_.get() + (row + rows_around) * stride_ + side_frame; }
+
+  void clear();
+  // Puts the cells of the opposite edge into the frame: the field repeats.
+  void wrap();
+
+ private:
+  static constexpr Index rows_around = frame + 1;
+  Index nx_ = 0, ny_ = 0, stride_ = 0;
+  LargeArray<Real> data_;
+};
+
+}  // namespace salebra::detail

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Stencils of the near-field ladder, fitted to a symbol, and the symbol that they leave for the coarser grid.
+#include "ladder_design.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <numbers>
+#include <salebra/base/parallel.hpp>
+#include <utility>
+
+#include "normal_symbol.hpp"
+#include "surface/dense_systems.hpp"
+
+namespace salebra::detail {
+namespace {
+
+using std::numbers::pi;
+
+constexpr Index design_period = 512;
+constexpr int widest_radius = 3, usual_radius = 2;
+constexpr int fitting_rounds = 20;
+// Frequencies along each axis that a fit looks at, and those at which its error is measured.
+constexpr Index fitted_frequencies = 8, measured_frequencies = 24;
+
+struct Sample {
+  double value, metric;
+};
+
+Sample sample(const QuarterSymbol& symbol, Index i, Index j) {
+  const std::size_t k = symbol.index(i, j);
+  return {symbol.value[k], symbol.metric[k]};
+}
+// A constant has no displacement where the mean is the reference, and no error is measured by it.
+Sample sample(const SymbolSource& symbol, Index i, Index j) {
+  const double value = symbol.value(i, j);
+  return {value, value != 0 ? 1 / std::abs(value) : 0};
+}
+
+// cos(kθ) and cos⁸(θ/2) at the frequencies of an axis.
+struct AxisWaves {
+  int radius;
+  std::vector<double> cosine, spline;  // (period/2 + 1, radius + 1), (period/2 + 1)
+
+  AxisWaves(Index period, int radius_of) : radius(radius_of) {
+    for (Index i = 0; i <= period / 2; ++i) {
+      const double theta = 2 * pi * static_cast<double>(i) / static_cast<double>(period);
+      for (int k = 0; k <= radius; ++k) cosine.push_back(std::cos(k * theta));
+      spline.push_back(std::pow(std::cos(theta / 2), 8));
+    }
+  }
+  const double* at(Index i) const { return cosine.data() + i * (radius + 1); }
+};
+
+// T(θ) along a row of frequencies: factors of cos(jθ_y).
+std::array<double, frame + 1> row_of(const LadderStencil& stencil, const double* cosine) {
+  std::array<double, frame + 1> factors{};
+  const int width = stencil.radius + 1;
+  for (int j = 0; j < width; ++j)
+    for (int i = 0; i < width; ++i)
+      factors[static_cast<std::size_t>(j)] +=
+          (i > 0 ? 2 : 1) * (j > 0 ? 2 : 1) *
+          stencil.weights[static_cast<std::size_t>(i * width + j)] * cosine[i];
+  return factors;
+}
+
+template <class Fine>
+QuarterSymbol coarsened(const Fine& fine, const LadderStencil& stencil) {
+  QuarterSymbol coarse{fine.period_x / 2, fine.period_y / 2, {}, {}};
+  const AxisWaves x(fine.period_x, stencil.radius), y(fine.period_y, stencil.radius);
+  const Index rows = coarse.period_x / 2 + 1;
+  coarse.value.resize(static_cast<std::size_t>(rows * coarse.columns()));
+  coarse.metric.resize(coarse.value.size());
+  parallel::for_slabs(
+      rows,
+      [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+          const std::array<Index, 2> along_x = {i, coarse.period_x - i};
+          const std::array factors = {row_of(stencil, x.at(along_x[0])),
+                                      row_of(stencil, x.at(along_x[1]))};
+          for (Index j = 0; j < coarse.columns(); ++j) {
+            double moved = 0, squares = 0;
+            for (std::size_t a = 0; a < 2; ++a)
+              for (const Index b : {j, coarse.period_y - j}) {
+                const double* cosine = y.at(b);
+                double near = 0;
+                for (int k = 0; k <= stencil.radius; ++k)
+                  near += factors[a][static_cast<std::size_t>(k)] * cosine[k];
+                const auto [value, metric] = sample(fine, along_x[a], b);
+                if (i == 0 && j == 0 && a == 0 && b == 0) coarse.value.front() = (value - near) / 4;
+                const double weight = metric * x.spline[static_cast<std::size_t>(along_x[a])] *
+                                      y.spline[static_cast<std::size_t>(b)];
+                squares += weight;
+                moved += weight * metric * (value - near);
+              }
+            coarse.metric[coarse.index(i, j)] = 4 * squares;
+            if (i > 0 || j > 0) coarse.value[coarse.index(i, j)] = moved / (4 * squares * squares);
+          }
+        }
+      },
+      fine.period_x * fine.period_y / 4);
+  return coarse;
+}
+
+// The four frequencies that look the same on the coarser grid: what a stencil changes there, with C as good as it can be.
+struct Aliases {
+  Eigen::Matrix<double, 4, Eigen::Dynamic> basis;  // of the weights, over W
+  Eigen::Vector4d wanted, square;                  // g/W, u²
+  // Of D: what is left once C has taken its part, as a quadratic form, in the Frobenius norm: at most twice the largest eigenvalue, and
+  // least where it is with the C of the header.
+  double norm(const Eigen::Vector4d& d) const {
+    const double taken = square.dot(d) / square.sum();
+    return std::sqrt(std::max(0.0, d.squaredNorm() - taken * taken));
+  }
+};
+
+std::vector<Aliases> aliases_of(const QuarterSymbol& fine, int radius, Index step) {
+  const AxisWaves x(fine.period_x, radius), y(fine.period_y, radius);
+  const Index coarse_x = fine.period_x / 2, coarse_y = fine.period_y / 2;
+  std::vector<Aliases> classes;
+  for (Index i = 0; i <= coarse_x / 2; i += step)
+    for (Index j = 0; j <= coarse_y / 2; j += step) {
+      if (i == 0 && j == 0) continue;
+      Aliases found;
+      found.basis.resize(4, (radius + 1) * (radius + 1));
+      Eigen::Index row = 0;
+      for (const Index a : {i, coarse_x - i})
+        for (const Index b : {j, coarse_y - j}) {
+          const auto [value, metric] = sample(fine, a, b);
+          for (int k = 0; k <= radius; ++k)
+            for (int l = 0; l <= radius; ++l)
+              found.basis(row, k * (radius + 1) + l) =
+                  (k > 0 ? 2 : 1) * (l > 0 ? 2 : 1) * x.at(a)[k] * y.at(b)[l] * metric;
+          found.wanted(row) = value * metric;
+          found.square(row) = metric * x.spline[static_cast<std::size_t>(a)] *
+                              y.spline[static_cast<std::size_t>(b)];
+          ++row;
+        }
+      classes.push_back(std::move(found));
+    }
+  return classes;
+}
+
+double largest_error(const std::vector<Aliases>& classes, const Eigen::VectorXd& weights) {
+  double largest = 0;
+  for (const Aliases& at : classes) {
+    const Eigen::Vector4d d = at.wanted - at.basis * weights;
+    const double sum = at.square.sum();
+    const Eigen::Vector4d u = at.square.cwiseSqrt();
+    Eigen::MatrixXd form = -at.square.dot(d) / (sum * sum) * u * u.transpose();
+    form.diagonal() += d;
+    const Eigen::VectorXd values = symmetric_modes(form).values;
+    largest = std::max({largest, -values.minCoeff(), values.maxCoeff()});
+  }
+  return largest;
+}
+
+LadderRung fitted_rung(const QuarterSymbol& fine, int radius) {
+  const Index half = std::min(fine.period_x, fine.period_y) / 4;
+  const auto every = [&](Index frequencies) { return std::max<Index>(1, half / frequencies); };
+  const auto classes = aliases_of(fine, radius, every(fitted_frequencies));
+  const Eigen::Index unknowns = (radius + 1) * (radius + 1);
+  std::vector<double> emphasis(classes.size(), 1.0);
+  Eigen::VectorXd best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < fitting_rounds; ++round) {
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
+    for (std::size_t k = 0; k < classes.size(); ++k) {
+      const Aliases& at = classes[k];
+      const Eigen::VectorXd taken = at.basis.transpose() * at.square / at.square.sum();
+      normal += emphasis[k] * (at.basis.transpose() * at.basis - taken * taken.transpose());
+      right += emphasis[k] * (at.basis.transpose() * at.wanted -
+                              taken * (at.square.dot(at.wanted) / at.square.sum()));
+    }
+    const Eigen::VectorXd weights = least_squares(normal, right);
+    std::vector<double> errors;
+    for (const Aliases& at : classes) errors.push_back(at.norm(at.wanted - at.basis * weights));
+    const double largest = *std::max_element(errors.begin(), errors.end());
+    if (largest < least) {
+      least = largest;
+      best = weights;
+    }
+    double mean = 0;
+    for (std::size_t k = 0; k < classes.size(); ++k) {
+      emphasis[k] = emphasis[k] * errors[k] / largest + 1e-12;
+      mean += emphasis[k] / static_cast<double>(classes.size());
+    }
+    for (double& value : emphasis) value /= mean;
+  }
+  LadderRung rung{{radius, {best.data(), best.data() + best.size()}}, 0};
+  rung.error = largest_error(aliases_of(fine, radius, every(measured_frequencies)), best);
+  return rung;
+}
+
+// Rungs so far, and the symbol that they leave.
+struct Design {
+  std::vector<LadderRung> rungs;
+  QuarterSymbol left;
+};
+
+Design begun(double dx_over_dy, Boundary boundary) {
+  // A free grid's period is twice its size.
+  const Index cells = boundary == Boundary::periodic ? design_period : design_period / 2;
+  const auto length = static_cast<double>(cells);
+  const double stretch = std::sqrt(dx_over_dy);
+  const NormalSymbol exact =
+      normal_symbol({cells, cells, length * stretch, length / stretch}, 1, boundary);
+  QuarterSymbol symbol{exact.period_x, exact.period_y, {}, {}};
+  for (Index i = 0; i <= symbol.period_x / 2; ++i)
+    for (Index j = 0; j <= symbol.period_y / 2; ++j) {
+      const auto [value, metric] =
+          sample(SymbolSource{exact.period_x, exact.period_y, exact.value}, i, j);
+      symbol.value.push_back(value);
+      symbol.metric.push_back(metric);
+    }
+  return {{}, std::move(symbol)};
+}
+
+}  // namespace
+
+double LadderStencil::weight(int i, int j) const {
+  return weights[static_cast<std::size_t>(std::abs(i) * (radius + 1) + std::abs(j))];
+}
+
+std::vector<LadderRung> ladder_design(double dx_over_dy, Boundary boundary, int depth) {
+  static std::mutex mutex;
+  static std::map<std::pair<double, Boundary>, Design> designs;
+  const std::lock_guard lock(mutex);
+  const auto [place, is_new] = designs.try_emplace({dx_over_dy, boundary});
+  Design& design = place->second;
+  if (is_new) design = begun(dx_over_dy, boundary);
+  while (static_cast<int>(design.rungs.size()) < depth) {
+    design.rungs.push_back(
+        fitted_rung(design.left, design.rungs.empty() ? widest_radius : usual_radius));
+    design.left = coarsened(design.left, design.rungs.back().stencil);
+  }
+  return {design.rungs.begin(), design.rungs.begin() + depth};
+}
+
+QuarterSymbol coarse_symbol(const SymbolSource& fine, const LadderStencil& stencil) {
+  return coarsened(fine, stencil);
+}
+QuarterSymbol coarse_symbol(const QuarterSymbol& fine, const LadderStencil& stencil) {
+  return coarsened(fine, stencil);
+}
+
+}  // namespace salebra::detail

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+
+#include "tile.hpp"
+
+namespace salebra::detail {
+
+// The pointwise passes of the near-field ladder, over tiles [begin, end) of a list; ladder_reference.hpp says in plain loops what each
+// does. One source is compiled for each vector width; no header with inline functions may be included there.
+
+// A framed field: its first cell, the cells from one row to the next, and the cells of a row.
+struct FramedView {
+  float* first;
+  std::ptrdiff_t stride, ny;
+};
+
+// Cell (I, J) of a coarse grid lies at (2I − shift_x, 2J − shift_y) of the finer one; shifts are even.
+struct Shift {
+  std::ptrdiff_t x, y;
+};
+
+struct LadderKernels {
+  // coarse = Pᵀ fine: (1 4 6 4 1)/8 along each axis
+  void (*restriction)(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
+                      const FramedView& fine, const Shift& shift, const FramedView& coarse);
+  // image = T source + P coarse, T a stencil of 5 × 5
+  void (*ascent)(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
+                 const FramedView& source, const float* stencil, const FramedView& coarse,
+                 const Shift& shift, const FramedView& image);
+  // The same with a stencil of 7 × 7, for tiles of one row, into its cells
+  void (*last_ascent)(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
+                      const FramedView& source, const float* stencil, const FramedView& coarse,
+                      const Shift& shift, float* row);
+};
+
+// The table for the widest vectors that this processor has.
+const LadderKernels& ladder_kernels();
+
+}  // namespace salebra::detail

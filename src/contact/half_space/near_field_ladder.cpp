@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The near-field ladder as an operator: its levels, their tiles, and one application.
+#include "near_field_ladder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <salebra/base/parallel.hpp>
+
+namespace salebra::detail {
+namespace {
+
+// The coarsest transform has at least this many points along its shorter side: a smaller one costs no less than what surrounds it.
+constexpr Index least_period = 128;
+// Stencils worse than this make more exact transforms necessary than they save.
+constexpr double largest_error = 0.2;
+// Cells beyond the edge of an isolated patch that the splines of a coarser level reach, at each side.
+constexpr Index reach = 2;
+
+FramedView view(const FramedField<float>& field) {
+  return {field.row(0), field.stride(), field.ny()};
+}
+
+Index tiles_across(Index ny) { return (ny + tile_width - 1) / tile_width; }
+
+// The coarse cells I with |2I − x| <= 2: those that a spline takes cell x of the finer grid to, and from.
+Index first_reached(Index x) { return (x + 1) / 2 - 1; }
+Index last_reached(Index x) { return x / 2 + 1; }
+
+// Over the tiles of a list, each for itself.
+template <class Body>
+void for_tiles_of(const std::vector<Tile>& tiles, const Body& body) {
+  parallel::for_slabs(static_cast<Index>(tiles.size()), body,
+                      static_cast<Index>(tiles.size()) * tile_width);
+}
+
+template <std::size_t size>
+std::array<float, size> whole_stencil(const LadderStencil& stencil, double scale) {
+  std::array<float, size> weights{};
+  std::size_t k = 0;
+  for (int i = -stencil.radius; i <= stencil.radius; ++i)
+    for (int j = -stencil.radius; j <= stencil.radius; ++j)
+      weights[k++] = static_cast<float>(scale * stencil.weight(i, j));
+  return weights;
+}
+
+}  // namespace
+
+std::optional<NearFieldLadder> NearFieldLadder::make(const Grid2D& grid, const NormalSymbol& symbol,
+                                                     double contact_modulus, Boundary boundary) {
+  int depth = 0;
+  for (Index x = symbol.period_x, y = symbol.period_y;
+       x % 2 == 0 && y % 2 == 0 && std::min(x, y) / 2 >= least_period && depth < most_rungs;
+       x /= 2, y /= 2)
+    ++depth;
+  if (depth == 0) return std::nullopt;
+  const double ratio = grid.dx() / grid.dy();
+  // Beyond 1:8 not even the fit is tried.
+  if (ratio > 8 || ratio < 1.0 / 8) return std::nullopt;
+  const auto rungs = ladder_design(ratio, boundary, depth);
+  NearFieldLadder ladder;
+  for (const LadderRung& rung : rungs) ladder.error_ += rung.error;
+  if (!(ladder.error_ < largest_error)) return std::nullopt;
+
+  ladder.boundary_ = boundary;
+  ladder.ny_ = grid.ny;
+  const double scale = std::sqrt(grid.cell_area()) / contact_modulus;
+  ladder.stencil_ = whole_stencil<49>(rungs.front().stencil, scale);
+  const auto scaled = [&](int k) {
+    LadderStencil stencil = rungs[static_cast<std::size_t>(k)].stencil;
+    for (double& weight : stencil.weights) weight *= scale;
+    return stencil;
+  };
+  QuarterSymbol left =
+      coarse_symbol(SymbolSource{symbol.period_x, symbol.period_y, symbol.value}, scaled(0));
+  Index nx = grid.nx, ny = grid.ny;
+  for (int k = 0; k < depth; ++k) {
+    Level level;
+    if (boundary == Boundary::periodic) {
+      nx /= 2;
+      ny /= 2;
+    } else {
+      // Cell `reach` of a coarser level lies at cell 0 of the grid, as cell `reach` of every level does.
+      const Index finer_reach = k == 0 ? 0 : reach;
+      nx = (nx + 1) / 2 + 2 * reach;
+      ny = (ny + 1) / 2 + 2 * reach;
+      level.shift = {2 * reach - finer_reach, 2 * reach - finer_reach};
+    }
+    level.source = FramedField<float>(nx, ny);
+    level.image = FramedField<float>(nx, ny);
+    if (k + 1 < depth) {
+      level.stencil = whole_stencil<25>(rungs[static_cast<std::size_t>(k + 1)].stencil, scale);
+      left = coarse_symbol(left, scaled(k + 1));
+    }
+    ladder.levels_.push_back(std::move(level));
+  }
+  if (nx > left.period_x || ny > left.period_y) return std::nullopt;
+  ladder.coarsest_.emplace(Convolution2D<float>::Shape{nx, ny, left.period_x, left.period_y});
+  ladder.coarsest_->set_symbol(0, 0,
+                               [&](Index i, Index j) { return left.value[left.index(i, j)]; });
+  return ladder;
+}
+
+void NearFieldLadder::list_tiles(const std::vector<unsigned char>& in_use) {
+  const std::vector<unsigned char>* finer = &in_use;
+  Index finer_ny = ny_;
+  for (Level& level : levels_) {
+    const Index nx = level.source.nx(), ny = level.source.ny(), across = tiles_across(ny);
+    const Index finer_across = tiles_across(finer_ny),
+                finer_rows = static_cast<Index>(finer->size()) / finer_across;
+    const bool periodic = boundary_ == Boundary::periodic;
+    // The tiles of a coarse row that a tile of the finer grid reaches: the same for every row.
+    const auto within = [&](Index k, Index n) { return periodic ? (k % n + n) % n : k; };
+    std::vector<std::vector<Index>> reached(static_cast<std::size_t>(finer_across));
+    for (Index k = 0; k < finer_across; ++k) {
+      const Index first = k * tile_width, last = std::min(first + tile_width, finer_ny) - 1;
+      auto& tiles = reached[static_cast<std::size_t>(k)];
+      for (Index j = first_reached(first + level.shift.y); j <= last_reached(last + level.shift.y);
+           ++j) {
+        const Index tile = within(j, ny) / tile_width;
+        if (std::find(tiles.begin(), tiles.end(), tile) == tiles.end()) tiles.push_back(tile);
+      }
+    }
+    level.in_use.assign(static_cast<std::size_t>(nx * across), 0);
+    for (Index row = 0; row < finer_rows; ++row) {
+      const unsigned char* used = finer->data() + row * finer_across;
+      for (Index k = 0; k < finer_across; ++k) {
+        if (!used[k]) continue;
+        for (Index i = first_reached(row + level.shift.x); i <= last_reached(row + level.shift.x);
+             ++i)
+          for (const Index tile : reached[static_cast<std::size_t>(k)])
+            level.in_use[static_cast<std::size_t>(within(i, nx) * across + tile)] = 1;
+      }
+    }
+    level.tiles.clear();
+    for (Index row = 0; row < nx; ++row)
+      for (Index k = 0; k < across; ++k)
+        if (level.in_use[static_cast<std::size_t>(row * across + k)])
+          level.tiles.push_back(
+              {static_cast<std::int32_t>(row), static_cast<std::int32_t>(k * tile_width)});
+    level.source.clear();
+    finer = &level.in_use;
+    finer_ny = ny;
+  }
+}
+
+void NearFieldLadder::descend(FramedField<float>& source) {
+  const LadderKernels& kernels = ladder_kernels();
+  const bool periodic = boundary_ == Boundary::periodic;
+  if (periodic) source.wrap();
+  source_ = view(source);
+  FramedView finer = source_;
+  for (Level& level : levels_) {
+    const FramedView coarse = view(level.source);
+    for_tiles_of(level.tiles, [&](Index begin, Index end) {
+      kernels.restriction(level.tiles.data(), begin, end, finer, level.shift, coarse);
+    });
+    if (periodic) level.source.wrap();
+    finer = coarse;
+  }
+  Level& last = levels_.back();
+  const Index ny = last.source.ny();
+  coarsest_->apply(
+      [&](Index row, float*) { return last.source.row(row); },
+      [&](Index row, const float* values) { std::copy_n(values, ny, last.image.row(row)); });
+  if (periodic) last.image.wrap();
+  for (std::size_t k = levels_.size() - 1; k-- > 0;) {
+    Level& level = levels_[k];
+    const FramedView coarse = view(levels_[k + 1].image), image = view(level.image);
+    for_tiles_of(level.tiles, [&](Index begin, Index end) {
+      kernels.ascent(level.tiles.data(), begin, end, view(level.source), level.stencil.data(),
+                     coarse, levels_[k + 1].shift, image);
+    });
+    if (periodic) level.image.wrap();
+  }
+}
+
+void NearFieldLadder::collect(const Tile* tiles, Index begin, Index end, float* row) const {
+  ladder_kernels().last_ascent(tiles, begin, end, source_, stencil_.data(),
+                               view(levels_.front().image), levels_.front().shift, row);
+}
+
+}  // namespace salebra::detail

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <salebra/base/convolution.hpp>
+#include <salebra/contact/half_space/half_space.hpp>
+#include <vector>
+
+#include "framed_field.hpp"
+#include "ladder_design.hpp"
+#include "ladder_kernels.hpp"
+#include "normal_symbol.hpp"
+
+namespace salebra::detail {
+
+// A stand-in G~ for the normal compliance G where fields live on few tiles of a grid:
+//     G~ = T1 + P (T2 + P (… + P C Pᵀ …) Pᵀ) Pᵀ,
+// stencils T on the tiles in use, level below level, cubic B-splines P between them, and a transform C on a grid 2^depth times coarser each
+// way. (1 − eps) G <= G~ <= (1 + eps) G as quadratic forms, eps <= error(): a solve with G~ about an exact gap contracts the error by
+// eps/(1 − eps), whatever the grid, the load or the contact set (docs/theory.md).
+//
+// In float. G~ is symmetric up to rounding, and its result has the same bits for every thread count. One object may run in one thread at a
+// time. Memory: 8/3 bytes for each cell of the grid.
+class NearFieldLadder {
+ public:
+  // None where the grid is too small for it, or has no stencils that are good enough: cells longer than about 1:2, or a period that
+  // does not halve.
+  static std::optional<NearFieldLadder> make(const Grid2D& grid, const NormalSymbol& symbol,
+                                             double contact_modulus, Boundary boundary);
+
+  int depth() const { return static_cast<int>(levels_.size()); }
+  double error() const { return error_; }
+
+  // The tiles of the grid that hold the source and where the result is wanted: (nx, tiles per row), 1 where a tile is in use.
+  void list_tiles(const std::vector<unsigned char>& in_use);
+
+  // Everything that one application needs on the coarser levels. source: on the tiles in use, else zero; its frame is filled here.
+  void descend(FramedField<float>& source);
+  // G~x on tiles [begin, end) of one row, all in use, into its cells.
+  void collect(const Tile* tiles, Index begin, Index end, float* row) const;
+
+ private:
+  struct Level {
+    FramedField<float> source, image;
+    Shift shift = {0, 0};                // of its cells on the finer grid
+    std::array<float, 25> stencil = {};  // T there; of the coarsest unused
+    std::vector<unsigned char> in_use;   // (nx, tiles per row)
+    std::vector<Tile> tiles;
+  };
+
+  NearFieldLadder() = default;
+  Boundary boundary_ = Boundary::periodic;
+  double error_ = 0;
+  Index ny_ = 0;
+  std::array<float, 49> stencil_ = {};  // T1
+  std::vector<Level> levels_;           // the coarsest last
+  std::optional<Convolution2D<float>> coarsest_;
+  FramedView source_ = {};  // of the last descend()
+};
+
+}  // namespace salebra::detail

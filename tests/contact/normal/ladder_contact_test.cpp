@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contacts and punches that iterate on the near-field ladder, against those that iterate with transforms.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <salebra/base/parallel.hpp>
+
+#include "contact/normal/active_set_cg.hpp"
+#include "contact/normal/nested_contact.hpp"
+#include "rough_surface.hpp"
+
+namespace salebra::detail {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+struct Solved {
+  Field pressure, gap;
+  ActiveSetOutcome outcome;
+  double area() const { return (pressure > 0).cast<double>().mean(); }
+};
+
+// On one grid of unit cells with E* = 1, from a start that the next coarser grid gives.
+Solved solve(const Surface& surface, Boundary boundary, const ContactTarget& target,
+             double tolerance, LadderShare share) {
+  const Heights heights{surface.heights.data(), surface.heights.maxCoeff()};
+  const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
+  const auto levels = multigrid_levels(surface.grid, heights, boundary, 2);
+  Solved coarse, fine;
+  for (std::size_t k = levels.size(); k-- > 0;) {
+    const Grid2D& grid = levels[k].grid;
+    Solved& here = k == 0 ? fine : coarse;
+    here.gap = Field(grid.nx, grid.ny);
+    if (k > 0) {
+      here.pressure = Field::Constant(grid.nx, grid.ny, target.load_given() ? target.value : 0.01);
+    } else {
+      here.pressure = Field(grid.nx, grid.ny);
+      prolong(levels[1], coarse.pressure, coarse.gap, coarse.outcome.level, levels[0], boundary,
+              0.6 / cell_compliance(grid, 1), here.pressure.data());
+    }
+    ActiveSetLimits limits{k == 0 ? tolerance : 1e-3, 1000, k == 0};
+    limits.ladder_share = k == 0 ? share : 0;
+    ActiveSetCg<float> solver(grid, 1, boundary, levels[k].heights, rms);
+    here.outcome = solver.solve(target, limits, here.pressure.data(), here.gap.data());
+  }
+  return fine;
+}
+
+Surface unit_cells(Index nx, Index ny, std::uint64_t seed, double cutoff = 8, double dx = 1,
+                   double dy = 1) {
+  test::RoughnessOfTest roughness;
+  roughness.seed = seed;
+  roughness.cutoff = cutoff;
+  return test::rough_surface({nx, ny, static_cast<double>(nx) * dx, static_cast<double>(ny) * dy},
+                             roughness);
+}
+
+ContactTarget pressed(double load, double bound = infinite) {
+  // load is p/(E*·rms slope), and the slope is 0.1.
+  return {ContactTarget::Kind::mean_pressure, 0.1 * load, bound};
+}
+
+}  // namespace
+
+TEST_CASE("A contact takes six or seven exact transforms, and is the one that transforms find") {
+  struct Case {
+    Surface surface;
+    Boundary boundary;
+    ContactTarget target;
+    int most_pairs;
+  };
+  const Surface square = unit_cells(512, 512, 1);
+  const double depth = square.heights.maxCoeff() - square.heights.mean();
+  for (const auto& [surface, boundary, target, most_pairs] :
+       {Case{square, Boundary::periodic, pressed(0.005), 8},
+        Case{square, Boundary::periodic, pressed(0.1), 8},
+        Case{square, Boundary::periodic, pressed(1.2), 8},
+        Case{square, Boundary::periodic, {ContactTarget::Kind::level, 0.5 * depth}, 8},
+        Case{square, Boundary::periodic, pressed(0.02, 0.03), 12},
+        Case{unit_cells(512, 512, 2, 2), Boundary::periodic, pressed(0.02), 8},
+        Case{unit_cells(300, 500, 3), Boundary::periodic, pressed(0.02), 8},
+        Case{unit_cells(512, 256, 4, 8, 1, 1.5), Boundary::periodic, pressed(0.02), 8},
+        Case{unit_cells(256, 256, 5), Boundary::free, pressed(0.02), 8},
+        Case{unit_cells(161, 255, 6), Boundary::free, pressed(0.1), 8},
+        Case{unit_cells(256, 256, 7), Boundary::free, pressed(0.02, 0.03), 12}}) {
+    CAPTURE(surface.grid.nx, surface.grid.ny, boundary == Boundary::free, target.value,
+            target.bound);
+    const Solved ladder = solve(surface, boundary, target, 1e-8, 1.0);
+    const Solved exact = solve(surface, boundary, target, 1e-8, 0.0);
+    REQUIRE(ladder.outcome.converged);
+    REQUIRE(exact.outcome.converged);
+    CHECK(ladder.outcome.ladder_count > 0);
+    CHECK(ladder.outcome.fft_count <= most_pairs);
+    CHECK(exact.outcome.ladder_count == 0);
+    CHECK(exact.outcome.fft_count > most_pairs);
+    // e_c bounds the misfit of gaps where there is pressure; two solutions to 1e-8 differ in energy by no more than some 1e-8, and in
+    // pressures by the root of that.
+    const double difference = std::sqrt((ladder.pressure - exact.pressure).square().sum() /
+                                        exact.pressure.square().sum());
+    CHECK(difference < 1e-3);
+    CHECK(ladder.pressure.mean() == Approx(exact.pressure.mean()).epsilon(1e-6));
+    CHECK(std::abs(ladder.area() - exact.area()) < 1e-3 * exact.area() + 2.0 / 65536);
+  }
+}
+
+TEST_CASE("The tolerance is met by an exact gap in double, however far the ladder is off") {
+  const Surface surface = unit_cells(512, 512, 8);
+  for (const double tolerance : {1e-3, 1e-6, 1e-11}) {
+    const Solved ladder = solve(surface, Boundary::periodic, pressed(0.02), tolerance, 1.0);
+    REQUIRE(ladder.outcome.converged);
+    CHECK(ladder.outcome.exact_fft_count > 0);
+    // Found again by another transform, whose rounding is far below.
+    auto compliance = normal_compliance<double>(surface.grid, 1, Boundary::periodic);
+    Field gap(surface.grid.nx, surface.grid.ny);
+    compliance.apply(ladder.pressure.data(), gap.data());
+    gap -= surface.heights;
+    const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
+    const double residual =
+        (ladder.pressure * (gap - gap.minCoeff())).sum() / (ladder.pressure.sum() * rms);
+    CHECK(residual < 1.01 * tolerance);
+  }
+}
+
+TEST_CASE("A punch takes three exact transforms on the ladder and has the same stiffness") {
+  for (const auto boundary : {Boundary::periodic, Boundary::free})
+    for (const double load : {0.005, 0.1}) {
+      const Index n = boundary == Boundary::free ? 256 : 512;
+      const Surface surface = unit_cells(n, n, 9);
+      const Solved contact = solve(surface, boundary, pressed(load), 1e-8, 0.0);
+      const auto punch = [&](LadderShare share) {
+        PunchLimits limits;
+        limits.ladder_share = share;
+        return ActiveSetCg<float>(surface.grid, 1, boundary, {}, 0)
+            .punch_load(contact.pressure.data(), infinite, limits);
+      };
+      const PunchOutcome ladder = punch(1.0), exact = punch(0.0);
+      CAPTURE(boundary == Boundary::free, load);
+      REQUIRE(ladder.converged);
+      CHECK(ladder.fft_count <= 3);
+      CHECK(exact.fft_count > 8);
+      // Both stop when no more than 1e-11 of the load is left to gain, in one step or in a round.
+      CHECK(ladder.load == Approx(exact.load).epsilon(1e-10));
+    }
+}
+
+TEST_CASE(
+    "Between exact residuals the ladder contracts the error of a punch as its spectral error "
+    "says") {
+  // One round: G~ q = 1 − Gq₀ solved on the set to 1e-5, then q₀ + q. The error in the metric of G~ falls by eps/(1 − eps) at least, what
+  // is left to gain by its square. The metric of G differs from it by the factor (1 ± eps), which is within the bound's slack here.
+  const Surface surface = unit_cells(512, 512, 10);
+  for (const double load : {0.005, 0.02, 0.1}) {
+    const Solved contact = solve(surface, Boundary::periodic, pressed(load), 1e-6, 0.0);
+    PunchLimits limits;
+    limits.relative_gain = 1e-13;
+    limits.ladder_share = 0.0;
+    ActiveSetCg<float> sharp(surface.grid, 1, Boundary::periodic, {}, 0);
+    const double load_exact = sharp.punch_load(contact.pressure.data(), infinite, limits).load;
+    const auto ladder = NearFieldLadder::make(
+        surface.grid, normal_symbol(surface.grid, 1, Boundary::periodic), 1, Boundary::periodic);
+    REQUIRE(ladder);
+    const double contraction = std::pow(ladder->error() / (1 - ladder->error()), 2);
+    // A gain asked for that one round must reach, because what is left by the bound is below it.
+    limits.relative_gain = 1.01 * contraction;
+    limits.ladder_share = 1.0;
+    ActiveSetCg<float> once(surface.grid, 1, Boundary::periodic, {}, 0);
+    const PunchOutcome outcome = once.punch_load(contact.pressure.data(), infinite, limits);
+    CHECK(outcome.fft_count == 1);
+    const double left = 1 - outcome.load / load_exact;
+    CHECK(left < contraction);
+    // It is a ladder and not the exact operator.
+    CHECK(left > 1e-4 * contraction);
+  }
+}
+
+TEST_CASE("A contact on the ladder has the same bits for every number of threads") {
+  const int before = parallel::threads();
+  const Surface surface = unit_cells(512, 512, 11);
+  Solved first;
+  for (const int threads : {1, 2, 3, 7}) {
+    parallel::set_threads(threads);
+    const Solved found = solve(surface, Boundary::periodic, pressed(0.02), 1e-8, 1.0);
+    if (first.pressure.size() == 0) first = found;
+    CHECK((found.pressure == first.pressure).all());
+    CHECK((found.gap == first.gap).all());
+  }
+  parallel::set_threads(before);
+}
+
+}  // namespace salebra::detail
