@@ -107,7 +107,7 @@ void run(const ContactArguments& arguments, Session& session) {
   const double contact_modulus = arguments.material.material().contact_modulus;
   if (arguments.material.contact_modulus && !arguments.material.poisson.empty())
     session.warn(
-        "--poisson: has no effect beside --contact-modulus; a contact is pressed by E* alone");
+        "--poisson: has no effect with --contact-modulus; a contact is pressed by E* alone");
   NormalContactOptions options = contact_options(arguments, session);
   const Surface surface = arguments.surface.read(session);
   if (arguments.position.pressure)

@@ -219,7 +219,7 @@ void add_damper_command(Program& program) {
                "of a tangential oscillator on the contact")
       ->group(use);
   add_quantity(command, "--spring-stiffness", arguments->spring_stiffness, Dimension::stiffness,
-               "of its spring beside the contact")
+               "of its spring, without the contact")
       ->group(use);
   add_quantity(command, "--falling-slope", arguments->falling_slope, Dimension::damping,
                "b of a friction force that falls by b per velocity")

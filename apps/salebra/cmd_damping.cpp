@@ -60,7 +60,7 @@ std::vector<Motion> motions_of(const DampingArguments& arguments) {
   if (arguments.force_amplitude.empty()) return arguments.motion.all_motions();
   require(arguments.motion.normal_amplitude.empty(), "--force-amplitude",
           arguments.force_amplitude.front(),
-          "is given beside --normal-amplitude; give one of them");
+          "is given together with --normal-amplitude; give one of them");
   // The library takes the amplitude of the force in its place.
   MotionOptions motion = arguments.motion;
   motion.normal_amplitude = {0};

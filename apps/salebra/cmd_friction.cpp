@@ -220,13 +220,13 @@ void check(const FrictionArguments& arguments) {
     missing.emplace_back("--velocities (or --velocity-ratios)");
   require_options(missing, "sliding under an oscillation");
   require_that(arguments.velocities.empty() || arguments.velocity_ratios.empty(),
-               "--velocity-ratios", "given beside --velocities; give one of them");
+               "--velocity-ratios", "given together with --velocities; give one of them");
   for (const double velocity : arguments.velocities) require_positive(velocity, "--velocities");
   for (const double ratio : arguments.velocity_ratios) require_positive(ratio, "--velocity-ratios");
   for (const double excursion : arguments.excursions) require_positive(excursion, "--excursions");
   require(arguments.excursions.empty() || arguments.normal_amplitude.size() == 1, "--excursions",
           arguments.excursions.size(),
-          "are a second axis beside the velocities; give one --normal-amplitude");
+          "are a second axis in addition to the velocities; give one --normal-amplitude");
   require_positive(*arguments.premises.friction_coefficient, "--friction-coefficient");
 }
 

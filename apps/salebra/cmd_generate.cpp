@@ -95,7 +95,8 @@ std::optional<HeightDistribution> distribution_of(const GenerateArguments& argum
   if (!arguments.non_gaussian()) return {};
   const bool johnson = arguments.skewness || arguments.kurtosis;
   require_that(johnson + arguments.weibull.has_value() + !arguments.heights_from.empty() == 1,
-               "--skewness", "given beside --weibull or --heights-from; give one distribution");
+               "--skewness",
+               "given together with --weibull or --heights-from; give one distribution");
   if (arguments.weibull) return weibull_heights(*arguments.weibull);
   if (johnson)
     return johnson_heights(arguments.skewness.value_or(0),
@@ -134,7 +135,7 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
   answer["lattice"] = all_of(expected.lattice);
   if (arguments.non_gaussian()) {
     require(method == "random-phase", "--method", method,
-            "has no other heights than its own; leave it out beside a distribution");
+            "has Gaussian heights only; leave it out with a distribution");
     NonGaussianSurface made = non_gaussian(grid, *spectrum, *distribution, arguments.seed,
                                            {.exact = *value_of<Exact>(arguments.exact),
                                             .max_iterations = arguments.max_iterations,

@@ -47,7 +47,7 @@ DescribedLaw of_surface(const GwArguments& arguments, const Material& material, 
         {"--radius", arguments.radius.has_value()},
         {"--summit-rms", arguments.summit_rms.has_value()}})
     require_that(!given, option,
-                 "given beside a surface, which has its own summits; leave out one of them");
+                 "given together with a surface, which has its own summits; leave out one of them");
   const Surface surface = arguments.surface.read(session);
   const HeightStatistics heights = height_statistics(surface);
   if (arguments.summits == "deterministic") {

@@ -127,7 +127,8 @@ void run(const JointArguments& arguments, Session& session) {
     missing.emplace_back("--tangential-forces or --tangential-amplitudes");
   require_options(missing, "a joint");
   require_that(arguments.tangential_forces.empty() || arguments.tangential_amplitudes.empty(),
-               "--tangential-amplitudes", "given beside --tangential-forces; give one of them");
+               "--tangential-amplitudes",
+               "given together with --tangential-forces; give one of them");
   require(!arguments.phase || arguments.normal_amplitude, "--phase", arguments.phase.value_or(0),
           "is that of a normal oscillation; give --normal-amplitude");
   if (arguments.frequency) require_positive(*arguments.frequency, "--frequency");

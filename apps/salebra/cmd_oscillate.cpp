@@ -57,7 +57,7 @@ Body file_of(const OscillateArguments& arguments, Session& session) {
   body.surface = arguments.surface.read(session);
   body.boundary = body.surface.periodic ? Boundary::periodic : Boundary::free;
   require_that(arguments.position.count() == 1, "--indentation",
-               "not given beside --surface; give one position");
+               "needed with --surface; give one position");
   return body;
 }
 
@@ -86,7 +86,8 @@ NormalContactState contact_at(const PositionOptions& position, const Body& body,
 double indentation_of(const OscillateArguments& arguments, const Body& body,
                       const Material& material, const NormalContactOptions& options) {
   const PositionOptions& position = arguments.position;
-  require_that(position.count() <= 1, "--indentation", "given beside another position; give one");
+  require_that(position.count() <= 1, "--indentation",
+               "given together with another position; give one");
   if (position.count() == 0) return body.indentation;
   if (position.indentation) return *position.indentation;
   return contact_at(position, body, material.contact_modulus, body.indentation, options)

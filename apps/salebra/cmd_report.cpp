@@ -41,13 +41,13 @@ void add_report_command(Program& program) {
       [arguments](Session& session) { run(*arguments, session); }, "", OutputCheck::any_name);
   command
       .add_option("RESULTS", arguments->results,
-                  "what study or compare wrote; without --output, the page lies beside it")
+                  "what study or compare wrote; without --output, the page is written next to it")
       ->required()
       ->type_name("FILE");
   command.add_option("--title", arguments->title, "heading of the page");
   command
       .add_option("--direct", arguments->direct,
-                  "what oscillate wrote of the same surface and motion, drawn beside the damping "
+                  "what oscillate wrote of the same surface and motion, drawn with the damping "
                   "curves; several files one after the other")
       ->type_name("FILE");
 }

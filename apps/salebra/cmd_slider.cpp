@@ -233,7 +233,7 @@ void add_slider_command(Program& program) {
                           "with a small disturbance; default rest")
       ->group(motion);
   add_quantity(command, "--largest-amplitude", arguments->largest_amplitude, Dimension::length,
-               "to look for the threshold in; default 10 times that of the least effect")
+               "to look for the threshold in; default 10 times that of the smallest effect")
       ->group(motion);
   command
       .add_option("--steps", arguments->options.steps,

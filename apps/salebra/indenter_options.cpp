@@ -27,7 +27,8 @@ void IndenterOptions::add_to(Command& app) {
       ->group(group);
   add_quantity(app, "--edge-radius", edge_radius, Dimension::length, "rounded: of the edge")
       ->group(group);
-  app.add_option("--table", table, "table: file with two columns, r and f(r), m")
+  app.add_option("--table", table,
+                 "table: file with two columns in m, radius and height, from the axis outwards")
       ->type_name("FILE")
       ->group(group);
 }

@@ -46,7 +46,7 @@ std::pair<std::string, std::vector<double>> position_of(const LawOptions& argume
     const std::vector<double>& values = arguments.*position.values;
     if (values.empty()) continue;
     require_that(found.first.empty(), position.option,
-                 fmt::format("given beside {}; give one of them",
+                 fmt::format("given together with {}; give one of them",
                              found.first.empty() ? "" : option_named(found.first)));
     found = {name, values};
   }
@@ -245,7 +245,7 @@ LawOptions::Contact LawOptions::contact(const MaterialOptions& material, Session
                                         double normal_amplitude) const {
   if (surface.given()) {
     require(law.empty() && curve.empty(), "--surface", surface.file,
-            "is given beside --law or --curve; give one of them");
+            "is given together with --law or --curve; give one of them");
     require_own_parameters();
     const std::vector<double> values = position_of(*this, {"pressure"}).second;
     for (const double value : values) require_positive(value, "--pressure");

@@ -82,7 +82,7 @@ void MaterialOptions::add_to(Command& app) {
                "E*, instead of --young")
       ->group(group);
   add_quantity(app, "--tangential-modulus", tangential_modulus, Dimension::pressure,
-               "G*, beside --contact-modulus")
+               "G*, with --contact-modulus")
       ->group(group);
 }
 
@@ -112,7 +112,7 @@ Material MaterialOptions::material() const {
   require(poisson.empty() || !tangential_modulus, "--tangential-modulus",
           tangential_modulus.value_or(0), "cannot be combined with --poisson; give one of them");
   require(poisson.size() <= 1, "--poisson", poisson.size(),
-          "values are too many beside --contact-modulus, which means one elastic body");
+          "values are too many for --contact-modulus, which means one elastic body");
   if (tangential_modulus) return Material::of_moduli(modulus, *tangential_modulus);
   if (!poisson.empty()) return Material::of_contact_modulus(modulus, poisson[0]);
   return Material::of_contact_modulus(modulus);
@@ -198,7 +198,7 @@ void FrequencyOptions::add_to(Command& app, const std::string& group, bool one) 
 
 std::vector<double> FrequencyOptions::angular() const {
   require_that(frequency.empty() || angular_frequency.empty(), "--angular-frequency",
-               "given beside --frequency; give one of them");
+               "given together with --frequency; give one of them");
   for (const double value : frequency) require_positive(value, "--frequency");
   for (const double value : angular_frequency) require_positive(value, "--angular-frequency");
   std::vector<double> omega = angular_frequency;
@@ -210,7 +210,15 @@ void MotionOptions::add_to(Command& app, bool with_two_frequencies) {
   const std::string group = "Motion (one quantity may be a range from:to:count or a list)";
   std::vector<std::string> modes = {"drag", "equal-frequency"};
   if (with_two_frequencies) modes.push_back("two-frequencies");
-  add_choice(app, "--mode", mode, modes, "drag (default): slow tangential oscillation")
+  app.add_option_function(
+         "--mode",
+         [this](const std::string& name) {
+           mode = name;
+           mode_given = true;
+         },
+         fmt::format("drag (default): slow tangential oscillation: {}", fmt::join(modes, " | ")))
+      ->type_name("NAME")
+      ->choices(modes)
       ->group(group);
   add_values(app, "--normal-amplitude", normal_amplitude, Dimension::length, "u_z")->group(group);
   add_values(app, "--tangential-amplitude", tangential_amplitude, Dimension::length,
@@ -243,6 +251,31 @@ std::pair<std::string, std::vector<double>> MotionOptions::varied() const {
     found = {name, *values};
   }
   return found;
+}
+
+MotionOptions MotionOptions::completed_from(const Oscillation& known) const {
+  MotionOptions all = *this;
+  const auto fill = [](std::vector<double>& values, double value) {
+    if (values.empty()) values = {value};
+  };
+  const auto fill_both = [&](const auto& motion) {
+    fill(all.normal_amplitude, motion.normal_amplitude);
+    if (!frequency.given() && motion.angular_frequency > 0)
+      all.frequency.angular_frequency = {motion.angular_frequency};
+  };
+  if (const auto* drag = std::get_if<Drag>(&known)) {
+    fill_both(*drag);
+    if (mode == "drag") fill(all.drag_velocity, drag->drag_velocity);
+  } else {
+    const auto& equal = std::get<EqualFrequency>(known);
+    fill_both(equal);
+    if (!mode_given && drag_velocity.empty()) all.mode = "equal-frequency";
+    if (all.mode != "drag") {
+      fill(all.tangential_amplitude, equal.tangential_amplitude);
+      fill(all.phase, equal.phase);
+    }
+  }
+  return all;
 }
 
 std::vector<std::string> MotionOptions::missing() const {

@@ -104,17 +104,21 @@ struct FrequencyOptions {
 /// What moves; any one quantity may be a range.
 struct MotionOptions {
   std::string mode = "drag";
+  bool mode_given = false;
   std::vector<double> normal_amplitude, tangential_amplitude, phase, tangential_frequency,
       drag_velocity;
   FrequencyOptions frequency;
 
   /// with_two_frequencies: offers --mode two-frequencies; then use all_motions().
   void add_to(Command& app, bool with_two_frequencies = false);
-  /// Whether any of its quantities was.
+  /// Whether any of them was.
   bool given() const {
-    return !normal_amplitude.empty() || !tangential_amplitude.empty() || !phase.empty() ||
-           frequency.given() || !tangential_frequency.empty() || !drag_velocity.empty();
+    return mode_given || !normal_amplitude.empty() || !tangential_amplitude.empty() ||
+           !phase.empty() || frequency.given() || !tangential_frequency.empty() ||
+           !drag_velocity.empty();
   }
+  /// With what was not given as in a known motion, as far as the mode has it.
+  MotionOptions completed_from(const Oscillation& known) const;
   /// The options that the mode lacks.
   std::vector<std::string> missing() const;
   /// Motions of all combinations, which is one line of them: throws InvalidInput if two quantities have several values.

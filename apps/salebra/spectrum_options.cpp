@@ -104,7 +104,7 @@ std::shared_ptr<const IsotropicSpectrum> SpectrumOptions::isotropic(double cell)
     return std::make_shared<SelfAffineSpectrum>(self_affine(cell));
   }
   require_that(table.empty() || correlation.empty(), "--correlation",
-               "given beside --psd-table; give one of them");
+               "given together with --psd-table; give one of them");
   for (const auto& [value, option] :
        {std::pair{&hurst, "--hurst"}, std::pair{&long_cutoff, "--long-cutoff"},
         std::pair{&rolloff, "--rolloff"}, std::pair{&rms_slope, "--rms-slope"}})

@@ -87,12 +87,12 @@ void StudyArguments::add_to(Command& command) {
       .add_option_function(
           "--shard", [this](const std::string& text) { shard = parse_shard(text); },
           "compute the K-th of N shares of the surfaces, or those that no other process has "
-          "taken, and keep them beside the output file for --merge")
+          "taken, and keep them next to the output file for --merge")
       ->type_name("K/N or any");
   command.add_flag("--merge", merge,
                    "result from the surfaces of all shards; computes nothing, and exits with 3 "
                    "where some are missing");
-  command.add_flag("--no-report", no_report, "no page (.html) beside the output file");
+  command.add_flag("--no-report", no_report, "no page (.html) next to the output file");
 }
 
 StudyReport::StudyReport(const StudyArguments& arguments, Session& session) : session_(session) {
@@ -163,7 +163,7 @@ StudyConfiguration StudyArguments::study() const {
   }
   if (!from_file || material.given()) study.material = material.material_with_tangential_modulus();
   if (!from_file || motion.given()) {
-    const auto motions = motion.motions();
+    const auto motions = (from_file ? motion.completed_from(study.motion) : motion).motions();
     require(motions.size() == 1, motion.varied().first, motions.size(),
             "values; a study has one motion");
     study.motion = motions.front();
@@ -428,7 +428,7 @@ bool run_without_results(const StudyConfiguration& configuration, const StudyArg
   require_that(!arguments.merge, "--merge",
                "cannot be combined with --shard; run it after the shards");
   require_that(session.has_output(), "--shard",
-               "needs the --output of the study; its surfaces are kept beside it");
+               "needs the --output of the study; its surfaces are kept next to it");
   require_that(!session.has_plot(), "--plot",
                "cannot be combined with --shard, which has no result; draw with --merge");
   const std::string folder = parts_folder(session).string();

@@ -40,7 +40,7 @@ HeightDistribution sampled_heights(std::vector<double> heights) {
   auto sorted = std::make_shared<std::vector<double>>(std::move(heights));
   std::sort(sorted->begin(), sorted->end());
   require(sorted->size() >= 2 && sorted->front() < sorted->back(), "heights", sorted->size(),
-          "values have no distribution; give two different ones at the least");
+          "values have no distribution; give at least two different ones");
   const std::string name = "distribution of " + std::to_string(sorted->size()) + " heights";
   return {[sorted](double u) {
             const auto last = static_cast<double>(sorted->size() - 1);

@@ -120,9 +120,9 @@ Surface pyramids_surface(const Grid2D& grid, Index count_x, Index count_y, doubl
                          const PlanePoint& shift) {
   grid.validate();
   require(count_x >= 1 && 2 * count_x <= grid.nx, "count_x", count_x,
-          "must lie in 1 … nx/2, two points a pyramid at the least");
+          "must lie in 1 … nx/2, at least two points a pyramid");
   require(count_y >= 1 && 2 * count_y <= grid.ny, "count_y", count_y,
-          "must lie in 1 … ny/2, two points a pyramid at the least");
+          "must lie in 1 … ny/2, at least two points a pyramid");
   const double slope = checked_slope(angle);
   const double tile_x = grid.lx / static_cast<double>(count_x);
   const double tile_y = grid.ly / static_cast<double>(count_y);

@@ -64,7 +64,8 @@ tangential_modulus : float, optional
           [](Material* self, double contact_modulus, std::optional<double> poisson,
              std::optional<double> tangential_modulus) {
             require(!poisson || !tangential_modulus, "tangential_modulus",
-                    tangential_modulus.value_or(0), "was given beside poisson; give one of them");
+                    tangential_modulus.value_or(0),
+                    "was given together with poisson; give one of them");
             new (self) Material(poisson ? Material::of_contact_modulus(contact_modulus, *poisson)
                                 : tangential_modulus
                                     ? Material::of_moduli(contact_modulus, *tangential_modulus)

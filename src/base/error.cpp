@@ -37,7 +37,7 @@ void require_that(bool ok, std::string_view field, std::string_view demand) {
 
 void require_one(bool given, std::string_view field, bool other_given, std::string_view other) {
   if (given == other_given)
-    throw InvalidInput(field, (given ? "given beside " : "not given, nor is ") +
+    throw InvalidInput(field, (given ? "given together with " : "not given, nor is ") +
                                   std::string(other) + "; give one of them");
 }
 

@@ -37,8 +37,9 @@ TrajectoryRange checked_range(const Trajectory& trajectory, const CycleOptions& 
   if (!trajectory.indentation || !trajectory.tangential)
     throw InvalidInput("trajectory", "a function is missing; give indentation and tangential");
   if (trajectory.tangential_force)
-    throw InvalidInput("tangential_force",
-                       "is given beside tangential, or to a cycle without friction; leave it out");
+    throw InvalidInput(
+        "tangential_force",
+        "is given together with tangential, or to a cycle without friction; leave it out");
   TrajectoryRange range;
   for (int k = 0; k <= options.steps; ++k) {
     const double t = static_cast<double>(k) / options.steps;

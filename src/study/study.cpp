@@ -117,7 +117,7 @@ void flag(StudyResult& result) {
     result.flags.push_back(
         {"few_spots",
          fmt::format(
-             "few contact spots: the least load of the fit has {:.0f} on one surface, fewer "
+             "few contact spots: the lowest load of the fit has {:.0f} on one surface, fewer "
              "than 50; a larger surface, more seeds or a higher window helps",
              fewest)});
 }

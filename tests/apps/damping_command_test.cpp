@@ -325,7 +325,7 @@ TEST_CASE("What contradicts a curve is said in the quantity that was typed", "[d
       test.run("sweep rough.h5 --contact-modulus 1GPa --poisson 0.3 --pressures 1:2MPa:4").err,
       Catch::Contains("--poisson: has no effect without --stiffness"));
   CHECK_THAT(test.run("contact rough.h5 --contact-modulus 1GPa --poisson 0.3 --pressure 1MPa").err,
-             Catch::Contains("--poisson: has no effect beside --contact-modulus"));
+             Catch::Contains("--poisson: has no effect with --contact-modulus"));
 }
 
 TEST_CASE("A slow motion that passes a contact spot in one normal cycle is told", "[damping]") {

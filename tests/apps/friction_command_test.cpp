@@ -127,7 +127,7 @@ TEST_CASE("Bad input of friction is refused by its option", "[sliding][input]") 
            {law + motion + "--velocities -1:1mm/s:5", "--velocities: '-1:1mm/s:5'"},
            {law + "--velocities 1mm/s", "--friction-coefficient, --normal-amplitude, --frequency"},
            {law + motion + "--velocities 1mm/s --frequency 1kHz",
-            "--angular-frequency: given beside --frequency"},
+            "--angular-frequency: given together with --frequency"},
            {law + "--friction-coefficient 0 --normal-amplitude 1nm --frequency 1kHz --velocities "
                   "1mm/s",
             "--friction-coefficient: 0"},

@@ -57,6 +57,34 @@ TEST_CASE("A study's summary puts Eq. (16) beside the damping computed", "[study
   CHECK(test.run("study study.toml -o other.h5 --no-report --quiet --progress never").err.empty());
 }
 
+TEST_CASE("Options of the motion override single entries of a study file", "[study]") {
+  const ProgramTest test;
+  test.write("study.toml", study);
+  const auto printed = [&](const std::string& options) {
+    const auto result = test.run("study " + options + " --quiet --progress never");
+    return result.status == 0 ? result.out : result.err;
+  };
+  CHECK_THAT(printed("study.toml --drag-velocity 0.5mm/s"),
+             Contains("drag at 500 µm/s, normal oscillation of 100 pm at 20 kHz"));
+  // Another mode keeps what both have.
+  CHECK_THAT(printed("study.toml --mode equal-frequency"),
+             Contains("--tangential-amplitude, --phase: not given"));
+  const auto both = " --mode equal-frequency --tangential-amplitude 0.2nm --phase 90deg";
+  CHECK_THAT(printed(std::string("study.toml") + both),
+             Contains("normal 100 pm, tangential 200 pm, phase 90 deg, 20 kHz"));
+
+  const std::string drag = "drag_velocity = \"1mm/s\"";
+  std::string equal = study;
+  equal.replace(equal.find(drag), drag.size(),
+                "mode = \"equal-frequency\"\ntangential_amplitude = \"0.2nm\"\nphase = \"90deg\"");
+  test.write("equal.toml", equal);
+  CHECK_THAT(printed("equal.toml --normal-amplitude 0.3nm"),
+             Contains("normal 300 pm, tangential 200 pm, phase 90 deg, 20 kHz"));
+  CHECK_THAT(printed("equal.toml --drag-velocity 1mm/s"),
+             Contains("drag at 1 mm/s, normal oscillation of 100 pm at 20 kHz"));
+  CHECK_THAT(printed("equal.toml --mode drag"), Contains("--drag-velocity: not given"));
+}
+
 TEST_CASE("A damping constant of a study has its error, and none is printed that is no larger",
           "[study]") {
   const ProgramTest test;

@@ -48,7 +48,7 @@ TEST_CASE("Of two things exactly one is given", "[error]") {
   CHECK_NOTHROW(require_one(true, "force", false, "indentation"));
   CHECK_NOTHROW(require_one(false, "force", true, "indentation"));
   CHECK(refusal([] { require_one(true, "force", true, "indentation"); }).what() ==
-        std::string("force: given beside indentation; give one of them"));
+        std::string("force: given together with indentation; give one of them"));
   CHECK(refusal([] { require_one(false, "force", false, "indentation"); }).what() ==
         std::string("force: not given, nor is indentation; give one of them"));
 }

@@ -66,7 +66,7 @@ void require(bool ok, std::string_view field, const T& value, std::string_view d
   throw InvalidInput(field, text.str(), demand);
 }
 
-/// Throws InvalidInput(field, demand) unless ok: for what no value shows, "given beside size_x; give one of them".
+/// Throws InvalidInput(field, demand) unless ok: for what no value shows, "given together with size_x; give one of them".
 void require_that(bool ok, std::string_view field, std::string_view demand);
 
 /// Throws InvalidInput unless exactly one of two things is given.

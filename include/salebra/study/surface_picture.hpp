@@ -54,7 +54,7 @@ constexpr void describe(Visitor&& visit, std::type_identity<SurfacePicture>) {
   visit(&S::heights, Kept{"heights", "height above the mean, m"});
   visit(&S::first_load,
         Kept{"first_load",
-             "number of the least pressure of the curve at which the point touches; -1: none"});
+             "number of the lowest pressure of the curve at which the point touches; -1: none"});
   visit(&S::mapped_load,
         Kept{"mapped_load", "number of the pressure of the maps of pressure and gap"});
   visit(&S::contact_pressure, Kept{"contact_pressure", "contact pressure at that load, Pa"});
