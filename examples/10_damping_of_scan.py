@@ -6,7 +6,6 @@
 
 # %%
 import math
-import pathlib
 import sys
 
 import matplotlib.pyplot as plt
@@ -14,14 +13,14 @@ import numpy as np
 
 import salebra
 
-scan = sys.argv[1] if len(sys.argv) == 2 and pathlib.Path(sys.argv[1]).exists() else "data/surfaces/afm-scan.txt"
+scan = sys.argv[1] if len(sys.argv) == 2 else "data/surfaces/afm-scan.txt"
 surface = salebra.read_surface(scan).detrended()
 material = salebra.Material("115GPa", poisson=0.3)
 motion = salebra.Drag(normal_amplitude=1e-9, drag_velocity=1e-6, angular_frequency=2 * math.pi * 20e3)
 
 # %% [markdown]
 # ## Force over mean gap
-# Eight loads, from some spots to a tenth of full contact $E^*h'$. Is the force an exponential of the mean gap?
+# Eight loads, from a few contact spots to a tenth of $E^*h'$ ($h'$: rms slope). Is the force an exponential of the mean gap?
 
 # %%
 pressures = material.contact_modulus * surface.moments.rms_slope * np.geomspace(5e-3, 0.1, 8)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # %% [markdown]
 # # Friction under vibration
-# A contact slides at constant velocity and oscillates in the normal direction. Slowly, its mean friction is lower than Coulomb's.
+# A contact slides at constant velocity and oscillates in the normal direction. At low velocity its mean friction is lower than Coulomb's.
 
 # %%
 import math

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # %% [markdown]
 # # A joint: loop of force and displacement, and the energy lost
-# A rough joint under a constant normal force is loaded tangentially to and fro. It slips in part, long before it slides.
+# A rough joint under a constant normal force carries a tangential force that oscillates. Parts of it slip long before all of it slides.
 
 # %%
 import sys

@@ -11,7 +11,7 @@ import numpy as np
 
 import salebra
 
-n = int(sys.argv[1]) if len(sys.argv) == 2 and sys.argv[1].isdigit() else 256
+n = int(sys.argv[1]) if len(sys.argv) == 2 else 256
 
 # %% [markdown]
 # ## Memory before anything is made

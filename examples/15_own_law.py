@@ -18,8 +18,8 @@ force = 0.05  # N
 
 # %% [markdown]
 # ## An indenter from its profile
-# Heights over the radius, here of a ball of 1 mm with a worn cap; a profilometer gives such a table. The table becomes an indenter, and the contact is solved by dimensionality reduction, without error but
-# that of the table.
+# Heights over the radius, here of a ball of 1 mm with a worn cap; a profilometer gives such a table. The contact is solved by dimensionality reduction, whose only error is that of
+# the table.
 
 # %%
 radii = np.linspace(0, 100e-6, 41)
@@ -55,8 +55,8 @@ if not (worn.converged and ball.converged and measured.converged):
 figure, (left, right) = plt.subplots(1, 2, figsize=(8, 3.5), layout="constrained")
 left.plot(radii * 1e6, heights * 1e6)
 left.set(xlabel="radius, µm", ylabel="height, µm", title="Profile")
-right.loglog(depth, forces, label="new ball")
-right.loglog(depth, indenter.force(depth), label="worn ball")
-right.set(xlabel="indentation, m", ylabel="force, N", title="Law")
+right.loglog(depth * 1e6, forces, label="new ball")
+right.loglog(depth * 1e6, indenter.force(depth), label="worn ball")
+right.set(xlim=(0.1, 10), xlabel="indentation, µm", ylabel="force, N", title="Law")
 right.legend()
 plt.show()
