@@ -16,8 +16,9 @@ def names():
         for source in sorted(_ROOT.glob(pattern)):
             text = re.sub(r"^\s*///.*\n", "", source.read_text(), flags=re.M)
             entries = re.findall(r'Quantity\{\s*"(\w+)",\s*(?:Dimension::)?(\w+),\s*((?:"[^"]*"\s*)+)\}', text)
-            if len(entries) != text.count('Quantity{"'):
-                raise ValueError(f"{source}: {text.count('Quantity{')} quantities, {len(entries)} of them understood; has their form changed?")
+            written = len(re.findall(r'Quantity\{\s*"', text))
+            if len(entries) != written:
+                raise ValueError(f"{source}: {written} quantities, {len(entries)} of them understood; has their form changed?")
             for name, dimension, meaning in entries:
                 meaning = "".join(re.findall(r'"([^"]*)"', meaning))
                 known, meanings = table.setdefault(name, (units[dimension], []))

@@ -22,7 +22,9 @@ MODULES = {
     "contact": "material, boundary elements, Greenwood–Williamson, dimensionality reduction, the law",
     "damping": "what moves, the loss, the paper's closed forms, direct simulation",
     "io": "files and pictures",
+    "results": "what each result is called, with unit and meaning; files of curves",
     "study": "the whole path for an ensemble",
+    "report": "the results of a study as a page",
 }
 NOTEBOOKS = ("10_damping_of_scan", "12_joint", "13_tunable_damper", "15_own_law")
 # The submodules of the Python package.
@@ -137,6 +139,9 @@ def preamble(header):
 
 def header_pages():
     """docs/cpp/<module>.rst lists the public headers of a module, docs/cpp/<module>/….rst is what one of them declares."""
+    modules = {folder.name for above in ("include", "generators/include") for folder in (root / above / "salebra").iterdir()}
+    if modules != set(MODULES):
+        sys.exit(f"stage.py: MODULES and the folders of headers differ by {modules ^ set(MODULES)}; list all of them in MODULES")
     for module, about in MODULES.items():
         above = root / ("generators/include" if module == "generators" else "include")
         headers = sorted(p.relative_to(above) for p in (above / "salebra" / module).rglob("*.hpp"))

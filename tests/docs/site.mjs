@@ -3,10 +3,11 @@
 // of what is wrong, with 77 where the site is missing or old, or Chromium or playwright-core (tests/report) missing. FOLDER: where screenshots go.
 import {existsSync, readdirSync, statSync} from "node:fs";
 import {createRequire} from "node:module";
-import {join} from "node:path";
+import {join, resolve} from "node:path";
 import {fileURLToPath} from "node:url";
 
-const [, , site, folder] = process.argv;
+const [, , given, folder] = process.argv;
+const site = resolve(given);
 const executablePath = ["chromium", "chromium-browser", "google-chrome"].map((name) => join("/usr/bin", name)).find(existsSync);
 const skip = (why) => { console.error(`skipped: ${why}`); process.exit(77); };
 if (!existsSync(join(site, "docs/index.html"))) skip(`no site in ${site}`);
@@ -40,6 +41,9 @@ for (const [name, viewport] of [["desk", {width: 1400, height: 900}], ["phone", 
     await page.goto(`file://${join(site, one)}.html`, {waitUntil: "load"});
     const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
     check(content <= window + 1, `${one}, ${name}: ${content} pixels of content in a window of ${window}`);
+    const cut = await page.evaluate(() => [...document.querySelectorAll("article p > math")]
+      .filter((formula) => formula.getBoundingClientRect().right > document.documentElement.clientWidth).map((formula) => formula.textContent));
+    check(cut.length === 0, `${one}, ${name}: formulas of the text are cut off; set them apart: ${cut}`);
     const text = await page.locator("article").innerText();
     check(!text.includes("_core"), `${one}: names the extension, salebra._core`);
     const missing = await page.evaluate(() => [...document.images].filter((image) => image.complete && image.naturalWidth === 0).map((image) => image.src));
