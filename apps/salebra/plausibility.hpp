@@ -22,7 +22,8 @@ std::vector<std::string> doubts_of_pressures(std::span<const double> nominal_pre
 std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
                                         double spot_radius);
 
-/// A table so coarse that the indentation at this contact radius changes by more than 5 % without every other point.
+/// A table of radii beyond 1 m, most likely in another unit, or so coarse that the indentation at this contact radius changes by more than
+/// 5 % without every other point.
 std::vector<std::string> doubts_of_profile(const IndenterProfile& profile, double contact_radius);
 
 }  // namespace salebra::cli

@@ -173,6 +173,19 @@ TEST_CASE("mdr refuses ranges with a way that its profile has, and warns of a co
   CHECK_THAT(coarse.err, Catch::Contains("warning: the table is coarse"));
 }
 
+TEST_CASE("mdr warns of a table that is most likely not in metres", "[mdr]") {
+  const ProgramTest test;
+  // The ball of 1 mm radius in µm.
+  std::string rows;
+  for (int r = 0; r <= 100; r += 2)
+    rows += std::to_string(r) + " " + std::to_string(r * r / 2000.0) + "\n";
+  test.write("table.txt", rows);
+  const auto result = test.run("mdr --profile table --table table.txt --normal-force 50mN " + body);
+  CHECK(result.status == 0);
+  CHECK_THAT(result.err,
+             Catch::Contains("warning: the table has radii up to 100 m; check the unit"));
+}
+
 TEST_CASE("The CLI refuses each unusable input of a damped contact with its reason",
           "[mdr][damping][bad-input]") {
   const ProgramTest test;
