@@ -41,7 +41,7 @@ for (const [name, viewport] of [["desk", {width: 1400, height: 900}], ["phone", 
     await page.goto(`file://${join(site, one)}.html`, {waitUntil: "load"});
     const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
     check(content <= window + 1, `${one}, ${name}: ${content} pixels of content in a window of ${window}`);
-    const cut = await page.evaluate(() => [...document.querySelectorAll("article p > math")]
+    const cut = await page.evaluate(() => [...document.querySelectorAll("article p > math, article li > math")].filter((formula) => !formula.closest("table"))
       .filter((formula) => formula.getBoundingClientRect().right > document.documentElement.clientWidth).map((formula) => formula.textContent));
     check(cut.length === 0, `${one}, ${name}: formulas of the text are cut off; set them apart: ${cut}`);
     const text = await page.locator("article").innerText();
