@@ -13,7 +13,7 @@ namespace {
 // The coarsest transform has at least this many points along its shorter side: a smaller one costs no less than what surrounds it.
 constexpr Index least_period = 128;
 // Stencils worse than this make more exact transforms necessary than they save.
-constexpr double largest_error = 0.2;
+constexpr double acceptable_error = 0.2;
 // Cells beyond the edge of an isolated patch that the splines of a coarser level reach, at each side.
 constexpr Index reach = 2;
 
@@ -60,7 +60,7 @@ std::optional<NearFieldLadder> NearFieldLadder::make(const Grid2D& grid, const N
   const auto rungs = ladder_design(ratio, boundary, depth);
   NearFieldLadder ladder;
   for (const LadderRung& rung : rungs) ladder.error_ += rung.error;
-  if (!(ladder.error_ < largest_error)) return std::nullopt;
+  if (!(ladder.error_ < acceptable_error)) return std::nullopt;
 
   ladder.boundary_ = boundary;
   ladder.ny_ = grid.ny;

@@ -9,11 +9,11 @@
 namespace salebra::detail {
 namespace {
 
-// Measured on one core (docs/performance.md): the ladder is as fast as a transform of 512² where a fifth of the points are in tiles in use,
-// of 1024² at half of them and of 2048² at four fifths; what surrounds the stencils weighs less on large grids.
+// Measured on one core (docs/performance.md): the ladder is as fast as a transform of 512² where a quarter of the points are in tiles in
+// use, of 1024² at half of them and of 2048² at three quarters; what surrounds the stencils weighs less on large grids.
 double worthwhile_share(double points) {
   const double doublings = 0.5 * std::log2(points / (512.0 * 512.0));
-  return doublings < -0.1 ? 0 : std::min(0.2 + 0.3 * std::max(doublings, 0.0), 0.8);
+  return doublings < -0.1 ? 0 : std::min(0.25 + 0.25 * std::max(doublings, 0.0), 0.75);
 }
 
 }  // namespace

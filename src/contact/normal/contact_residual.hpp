@@ -35,6 +35,8 @@ struct PunchLimits {
   int max_iterations = 1000;
   std::function<bool(int iteration)> keep_going = {};
   LadderShare ladder_share = {};
+  // On the ladder a round of CG ends, and the residual is computed afresh, when a step gains less than this part of what the round gained.
+  double round_ends = 1e-4;
 };
 
 struct PunchOutcome {

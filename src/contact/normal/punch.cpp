@@ -19,8 +19,6 @@ namespace {
 
 // The load is a maximum over q, so its error is the square of the error of q: a loose solve is enough for a sharp load.
 constexpr int gains_in_a_row = 2;
-// On the ladder a round of CG ends, and the residual is computed afresh, when a step gains less than this part of what the round gained.
-constexpr double round_ends = 1e-4;
 
 }  // namespace
 
@@ -92,7 +90,8 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
     ++outcome.iterations;
     if (!on_ladder_) {
       small_gains = gain < limits.relative_gain * gained ? small_gains + 1 : 0;
-    } else if (gain < std::max(round_ends * round_gained, limits.relative_gain * gained)) {
+    } else if (gain < std::max(limits.round_ends * round_gained,
+                               std::min(limits.round_ends, limits.relative_gain) * gained)) {
       if (last_round > 0) contraction = round_gained / last_round;
       last_round = round_gained;
       round_gained = 0;
