@@ -100,6 +100,9 @@ void ActiveSetCg<Real>::choose_operator() {
     if (ladder_failed_) return;
     ladder_->list_tiles(in_use_);
     on_ladder_ = true;
+    // Until a dense residual, no transform: its spectrum gives its own memory back.
+    compliance_.keep_spectrum_in(pool_.get());
+    spectrum_in_pool_ = true;
   }
 }
 

@@ -55,8 +55,8 @@ ContactSet contact_set(const NormalContactState& state);
 /// its neighbourhood are a small part, the iterations apply a ladder of stencils in place of G, and exact transforms only renew the gap.
 /// contact_modulus   E* > 0, Pa;   nominal_pressure > 0, Pa, below the hardness
 /// throws            InvalidInput before any work; non-convergence is returned, not thrown
-/// cost              15 to 100 iterations of one transform pair each, or of one application of the ladder and 6 or 7 pairs in all; 57 to 67 bytes a cell with heights and result, the more the
-///                   larger the contact (docs/performance.md)
+/// cost              15 to 100 iterations of one transform pair each, or of one application of the ladder and 5 to 7 pairs in all;
+///                   50 to 75 bytes a cell with heights and result, the more the larger the contact (docs/performance.md)
 NormalContactState press_to_pressure(const Surface& surface, double contact_modulus,
                                      double nominal_pressure,
                                      const NormalContactOptions& options = {});
@@ -74,7 +74,7 @@ NormalContactState press_to_indentation(const Surface& surface, double contact_m
 /// Normal stiffness K = dF/dδ of the contact set {0 < p < hardness} of a state, by one linear solve with the set held: N/m.
 /// punch_pressure, where given, receives dp/dδ of the cells, Pa/m (left alone where K is not found by a solve).
 /// +infinity for a periodic cell in full contact, NaN where the solve did not converge within max_iterations or was interrupted.
-/// Cost: one transform pair an iteration, about as many as the contact took.
+/// Cost: as many iterations as the contact took, with one transform pair each, or on the ladder with three pairs in all.
 double normal_stiffness(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
                         const NormalContactOptions& options = {}, Field* punch_pressure = nullptr);
 

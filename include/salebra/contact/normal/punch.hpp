@@ -30,7 +30,7 @@ struct PunchStiffness {
 
 /// pressure, where given, receives that of a unit approach, Pa/m.
 /// Throws InvalidInput for a bad grid or option, and if every cell of a periodic grid is in contact.
-/// Cost: one transform pair an iteration, in float, and one in double.
+/// Cost: one transform pair an iteration, in float, and one in double; on the ladder (press_to_pressure()) three pairs in all.
 PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
                                double contact_modulus, const PunchOptions& options = {},
                                Field* pressure = nullptr);
