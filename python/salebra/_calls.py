@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import __future__
 import difflib
+import errno
 import functools
 import inspect
 import os
@@ -31,6 +32,10 @@ class ConvergenceWarning(UserWarning):
 
 class MissingFile(_core.InvalidInput, FileNotFoundError):
     """A file that is to be read, or the folder of one that is to be written, is not there. Also an InvalidInput."""
+
+    def __str__(self) -> str:
+        # An OSError with a filename puts its number and that name around the text, which names the file already.
+        return str(self.args[0])
 
 
 def refusal(field: str, value: str, demand: str) -> _core.InvalidInput:
@@ -267,6 +272,7 @@ def _missing_file(error: Exception, signature: inspect.Signature, arguments: tup
                 missing = MissingFile(str(error))
                 missing.__dict__.update(error.__dict__)
                 missing.filename = path
+                missing.errno = errno.ENOENT
                 raise missing from None
 
 

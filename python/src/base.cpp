@@ -67,12 +67,12 @@ void bind_base(nb::module_& m) {
     try {
       std::rethrow_exception(thrown);
     } catch (const InvalidInput& what) {
-      nb::object error = invalid(printable(what.what()));
+      nb::object refusal = invalid(printable(what.what()));
       for (const auto& [name, part] :
            {std::pair("field", &what.field()), std::pair("value", &what.value()),
             std::pair("constraint", &what.constraint()), std::pair("remedy", &what.remedy())})
-        error.attr(name) = printable(*part);
-      PyErr_SetObject(invalid.ptr(), error.ptr());
+        refusal.attr(name) = printable(*part);
+      PyErr_SetObject(invalid.ptr(), refusal.ptr());
     } catch (const IoError& what) {
       raise(io, what);
     } catch (const NotConverged& what) {

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import copy
+import errno
 import inspect
 import math
 import pickle
@@ -308,6 +309,7 @@ def test_a_file_that_is_not_there_is_a_filenotfounderror(tmp_path: Path) -> None
         with pytest.raises(FileNotFoundError, match="nowhere.h5") as raised:
             read(tmp_path / "nowhere.h5")
         assert isinstance(raised.value, salebra.InvalidInput)
+        assert raised.value.errno == errno.ENOENT and "Errno" not in str(raised.value)
     with pytest.raises(FileNotFoundError):
         salebra.write_surface(tmp_path / "no folder" / "s.h5", generated(32))
     # A file that is there and unusable is none.

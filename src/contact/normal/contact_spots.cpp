@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contact patches of a pressure field: areas, forces, perimeter, and the area corrected for it.
+// Contact spots of a pressure field: areas, forces, perimeter, and the area corrected for it.
 #include <algorithm>
 #include <cmath>
 #include <functional>
