@@ -50,9 +50,9 @@ Solved solve(const Surface& surface, const Case& c, LadderShare share) {
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
   const detail::ContactTarget target{detail::ContactTarget::Kind::mean_pressure, 0.1 * c.load,
                                      0.1 * c.hardness};
-  const auto levels = detail::multigrid_levels(
-      surface.grid, {surface.heights.data(), surface.heights.maxCoeff()}, c.boundary,
-      std::numeric_limits<int>::max());
+  const auto levels =
+      detail::multigrid_levels(surface.grid, {surface.heights.data(), surface.heights.maxCoeff()},
+                               c.boundary, std::numeric_limits<int>::max());
   Solved solved;
   Field gap;
   for (std::size_t k = levels.size(); k-- > 0;) {
@@ -125,8 +125,8 @@ int main(int argc, char** argv) {
       const double cell = 1.0 / static_cast<double>(points);
       const SelfAffineSpectrum spectrum(
           {.hurst = 0.8, .rolloff = 0.125, .short_cutoff = c.cutoff * cell, .rms_slope = 0.1});
-      Surface surface = exact_rms({points, points, 1, 1}, spectrum,
-                                  static_cast<std::uint64_t>(seed), Rms::slope);
+      Surface surface =
+          exact_rms({points, points, 1, 1}, spectrum, static_cast<std::uint64_t>(seed), Rms::slope);
       surface.heights /= cell;
       surface.grid.lx = surface.grid.ly = static_cast<double>(points);
       // Plans and stencils are made once in a process.
@@ -147,11 +147,12 @@ int main(int argc, char** argv) {
         }
       for (std::size_t k = 0; k < 3; ++k) worst[k].seconds += seconds[k];
     }
-    std::printf("%4ld^2    %-8s %7g %6g %8g  %5d %5d + %-4d %5d + %-4d  %7.2f %7.2f  %11.4f %8.1e\n",
-                static_cast<long>(points), c.boundary == Boundary::free ? "free" : "periodic",
-                c.cutoff, c.load, c.hardness, worst[0].pairs, worst[1].pairs, worst[1].applications,
-                worst[2].pairs, worst[2].applications, worst[0].seconds / worst[1].seconds,
-                worst[0].seconds / worst[2].seconds, contracted, residual);
+    std::printf(
+        "%4ld^2    %-8s %7g %6g %8g  %5d %5d + %-4d %5d + %-4d  %7.2f %7.2f  %11.4f %8.1e\n",
+        static_cast<long>(points), c.boundary == Boundary::free ? "free" : "periodic", c.cutoff,
+        c.load, c.hardness, worst[0].pairs, worst[1].pairs, worst[1].applications, worst[2].pairs,
+        worst[2].applications, worst[0].seconds / worst[1].seconds,
+        worst[0].seconds / worst[2].seconds, contracted, residual);
     std::fflush(stdout);
   }
   for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {

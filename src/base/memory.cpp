@@ -36,10 +36,10 @@ void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 void* allocate_large(std::size_t bytes) {
   constexpr std::size_t cache_line = 64;
   const std::size_t alignment = bytes >= 2 * large_page ? large_page : cache_line;
-  const std::size_t whole = (bytes + cache_line - 1) / cache_line * cache_line;
-  void* memory = std::aligned_alloc(alignment, whole);
+  // The standard wants a multiple of the alignment; what is beyond `bytes` is never touched.
+  void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
   if (!memory) throw std::bad_alloc();
-  advise_large_pages(memory, whole);
+  advise_large_pages(memory, (bytes + cache_line - 1) / cache_line * cache_line);
   return memory;
 }
 

@@ -27,10 +27,11 @@ double coupling_constant(const ElasticBody& first, const ElasticBody& second) {
 }
 
 double coupling_constant(const Material& material) {
-  require(std::isfinite(material.cerruti_isotropic) && std::isfinite(material.cerruti_directed),
-          "material", material.cerruti_isotropic,
-          "as Cerruti's constant does not determine the coupling; give Young's moduli and Poisson's "
-          "ratios, or a contact modulus with Poisson's ratio");
+  require(
+      std::isfinite(material.cerruti_isotropic) && std::isfinite(material.cerruti_directed),
+      "material", material.cerruti_isotropic,
+      "as Cerruti's constant does not determine the coupling; give Young's moduli and Poisson's "
+      "ratios, or a contact modulus with Poisson's ratio");
   return (material.cerruti_isotropic - material.cerruti_directed) / 2;
 }
 

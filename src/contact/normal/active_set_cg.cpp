@@ -300,7 +300,7 @@ void ActiveSetCg<Real>::refresh(Run& run) {
   run.outcome.residual = residual;
   if (on_ladder_) {
     run.misses = residual > 0.5 * run.at_refresh ? run.misses + 1 : 0;
-    if (run.misses >= most_misses) leave_ladder();
+    if (run.misses >= most_misses) on_ladder_ = false;
     run.best = std::max(run.best, residual);
   }
   run.at_refresh = std::max(residual, std::numeric_limits<double>::min());

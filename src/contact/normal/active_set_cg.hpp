@@ -186,7 +186,6 @@ class ActiveSetCg {
   void choose_tiles(Run& run, double margin);
   void list_tiles();
   void choose_operator();
-  void leave_ladder();
   void renew_punch_residual();
   void keep_directions(const std::vector<Tile>& before, const std::vector<Index>& begins_before);
   std::byte* pool(std::size_t bytes);
@@ -210,7 +209,7 @@ class ActiveSetCg {
   std::array<Real, stencil_size> stencil_;
   const TileKernels<Real>& kernels_;
   std::optional<NearFieldLadder> ladder_;  // made when it is first needed
-  bool ladder_failed_ = false;             // or the grid has none
+  bool operator_chosen_ = false;           // of this solve
   LadderShare ladder_share_;               // of the limits
   bool spectrum_in_pool_ = false;          // that of compliance_
   bool on_ladder_ = false;  // the iterations apply the ladder in place of a transform

@@ -9,11 +9,12 @@
 namespace salebra::detail {
 namespace {
 
-// Measured on one core (docs/performance.md): the ladder is as fast as a transform of 512² where a quarter of the points are in tiles in
-// use, of 1024² at half of them and of 2048² at three quarters; what surrounds the stencils weighs less on large grids.
+// Of the first tiles, which are the most. Measured on one core (docs/performance.md): the ladder is as fast as a transform of 512² where
+// about a third of the points are in tiles, of 1024² at some more than half of them and of 2048² at four fifths; what surrounds the
+// stencils weighs less on large grids.
 double worthwhile_share(double points) {
   const double doublings = 0.5 * std::log2(points / (512.0 * 512.0));
-  return doublings < -0.1 ? 0 : std::min(0.25 + 0.25 * std::max(doublings, 0.0), 0.75);
+  return doublings < -0.1 ? 0 : std::min(0.35 + 0.225 * std::max(doublings, 0.0), 0.8);
 }
 
 }  // namespace
@@ -38,6 +39,7 @@ TileArrays<Real> ActiveSetCg<Real>::arrays(double bound) {
 
 template <class Real>
 void ActiveSetCg<Real>::reset() {
+  operator_chosen_ = on_ladder_ = false;
   tiles_.clear();
   row_begins_.assign(static_cast<std::size_t>(grid_.nx + 1), 0);
   in_use_.assign(static_cast<std::size_t>(grid_.nx * tiles_per_row_), 0);
@@ -85,31 +87,21 @@ void ActiveSetCg<Real>::list_tiles() {
   choose_operator();
 }
 
-// The ladder where few tiles are in use: its work goes with their number, that of a transform does not.
+// The ladder where few tiles are in use: its work goes with their number, that of a transform does not. Chosen once in a solve, since a
+// change costs more than it saves.
 template <class Real>
 void ActiveSetCg<Real>::choose_operator() {
-  on_ladder_ = false;
   if constexpr (std::is_same_v<Real, float>) {
-    const double points = static_cast<double>(symbol_.period_x * symbol_.period_y);
-    const double most = ladder_share_.value_or(worthwhile_share(points));
-    if (ladder_failed_ || static_cast<double>(tile_points()) > most * points) return;
-    if (!ladder_) {
-      ladder_ = NearFieldLadder::make(grid_, symbol_, contact_modulus_, boundary_);
-      ladder_failed_ = !ladder_;
+    if (!operator_chosen_) {
+      operator_chosen_ = true;
+      const double points = static_cast<double>(symbol_.period_x * symbol_.period_y);
+      const double most = ladder_share_.value_or(worthwhile_share(points));
+      if (static_cast<double>(tile_points()) > most * points) return;
+      if (!ladder_) ladder_ = NearFieldLadder::make(grid_, symbol_, contact_modulus_, boundary_);
+      on_ladder_ = ladder_.has_value();
     }
-    if (ladder_failed_) return;
-    ladder_->list_tiles(in_use_);
-    on_ladder_ = true;
-    // Until a dense residual, no transform: its spectrum gives its own memory back.
-    compliance_.keep_spectrum_in(pool_.get());
-    spectrum_in_pool_ = true;
+    if (on_ladder_) ladder_->list_tiles(in_use_);
   }
-}
-
-template <class Real>
-void ActiveSetCg<Real>::leave_ladder() {
-  ladder_failed_ = true;
-  on_ladder_ = false;
 }
 
 // Moves t and w to the places of the new tiles. A tile that is new has no direction yet, and its w comes with the next transform.

@@ -98,7 +98,7 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
       if (contraction * last_round < limits.relative_gain * gained) {
         small_gains = gains_in_a_row;
       } else {
-        if (contraction > 0.25) leave_ladder();
+        if (contraction > 0.25) on_ladder_ = false;
         renew_punch_residual();
         ++outcome.fft_count;
       }
