@@ -28,7 +28,8 @@ struct LadderRung {
 inline constexpr int most_rungs = 6;
 
 // Stencils for cells of dx × dy with dx dy = 1 and E* = 1, the widest first. Each minimises the largest error over the frequencies of a
-// grid of 512² cells: linear least squares with the best C, which is explicit, and weights raised where the error is large (Lawson 1961).
+// grid of 512² cells: linear least squares with the best C, which is explicit, and weights raised where the error is large: Lawson's
+// algorithm, Rice and Usow (1968).
 // depth <= most_rungs. Cost: some milliseconds a rung, once for each ratio of sides and boundary.
 std::vector<LadderRung> ladder_design(double dx_over_dy, Boundary boundary, int depth);
 
