@@ -7,7 +7,7 @@
 // The solver's levels are run one by one as press_to_pressure() runs them. A transform takes each row from the tiles and hands
 // it back to them: this counts as part of it. What a solve takes beyond its transforms is its other pointwise passes. Traffic is what the passes must move to and
 // from memory if nothing stays in a cache between two of them, a write to a line counted twice because the line is read first.
-// The machine's bandwidth is that of a copy of arrays beyond every cache, counted in the same way.
+// The levels of the ladder are left out of it. The machine's bandwidth is that of a copy of arrays beyond every cache, counted in the same way.
 
 #include <algorithm>
 #include <array>
@@ -94,8 +94,10 @@ constexpr double active_within = 16 + 16, active_apart = 24 + 52, resting_within
                  resting_apart = 4 + 16;
 
 struct Share {
-  double setup = 0, prolongation = 0, single_pairs = 0, double_pairs = 0, pointwise = 0;
-  double total() const { return setup + prolongation + single_pairs + double_pairs + pointwise; }
+  double setup = 0, prolongation = 0, single_pairs = 0, double_pairs = 0, ladder = 0, pointwise = 0;
+  double total() const {
+    return setup + prolongation + single_pairs + double_pairs + ladder + pointwise;
+  }
 };
 
 void profile(const Surface& surface, double load, double bandwidth) {
@@ -138,7 +140,8 @@ void profile(const Surface& surface, double load, double bandwidth) {
     const double solve = now() - start;
     share.double_pairs += outcome.exact_fft_seconds;
     share.single_pairs += outcome.fft_seconds - outcome.exact_fft_seconds;
-    share.pointwise += solve - outcome.fft_seconds;
+    share.ladder += outcome.ladder_seconds;
+    share.pointwise += solve - outcome.fft_seconds - outcome.ladder_seconds;
     pair = (outcome.fft_seconds - outcome.exact_fft_seconds) /
            (outcome.fft_count - outcome.exact_fft_count);
     solves = solve;
@@ -157,6 +160,7 @@ void profile(const Surface& surface, double load, double bandwidth) {
   line("set-up: plans, symbol, stencil", fine.setup);
   line("transforms in float", fine.single_pairs);
   line("transforms in double", fine.double_pairs);
+  line("the ladder", fine.ladder);
   line("other pointwise passes", fine.pointwise);
   std::printf("  %-44s %8.3f s\n", "all", total);
   const double singles = outcome.fft_count - outcome.exact_fft_count;
