@@ -183,8 +183,8 @@ StudyConfiguration StudyArguments::study() const {
     study.relative_error = *relative_error;
   }
   if (levels) {
-    require(*levels == 0 || *levels == 4 || *levels == 8 || *levels == 16 || *levels == 32,
-            "--levels", *levels, "must be 0, 4, 8, 16 or 32");
+    require(*levels == 0 || allowed_levels(*levels), "--levels", *levels,
+            "must be 0, 4, 8, 16 or 32");
     study.levels = levels;
   }
   if (const auto seam = value_of<SeamCheck>(seam_error)) study.seam = seam;

@@ -478,9 +478,7 @@ Surface windowed(Surface surface) {
 void validate(const Surface& surface, const ForceCurve& curve,
               const SurfaceDampingOptions& options) {
   require(!curve.samples.empty(), "curve", 0, "loads; compute at least one");
-  require(options.levels == 4 || options.levels == 8 || options.levels == 16 ||
-              options.levels == most_levels,
-          "levels", options.levels, "must be 4, 8, 16 or 32");
+  require(allowed_levels(options.levels), "levels", options.levels, "must be 4, 8, 16 or 32");
   require(options.refinements >= 0 && options.refinements <= 4, "refinements", options.refinements,
           "must lie in 0 … 4");
   require(!options.coarsen || (surface.grid.nx % 2 == 0 && surface.grid.ny % 2 == 0), "coarsen",

@@ -284,8 +284,8 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
   }
   if (const auto hold = enumerated<Hold>(table, "hold")) configuration.damping.hold = *hold;
   if (const auto levels = table.quantity("levels", Dimension::dimensionless)) {
-    table.check(*levels == 0 || *levels == 4 || *levels == 8 || *levels == 16 || *levels == 32,
-                "levels", fmt::format("{} must be 0, 4, 8, 16 or 32", *levels));
+    table.check(*levels == 0 || allowed_levels(*levels), "levels",
+                fmt::format("{} must be 0, 4, 8, 16 or 32", *levels));
     configuration.levels = static_cast<int>(*levels);
   }
   if (const auto error = table.quantity("relative_error", Dimension::dimensionless)) {

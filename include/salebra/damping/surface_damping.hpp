@@ -19,6 +19,11 @@ enum class SeamCheck {
   free  ///< the surface by itself on an infinite half-space: for light loads; at high ones its edges press harder
 };
 
+/// Whether an oscillation may be divided into so many intervals: 4, 8, 16 or 32.
+constexpr bool allowed_levels(double levels) {
+  return levels == 4 || levels == 8 || levels == 16 || levels == 32;
+}
+
 struct SurfaceDampingOptions {
   Hold hold = Hold::indentation;
   Amplitude amplitude = Amplitude::finite;

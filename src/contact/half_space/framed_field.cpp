@@ -13,11 +13,17 @@ constexpr Index slack = 4 * tile_width;
 
 }  // namespace
 
+void append_tiles(const unsigned char* in_use, Index row, Index across, std::vector<Tile>& tiles) {
+  for (Index k = 0; k < across; ++k)
+    if (in_use[k])
+      tiles.push_back({static_cast<std::int32_t>(row), static_cast<std::int32_t>(k * tile_width)});
+}
+
 template <class Real>
 FramedField<Real>::FramedField(Index nx, Index ny)
     : nx_(nx),
       ny_(ny),
-      stride_((ny + tile_width - 1) / tile_width * tile_width + 2 * side_frame),
+      stride_(tiles_across(ny) * tile_width + 2 * side_frame),
       data_(large_array<Real>(static_cast<std::size_t>((nx + 2 * rows_around) * stride_ + slack))) {
   clear();
 }

@@ -2,10 +2,16 @@
 #pragma once
 
 #include <salebra/base/memory.hpp>
+#include <vector>
 
 #include "tile.hpp"
 
 namespace salebra::detail {
+
+// The tiles of a row of ny cells.
+inline Index tiles_across(Index ny) { return (ny + tile_width - 1) / tile_width; }
+// Appends the tiles of a row that are in use, one flag each.
+void append_tiles(const unsigned char* in_use, Index row, Index across, std::vector<Tile>& tiles);
 
 // A field (nx, ny) with a frame around it, so that a stencil needs no test for the edge: as many rows as the widest stencil reaches and
 // one more, for splines of the next coarser grid, and at least a tile at both sides.

@@ -13,6 +13,7 @@
 #include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
 
+#include "framed_field.hpp"
 #include "normal_symbol.hpp"
 
 namespace salebra {
@@ -269,33 +270,24 @@ InverseStencil::InverseStencil(const Grid2D& grid) {
 }
 
 void InverseStencil::apply(const Field& mask, const Field& r, Boundary boundary, Field& z) const {
+  static_assert(radius <= detail::frame);
   const Index nx = r.rows(), ny = r.cols();
-  const bool wraps = boundary == Boundary::periodic;
-  // A copy with a frame of `radius` cells needs no test for the edge at each neighbour.
-  Field framed = Field::Zero(nx + 2 * radius, ny + 2 * radius);
-  const auto wrapped = [](Index k, Index n) { return (k % n + n) % n; };
-  parallel::for_slabs(nx + 2 * radius, [&](Index begin, Index end) {
-    for (Index a = begin; a < end; ++a) {
-      const bool row_inside = a >= radius && a < nx + radius;
-      if (!row_inside && !wraps) continue;
-      const Index i = wrapped(a - radius, nx);
-      for (Index b = 0; b < ny + 2 * radius; ++b) {
-        const bool inside = b >= radius && b < ny + radius;
-        if (!inside && !wraps) continue;
-        const Index j = wrapped(b - radius, ny);
-        framed(a, b) = mask(i, j) > 0 ? r(i, j) : 0;
-      }
-    }
+  detail::FramedField<double> framed(nx, ny);
+  parallel::for_slabs(nx, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i)
+      for (Index j = 0; j < ny; ++j)
+        if (mask(i, j) > 0) framed.row(i)[j] = r(i, j);
   });
+  if (boundary == Boundary::periodic) framed.wrap();
   z.resize(nx, ny);
   parallel::for_slabs(nx, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i)
       for (Index j = 0; j < ny; ++j) {
         double sum = 0;
         if (mask(i, j) > 0)
-          for (int a = 0; a < width; ++a)
-            for (int b = 0; b < width; ++b)
-              sum += weights_[static_cast<std::size_t>(a * width + b)] * framed(i + a, j + b);
+          for (int a = -radius; a <= radius; ++a)
+            for (int b = -radius; b <= radius; ++b)
+              sum += weights_[index(a, b)] * framed.row(i + a)[j + b];
         z(i, j) = sum;
       }
   });

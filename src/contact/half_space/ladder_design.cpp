@@ -12,8 +12,8 @@
 #include <salebra/base/parallel.hpp>
 #include <utility>
 
-#include "normal_symbol.hpp"
 #include "surface/dense_systems.hpp"
+#include "tile.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -35,7 +35,7 @@ Sample sample(const QuarterSymbol& symbol, Index i, Index j) {
   return {symbol.value[k], symbol.metric[k]};
 }
 // A constant has no displacement where the mean is the reference, and no error is measured by it.
-Sample sample(const SymbolSource& symbol, Index i, Index j) {
+Sample sample(const NormalSymbol& symbol, Index i, Index j) {
   const double value = symbol.value(i, j);
   return {value, value != 0 ? 1 / std::abs(value) : 0};
 }
@@ -212,8 +212,7 @@ Design begun(double dx_over_dy, Boundary boundary) {
   QuarterSymbol symbol{exact.period_x, exact.period_y, {}, {}};
   for (Index i = 0; i <= symbol.period_x / 2; ++i)
     for (Index j = 0; j <= symbol.period_y / 2; ++j) {
-      const auto [value, metric] =
-          sample(SymbolSource{exact.period_x, exact.period_y, exact.value}, i, j);
+      const auto [value, metric] = sample(exact, i, j);
       symbol.value.push_back(value);
       symbol.metric.push_back(metric);
     }
@@ -241,7 +240,7 @@ std::vector<LadderRung> ladder_design(double dx_over_dy, Boundary boundary, int 
   return {design.rungs.begin(), design.rungs.begin() + depth};
 }
 
-QuarterSymbol coarse_symbol(const SymbolSource& fine, const LadderStencil& stencil) {
+QuarterSymbol coarse_symbol(const NormalSymbol& fine, const LadderStencil& stencil) {
   return coarsened(fine, stencil);
 }
 QuarterSymbol coarse_symbol(const QuarterSymbol& fine, const LadderStencil& stencil) {

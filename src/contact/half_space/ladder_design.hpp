@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <functional>
 #include <salebra/base/grid.hpp>
 #include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
 
-#include "tile.hpp"
+#include "normal_symbol.hpp"
 
 namespace salebra::detail {
 
@@ -42,17 +41,11 @@ struct QuarterSymbol {
   std::size_t index(Index i, Index j) const { return static_cast<std::size_t>(i * columns() + j); }
 };
 
-// The same, computed where it is asked for.
-struct SymbolSource {
-  Index period_x = 0, period_y = 0;
-  std::function<double(Index i, Index j)> value;
-};
-
 // C for the stencil given, on half the period, which must be even; periods are those of the finer grid:
 //     C(Q) = ¼ Σ_k u_k² D_k/(Σ_k u_k²)²,  u_k² = v_k²/W_k,  D_k = (g_k − T(θ_k))/W_k,  v = cos⁴(θ_x/2) cos⁴(θ_y/2)
 // over the four frequencies θ_k that look the same on the coarser grid, W_k = |g_k|. C(0) = (g(0) − T(0))/4, which takes a constant to
 // where G takes it.
-QuarterSymbol coarse_symbol(const SymbolSource& fine, const LadderStencil& stencil);
+QuarterSymbol coarse_symbol(const NormalSymbol& fine, const LadderStencil& stencil);
 QuarterSymbol coarse_symbol(const QuarterSymbol& fine, const LadderStencil& stencil);
 
 }  // namespace salebra::detail

@@ -6,18 +6,6 @@
 
 namespace salebra::detail {
 
-namespace baseline {
-LadderKernels ladder_table();
-}
-#ifdef SALEBRA_X86_KERNELS
-namespace avx2 {
-LadderKernels ladder_table();
-}
-namespace avx512 {
-LadderKernels ladder_table();
-}
-#endif
-
 namespace {
 
 LadderKernels widest_ladder_table() {

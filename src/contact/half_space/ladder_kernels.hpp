@@ -38,4 +38,15 @@ struct LadderKernels {
 // The table for the widest vectors that this processor has.
 const LadderKernels& ladder_kernels();
 
+// The table of each width; the last two exist in builds for x86-64.
+namespace baseline {
+LadderKernels ladder_table();
+}
+namespace avx2 {
+LadderKernels ladder_table();
+}
+namespace avx512 {
+LadderKernels ladder_table();
+}
+
 }  // namespace salebra::detail

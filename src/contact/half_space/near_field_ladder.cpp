@@ -21,8 +21,6 @@ FramedView view(const FramedField<float>& field) {
   return {field.row(0), field.stride(), field.ny()};
 }
 
-Index tiles_across(Index ny) { return (ny + tile_width - 1) / tile_width; }
-
 // The coarse cells I with |2I − x| <= 2: those that a spline takes cell x of the finer grid to, and from.
 Index first_reached(Index x) { return (x + 1) / 2 - 1; }
 Index last_reached(Index x) { return x / 2 + 1; }
@@ -71,8 +69,7 @@ std::optional<NearFieldLadder> NearFieldLadder::make(const Grid2D& grid, const N
     for (double& weight : stencil.weights) weight *= scale;
     return stencil;
   };
-  QuarterSymbol left =
-      coarse_symbol(SymbolSource{symbol.period_x, symbol.period_y, symbol.value}, scaled(0));
+  QuarterSymbol left = coarse_symbol(symbol, scaled(0));
   Index nx = grid.nx, ny = grid.ny;
   for (int k = 0; k < depth; ++k) {
     Level level;
@@ -134,10 +131,7 @@ void NearFieldLadder::list_tiles(const std::vector<unsigned char>& in_use) {
     }
     level.tiles.clear();
     for (Index row = 0; row < nx; ++row)
-      for (Index k = 0; k < across; ++k)
-        if (level.in_use[static_cast<std::size_t>(row * across + k)])
-          level.tiles.push_back(
-              {static_cast<std::int32_t>(row), static_cast<std::int32_t>(k * tile_width)});
+      append_tiles(level.in_use.data() + row * across, row, across, level.tiles);
     level.source.clear();
     finer = &level.in_use;
     finer_ny = ny;

@@ -85,7 +85,7 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, double contact_modulus, Bound
       symbol_(normal_symbol(grid, contact_modulus, boundary)),
       compliance_(normal_compliance<Real>(grid, symbol_)),
       kernels_(tile_kernels<Real>()),
-      tiles_per_row_((grid.ny + tile_width - 1) / tile_width) {
+      tiles_per_row_(tiles_across(grid.ny)) {
   const InverseStencil inverse(grid);
   for (int i = -frame; i <= frame; ++i)
     for (int j = -frame; j <= frame; ++j)

@@ -70,10 +70,7 @@ void ActiveSetCg<Real>::list_tiles() {
   row_begins_.clear();
   for (Index row = 0; row < grid_.nx; ++row) {
     row_begins_.push_back(static_cast<Index>(tiles_.size()));
-    for (Index k = 0; k < tiles_per_row_; ++k)
-      if (in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)])
-        tiles_.push_back(
-            {static_cast<std::int32_t>(row), static_cast<std::int32_t>(k * tile_width)});
+    append_tiles(in_use_.data() + row * tiles_per_row_, row, tiles_per_row_, tiles_);
   }
   row_begins_.push_back(static_cast<Index>(tiles_.size()));
   const auto size = static_cast<std::size_t>(tile_points());

@@ -7,7 +7,7 @@
 namespace salebra::detail {
 
 /// What a contact takes in addition to the heights, bytes: 43 a cell with contact on a tenth of them, with Precision::full 58. Full
-/// contact takes 16 and 24 more, a free boundary the padding of its transforms. Measured: docs/performance.md, "Memory".
+/// contact takes 24 and 31 more, a free boundary the padding of its transforms. Measured: docs/performance.md, "Memory".
 inline double contact_memory(const Grid2D& grid, const NormalContactOptions& options) {
   return (options.precision == Precision::mixed ? 43 : 58) * static_cast<double>(grid.points());
 }

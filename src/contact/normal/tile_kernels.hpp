@@ -107,4 +107,18 @@ struct TileKernels {
 template <class Real>
 const TileKernels<Real>& tile_kernels();
 
+// The tables of each width; the last two exist in builds for x86-64.
+namespace baseline {
+TileKernels<float> table_float();
+TileKernels<double> table_double();
+}  // namespace baseline
+namespace avx2 {
+TileKernels<float> table_float();
+TileKernels<double> table_double();
+}  // namespace avx2
+namespace avx512 {
+TileKernels<float> table_float();
+TileKernels<double> table_double();
+}  // namespace avx512
+
 }  // namespace salebra::detail

@@ -80,42 +80,21 @@ void SurfaceResponse::apply(const PointList& loaded, const double* tractions, co
 
 StencilPreconditioner::StencilPreconditioner(const Grid2D& grid, Boundary boundary,
                                              const CellWindow& window)
-    : window_(window),
-      periodic_(boundary == Boundary::periodic),
-      field_(size_of((window.nx + 2 * reach) * row_length())) {
+    : window_(window), periodic_(boundary == Boundary::periodic), field_(window.nx, window.ny) {
   const InverseStencil stencil(grid);
   for (int a = 0; a < width; ++a)
     for (int b = 0; b < width; ++b)
       weights_[size_of(a * width + b)] = stencil.weight(a - reach, b - reach);
 }
 
-void StencilPreconditioner::fill_ghosts() {
-  const Index length = row_length();
-  const auto wrap = [](Index i, Index n) { return ((i % n) + n) % n; };
-  for (Index ix = 0; ix < window_.nx; ++ix) {
-    double* row = field_.data() + (ix + reach) * length + reach;
-    for (Index k = 1; k <= reach; ++k) {
-      row[-k] = row[wrap(-k, window_.ny)];
-      row[window_.ny + k - 1] = row[wrap(k - 1, window_.ny)];
-    }
-  }
-  for (Index k = 1; k <= reach; ++k) {
-    const auto copy_row = [&](Index from, Index to) {
-      std::copy_n(field_.begin() + (from + reach) * length, length,
-                  field_.begin() + (to + reach) * length);
-    };
-    copy_row(wrap(-k, window_.nx), -k);
-    copy_row(wrap(k - 1, window_.nx), window_.nx + k - 1);
-  }
-}
-
 void StencilPreconditioner::apply(const PointList& points, const double* in, double* out) {
-  const Index length = row_length();
-  for (std::size_t k = 0; k < points.framed.size(); ++k) field_[size_of(points.framed[k])] = in[k];
-  if (periodic_) fill_ghosts();
+  const Index length = field_.stride();
+  double* field = field_.row(0);
+  for (std::size_t k = 0; k < points.framed.size(); ++k) field[points.framed[k]] = in[k];
+  if (periodic_) field_.wrap();
   for_points(points.size(), [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
-      const double* corner = field_.data() + points.framed[size_of(k)] - reach * length - reach;
+      const double* corner = field + points.framed[size_of(k)] - reach * length - reach;
       double sum = 0;
       for (Index a = 0; a < width; ++a)
         for (Index b = 0; b < width; ++b)
@@ -123,7 +102,7 @@ void StencilPreconditioner::apply(const PointList& points, const double* in, dou
       out[k] = sum;
     }
   });
-  for (const Index at : points.framed) field_[size_of(at)] = 0;
+  for (const Index at : points.framed) field[at] = 0;
 }
 
 ContactSystem::ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "contact/half_space/cell_window.hpp"
+#include "contact/half_space/framed_field.hpp"
 
 namespace salebra::detail {
 
@@ -60,7 +61,7 @@ class StencilPreconditioner {
   StencilPreconditioner(const Grid2D& grid, Boundary boundary, const CellWindow& window);
 
   Index framed_index(Index ix, Index iy) const {
-    return (ix - window_.x0 + reach) * row_length() + iy - window_.y0 + reach;
+    return (ix - window_.x0) * field_.stride() + iy - window_.y0;
   }
   double diagonal() const { return weights_[reach * width + reach]; }  ///< 1/m, of E* = 1
   /// One component; out may not be in.
@@ -69,13 +70,11 @@ class StencilPreconditioner {
  private:
   static constexpr Index reach = InverseStencil::radius;
   static constexpr Index width = InverseStencil::width;
-  Index row_length() const { return window_.ny + 2 * reach; }
-  void fill_ghosts();
 
   CellWindow window_;
   bool periodic_;
   std::array<double, width * width> weights_;
-  std::vector<double> field_;
+  FramedField<double> field_;
 };
 
 /// A response with its preconditioner and the points of a contact set: solves K τ = u on the set.

@@ -5,6 +5,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 #include <salebra/base/parallel.hpp>
@@ -15,19 +16,6 @@
 #include "contact/half_space/near_field_ladder.hpp"
 
 namespace salebra::detail {
-
-namespace baseline {
-LadderKernels ladder_table();
-}
-#ifdef SALEBRA_X86_KERNELS
-namespace avx2 {
-LadderKernels ladder_table();
-}
-namespace avx512 {
-LadderKernels ladder_table();
-}
-#endif
-
 namespace {
 
 using std::numbers::pi;

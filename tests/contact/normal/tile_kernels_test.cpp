@@ -12,17 +12,6 @@
 
 namespace salebra::detail {
 
-#define SALEBRA_DECLARE_TABLES(simd)  \
-  namespace simd {                    \
-  TileKernels<float> table_float();   \
-  TileKernels<double> table_double(); \
-  }
-SALEBRA_DECLARE_TABLES(baseline)
-#ifdef SALEBRA_X86_KERNELS
-SALEBRA_DECLARE_TABLES(avx2)
-SALEBRA_DECLARE_TABLES(avx512)
-#endif
-
 namespace {
 
 struct Width {
