@@ -216,7 +216,8 @@ void MotionOptions::add_to(Command& app, bool with_two_frequencies) {
            mode = name;
            mode_given = true;
          },
-         fmt::format("drag (default): slow tangential oscillation: {}", fmt::join(modes, " | ")))
+         fmt::format("drag: slow tangential oscillation; default {}: {}", mode,
+                     fmt::join(modes, " | ")))
       ->type_name("NAME")
       ->choices(modes)
       ->group(group);
