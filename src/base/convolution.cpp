@@ -13,6 +13,9 @@ namespace {
 
 // Pairs of rows that are turned into columns together: eight complex numbers of a column are one or two whole cache lines.
 constexpr Index pairs_at_once = 8;
+// Rows are paired within blocks of so many, and a unit of eight numbers of a column belongs to one block. A process that has whole blocks
+// of the rows therefore transforms what any other number of processes would.
+constexpr Index rows_at_once = 2 * pairs_at_once;
 
 // Added to the lengths of columns and rows, so that equal places of all of them do not fall into one set of the cache.
 constexpr Index gap = 8;
@@ -22,12 +25,13 @@ Index padded(Index length) { return (length + gap - 1) / gap * gap + gap; }
 
 }  // namespace
 
-// Rows i and i + half are transformed as the real and the imaginary part of one complex row z, because FFTW's complex transform
-// takes no longer than its real one. The spectrum is kept column by column: a transform of contiguous numbers is about three times
-// faster than one of strided numbers, and a column with its symbol stays in the cache from the forward transform to the
+// Rows i and i + 8 of a block of 16 are transformed as the real and the imaginary part of one complex row z, because FFTW's complex
+// transform takes no longer than its real one. The spectrum is kept column by column: a transform of contiguous numbers is about three
+// times faster than one of strided numbers, and a column with its symbol stays in the cache from the forward transform to the
 // backward one. There, columns k and −k of z give column k of the field,
-//     x_i = (z_i(k) + z_i(−k)*)/2,   x_{i+half} = (z_i(k) − z_i(−k)*)/2i,
-// which is all that is needed, since that of −k is its conjugate.
+//     x_i = (z_i(k) + z_i(−k)*)/2,   x_{i+8} = (z_i(k) − z_i(−k)*)/2i,
+// which is all that is needed, since that of −k is its conjugate. The last block may have fewer rows, of which the second half are the
+// partners of the first; what is missing of its eight pairs is zero.
 template <class Real>
 struct Convolution2D<Real>::Passes {
   using Api = detail::Fftw<Real>;
@@ -36,10 +40,10 @@ struct Convolution2D<Real>::Passes {
   const detail::SpectrumKernels<Real>& kernels = detail::spectrum_kernels<Real>();
   Shape shape;
   int components;
-  Index half;                   // pairs of rows
+  Index blocks;                 // of rows
   Index modes;                  // columns of the field's half-spectrum
   Index column_stride;          // from one column of z to the next
-  Complex* spectrum = nullptr;  // [component][column of z][pair]
+  Complex* spectrum = nullptr;  // [component][column of z][block][pair]
   LargeArray<Complex> own_spectrum;
   struct Table {
     LargeArray<Real> values;  // [column][i = 0 … period_x/2], over 2·points of the transform
@@ -55,16 +59,19 @@ struct Convolution2D<Real>::Passes {
     require(shape.period_y >= shape.ny && shape.period_y < 1 << 24, "period_y", shape.period_y,
             "must be >= ny and below 2^24");
     require(components == 1 || components == 2, "components", components, "must be 1 or 2");
-    half = (shape.nx + 1) / 2;
+    blocks = (shape.nx + rows_at_once - 1) / rows_at_once;
     modes = shape.period_y / 2 + 1;
-    column_stride = padded(half);
+    column_stride = padded(blocks * pairs_at_once);
     make_plans();
   }
 
   Index points() const { return shape.period_x * shape.period_y; }
   std::size_t spectrum_size() const { return count(components * shape.period_y * column_stride); }
   Index table_rows() const { return shape.period_x / 2 + 1; }
-  Index groups() const { return (half + pairs_at_once - 1) / pairs_at_once; }
+  // Pairs of a block; the last of an odd number of rows is without partner.
+  Index pairs(Index block) const {
+    return (std::min(rows_at_once, shape.nx - block * rows_at_once) + 1) / 2;
+  }
   Complex* column(int component, Index index) {
     return spectrum + (component * shape.period_y + index) * column_stride;
   }
@@ -105,45 +112,42 @@ struct Convolution2D<Real>::Passes {
         points());
   }
 
-  // Room for the work on a group of pairs of rows.
+  // Room for the work on a block.
   struct Room {
-    LargeArray<Complex> row,
-        rows;  // one row, and as many as are done at once with stride between them
-    LargeArray<Real> near, far;  // of the two real rows of a pair
+    LargeArray<Complex> row, rows;  // one row, and those of all pairs with stride between them
+    LargeArray<Real> near, far;     // of the two real rows of a pair
     Index stride;
   };
 
-  // body(first, pairs, room) for the groups of pairs of rows.
+  // body(block, room) for the blocks of rows.
   template <class Body>
-  void for_groups(const Body& body) {
+  void for_blocks(const Body& body) {
     const Index stride = padded(shape.period_y);
     parallel::for_slabs(
-        groups(),
+        blocks,
         [&](Index begin, Index end) {
           const Room room{large_array<Complex>(count(stride)),
                           large_array<Complex>(count(pairs_at_once * stride)),
                           large_array<Real>(count(shape.ny)), large_array<Real>(count(shape.ny)),
                           stride};
-          for (Index first = begin * pairs_at_once; first < std::min(end * pairs_at_once, half);
-               first += pairs_at_once)
-            body(first, std::min(pairs_at_once, half - first), room);
+          for (Index block = begin; block < end; ++block) body(block, room);
         },
         points());
   }
 
-  bool is_paired(Index i) const { return i + half < shape.nx; }
-
   // source(component, row, room) as RowSource.
   template <class Source>
   void rows_forward(const Source& source) {
-    for_groups([&](Index first, Index pairs, const Room& room) {
+    for_blocks([&](Index block, const Room& room) {
+      const Index first = block * rows_at_once, paired = pairs(block);
       for (int component = 0; component < components; ++component) {
-        for (Index i = 0; i < pairs; ++i) {
+        for (Index i = 0; i < pairs_at_once; ++i) {
           Complex* to = room.rows.get() + i * room.stride;
-          const Index row = first + i;
-          const Real* near = source(component, row, room.near.get());
-          const Real* far =
-              is_paired(row) ? source(component, row + half, room.far.get()) : nullptr;
+          const Index row = first + i, partner = row + paired;
+          const Real* near = i < paired ? source(component, row, room.near.get()) : nullptr;
+          const Real* far = i < paired && partner < shape.nx
+                                ? source(component, partner, room.far.get())
+                                : nullptr;
           if (!near && !far) {
             std::fill_n(to, shape.period_y, Complex{});
             continue;
@@ -156,14 +160,8 @@ struct Convolution2D<Real>::Passes {
           std::fill(room.row.get() + shape.ny, room.row.get() + shape.period_y, Complex{});
           Api::execute(row_forward.get(), raw(room.row.get()), raw(to));
         }
-        Complex* to = column(component, 0) + first;
-        const Complex* rows = room.rows.get();
-        if (pairs == pairs_at_once) {
-          kernels.to_columns(real(rows), room.stride, shape.period_y, real(to), column_stride);
-        } else {
-          for (Index k = 0; k < shape.period_y; ++k)
-            for (Index i = 0; i < pairs; ++i) to[k * column_stride + i] = rows[i * room.stride + k];
-        }
+        kernels.to_columns(real(room.rows.get()), room.stride, shape.period_y,
+                           real(column(component, 0) + block * pairs_at_once), column_stride);
       }
     });
   }
@@ -171,25 +169,20 @@ struct Convolution2D<Real>::Passes {
   // place(component, row, room) says where a row is to be, and done(component, row, values) is told when it is there.
   template <class Place, class Done>
   void rows_backward(const Place& place, const Done& done) {
-    for_groups([&](Index first, Index pairs, const Room& room) {
+    for_blocks([&](Index block, const Room& room) {
+      const Index first = block * rows_at_once, paired = pairs(block);
       for (int component = 0; component < components; ++component) {
-        const Complex* from = column(component, 0) + first;
-        Complex* rows = room.rows.get();
-        if (pairs == pairs_at_once) {
-          kernels.to_rows(real(from), column_stride, shape.period_y, real(rows), room.stride);
-        } else {
-          for (Index k = 0; k < shape.period_y; ++k)
-            for (Index i = 0; i < pairs; ++i)
-              rows[i * room.stride + k] = from[k * column_stride + i];
-        }
-        for (Index i = 0; i < pairs; ++i) {
-          Api::execute(row_backward.get(), raw(rows + i * room.stride), raw(room.row.get()));
-          const Index row = first + i;
+        kernels.to_rows(real(column(component, 0) + block * pairs_at_once), column_stride,
+                        shape.period_y, real(room.rows.get()), room.stride);
+        for (Index i = 0; i < paired; ++i) {
+          Api::execute(row_backward.get(), raw(room.rows.get() + i * room.stride),
+                       raw(room.row.get()));
+          const Index row = first + i, partner = row + paired;
           Real* near = place(component, row, room.near.get());
-          Real* far = is_paired(row) ? place(component, row + half, room.far.get()) : nullptr;
+          Real* far = partner < shape.nx ? place(component, partner, room.far.get()) : nullptr;
           kernels.split(real(room.row.get()), shape.ny, near, far);
           done(component, row, near);
-          if (far) done(component, row + half, far);
+          if (far) done(component, partner, far);
         }
       }
     });
@@ -226,25 +219,47 @@ struct Convolution2D<Real>::Passes {
 
   // 2·x from z(k) and z(−k), zero-padded to the period.
   void separate(const Complex* z, const Complex* mirrored, Complex* x) const {
-    const Index paired = shape.nx - half;
-    kernels.separate(real(z), real(mirrored), paired, real(x), real(x + half));
-    if (paired < half) x[paired] = z[paired] + std::conj(mirrored[paired]);
+    const Index whole = shape.nx / rows_at_once;
+    kernels.separate(real(z), real(mirrored), whole, real(x));
+    for_last_pairs([&](Index pair, Index row, Index partner) {
+      const Complex other = std::conj(mirrored[pair]), difference = z[pair] - other;
+      x[row] = z[pair] + other;
+      if (partner < shape.nx) x[partner] = {difference.imag(), -difference.real()};
+    });
     std::fill(x + shape.nx, x + shape.period_x, Complex{});
   }
 
   // z(k) and z(−k) from x.
   void join(const Complex* x, Complex* z, Complex* mirrored) const {
-    const Index paired = shape.nx - half;
+    const Index whole = shape.nx / rows_at_once;
     if (z == mirrored) {
       // The spectrum of a real row is real here.
-      for (Index i = 0; i < half; ++i) z[i] = {x[i].real(), i < paired ? x[half + i].real() : 0};
-      return;
+      for (Index block = 0; block < whole; ++block)
+        for (Index i = 0; i < pairs_at_once; ++i)
+          z[block * pairs_at_once + i] = {x[block * rows_at_once + i].real(),
+                                          x[block * rows_at_once + pairs_at_once + i].real()};
+    } else {
+      kernels.join(real(x), whole, real(z), real(mirrored));
     }
-    kernels.join(real(x), real(x + half), paired, real(z), real(mirrored));
-    if (paired < half) {
-      z[paired] = x[paired];
-      mirrored[paired] = std::conj(x[paired]);
-    }
+    for_last_pairs([&](Index pair, Index row, Index partner) {
+      const Complex near = x[row], far = partner < shape.nx ? x[partner] : Complex{};
+      if (z == mirrored) {
+        z[pair] = {near.real(), far.real()};
+      } else {
+        z[pair] = {near.real() - far.imag(), near.imag() + far.real()};
+        mirrored[pair] = {near.real() + far.imag(), far.real() - near.imag()};
+      }
+    });
+  }
+
+  // body(pair, row, partner) for the pairs of a block that is not full.
+  template <class Body>
+  void for_last_pairs(const Body& body) const {
+    const Index whole = shape.nx / rows_at_once;
+    if (whole == blocks) return;
+    for (Index i = 0; i < pairs(whole); ++i)
+      body(whole * pairs_at_once + i, whole * rows_at_once + i,
+           whole * rows_at_once + pairs(whole) + i);
   }
 
   void multiply(Index j, Complex* numbers) const {

@@ -21,11 +21,10 @@ struct SpectrumKernels {
   void (*to_rows)(const Real* columns, std::ptrdiff_t column_stride, std::ptrdiff_t count,
                   Real* rows, std::ptrdiff_t row_stride);
 
-  // near = z + mirrored*, far = −i(z − mirrored*)
-  void (*separate)(const Real* z, const Real* mirrored, std::ptrdiff_t count, Real* near,
-                   Real* far);
-  // z = near + i far, mirrored = near* + i far*
-  void (*join)(const Real* near, const Real* far, std::ptrdiff_t count, Real* z, Real* mirrored);
+  // Blocks of 8 numbers of z and of mirrored to blocks of 16 numbers of x: 8 near = z + mirrored*, then 8 far = −i(z − mirrored*).
+  void (*separate)(const Real* z, const Real* mirrored, std::ptrdiff_t blocks, Real* x);
+  // And back: z = near + i far, mirrored = near* + i far*.
+  void (*join)(const Real* x, std::ptrdiff_t blocks, Real* z, Real* mirrored);
 
   // numbers[i] *= symbol[i] for i < count, and of the mirror images numbers[count + i] *= sign·symbol[mirrored − i].
   void (*multiply)(Real* numbers, std::ptrdiff_t count, std::ptrdiff_t mirrored, Real sign,

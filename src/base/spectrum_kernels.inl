@@ -2,6 +2,8 @@
 // Included once for each instruction set, with SALEBRA_SIMD naming it.
 #include "spectrum_kernels.hpp"
 
+#define SALEBRA_INLINE inline __attribute__((always_inline))
+
 namespace salebra::detail::SALEBRA_SIMD {
 
 using Size = std::ptrdiff_t;
@@ -65,26 +67,75 @@ void to_rows(const Real* columns, Size column_stride, Size count, Real* rows, Si
   }
 }
 
+// A register of complex numbers. A block of eight is one cache line in float, and the halves of a block of sixteen are read and written
+// together; plain loops over eight numbers at a time are slower.
 template <class Real>
-void separate(const Real* z, const Real* mirrored, Size count, Real* near, Real* far) {
-  for (Size i = 0; i < 2 * count; i += 2) {
-    const Real re = z[i], im = z[i + 1], mirrored_re = mirrored[i], mirrored_im = mirrored[i + 1];
-    near[i] = re + mirrored_re;
-    near[i + 1] = im - mirrored_im;
-    far[i] = im + mirrored_im;
-    far[i + 1] = mirrored_re - re;
+struct Register {
+#if defined(__AVX512F__)
+  static constexpr int bytes = 64;
+#elif defined(__AVX__)
+  static constexpr int bytes = 32;
+#else
+  static constexpr int bytes = 16;
+#endif
+  typedef Real Vector __attribute__((vector_size(bytes)));
+  static constexpr int lanes = bytes / static_cast<int>(sizeof(Real)),
+                       in_eight = 16 / lanes;  // registers that eight numbers take
+
+  static SALEBRA_INLINE Vector load(const Real* place) {
+    Vector numbers;
+    __builtin_memcpy(&numbers, place, bytes);
+    return numbers;
   }
+  static SALEBRA_INLINE void store(Vector numbers, Real* place) {
+    __builtin_memcpy(place, &numbers, bytes);
+  }
+  // Real and imaginary parts exchanged.
+  static SALEBRA_INLINE Vector swapped(Vector v) {
+    if constexpr (lanes == 16) {
+      return __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14);
+    } else if constexpr (lanes == 8) {
+      return __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6);
+    } else if constexpr (lanes == 4) {
+      return __builtin_shufflevector(v, v, 1, 0, 3, 2);
+    } else {
+      return __builtin_shufflevector(v, v, 1, 0);
+    }
+  }
+  // A number times these has its imaginary part negated; a product with ±1 is exact.
+  static SALEBRA_INLINE Vector conjugating() {
+    Vector signs;
+    for (int lane = 0; lane < lanes; ++lane) signs[lane] = lane % 2 == 0 ? Real(1) : Real(-1);
+    return signs;
+  }
+};
+
+template <class Real>
+void separate(const Real* z, const Real* mirrored, Size blocks, Real* x) {
+  using Numbers = Register<Real>;
+  const auto signs = Numbers::conjugating();
+  for (Size block = 0; block < blocks; ++block, z += 16, mirrored += 16, x += 32)
+#pragma GCC unroll 8
+    for (int k = 0; k < Numbers::in_eight; ++k) {
+      const auto here = Numbers::load(z + k * Numbers::lanes),
+                 there = Numbers::load(mirrored + k * Numbers::lanes) * signs;
+      Numbers::store(here + there, x + k * Numbers::lanes);
+      Numbers::store(Numbers::swapped(here - there) * signs, x + 16 + k * Numbers::lanes);
+    }
 }
 
 template <class Real>
-void join(const Real* near, const Real* far, Size count, Real* z, Real* mirrored) {
-  for (Size i = 0; i < 2 * count; i += 2) {
-    const Real re = near[i], im = near[i + 1], far_re = far[i], far_im = far[i + 1];
-    z[i] = re - far_im;
-    z[i + 1] = im + far_re;
-    mirrored[i] = re + far_im;
-    mirrored[i + 1] = far_re - im;
-  }
+void join(const Real* x, Size blocks, Real* z, Real* mirrored) {
+  using Numbers = Register<Real>;
+  const auto signs = Numbers::conjugating();
+  for (Size block = 0; block < blocks; ++block, z += 16, mirrored += 16, x += 32)
+#pragma GCC unroll 8
+    for (int k = 0; k < Numbers::in_eight; ++k) {
+      const auto near = Numbers::load(x + k * Numbers::lanes),
+                 far = Numbers::swapped(Numbers::load(x + 16 + k * Numbers::lanes));
+      Numbers::store(near - far * signs, z + k * Numbers::lanes);
+      Numbers::store(near * signs + far, mirrored + k * Numbers::lanes);
+    }
 }
 
 template <class Real>
