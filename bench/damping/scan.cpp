@@ -23,7 +23,7 @@ class WarmLevels {
   WarmLevels(const Surface& surface, double contact_modulus)
       : surface_(surface), contact_modulus_(contact_modulus) {}
 
-  ContactLevel at(double indentation) {
+  ContactSetAt at(double indentation) {
     Field start = last_;
     if (before_.size() > 0 && last_at_ != before_at_)
       start =
@@ -40,8 +40,8 @@ class WarmLevels {
   }
 
  private:
-  ContactLevel take(NormalContactState state) {
-    ContactLevel level{contact_set(state), state.force, state.converged};
+  ContactSetAt take(NormalContactState state) {
+    ContactSetAt level{contact_set(state), state.force, state.converged};
     before_ = std::move(last_);
     before_at_ = last_at_;
     last_ = std::move(state.pressure);

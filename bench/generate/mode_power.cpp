@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
           const double step_x = 2 * std::numbers::pi / grid.lx;
           const double step_y = 2 * std::numbers::pi / grid.ly;
           const double density =
-              i == 0 && j == 0 ? 0 : spectrum.psd(step_x * double(wave), step_y * double(j));
+              i == 0 && j == 0 ? 0 : spectrum.density(step_x * double(wave), step_y * double(j));
           if (density == 0) continue;
           const double target = density * step_x * step_y;
           const double power = std::norm(modes[static_cast<std::size_t>(i * fft.modes_y() + j)] /
