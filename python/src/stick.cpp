@@ -30,6 +30,7 @@ void bind_stiffness(nb::module_& m) {
       .def_ro("xy", &StickStiffness::xy, "N/m")
       .def_ro("iterations", &StickStiffness::iterations)
       .def_ro("fft_count", &StickStiffness::fft_count)
+      .def_ro("ladder_count", &StickStiffness::ladder_count)
       .def_ro("residual", &StickStiffness::residual)
       .def_ro("converged", &StickStiffness::converged)
       .def("__repr__", [](const StickStiffness& s) {

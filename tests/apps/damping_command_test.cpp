@@ -380,10 +380,12 @@ frequency = "20kHz"
 )");
   const auto study = test.run("study study.toml --no-report --json --quiet").json();
   const auto& constant = study["damping"]["damping_constant"];
+  // The two start their contacts from different neighbours. K_t has the square of its solve's tolerance of 1e-3 as error,
+  // and its slope is a difference over 30 % of the load.
   CHECK(one["damping_constant"].get<double>() ==
-        Approx(constant["mean"][1].get<double>()).epsilon(1e-9));
+        Approx(constant["mean"][1].get<double>()).epsilon(1e-6));
   CHECK(one["damping_constant_error"].get<double>() ==
-        Approx(constant["error"][1].get<double>()).epsilon(1e-6));
+        Approx(constant["error"][1].get<double>()).epsilon(1e-5));
   CHECK(one["error_estimate"].get<double>() / one["work_per_cycle"].get<double>() ==
         Approx(one["damping_constant_error"].get<double>() / one["damping_constant"].get<double>())
             .epsilon(1e-12));

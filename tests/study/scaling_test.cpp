@@ -132,7 +132,8 @@ TEST_CASE("The memory of a simulated cycle grows by half a byte a cell and step"
                      {.steps = steps, .max_periods = 1, .stick = {.tolerance = 1e-2}});
     });
   };
-  const double each = (simulated(96) - simulated(32)) / 64;
+  // Over many steps: the pools of the solves grow with the largest sets and leave gaps in the heap, up to a megabyte in all.
+  const double each = (simulated(256) - simulated(32)) / 224;
   // Sets of the way down are those of the way up: half a set of a byte a cell. A field of doubles would be 8 bytes.
   CHECK(each < 0.5 * n * n * 1.25);
 }

@@ -55,6 +55,11 @@ class ActiveSetCg {
   PunchOutcome punch_load(const double* p, double bound, const PunchLimits& limits,
                           Field* pressure = nullptr);
 
+  // Makes a set of cells ready for invert(): ix·ny + iy, in row order. False where the ladder cannot be used on it.
+  bool hold(const std::vector<Index>& cells);
+  // q ≈ G⁻¹u on the cells of hold(), with G~ in place of G: CG until a step gains less than this part of all that was gained.
+  void invert(const double* u, double step_ends, double* q, PunchOutcome& outcome);
+
  private:
   // The state of one call of solve().
   struct Run {
@@ -186,6 +191,8 @@ class ActiveSetCg {
   void choose_tiles(Run& run, double margin);
   void list_tiles();
   void choose_operator();
+  void begin_punch();
+  double punch_step(double& curvature, PunchOutcome& outcome);
   void renew_punch_residual();
   void keep_directions(const std::vector<Tile>& before, const std::vector<Index>& begins_before);
   std::byte* pool(std::size_t bytes);
@@ -218,6 +225,7 @@ class ActiveSetCg {
   std::vector<Tile> tiles_;            // row by row
   std::vector<Index> row_begins_;      // the first tile of each row, and the number of tiles
   std::vector<unsigned char> in_use_;  // (nx, tiles_per_row)
+  std::vector<Index> places_;          // of the cells of hold(), in packed fields
   // See TileArrays. Between two refreshes p and g are up to date only on the tiles.
   FramedField<Real> r_;
   double *p_ = nullptr, *g_ = nullptr;

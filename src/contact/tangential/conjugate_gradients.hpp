@@ -18,6 +18,7 @@ struct CgOutcome {
 //   apply(x, Ax), precondition(misfit, z)
 //   stop(|misfit|², iterations)  before each step; true ends it
 //   x, misfit                    the guess and b − Ax on entry; both are up to date on return
+// β = −<z, Ad>/<d, Ad> makes the new direction conjugate to the last one d even where precondition() is not linear.
 // ActiveSetCg, gradient_projection and InteractingSummits have separate loops; each says why.
 template <class Apply, class Precondition, class Stop>
 CgOutcome conjugate_gradients(const Apply& apply, const Precondition& precondition,
@@ -26,16 +27,15 @@ CgOutcome conjugate_gradients(const Apply& apply, const Precondition& preconditi
   const std::size_t unknowns = misfit.size();
   std::vector<double> preconditioned(unknowns), direction(unknowns, 0.0), image(unknowns);
   CgOutcome outcome;
-  double previous = 0;
+  double curvature = 1;
   while (!stop(dot(misfit, misfit), outcome.iterations)) {
     precondition(misfit, preconditioned);
     const double weight = dot(misfit, preconditioned);
-    const double beta = previous > 0 ? weight / previous : 0;
-    previous = weight;
+    const double beta = outcome.iterations > 0 ? -dot(preconditioned, image) / curvature : 0;
     for (std::size_t i = 0; i < unknowns; ++i)
       direction[i] = preconditioned[i] + beta * direction[i];
     apply(direction, image);
-    const double curvature = dot(direction, image);
+    curvature = dot(direction, image);
     if (!(curvature > 0)) {
       outcome.exhausted = true;
       break;

@@ -109,7 +109,8 @@ ContactSystem::ContactSystem(const Grid2D& grid, const Material& material, Bound
                              Traction traction, const CellWindow& window)
     : window_(window),
       response_(grid, material, boundary, traction, window),
-      preconditioner_(grid, boundary, window) {}
+      preconditioner_(grid, boundary, window),
+      inverse_(grid_of(window, grid), boundary) {}
 
 PointList ContactSystem::points(const ContactSet& cells) const {
   PointList list;
@@ -149,6 +150,8 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
                                iterations, report.residual});
     return report.interrupted;
   };
+  const bool on_ladder = inverse_.hold(points.windowed);
+  const int first_ladder = inverse_.ladder_count();
   report.iterations =
       conjugate_gradients(
           [&](const std::vector<double>& in, std::vector<double>& out) {
@@ -157,12 +160,16 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
           [&](const std::vector<double>& in, std::vector<double>& out) {
             for (int c = 0; c < response_.components(); ++c) {
               const std::size_t offset = size_of(c * points.size());
-              preconditioner_.apply(points, in.data() + offset, out.data() + offset);
+              if (on_ladder)
+                inverse_.apply(in.data() + offset, out.data() + offset);
+              else
+                preconditioner_.apply(points, in.data() + offset, out.data() + offset);
             }
           },
           stop, tractions, misfit)
           .iterations;
   report.fft_count = response_.fft_count() - first_fft;
+  report.ladder_count = inverse_.ladder_count() - first_ladder;
   return report;
 }
 

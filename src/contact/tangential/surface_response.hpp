@@ -12,6 +12,7 @@
 
 #include "contact/half_space/cell_window.hpp"
 #include "contact/half_space/framed_field.hpp"
+#include "contact/normal/set_inverse.hpp"
 
 namespace salebra::detail {
 
@@ -88,7 +89,9 @@ class ContactSystem {
   StencilPreconditioner& preconditioner() { return preconditioner_; }
   PointList points(const ContactSet& cells) const;
 
-  /// Preconditioned conjugate gradients from the guess in `tractions`; stops at rms(u − Kτ) < tolerance, in m.
+  /// Conjugate gradients from the guess in `tractions`; stops at rms(u − Kτ) < tolerance, in m. Preconditioned by SetInverse for each
+  /// component: Cerruti's response has Σ(1−ν_i)/(G_i q) and Σ1/(G_i q) as eigenvalues, so that the condition number is
+  /// their ratio, 1/(1 − ν), but for what the error of SetInverse adds. Where there is no ladder, by the stencil.
   /// On return residual is in m, and `misfit` (components × points) holds u − Kτ.
   StickReport solve(const PointList& points, const std::vector<double>& displacements,
                     double tolerance, int max_iterations, const Progress& progress,
@@ -98,6 +101,7 @@ class ContactSystem {
   CellWindow window_;
   SurfaceResponse response_;
   StencilPreconditioner preconditioner_;
+  SetInverse inverse_;
 };
 
 }  // namespace salebra::detail

@@ -24,7 +24,8 @@ struct StickOptions {
 /// How a linear solve on a contact set ended. Unless converged, what it computed must not be used as the answer.
 struct StickReport {
   int iterations = 0;
-  int fft_count = 0;  ///< forward-and-backward pairs of scalar fields
+  int fft_count = 0;     ///< forward-and-backward pairs of scalar fields
+  int ladder_count = 0;  ///< applications of the near-field ladder, in the preconditioner
   double residual =
       0;  ///< rms of the displacement error over the contact set, in units of the scale
   bool converged = false;
@@ -35,10 +36,11 @@ struct StickReport {
 /// The tractions satisfy Σ_A K τ = u on the cells of A and are 0 off it, with Cerruti's response of two half-spaces
 ///     û_x = Σ_i [1/(G_i q)] [(1 − ν_i q_x²/q²) τ̂_x − (ν_i q_x q_y/q²) τ̂_y],  û_y by exchange, û(0) = 0      (periodic)
 ///     u_x = Σ_i 1/(2πG_i) ∬{[(1−ν_i)/r + ν_i x²/r³] τ_x + ν_i xy/r³ τ_y},  summed over the cells' corners    (free)
-/// by conjugate gradients with a 7 × 7 stencil of |q| as preconditioner. Displacements of a periodic half-space count from its
-/// mean plane. The coupling to the normal direction (∝ 1 − 2ν) is neglected.
+/// by conjugate gradients. The preconditioner inverts the normal response on A by the near-field ladder (docs/theory.md, "Fewer
+/// transforms"). Grids without a ladder have a 7 × 7 stencil of |q|. Displacements of a periodic half-space count from its mean plane. The coupling to the normal direction (∝ 1 − 2ν) is neglected.
 /// Kernels and transforms are kept between calls: sets that fit into the window of an earlier one cost no set-up.
-/// One object may be used by one thread at a time. Memory: about 8 doubles a cell, of the padded window where free.
+/// One object may be used by one thread at a time. Memory: 65 to 100 bytes a cell, of the padded window
+/// where free, and 75 more where all cells are in contact.
 class StickSolver {
  public:
   /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.
@@ -71,9 +73,10 @@ struct StickStiffness {
   double xx = 0;
   double yy = 0;
   double xy = 0;
-  int iterations = 0;   ///< of both solves
-  int fft_count = 0;    ///< pairs of both solves
-  double residual = 0;  ///< the larger of both
+  int iterations = 0;    ///< of both solves
+  int fft_count = 0;     ///< pairs of both solves
+  int ladder_count = 0;  ///< of both solves
+  double residual = 0;   ///< the larger of both
   bool converged = false;
 };
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <salebra/base/grid.hpp>
+#include <salebra/contact/half_space/half_space.hpp>
+#include <vector>
+
+namespace salebra::detail {
+
+// Approximate inverse of normal_compliance() on a set of cells, E* = 1, without a transform of the grid: CG in float with the near-field
+// ladder in its place, until the error in the norm of G is about a tenth. It is not the same linear map for every vector: an iteration that
+// is preconditioned with it needs β = −<z, Ad>/<d, Ad>.
+class SetInverse {
+ public:
+  SetInverse(const Grid2D& grid, Boundary boundary);
+  SetInverse(SetInverse&&) noexcept;
+  SetInverse& operator=(SetInverse&&) noexcept;
+  ~SetInverse();
+
+  // The set: ix·ny + iy, in row order, not empty. False where the grid has no ladder: apply() must not be called then.
+  bool hold(const std::vector<Index>& cells);
+  // One value for each cell of the set; q may be u.
+  void apply(const double* u, double* q);
+  int ladder_count() const;  // applications so far
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace salebra::detail
