@@ -338,11 +338,8 @@ void Convolution2D<Real>::apply(const Real* field, Real* result) {
 
 template <class Real>
 void Convolution2D<Real>::apply(const RowSource& source, const RowSink& sink) {
-  require(passes_->components == 1, "components", passes_->components,
-          "must be 1 to transform one field");
-  passes_->apply([&](int, Index row, Real* room) { return source(row, room); },
-                 [](int, Index, Real* room) { return room; },
-                 [&](int, Index row, const Real* values) { sink(row, values); });
+  passes_->apply(
+      source, [](int, Index, Real* room) { return room; }, sink);
 }
 
 template <class Real>

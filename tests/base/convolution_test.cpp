@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <salebra/base/convolution.hpp>
@@ -100,36 +101,48 @@ TEST_CASE("A convolution of rows that are made and taken one by one is that of t
           "[convolution]") {
   // 96 rows are six blocks of eight pairs, 45 leave a row without partner and a block that is not full.
   const Case shape = GENERATE(Case{96, 64, 96, 64}, Case{45, 20, 90, 40}, Case{1, 5, 1, 5});
-  Field field = Field::Random(shape.nx, shape.ny);
-  // Of the first two pairs one row is empty each, of the next both.
-  const auto empty = [&](Index row) {
-    const Index half = (std::min<Index>(shape.nx, 16) + 1) / 2;
-    return row == 0 || row == half + 1 || row == 2 || row == half + 2;
+  const int components = GENERATE(1, 2);
+  // Of the first two pairs one row is empty each, of the next both. The second component has other empty rows.
+  const auto empty = [&](int component, Index row) {
+    const Index half = (std::min<Index>(shape.nx, 16) + 1) / 2, shifted = row - component;
+    return shifted == 0 || shifted == half + 1 || shifted == 2 || shifted == half + 2;
   };
-  for (Index row = 0; row < shape.nx; ++row)
-    if (empty(row)) field.row(row).setZero();
-  Convolution2D<double> convolution({shape.nx, shape.ny, shape.period_x, shape.period_y});
-  convolution.set_symbol(0, 0, [](Index i, Index j) { return 1 / (1.0 + double(i * i + j * j)); });
-  Field whole(shape.nx, shape.ny), by_rows = Field::Zero(shape.nx, shape.ny);
-  convolution.apply(field.data(), whole.data());
-  Eigen::ArrayXi asked = Eigen::ArrayXi::Zero(shape.nx), taken = asked;
+  std::array<Field, 2> fields{Field::Random(shape.nx, shape.ny), Field::Random(shape.nx, shape.ny)};
+  for (int component = 0; component < 2; ++component)
+    for (Index row = 0; row < shape.nx; ++row)
+      if (empty(component, row)) fields[std::size_t(component)].row(row).setZero();
+  Convolution2D<double> convolution({shape.nx, shape.ny, shape.period_x, shape.period_y},
+                                    components);
+  for (int a = 0; a < components; ++a)
+    for (int b = a; b < components; ++b)
+      convolution.set_symbol(
+          a, b, [=](Index i, Index j) { return 1 / (1.0 + a + 2 * b + double(i * i + j * j)); });
+  std::array<Field, 2> whole{fields},
+      by_rows{Field::Zero(shape.nx, shape.ny), Field::Zero(shape.nx, shape.ny)};
+  if (components == 1)
+    convolution.apply(fields[0].data(), whole[0].data());
+  else
+    convolution.apply({fields[0].data(), fields[1].data()}, {whole[0].data(), whole[1].data()});
+  Eigen::ArrayXXi asked = Eigen::ArrayXXi::Zero(components, shape.nx), taken = asked;
   convolution.apply(
-      [&](Index row, double* room) -> const double* {
-        ++asked(row);
-        if (empty(row)) {
-          std::fill_n(room, shape.ny,
-                      1e9);  // what is left in the room of an empty row does not count
+      [&](int component, Index row, double* room) -> const double* {
+        const double* values = fields[std::size_t(component)].data() + row * shape.ny;
+        ++asked(component, row);
+        if (empty(component, row)) {
+          // What is left in the room of an empty row does not count.
+          std::fill_n(room, shape.ny, 1e9);
           return nullptr;
         }
-        if (row % 3 == 0) return field.data() + row * shape.ny;
-        std::copy_n(field.data() + row * shape.ny, shape.ny, room);
+        if (row % 3 == 0) return values;
+        std::copy_n(values, shape.ny, room);
         return room;
       },
-      [&](Index row, const double* values) {
-        ++taken(row);
-        std::copy_n(values, shape.ny, by_rows.data() + row * shape.ny);
+      [&](int component, Index row, const double* values) {
+        ++taken(component, row);
+        std::copy_n(values, shape.ny, by_rows[std::size_t(component)].data() + row * shape.ny);
       });
-  CHECK((by_rows == whole).all());
+  for (int component = 0; component < components; ++component)
+    CHECK((by_rows[std::size_t(component)] == whole[std::size_t(component)]).all());
   CHECK((asked == 1).all());
   CHECK((taken == 1).all());
 }

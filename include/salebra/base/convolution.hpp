@@ -47,17 +47,16 @@ class Convolution2D {
 
   /// One component. result may be field itself.
   void apply(const Real* field, Real* result);
-
-  /// Where the ny numbers of a row of the field are: in `room`, which takes ny numbers, or elsewhere; nullptr: all are zero.
-  using RowSource = std::function<const Real*(Index row, Real* room)>;
-  /// Takes the ny numbers of a row of the result, which are gone afterwards.
-  using RowSink = std::function<void(Index row, const Real* values)>;
-  /// One component whose field and result are nowhere as a whole: each row is asked for once and handed over once, by any thread and
-  /// in any order, all of the field before any of the result. Rows of zeros cost less than others.
-  void apply(const RowSource& source, const RowSink& sink);
-
   /// Two components.
   void apply(const std::array<const Real*, 2>& fields, const std::array<Real*, 2>& results);
+
+  /// Where the ny numbers of a row of a component are: in `room`, which takes ny numbers, or elsewhere; nullptr: all are zero.
+  using RowSource = std::function<const Real*(int component, Index row, Real* room)>;
+  /// Takes the ny numbers of a row of a component of the result, which are gone afterwards.
+  using RowSink = std::function<void(int component, Index row, const Real* values)>;
+  /// Fields and results that are nowhere as a whole: each row is asked for once and handed over once, by any thread and in any order,
+  /// all of the fields before any of the results. Rows of zeros cost less than others.
+  void apply(const RowSource& source, const RowSink& sink);
 
  private:
   struct Passes;

@@ -155,8 +155,8 @@ void NearFieldLadder::descend(FramedField<float>& source) {
   Level& last = levels_.back();
   const Index ny = last.source.ny();
   coarsest_->apply(
-      [&](Index row, float*) { return last.source.row(row); },
-      [&](Index row, const float* values) { std::copy_n(values, ny, last.image.row(row)); });
+      [&](int, Index row, float*) { return last.source.row(row); },
+      [&](int, Index row, const float* values) { std::copy_n(values, ny, last.image.row(row)); });
   if (periodic) last.image.wrap();
   for (std::size_t k = levels_.size() - 1; k-- > 0;) {
     Level& level = levels_[k];

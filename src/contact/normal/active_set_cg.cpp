@@ -174,7 +174,7 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
     const Index first = row * grid_.ny;
     sums[static_cast<std::size_t>(row)] =
         kernel(displacement, heights_.values + first, heights_.zero, run.p + first, run.g + first,
-               grid_.ny, bound, near);
+               grid_.ny, bound, near, nearest_.data() + row * tiles_per_row_);
   };
   ++run.outcome.fft_count;
   double seconds = 0;
@@ -182,16 +182,16 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
     const Stopwatch stopwatch(seconds);
     if (exact || std::is_same_v<Real, double>) {
       exact_compliance().apply(
-          [&](Index row, double*) { return run.p + row * grid_.ny; },
-          [&](Index row, const double* values) { take(kernels_.exact_gap, row, values); });
+          [&](int, Index row, double*) { return run.p + row * grid_.ny; },
+          [&](int, Index row, const double* values) { take(kernels_.exact_gap, row, values); });
     } else {
       dense_compliance().apply(
-          [&](Index row, Real* room) {
+          [&](int, Index row, Real* room) {
             std::transform(run.p + row * grid_.ny, run.p + (row + 1) * grid_.ny, room,
                            [](double p) { return static_cast<Real>(p); });
             return room;
           },
-          [&](Index row, const Real* values) { take(kernels_.gap, row, values); });
+          [&](int, Index row, const Real* values) { take(kernels_.gap, row, values); });
     }
   }
   run.outcome.fft_seconds += seconds;

@@ -141,14 +141,14 @@ class ActiveSetCg {
       spectrum_in_pool_ = false;
     }
     compliance_.apply(
-        [&](Index row, Real* room) -> const Real* {
+        [&](int, Index row, Real* room) -> const Real* {
           const Index begin = first_tile(row), end = first_tile(row + 1);
           if (begin == end) return nullptr;
           std::fill_n(room, grid_.ny, Real(0));
           spread(begin, end, room);
           return room;
         },
-        [&](Index row, const Real* values) {
+        [&](int, Index row, const Real* values) {
           const Index begin = first_tile(row), end = first_tile(row + 1);
           if (begin < end) sums[static_cast<std::size_t>(row)] = collect(begin, end, values);
         });
@@ -225,7 +225,8 @@ class ActiveSetCg {
   std::vector<Tile> tiles_;            // row by row
   std::vector<Index> row_begins_;      // the first tile of each row, and the number of tiles
   std::vector<unsigned char> in_use_;  // (nx, tiles_per_row)
-  std::vector<Index> places_;          // of the cells of hold(), in packed fields
+  std::vector<double> nearest_;  // the same, of the last dense_gap(): least g, −∞ under load
+  std::vector<Index> places_;    // of the cells of hold(), in packed fields
   // See TileArrays. Between two refreshes p and g are up to date only on the tiles.
   FramedField<Real> r_;
   double *p_ = nullptr, *g_ = nullptr;

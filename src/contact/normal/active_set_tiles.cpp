@@ -43,6 +43,7 @@ void ActiveSetCg<Real>::reset() {
   tiles_.clear();
   row_begins_.assign(static_cast<std::size_t>(grid_.nx + 1), 0);
   in_use_.assign(static_cast<std::size_t>(grid_.nx * tiles_per_row_), 0);
+  nearest_.resize(in_use_.size());
   if (r_) {
     r_.clear();
   } else {
@@ -139,17 +140,14 @@ template <class Real>
 void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
   const double near = run.level + margin * rms_height_, bound = run.target.bound;
   for_rows([&](Index begin, Index end) {
-    for (Index row = begin; row < end; ++row)
-      for (Index k = 0; k < tiles_per_row_; ++k) {
-        const Index column = k * tile_width, width = std::min<Index>(tile_width, grid_.ny - column);
-        const double* p = run.p + row * grid_.ny + column;
-        const double* g = run.g + row * grid_.ny + column;
-        bool needed = false;
-        for (Index i = 0; i < width; ++i) needed |= (p[i] > 0) | (g[i] < near);
-        unsigned char& used = in_use_[static_cast<std::size_t>(row * tiles_per_row_ + k)];
-        if (used && !needed) std::fill_n(r_.row(row) + column, width, Real(0));
-        used = needed;
-      }
+    for (Index k = begin * tiles_per_row_; k < end * tiles_per_row_; ++k) {
+      const Index row = k / tiles_per_row_, column = k % tiles_per_row_ * tile_width;
+      const bool needed = nearest_[static_cast<std::size_t>(k)] < near;
+      unsigned char& used = in_use_[static_cast<std::size_t>(k)];
+      if (used && !needed)
+        std::fill_n(r_.row(row) + column, std::min<Index>(tile_width, grid_.ny - column), Real(0));
+      used = needed;
+    }
   });
   list_tiles();
   begin_set(

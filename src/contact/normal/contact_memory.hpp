@@ -12,7 +12,7 @@ inline double contact_memory(const Grid2D& grid, const NormalContactOptions& opt
   return (options.precision == Precision::mixed ? 43 : 58) * static_cast<double>(grid.points());
 }
 
-/// What a stick solve takes, bytes: 97 a cell with contact on a tenth of them, of the window of the contact where the boundary is free.
-inline double stick_memory(const Grid2D& grid) { return 97 * static_cast<double>(grid.points()); }
+/// What a stick solve takes, bytes: 65 a cell with contact on a tenth of them, of the window of the contact where the boundary is free.
+inline double stick_memory(const Grid2D& grid) { return 65 * static_cast<double>(grid.points()); }
 
 }  // namespace salebra::detail

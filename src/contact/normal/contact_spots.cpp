@@ -4,19 +4,18 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <numeric>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
+#include <utility>
+#include <vector>
 
 namespace salebra {
 namespace {
 
-/// Disjoint sets of cells; the least index of a set is its root.
+/// Disjoint sets of numbers 0, 1, …; the least number of a set is its root.
 class Sets {
  public:
-  explicit Sets(Index cells) : parent_(static_cast<std::size_t>(cells)) {
-    std::iota(parent_.begin(), parent_.end(), Index{0});
-  }
+  void add() { parent_.push_back(static_cast<Index>(parent_.size())); }
   Index root(Index cell) {
     while (at(cell) != cell) {
       at(cell) = at(at(cell));
@@ -42,44 +41,65 @@ ContactSpots contact_spots(const Field& pressure, const Grid2D& grid, Boundary b
   require(pressure.rows() == grid.nx && pressure.cols() == grid.ny, "pressure", pressure.rows(),
           "rows or the number of columns differ from those of the grid");
   const bool periodic = boundary == Boundary::periodic;
-  const auto touches = [&](Index ix, Index iy) { return pressure(ix, iy) > 0; };
-  Sets sets(grid.points());
-  Index cells = 0, edges_across_x = 0, edges_across_y = 0;
-  // Each cell looks at its next neighbour along x and along y; an edge of the contact lies between unlike cells.
-  for (Index ix = 0; ix < grid.nx; ++ix)
+
+  // Contact cells are numbered row by row. Each row is compared with the one before it, and the first with the last at the end; an edge
+  // of the contact lies between unlike cells.
+  using Row = std::vector<Index>;  // the number of each cell, or none
+  constexpr Index none = -1;
+  Sets sets;
+  std::vector<double> loads;
+  Index edges_across_x = 0, edges_across_y = 0;
+  const auto numbered = [&](Index ix, Row& row) {
     for (Index iy = 0; iy < grid.ny; ++iy) {
-      const bool here = touches(ix, iy);
-      cells += here;
-      const Index next_x = (ix + 1) % grid.nx, next_y = (iy + 1) % grid.ny;
-      if (periodic || next_x > ix) {
-        edges_across_x += here != touches(next_x, iy);
-        if (here && touches(next_x, iy)) sets.join(ix * grid.ny + iy, next_x * grid.ny + iy);
-      } else {
-        edges_across_x += here;
-        edges_across_x += touches(0, iy);
-      }
-      if (periodic || next_y > iy) {
-        edges_across_y += here != touches(ix, next_y);
-        if (here && touches(ix, next_y)) sets.join(ix * grid.ny + iy, ix * grid.ny + next_y);
-      } else {
-        edges_across_y += here;
-        edges_across_y += touches(ix, 0);
-      }
+      const double load = pressure(ix, iy);
+      Index& number = row[static_cast<std::size_t>(iy)];
+      number = none;
+      if (!(load > 0)) continue;
+      number = static_cast<Index>(loads.size());
+      loads.push_back(load);
+      sets.add();
     }
+  };
+  const auto compare = [&](Index first, Index second, Index& edges) {
+    edges += (first == none) != (second == none);
+    if (first != none && second != none) sets.join(first, second);
+  };
+  const auto compare_rows = [&](const Row& first, const Row& second) {
+    for (std::size_t iy = 0; iy < first.size(); ++iy)
+      compare(first[iy], second[iy], edges_across_x);
+  };
+  const auto compare_within = [&](const Row& row) {
+    for (std::size_t iy = 1; iy < row.size(); ++iy) compare(row[iy - 1], row[iy], edges_across_y);
+    compare(row.back(), periodic ? row.front() : none, edges_across_y);
+    if (!periodic) compare(none, row.front(), edges_across_y);
+  };
+  const Row empty(static_cast<std::size_t>(grid.ny), none);
+  Row first = empty, last = empty, row = empty;
+  for (Index ix = 0; ix < grid.nx; ++ix) {
+    numbered(ix, row);
+    compare_within(row);
+    if (ix == 0)
+      first = row;
+    else
+      compare_rows(last, row);
+    std::swap(last, row);
+  }
+  compare_rows(last, periodic ? first : empty);
+  if (!periodic) compare_rows(empty, first);
 
   ContactSpots result;
-  std::vector<Index> spot_of(static_cast<std::size_t>(grid.points()), -1);
-  for (Index ix = 0; ix < grid.nx; ++ix)
-    for (Index iy = 0; iy < grid.ny; ++iy) {
-      if (!touches(ix, iy)) continue;
-      Index& spot = spot_of[static_cast<std::size_t>(sets.root(ix * grid.ny + iy))];
-      if (spot < 0) {
-        spot = static_cast<Index>(result.spots.size());
-        result.spots.emplace_back();
-      }
-      result.spots[static_cast<std::size_t>(spot)].area += grid.cell_area();
-      result.spots[static_cast<std::size_t>(spot)].force += pressure(ix, iy) * grid.cell_area();
+  const Index cells = static_cast<Index>(loads.size());
+  std::vector<Index> spot_of(loads.size(), none);
+  for (Index cell = 0; cell < cells; ++cell) {
+    Index& spot = spot_of[static_cast<std::size_t>(sets.root(cell))];
+    if (spot == none) {
+      spot = static_cast<Index>(result.spots.size());
+      result.spots.emplace_back();
     }
+    result.spots[static_cast<std::size_t>(spot)].area += grid.cell_area();
+    result.spots[static_cast<std::size_t>(spot)].force +=
+        loads[static_cast<std::size_t>(cell)] * grid.cell_area();
+  }
   std::ranges::stable_sort(result.spots, std::ranges::greater{}, &ContactSpot::area);
 
   const double points = static_cast<double>(grid.points());

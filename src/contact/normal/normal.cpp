@@ -107,7 +107,7 @@ void check(const Surface& surface, double contact_modulus, const NormalContactOp
   require(options.hardness > 0, "hardness", options.hardness, "must be > 0");
   if (const Field* start = options.initial_pressure)
     require(start->rows() == surface.grid.nx && start->cols() == surface.grid.ny &&
-                start->isFinite().all() && start->minCoeff() >= 0,
+                (*start >= 0 && *start <= std::numeric_limits<double>::max()).all(),
             "initial_pressure", start->size(),
             "cells must fill the grid with finite pressures >= 0");
   require_memory(surface.grid, detail::contact_memory(surface.grid, options), "a contact");

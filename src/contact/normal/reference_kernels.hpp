@@ -210,10 +210,12 @@ SetSums add_displacement(const TileArrays<Real>& a, std::ptrdiff_t begin, std::p
 
 template <class Displacement>
 GapSums gap(const Displacement* u, const double* heights, double zero, const double* p, double* g,
-            std::ptrdiff_t count, double bound, double plane) {
+            std::ptrdiff_t count, double bound, double plane, double* nearest) {
   GapSums sums;
   sums.least = std::numeric_limits<double>::infinity();
   for (std::ptrdiff_t k = 0; k < count; ++k) {
+    double& of_tile = nearest[k / tile_width];
+    if (k % tile_width == 0) of_tile = std::numeric_limits<double>::infinity();
     g[k] = double(u[k]) - (heights[k] - zero);
     sums.pressure += p[k];
     if (p[k] > 0 && p[k] < bound) {
@@ -224,6 +226,7 @@ GapSums gap(const Displacement* u, const double* heights, double zero, const dou
     sums.distance += std::abs(p[k] * (g[k] - plane));
     sums.saturated += !(p[k] < bound);
     sums.least = std::min(sums.least, g[k]);
+    of_tile = std::min(of_tile, p[k] > 0 ? -std::numeric_limits<double>::infinity() : g[k]);
   }
   return sums;
 }

@@ -94,11 +94,13 @@ struct TileKernels {
   SetSums (*add_displacement)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                               const Real* row);
 
-  // Over consecutive cells: g = u − (heights − zero), and what the contact plane follows from.
+  // Over the cells of a row: g = u − (heights − zero), what the contact plane follows from, and for each tile in `nearest` its least g,
+  // −∞ where a cell of it carries load.
   GapSums (*gap)(const Real* u, const double* heights, double zero, const double* p, double* g,
-                 std::ptrdiff_t count, double bound, double plane);
+                 std::ptrdiff_t count, double bound, double plane, double* nearest);
   GapSums (*exact_gap)(const double* u, const double* heights, double zero, const double* p,
-                       double* g, std::ptrdiff_t count, double bound, double plane);
+                       double* g, std::ptrdiff_t count, double bound, double plane,
+                       double* nearest);
   // Σp over consecutive cells, p clipped to [0, bound] first.
   double (*clip)(double* p, std::ptrdiff_t count, double bound);
 };

@@ -54,27 +54,31 @@ SurfaceResponse::SurfaceResponse(const Grid2D& grid, const Material& material, B
                                  Traction traction, const CellWindow& window)
     : window_(affordable(window, grid)),
       traction_(traction),
-      compliance_(tangential_compliance<double>(grid_of(window, grid), material, boundary)) {
-  for (std::size_t c = 0; c < 2; ++c) {
-    loads_[c].assign(size_of(window.nx * window.ny), 0);
-    values_[c] = loads_[c];
-  }
-}
+      compliance_(tangential_compliance<double>(grid_of(window, grid), material, boundary)) {}
 
 void SurfaceResponse::apply(const PointList& loaded, const double* tractions, const PointList& read,
                             double* displacements) {
-  const std::size_t loads = loaded.windowed.size(), reads = read.windowed.size();
-  const std::size_t first = traction_ == Traction::along_y ? 1 : 0;
-  const std::size_t count = size_of(components());
-  for (std::size_t c = 0; c < count; ++c)
-    for (std::size_t k = 0; k < loads; ++k)
-      loads_[first + c][size_of(loaded.windowed[k])] = tractions[c * loads + k];
-  compliance_.apply({loads_[0].data(), loads_[1].data()}, {values_[0].data(), values_[1].data()});
-  for (std::size_t c = 0; c < count; ++c) {
-    for (const Index at : loaded.windowed) loads_[first + c][size_of(at)] = 0;
-    for (std::size_t k = 0; k < reads; ++k)
-      displacements[c * reads + k] = values_[first + c][size_of(read.windowed[k])];
-  }
+  const int first = traction_ == Traction::along_y ? 1 : 0;
+  // body(place among the values of all components, column) for the points of a row; false where there are none.
+  const auto for_row = [&](const PointList& points, int component, Index row, const auto& body) {
+    const Index begin = points.row_begins[size_of(row)], end = points.row_begins[size_of(row + 1)];
+    const Index offset = (component - first) * points.size();
+    if (begin == end || component < first || component >= first + components()) return false;
+    for (Index k = begin; k < end; ++k)
+      body(offset + k, points.windowed[size_of(k)] - row * window_.ny);
+    return true;
+  };
+  compliance_.apply(
+      [&](int component, Index row, double* room) -> const double* {
+        std::fill_n(room, window_.ny, 0.0);
+        const bool any = for_row(loaded, component, row,
+                                 [&](Index k, Index column) { room[column] = tractions[k]; });
+        return any ? room : nullptr;
+      },
+      [&](int component, Index row, const double* values) {
+        for_row(read, component, row,
+                [&](Index k, Index column) { displacements[k] = values[column]; });
+      });
   fft_count_ += 2;
 }
 
@@ -114,13 +118,16 @@ ContactSystem::ContactSystem(const Grid2D& grid, const Material& material, Bound
 
 PointList ContactSystem::points(const ContactSet& cells) const {
   PointList list;
-  for (Index ix = window_.x0; ix < window_.x0 + window_.nx; ++ix)
+  for (Index ix = window_.x0; ix < window_.x0 + window_.nx; ++ix) {
+    list.row_begins.push_back(list.size());
     for (Index iy = window_.y0; iy < window_.y0 + window_.ny; ++iy)
       if (cells(ix, iy)) {
         list.cell.push_back(ix * cells.cols() + iy);
-        list.windowed.push_back(response_.window_index(ix, iy));
+        list.windowed.push_back((ix - window_.x0) * window_.ny + iy - window_.y0);
         list.framed.push_back(preconditioner_.framed_index(ix, iy));
       }
+  }
+  list.row_begins.push_back(list.size());
   return list;
 }
 

@@ -21,9 +21,10 @@ double dot(const std::vector<double>& a, const std::vector<double>& b);
 
 /// Cells of a set in row order, as positions in the window and in the preconditioner's framed window.
 struct PointList {
-  std::vector<Index> cell;      ///< ix·ny + iy in the grid
-  std::vector<Index> windowed;  ///< in SurfaceResponse's fields
-  std::vector<Index> framed;    ///< in StencilPreconditioner's field
+  std::vector<Index> cell;        ///< ix·ny + iy in the grid
+  std::vector<Index> windowed;    ///< ix·ny + iy in the window
+  std::vector<Index> framed;      ///< in StencilPreconditioner's field
+  std::vector<Index> row_begins;  ///< the first point of each row of the window, and their number
   Index size() const { return static_cast<Index>(cell.size()); }
 };
 
@@ -39,9 +40,6 @@ class SurfaceResponse {
                   Traction traction, const CellWindow& window);
 
   int components() const { return traction_ == Traction::tangential ? 2 : 1; }
-  Index window_index(Index ix, Index iy) const {
-    return (ix - window_.x0) * window_.ny + iy - window_.y0;
-  }
   /// displacements (components × read.size()) of tractions (components × loaded.size()).
   void apply(const PointList& loaded, const double* tractions, const PointList& read,
              double* displacements);
@@ -51,7 +49,6 @@ class SurfaceResponse {
   CellWindow window_;
   Traction traction_;
   Convolution2D<double> compliance_;
-  std::array<std::vector<double>, 2> loads_, values_;
   int fft_count_ = 0;
 };
 

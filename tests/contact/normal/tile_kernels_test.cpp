@@ -223,15 +223,21 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
   both("gap", [&](auto& f, auto& a, auto& s, auto& b) {
     // Any 53 numbers will do as heights; p as it is: within bounds and beyond.
     const std::vector<double> heights = a.g;
-    return equal(
-        f.gap(a.row.data(), heights.data(), 0.5, a.p.data(), a.g.data(), ny, bound, level),
-        s.gap(b.row.data(), heights.data(), 0.5, b.p.data(), b.g.data(), ny, bound, level));
+    std::array<double, tiles_per_row> near, near_plain;
+    return equal(f.gap(a.row.data(), heights.data(), 0.5, a.p.data(), a.g.data(), ny, bound, level,
+                       near.data()),
+                 s.gap(b.row.data(), heights.data(), 0.5, b.p.data(), b.g.data(), ny, bound, level,
+                       near_plain.data())) &&
+           near == near_plain;
   });
   both("exact_gap", [&](auto& f, auto& a, auto& s, auto& b) {
     const std::vector<double> heights = a.g, u = a.p;
-    return equal(
-        f.exact_gap(u.data(), heights.data(), 0.5, a.p.data(), a.g.data(), ny, bound, level),
-        s.exact_gap(u.data(), heights.data(), 0.5, b.p.data(), b.g.data(), ny, bound, level));
+    std::array<double, tiles_per_row> near, near_plain;
+    return equal(f.exact_gap(u.data(), heights.data(), 0.5, a.p.data(), a.g.data(), ny, bound,
+                             level, near.data()),
+                 s.exact_gap(u.data(), heights.data(), 0.5, b.p.data(), b.g.data(), ny, bound,
+                             level, near_plain.data())) &&
+           near == near_plain;
   });
   both("clip", [&](auto& f, auto& a, auto& s, auto& b) {
     return close(f.clip(a.p.data(), ny, bound), s.clip(b.p.data(), ny, bound)) &&

@@ -39,8 +39,8 @@ struct StickReport {
 /// by conjugate gradients. The preconditioner inverts the normal response on A by the near-field ladder (docs/theory.md, "Fewer
 /// transforms"). Grids without a ladder have a 7 × 7 stencil of |q|. Displacements of a periodic half-space count from its mean plane. The coupling to the normal direction (∝ 1 − 2ν) is neglected.
 /// Kernels and transforms are kept between calls: sets that fit into the window of an earlier one cost no set-up.
-/// One object may be used by one thread at a time. Memory: 65 to 100 bytes a cell, of the padded window
-/// where free, and 75 more where all cells are in contact.
+/// One object may be used by one thread at a time. Memory: 45 to 65 bytes a cell, of the padded window
+/// where free, and twice as much where half of the cells are in contact.
 class StickSolver {
  public:
   /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.
