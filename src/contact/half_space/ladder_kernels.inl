@@ -8,7 +8,6 @@ namespace salebra::detail::SALEBRA_SIMD {
 using Length = std::ptrdiff_t;
 
 typedef float Floats __attribute__((vector_size(register_bytes)));
-typedef int Places __attribute__((vector_size(register_bytes)));
 inline constexpr int lane_count = register_bytes / 4, registers_of_tile = tile_width / lane_count;
 
 // Of a framed field: rows of another tile are not predicted by the processor's prefetcher.
@@ -33,11 +32,35 @@ SALEBRA_INLINE void store(const float* numbers, Length width, float* place) {
   }
 }
 
-// first + step·lane of each lane.
-SALEBRA_INLINE Places places(int first, int step) {
-  Places result{};
-  for (int lane = 0; lane < lane_count; ++lane) result[lane] = first + step * lane;
-  return result;
+// 0, 1, … of a register, so that the places of a shuffle can be written as a formula; both compilers ask for constants there.
+template <int... lane>
+struct Each {};
+template <int count, int... lane>
+struct Counted : Counted<count - 1, count - 1, lane...> {};
+template <int... lane>
+struct Counted<0, lane...> {
+  using Lanes = Each<lane...>;
+};
+using EachLane = Counted<lane_count>::Lanes;
+
+// Of two registers one after the other: every second number.
+template <int first, int... lane>
+SALEBRA_INLINE Floats every_second(Floats low, Floats high, Each<lane...>) {
+  return __builtin_shufflevector(low, high, (2 * lane + first)...);
+}
+// Those of `every` from its number `first` on, where `every` holds every second number; numbers parity and parity + 2 of what comes
+// after follow.
+template <int first, int parity, int... lane>
+SALEBRA_INLINE Floats onwards(Floats every, Floats after, Each<lane...>) {
+  return __builtin_shufflevector(
+      every, after,
+      (lane + first < lane_count ? lane + first
+                                 : lane_count + 2 * (lane + first - lane_count) + parity)...);
+}
+// Each number twice, from the one at `first` on.
+template <int first, int... lane>
+SALEBRA_INLINE Floats twice(Floats numbers, Each<lane...>) {
+  return __builtin_shufflevector(numbers, numbers, (lane / 2 + first)...);
 }
 
 void restriction(const Tile* tiles, Length begin, Length end, const FramedView& fine,
@@ -47,12 +70,6 @@ void restriction(const Tile* tiles, Length begin, Length end, const FramedView& 
     return 0.125f * (load(centre - 2 * stride) + load(centre + 2 * stride)) +
            0.5f * (load(centre - stride) + load(centre + stride)) + 0.75f * load(centre);
   };
-  // Of two registers one after the other: every second number, from the first and from the second …
-  const Places evens = places(0, 2), odds = places(1, 2);
-  // … and the evens or odds that begin one or two later, the last from the register after: its numbers 0 and 2, or 1.
-  Places second_even = places(1, 1), third_even = places(2, 1), second_odd = places(1, 1);
-  second_odd[lane_count - 1] = lane_count + 1;
-  third_even[lane_count - 1] = lane_count + 2;
   for (Length t = begin; t < end; ++t) {
     const Length row = tiles[t].row, column = tiles[t].column;
     const float* centre = cell(fine, 2 * row - shift.x, 2 * column - shift.y - 2);
@@ -61,11 +78,11 @@ void restriction(const Tile* tiles, Length begin, Length end, const FramedView& 
     for (int k = 0; k < registers_of_tile; ++k) {
       const Floats next = column_sum(centre + (2 * k + 1) * lane_count),
                    after = column_sum(centre + (2 * k + 2) * lane_count);
-      const Floats even = __builtin_shuffle(sum, next, evens),
-                   odd = __builtin_shuffle(sum, next, odds);
-      const Floats here = 0.125f * (even + __builtin_shuffle(even, after, third_even)) +
-                          0.5f * (odd + __builtin_shuffle(odd, after, second_odd)) +
-                          0.75f * __builtin_shuffle(even, after, second_even);
+      const Floats even = every_second<0>(sum, next, EachLane{}),
+                   odd = every_second<1>(sum, next, EachLane{});
+      const Floats here = 0.125f * (even + onwards<2, 0>(even, after, EachLane{})) +
+                          0.5f * (odd + onwards<1, 1>(odd, after, EachLane{})) +
+                          0.75f * onwards<1, 0>(even, after, EachLane{});
       __builtin_memcpy(result + k * lane_count, &here, sizeof(here));
       sum = after;
     }
@@ -78,10 +95,8 @@ SALEBRA_INLINE void interpolated(const FramedView& coarse, const Shift& shift, c
                                  float* result) {
   const Length x = tile.row + shift.x, y = tile.column + shift.y;
   const float* centre = cell(coarse, x / 2, y / 2 - 1);
-  Places first{};
   Floats before_weight{}, weight{};
   for (int lane = 0; lane < lane_count; ++lane) {
-    first[lane] = lane / 2;
     before_weight[lane] = lane % 2 == 0 ? 0.125f : 0.0f;
     weight[lane] = lane % 2 == 0 ? 0.75f : 0.5f;
   }
@@ -92,9 +107,9 @@ SALEBRA_INLINE void interpolated(const FramedView& coarse, const Shift& shift, c
     const Floats sum = x % 2 != 0
                            ? 0.5f * (here + after)
                            : 0.125f * (load(place - coarse.stride) + after) + 0.75f * here;
-    const Floats numbers = before_weight * __builtin_shuffle(sum, first) +
-                           weight * __builtin_shuffle(sum, first + 1) +
-                           after_weight * __builtin_shuffle(sum, first + 2);
+    const Floats numbers = before_weight * twice<0>(sum, EachLane{}) +
+                           weight * twice<1>(sum, EachLane{}) +
+                           after_weight * twice<2>(sum, EachLane{});
     __builtin_memcpy(result + k * lane_count, &numbers, sizeof(numbers));
   }
 }
