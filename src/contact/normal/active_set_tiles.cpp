@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "active_set_cg.hpp"
+#include "tile_sums.hpp"
 
 namespace salebra::detail {
 namespace {
