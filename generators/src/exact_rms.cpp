@@ -14,7 +14,7 @@ namespace salebra {
 namespace {
 
 double sum_of(const Field& heights, double (*term)(double height, double mean), double mean) {
-  return parallel::sum_slabs(heights.rows(), [&](Index begin, Index end) {
+  return parallel::sum_blocks(heights.rows(), [&](Index begin, Index end) {
     double sum = 0;
     for (Index ix = begin; ix < end; ++ix)
       for (Index iy = 0; iy < heights.cols(); ++iy) sum += term(heights(ix, iy), mean);
@@ -29,7 +29,7 @@ double rms_slope_of(const Surface& surface) {
   std::vector<std::complex<double>> modes(static_cast<std::size_t>(grid.nx * fft.modes_y()));
   fft.forward(surface.heights.data(), modes.data());
   const double step_x = 2 * std::numbers::pi / grid.lx, step_y = 2 * std::numbers::pi / grid.ly;
-  const double sum = parallel::sum_slabs(grid.nx, [&](Index begin, Index end) {
+  const double sum = parallel::sum_blocks(grid.nx, [&](Index begin, Index end) {
     double of_rows = 0;
     for (Index row = begin; row < end; ++row) {
       const double qx = step_x * static_cast<double>(2 * row > grid.nx ? row - grid.nx : row);

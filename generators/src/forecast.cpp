@@ -20,7 +20,8 @@ double scatter_of(const Grid2D& grid, const Spectrum& spectrum, const Progress& 
   const auto sum_of_powers = [&](int exponent) {
     LoopProgress loop(progress, "scatter", carried.j_max() + 1, exponent == 1 ? 0.5 : 0,
                       exponent == 1 ? 1 : 0.5);
-    const double sum_of_all = parallel::sum_slabs(carried.j_max() + 1, [&](Index begin, Index end) {
+    const double sum_of_all = parallel::sum_blocks(carried.j_max() + 1, [&](Index begin,
+                                                                            Index end) {
       double sum = 0;
       for (Index j = begin; j < end && loop.advance(); ++j)
         detail::for_each_mode_of_column(carried, j, [&](double, double, double power, bool pair) {

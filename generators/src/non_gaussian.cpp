@@ -113,7 +113,7 @@ class TargetAmplitudes {
   // Over the whole spectrum: modes with a conjugate that is not stored count twice.
   template <class Term>
   double sum(const Term& term) const {
-    return parallel::sum_slabs(fft_.nx(), [&](Index begin, Index end) {
+    return parallel::sum_blocks(fft_.nx(), [&](Index begin, Index end) {
       double of_rows = 0;
       for (Index i = begin; i < end; ++i)
         for (Index j = 0; j < fft_.modes_y(); ++j)

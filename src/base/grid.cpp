@@ -25,7 +25,7 @@ void Surface::require_complete(const std::string& purpose) const {
           "must have the shape of the grid, " + std::to_string(grid.nx) + " x " +
               std::to_string(grid.ny));
   // One pass for the usual case; what is wrong matters only where something is.
-  const double wrong = parallel::sum_slabs(
+  const double wrong = parallel::sum_blocks(
       grid.nx,
       [&](Index begin, Index end) {
         Index count = 0;

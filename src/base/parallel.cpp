@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loops, sums and minima over slabs of rows, with the same bits for every number of threads.
+// Loops over slabs and sums over blocks of rows, with the same bits for every number of threads.
 #include <omp.h>
 
 #include <algorithm>
@@ -38,16 +38,12 @@ void set_threads(int count) {
 
 int threads() { return chosen_threads > 0 ? chosen_threads : omp_get_num_procs(); }
 
-Index slab_count(Index rows) { return std::min(rows, largest_slab_count); }
+Index block_rows(Index rows) { return 16 * std::max<Index>(1, (rows + 16383) / 16384); }
 
-Index slab_of(Index rows, Index begin) {
-  Index slab = begin * slab_count(rows) / rows;
-  while (slab_begin(rows, slab) < begin) ++slab;
-  return slab;
-}
+Index block_count(Index rows) { return (rows + block_rows(rows) - 1) / block_rows(rows); }
 
 void for_slabs(Index rows, const std::function<void(Index, Index)>& body, Index work) {
-  const Index slabs = slab_count(rows);
+  const Index slabs = std::min(rows, largest_slab_count);
   std::exception_ptr failure;
   std::mutex failure_guard;
   const bool in_parallel = work >= least_parallel_work && threads() > 1 && !omp_in_parallel();
@@ -63,16 +59,10 @@ void for_slabs(Index rows, const std::function<void(Index, Index)>& body, Index 
   if (failure) std::rethrow_exception(failure);
 }
 
-double sum_slabs(Index rows, const std::function<double(Index, Index)>& body, Index work) {
+double sum_blocks(Index rows, const std::function<double(Index, Index)>& body, Index work) {
   double sum = 0;
-  for (const double value : map_slabs<double>(rows, body, work)) sum += value;
+  for (const double value : map_blocks<double>(rows, body, work)) sum += value;
   return sum;
-}
-
-double min_slabs(Index rows, const std::function<double(Index, Index)>& body, Index work) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const double value : map_slabs<double>(rows, body, work)) least = std::min(least, value);
-  return least;
 }
 
 }  // namespace salebra::parallel

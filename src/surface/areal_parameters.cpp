@@ -117,7 +117,7 @@ void set_gradients(ArealParameters& result, const Surface& surface) {
     Index triangles = 0;
   };
   const Index columns = surface.periodic ? grid.ny : grid.ny - 1;
-  const auto slabs = parallel::map_slabs<Sums>(
+  const auto blocks = parallel::map_blocks<Sums>(
       surface.periodic ? grid.nx : grid.nx - 1, [&](Index begin, Index end) {
         Sums sums;
         for (Index ix = begin; ix < end; ++ix) {
@@ -143,10 +143,10 @@ void set_gradients(ArealParameters& result, const Surface& surface) {
         return sums;
       });
   Sums total;
-  for (const Sums& slab : slabs) {
-    total.slope += slab.slope;
-    total.area += slab.area;
-    total.triangles += slab.triangles;
+  for (const Sums& block : blocks) {
+    total.slope += block.slope;
+    total.area += block.area;
+    total.triangles += block.triangles;
   }
   const double triangles = static_cast<double>(total.triangles);
   result.Sdq = total.triangles > 0 ? std::sqrt(total.slope / triangles) : unknown;
@@ -164,16 +164,16 @@ ArealParameters areal_parameters(const Surface& surface) {
   result.Sp = heights.maximum - heights.mean;
   result.Sv = heights.mean - heights.minimum;
   result.Sz = heights.maximum - heights.minimum;
-  result.Sa = parallel::sum_slabs(surface.grid.nx,
-                                  [&](Index begin, Index end) {
-                                    double sum = 0;
-                                    for (Index ix = begin; ix < end; ++ix)
-                                      for (Index iy = 0; iy < surface.grid.ny; ++iy)
-                                        if (const double height = surface.heights(ix, iy);
-                                            !std::isnan(height))
-                                          sum += std::abs(height - heights.mean);
-                                    return sum;
-                                  }) /
+  result.Sa = parallel::sum_blocks(surface.grid.nx,
+                                   [&](Index begin, Index end) {
+                                     double sum = 0;
+                                     for (Index ix = begin; ix < end; ++ix)
+                                       for (Index iy = 0; iy < surface.grid.ny; ++iy)
+                                         if (const double height = surface.heights(ix, iy);
+                                             !std::isnan(height))
+                                           sum += std::abs(height - heights.mean);
+                                     return sum;
+                                   }) /
               static_cast<double>(heights.defined_points);
 
   const std::vector<Peak> peaks = significant_peaks(surface, pruning * result.Sz);

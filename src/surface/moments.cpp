@@ -20,7 +20,7 @@ namespace {
 /// Sum of term(height) over the defined heights.
 template <class Term>
 double sum_defined(const Surface& surface, const Term& term) {
-  return parallel::sum_slabs(surface.grid.nx, [&](Index begin, Index end) {
+  return parallel::sum_blocks(surface.grid.nx, [&](Index begin, Index end) {
     double sum = 0;
     for (Index ix = begin; ix < end; ++ix)
       for (Index iy = 0; iy < surface.grid.ny; ++iy)
@@ -59,14 +59,16 @@ ProfileMoments profile_moments(const Surface& surface, Axis axis, double mean) {
   const bool along_x = axis == Axis::x;
   const Index n = along_x ? grid.nx : grid.ny, profiles = along_x ? grid.ny : grid.nx;
   const double length = along_x ? grid.lx : grid.ly;
-  constexpr Index block = 16;  // columns that are copied together: one or two lines of the cache
-  const auto slabs = parallel::map_slabs<ProfileMoments>(profiles, [&](Index begin, Index end) {
+  // Profiles of a block are copied together: its columns are one or two lines of the cache.
+  const Index size = parallel::block_rows(profiles);
+  std::vector<ProfileMoments> blocks(static_cast<std::size_t>(parallel::block_count(profiles)));
+  parallel::for_slabs(parallel::block_count(profiles), [&](Index begin, Index end) {
     RealFft2D<double> fft(1, n);
     std::vector<std::complex<double>> modes(static_cast<std::size_t>(fft.modes_y()));
-    Field lines(block, n);
-    ProfileMoments sum;
-    for (Index first = begin; first < end; first += block) {
-      const Index count = std::min(block, end - first);
+    Field lines(size, n);
+    for (Index block = begin; block < end; ++block) {
+      ProfileMoments& sum = blocks[static_cast<std::size_t>(block)];
+      const Index first = block * size, count = std::min(size, profiles - first);
       if (along_x)
         lines.topRows(count) = surface.heights.middleCols(first, count).transpose() - mean;
       else
@@ -82,13 +84,12 @@ ProfileMoments profile_moments(const Surface& surface, Axis axis, double mean) {
         }
       }
     }
-    return sum;
   });
   const double scale = 1 / (static_cast<double>(n) * static_cast<double>(grid.points()));
   ProfileMoments total;
-  for (const ProfileMoments& slab : slabs) {
-    total.second += slab.second * scale;
-    total.fourth += slab.fourth * scale;
+  for (const ProfileMoments& block : blocks) {
+    total.second += block.second * scale;
+    total.fourth += block.fourth * scale;
   }
   return total;
 }

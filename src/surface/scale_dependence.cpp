@@ -34,7 +34,7 @@ Sums differences(const Surface& surface, Axis axis, Index lag) {
   const Grid2D& grid = surface.grid;
   const Field& h = surface.heights;
   const Index n = axis == Axis::x ? grid.nx : grid.ny;
-  const auto slabs = parallel::map_slabs<Sums>(grid.nx, [&](Index begin, Index end) {
+  const auto blocks = parallel::map_blocks<Sums>(grid.nx, [&](Index begin, Index end) {
     Sums sums;
     for (Index ix = begin; ix < end; ++ix) {
       for (Index iy = 0; iy < grid.ny; ++iy) {
@@ -54,12 +54,12 @@ Sums differences(const Surface& surface, Axis axis, Index lag) {
     return sums;
   });
   Sums total;
-  for (const Sums& slab : slabs) {
-    total.slope += slab.slope;
-    total.curvature += slab.curvature;
-    total.least = std::min(total.least, slab.least);
-    total.slopes += slab.slopes;
-    total.curvatures += slab.curvatures;
+  for (const Sums& block : blocks) {
+    total.slope += block.slope;
+    total.curvature += block.curvature;
+    total.least = std::min(total.least, block.least);
+    total.slopes += block.slopes;
+    total.curvatures += block.curvatures;
   }
   return total;
 }

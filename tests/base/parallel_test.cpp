@@ -8,6 +8,7 @@
 #include <salebra/base/parallel.hpp>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 using namespace salebra;
@@ -22,7 +23,7 @@ TEST_CASE("Slabs cover every row once, and sums have the same bits for every thr
     parallel::for_slabs(rows, [&](Index begin, Index end) {
       for (Index row = begin; row < end; ++row) ++visits[std::size_t(row)];
     });
-    const double sum = parallel::sum_slabs(rows, [](Index begin, Index end) {
+    const double sum = parallel::sum_blocks(rows, [](Index begin, Index end) {
       double part = 0;
       for (Index row = begin; row < end; ++row) part += 1 / std::sqrt(double(row) + 0.1);
       return part;
@@ -34,13 +35,27 @@ TEST_CASE("Slabs cover every row once, and sums have the same bits for every thr
   CHECK(visits == std::vector<int>(std::size_t(rows), 3));
 }
 
+TEST_CASE("Blocks of rows do not depend on which of them are added together", "[parallel]") {
+  // What ranks with whole blocks rely on: sizes are multiples of 16, at most 1024 blocks, and the last may have fewer rows.
+  for (const Index rows : {1, 15, 16, 17, 100, 16384, 16385, 65536, 100000}) {
+    const Index size = parallel::block_rows(rows), blocks = parallel::block_count(rows);
+    CHECK(size % 16 == 0);
+    CHECK(blocks <= 1024);
+    const auto parts = parallel::map_blocks<std::pair<Index, Index>>(
+        rows, [](Index begin, Index end) { return std::pair(begin, end); });
+    REQUIRE(Index(parts.size()) == blocks);
+    for (Index k = 0; k < blocks; ++k)
+      CHECK(parts[std::size_t(k)] == std::pair(k * size, std::min(rows, (k + 1) * size)));
+  }
+}
+
 TEST_CASE("More threads than any machine can use are refused before one is made", "[parallel]") {
   CHECK(parallel::most_threads() >= 64);
   CHECK_THROWS_WITH(parallel::set_threads(100000), "threads: 100000 must be from 0 (all) to " +
                                                        std::to_string(parallel::most_threads()));
   CHECK_THROWS_AS(parallel::set_threads(-1), InvalidInput);
   parallel::set_threads(parallel::most_threads());
-  CHECK(parallel::sum_slabs(100, [](Index begin, Index end) { return double(end - begin); }) ==
+  CHECK(parallel::sum_blocks(100, [](Index begin, Index end) { return double(end - begin); }) ==
         100);
   parallel::set_threads(0);
 }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <salebra/base/grid.hpp>
 #include <vector>
 
-/// Loops over slabs of rows. Chunks are fixed by the number of rows alone and partial sums are added in their order, so a
-/// result has the same bits for every thread count; a distributed build gives each rank whole chunks.
+/// Loops over slabs of rows, and sums over blocks of rows. Both are fixed by the number of rows alone, and sums of blocks are added in
+/// their order, so that a result has the same bits for every thread count.
 namespace salebra::parallel {
 
 /// The largest number that set_threads() takes: four for each processor that the process may run on, and 64 on small machines. More
@@ -25,30 +26,30 @@ int threads();
 void for_slabs(Index rows, const std::function<void(Index, Index)>& body,
                Index work = std::numeric_limits<Index>::max());
 
-/// The slabs of [0, rows): their number, and the one that begins at row begin.
-Index slab_count(Index rows);
-Index slab_of(Index rows, Index begin);
+/// Rows of a block, 16·⌈rows/16384⌉: at most 1024 blocks, the last of which may have fewer rows. Sums over rows are added within a block
+/// first, so that processes which hold whole blocks add the same numbers as one process does.
+Index block_rows(Index rows);
+Index block_count(Index rows);
 
-/// The values of body(begin, end) over the slabs, in slab order, for reductions of several quantities at once.
+/// The values of body(begin, end) over the blocks, in their order, for reductions of several quantities at once.
 template <class Value, class Body>
-std::vector<Value> map_slabs(Index rows, const Body& body,
-                             Index work = std::numeric_limits<Index>::max()) {
-  std::vector<Value> values(static_cast<std::size_t>(slab_count(rows)));
+std::vector<Value> map_blocks(Index rows, const Body& body,
+                              Index work = std::numeric_limits<Index>::max()) {
+  const Index size = block_rows(rows);
+  std::vector<Value> values(static_cast<std::size_t>(block_count(rows)));
   for_slabs(
-      rows,
-      [&](Index begin, Index end) {
-        values[static_cast<std::size_t>(slab_of(rows, begin))] = body(begin, end);
+      block_count(rows),
+      [&](Index first, Index last) {
+        for (Index block = first; block < last; ++block)
+          values[static_cast<std::size_t>(block)] =
+              body(block * size, std::min(rows, (block + 1) * size));
       },
       work);
   return values;
 }
 
-/// Sum of body(begin, end) over the same slabs, added in slab order.
-double sum_slabs(Index rows, const std::function<double(Index, Index)>& body,
-                 Index work = std::numeric_limits<Index>::max());
-
-/// Least value of body(begin, end) over the same slabs; +infinity for no rows.
-double min_slabs(Index rows, const std::function<double(Index, Index)>& body,
-                 Index work = std::numeric_limits<Index>::max());
+/// Sum of body(begin, end) over the blocks, added in their order.
+double sum_blocks(Index rows, const std::function<double(Index, Index)>& body,
+                  Index work = std::numeric_limits<Index>::max());
 
 }  // namespace salebra::parallel

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "gradient_projection.hpp"
+#include "tile_sums.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -28,48 +29,6 @@ constexpr double exact_below = 2e-6;
 constexpr int most_misses = 2;
 // A start for a finer level needs no more than this many refreshes.
 constexpr int most_inexact_refreshes = 3;
-
-void add(PreconditionSums& total, const PreconditionSums& part) {
-  total.z += part.z;
-  total.zw += part.zw;
-  total.zz += part.zz;
-  total.t += part.t;
-  total.w += part.w;
-  total.r += part.r;
-  total.zr += part.zr;
-  total.tr += part.tr;
-}
-void add(CurvatureSums& total, const CurvatureSums& part) {
-  total.tw += part.tw;
-  total.w += part.w;
-}
-void add(StepSums& total, const StepSums& part) {
-  total.outside += part.outside;
-  total.wrong += part.wrong;
-  total.clipped += part.clipped;
-  total.pressure += part.pressure;
-  total.misfit += part.misfit;
-  total.signed_misfit += part.signed_misfit;
-  total.saturated += part.saturated;
-  total.least = std::min(total.least, part.least);
-}
-void add(GapSums& total, const GapSums& part) {
-  total.pressure += part.pressure;
-  total.count += part.count;
-  total.g += part.g;
-  total.misfit += part.misfit;
-  total.distance += part.distance;
-  total.saturated += part.saturated;
-  total.least = std::min(total.least, part.least);
-}
-
-// In the order of the slabs or rows, so that the sum has the same bits for every thread count.
-template <class Sums>
-Sums total_of(const std::vector<Sums>& parts) {
-  Sums total = parts.front();
-  for (std::size_t k = 1; k < parts.size(); ++k) add(total, parts[k]);
-  return total;
-}
 
 }  // namespace
 
@@ -154,13 +113,13 @@ Convolution2D<Real>& ActiveSetCg<Real>::dense_compliance() {
 template <class Real>
 CurvatureSums ActiveSetCg<Real>::take_direction(double z_mean, double beta, double t_mean) {
   const auto a = arrays(std::numeric_limits<double>::infinity());
-  return total_of(displace<CurvatureSums>(
+  return total_of(by_blocks(displace<CurvatureSums>(
       [&](Index begin, Index end, Real* row) {
         kernels_.direct(a, begin, end, z_mean, beta, t_mean, row);
       },
       [&](Index begin, Index end, const Real* row) {
         return kernels_.take_image(a, begin, end, row);
-      }));
+      })));
 }
 
 // g = Gp − h and what follows from it.
@@ -199,9 +158,7 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
     ++run.outcome.exact_fft_count;
     run.outcome.exact_fft_seconds += seconds;
   }
-  GapSums total;
-  total.least = std::numeric_limits<double>::infinity();
-  for (const GapSums& part : sums) add(total, part);
+  const GapSums total = total_of(by_blocks(sums));
   if (total.saturated > 0) return contact_residual(grid_, run.target, rms_height_, run.p, run.g);
   ContactResidual result;
   const double misfit =

@@ -91,29 +91,31 @@ class ActiveSetCg {
   Index first_tile(Index row) const { return row_begins_[static_cast<std::size_t>(row)]; }
   TileArrays<Real> arrays(double bound);
 
-  // Dense passes: body(begin, end) over the slabs of rows.
+  // Dense passes: body(begin, end) over slabs of rows, or over blocks where it has a sum.
   template <class Body>
   void for_rows(const Body& body) const {
     parallel::for_slabs(grid_.nx, body, points());
   }
   template <class Sums, class Body>
   std::vector<Sums> over_rows(const Body& body) const {
-    return parallel::map_slabs<Sums>(grid_.nx, body, points());
+    return parallel::map_blocks<Sums>(grid_.nx, body, points());
   }
 
   template <class Body>
   double sum_rows(const Body& body) const {
-    return parallel::sum_slabs(grid_.nx, body, points());
+    return parallel::sum_blocks(grid_.nx, body, points());
   }
 
-  // Passes over the tiles in fixed slabs of their list.
+  // Passes over the tiles: over slabs of their list, or over those of a block of rows where there is a sum.
   template <class Body>
   void for_tiles(const Body& body) const {
     parallel::for_slabs(static_cast<Index>(tiles_.size()), body, tile_points());
   }
   template <class Sums, class Body>
   std::vector<Sums> over_tiles(const Body& body) const {
-    return parallel::map_slabs<Sums>(static_cast<Index>(tiles_.size()), body, tile_points());
+    return parallel::map_blocks<Sums>(
+        grid_.nx, [&](Index begin, Index end) { return body(first_tile(begin), first_tile(end)); },
+        tile_points());
   }
 
   // Gx, or G~x on the ladder, of a field x that lives on the tiles: spread(begin, end, row) writes the tiles [begin, end) of a row into

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "active_set_cg.hpp"
+#include "tile_sums.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -202,11 +203,7 @@ void ActiveSetCg<Real>::collect_pressure(Run& run) {
 // Number of free cells, the level, and the residual on them, after the set or g changed.
 template <class Real>
 void ActiveSetCg<Real>::begin_set(Run& run, const std::vector<SetSums>& parts) {
-  SetSums total;
-  for (const SetSums& part : parts) {
-    total.count += part.count;
-    total.g += part.g;
-  }
+  const SetSums total = total_of(parts);
   run.count = total.count;
   if (run.load_given() && run.count > 0) run.level = total.g / run.count;
   const auto a = arrays(run.target.bound);
@@ -262,11 +259,11 @@ void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
   std::vector<SetSums> sums;
   {
     const Applying applying(*this, run.outcome);
-    sums = displace<SetSums>(
+    sums = by_blocks(displace<SetSums>(
         [&](Index begin, Index end, Real* row) { kernels_.spread_change(a, begin, end, row); },
         [&](Index begin, Index end, const Real* row) {
           return kernels_.add_displacement(a, begin, end, row);
-        });
+        }));
   }
   begin_set(run, sums);
 }

@@ -21,7 +21,7 @@ ContactResidual contact_residual(const Grid2D& grid, const ContactTarget& target
                                  const double* p, const double* g) {
   const double bound = target.bound;
   DenseSums total;
-  for (const DenseSums& part : parallel::map_slabs<DenseSums>(
+  for (const DenseSums& part : parallel::map_blocks<DenseSums>(
            grid.nx,
            [&](Index begin, Index end) {
              DenseSums sums;
@@ -43,7 +43,7 @@ ContactResidual contact_residual(const Grid2D& grid, const ContactTarget& target
     total.free_gap += part.free_gap;
   }
   const double plane = target.load_given() ? total.least_gap : target.value;
-  const double misfit = parallel::sum_slabs(
+  const double misfit = parallel::sum_blocks(
       grid.nx,
       [&](Index begin, Index end) {
         double part = 0;

@@ -23,7 +23,7 @@ FirstLoading sink_in(Field& heights, const Field& displacement, const NormalCont
     double cells = 0, depth = 0, deepest = 0;
   };
   Sums total;
-  for (const Sums& part : parallel::map_slabs<Sums>(
+  for (const Sums& part : parallel::map_blocks<Sums>(
            heights.rows(),
            [&](Index begin, Index end) {
              Sums sums;

@@ -66,7 +66,7 @@ struct Depths {
     double highest = 0, first = 0, second = 0;  // largest h, Σ(h − origin), Σ(h − origin)²
   };
   static std::vector<Sums> sums(const Field& heights, double origin) {
-    return parallel::map_slabs<Sums>(
+    return parallel::map_blocks<Sums>(
         heights.rows(),
         [&](Index begin, Index end) {
           // Several partial sums, because one alone waits for each of its additions.
@@ -189,7 +189,7 @@ NormalContactState state_of(Solution&& solution, const ContactTarget& target, co
     double pressure = 0, contact = 0, work = 0, gap = 0;
   };
   Sums total;
-  for (const Sums& part : parallel::map_slabs<Sums>(
+  for (const Sums& part : parallel::map_blocks<Sums>(
            heights.rows(),
            [&](Index begin, Index end) {
              Sums sums;

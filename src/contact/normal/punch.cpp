@@ -12,6 +12,7 @@
 
 #include "active_set_cg.hpp"
 #include "contact/half_space/cell_window.hpp"
+#include "tile_sums.hpp"
 
 namespace salebra {
 namespace detail {
@@ -37,15 +38,10 @@ template <class Real>
 double ActiveSetCg<Real>::punch_step(double& curvature, PunchOutcome& outcome) {
   const auto a = arrays(std::numeric_limits<double>::infinity());
   frame_residual();
-  double zw = 0, zr = 0, tr = 0;
-  for (const auto& part : over_tiles<PreconditionSums>(
-           [&](Index begin, Index end) { return kernels_.precondition(a, begin, end); })) {
-    zw += part.zw;
-    zr += part.zr;
-    tr += part.tr;
-  }
-  const double beta = outcome.iterations > 0 ? -zw / curvature : 0;
-  const double descent = zr + beta * tr;
+  const auto sums = total_of(over_tiles<PreconditionSums>(
+      [&](Index begin, Index end) { return kernels_.precondition(a, begin, end); }));
+  const double beta = outcome.iterations > 0 ? -sums.zw / curvature : 0;
+  const double descent = sums.zr + beta * sums.tr;
   {
     const Applying applying(*this, outcome);
     curvature = take_direction(0, beta, 0).tw;

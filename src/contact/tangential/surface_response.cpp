@@ -47,7 +47,7 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
     return sum;
   };
   const Index count = static_cast<Index>(a.size());
-  return count < worth_threads ? part(0, count) : parallel::sum_slabs(count, part);
+  return count < worth_threads ? part(0, count) : parallel::sum_blocks(count, part);
 }
 
 SurfaceResponse::SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,

@@ -4,7 +4,7 @@
 
 namespace salebra::parallel {
 
-double sum_slabs(Index rows, const std::function<double(Index, Index)>& slab, Index) {
+double sum_blocks(Index rows, const std::function<double(Index, Index)>& slab, Index) {
   return rows > 0 ? slab(0, rows) : 0;
 }
 

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <salebra/base/parallel.hpp>
+#include <vector>
+
+#include "tile_kernels.hpp"
+
+namespace salebra::detail {
+
+// Sums of kernels over parts of the grid, brought together. Not in tile_kernels.hpp, which has no inline functions.
+
+inline void add(PreconditionSums& total, const PreconditionSums& part) {
+  total.z += part.z;
+  total.zw += part.zw;
+  total.zz += part.zz;
+  total.t += part.t;
+  total.w += part.w;
+  total.r += part.r;
+  total.zr += part.zr;
+  total.tr += part.tr;
+}
+inline void add(CurvatureSums& total, const CurvatureSums& part) {
+  total.tw += part.tw;
+  total.w += part.w;
+}
+inline void add(StepSums& total, const StepSums& part) {
+  total.outside += part.outside;
+  total.wrong += part.wrong;
+  total.clipped += part.clipped;
+  total.pressure += part.pressure;
+  total.misfit += part.misfit;
+  total.signed_misfit += part.signed_misfit;
+  total.saturated += part.saturated;
+  total.least = std::min(total.least, part.least);
+}
+inline void add(SetSums& total, const SetSums& part) {
+  total.count += part.count;
+  total.g += part.g;
+}
+inline void add(GapSums& total, const GapSums& part) {
+  total.pressure += part.pressure;
+  total.count += part.count;
+  total.g += part.g;
+  total.misfit += part.misfit;
+  total.distance += part.distance;
+  total.saturated += part.saturated;
+  total.least = std::min(total.least, part.least);
+}
+
+// In the order of the parts, so that the sum has the same bits for every thread count.
+template <class Sums>
+Sums total_of(const std::vector<Sums>& parts) {
+  Sums total = parts.front();
+  for (std::size_t k = 1; k < parts.size(); ++k) add(total, parts[k]);
+  return total;
+}
+
+// The sums of rows, added within each block of parallel.hpp.
+template <class Sums>
+std::vector<Sums> by_blocks(const std::vector<Sums>& rows) {
+  const auto size = static_cast<std::size_t>(parallel::block_rows(static_cast<Index>(rows.size())));
+  std::vector<Sums> blocks;
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    if (row % size == 0)
+      blocks.push_back(rows[row]);
+    else
+      add(blocks.back(), rows[row]);
+  return blocks;
+}
+
+}  // namespace salebra::detail
