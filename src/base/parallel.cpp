@@ -38,7 +38,12 @@ void set_threads(int count) {
 
 int threads() { return chosen_threads > 0 ? chosen_threads : omp_get_num_procs(); }
 
-Index block_rows(Index rows) { return 16 * std::max<Index>(1, (rows + 16383) / 16384); }
+Index block_rows(Index rows) {
+  if (rows > 1024) return 16 * ((rows + 16383) / 16384);
+  Index size = 1;
+  while (64 * size < rows) size *= 2;
+  return size;
+}
 
 Index block_count(Index rows) { return (rows + block_rows(rows) - 1) / block_rows(rows); }
 

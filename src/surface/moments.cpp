@@ -59,7 +59,7 @@ ProfileMoments profile_moments(const Surface& surface, Axis axis, double mean) {
   const bool along_x = axis == Axis::x;
   const Index n = along_x ? grid.nx : grid.ny, profiles = along_x ? grid.ny : grid.nx;
   const double length = along_x ? grid.lx : grid.ly;
-  // Profiles of a block are copied together: its columns are one or two lines of the cache.
+  // Profiles of a block are copied together, which reads columns by lines of the cache.
   const Index size = parallel::block_rows(profiles);
   std::vector<ProfileMoments> blocks(static_cast<std::size_t>(parallel::block_count(profiles)));
   parallel::for_slabs(parallel::block_count(profiles), [&](Index begin, Index end) {

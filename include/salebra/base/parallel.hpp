@@ -26,8 +26,9 @@ int threads();
 void for_slabs(Index rows, const std::function<void(Index, Index)>& body,
                Index work = std::numeric_limits<Index>::max());
 
-/// Rows of a block, 16·⌈rows/16384⌉: at most 1024 blocks, the last of which may have fewer rows. Sums over rows are added within a block
-/// first, so that processes which hold whole blocks add the same numbers as one process does.
+/// Rows of a block: 1, 2, 4, 8 or 16 up to 1024 rows, which makes 64 blocks at most, and 16·⌈rows/16384⌉ beyond, 1024 blocks at most. The
+/// last may have fewer. Sums over rows are added within a block first, so that processes which hold whole blocks add the same numbers as
+/// one process does. Short blocks keep the rounding of sums small.
 Index block_rows(Index rows);
 Index block_count(Index rows);
 
