@@ -38,8 +38,11 @@ SetInverse& SetInverse::operator=(SetInverse&&) noexcept = default;
 SetInverse::~SetInverse() = default;
 
 bool SetInverse::hold(const std::vector<Index>& cells) {
+  if (!parts_) return false;
   parts_->count = cells.size();
-  return parts_->solver.hold(cells);
+  if (parts_->solver.hold(cells)) return true;
+  parts_.reset();  // no other set of this grid has a ladder either
+  return false;
 }
 
 void SetInverse::apply(const double* u, double* q) {
@@ -57,6 +60,6 @@ void SetInverse::apply(const double* u, double* q) {
   for (std::size_t k = 0; k < count; ++k) q[k] *= scale;
 }
 
-int SetInverse::ladder_count() const { return parts_->outcome.ladder_count; }
+int SetInverse::ladder_count() const { return parts_ ? parts_->outcome.ladder_count : 0; }
 
 }  // namespace salebra::detail

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
+#include <utility>
 
 #include "conjugate_gradients.hpp"
 #include "contact/normal/contact_memory.hpp"
@@ -59,25 +60,31 @@ SurfaceResponse::SurfaceResponse(const Grid2D& grid, const Material& material, B
 void SurfaceResponse::apply(const PointList& loaded, const double* tractions, const PointList& read,
                             double* displacements) {
   const int first = traction_ == Traction::along_y ? 1 : 0;
-  // body(place among the values of all components, column) for the points of a row; false where there are none.
-  const auto for_row = [&](const PointList& points, int component, Index row, const auto& body) {
-    const Index begin = points.row_begins[size_of(row)], end = points.row_begins[size_of(row + 1)];
-    const Index offset = (component - first) * points.size();
-    if (begin == end || component < first || component >= first + components()) return false;
-    for (Index k = begin; k < end; ++k)
-      body(offset + k, points.windowed[size_of(k)] - row * window_.ny);
-    return true;
+  // The points of a row; none where the component has no values.
+  const auto points_of = [&](const PointList& points, int component, Index row) {
+    const bool any = component >= first && component < first + components();
+    return any ? std::pair(points.row_begins[size_of(row)], points.row_begins[size_of(row + 1)])
+               : std::pair<Index, Index>(0, 0);
+  };
+  const auto column_of = [&](const PointList& points, Index row, Index k) {
+    return points.windowed[size_of(k)] - row * window_.ny;
+  };
+  const auto offset = [&](const PointList& points, int component) {
+    return (component - first) * points.size();
   };
   compliance_.apply(
       [&](int component, Index row, double* room) -> const double* {
+        const auto [begin, end] = points_of(loaded, component, row);
+        if (begin == end) return nullptr;
         std::fill_n(room, window_.ny, 0.0);
-        const bool any = for_row(loaded, component, row,
-                                 [&](Index k, Index column) { room[column] = tractions[k]; });
-        return any ? room : nullptr;
+        for (Index k = begin; k < end; ++k)
+          room[column_of(loaded, row, k)] = tractions[offset(loaded, component) + k];
+        return room;
       },
       [&](int component, Index row, const double* values) {
-        for_row(read, component, row,
-                [&](Index k, Index column) { displacements[k] = values[column]; });
+        const auto [begin, end] = points_of(read, component, row);
+        for (Index k = begin; k < end; ++k)
+          displacements[offset(read, component) + k] = values[column_of(read, row, k)];
       });
   fft_count_ += 2;
 }
@@ -112,9 +119,10 @@ void StencilPreconditioner::apply(const PointList& points, const double* in, dou
 ContactSystem::ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary,
                              Traction traction, const CellWindow& window)
     : window_(window),
+      window_grid_(grid_of(window, grid)),
+      boundary_(boundary),
       response_(grid, material, boundary, traction, window),
-      preconditioner_(grid, boundary, window),
-      inverse_(grid_of(window, grid), boundary) {}
+      preconditioner_(grid, boundary, window) {}
 
 PointList ContactSystem::points(const ContactSet& cells) const {
   PointList list;
@@ -157,8 +165,9 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
                                iterations, report.residual});
     return report.interrupted;
   };
-  const bool on_ladder = inverse_.hold(points.windowed);
-  const int first_ladder = inverse_.ladder_count();
+  if (!inverse_) inverse_.emplace(window_grid_, boundary_);
+  const bool on_ladder = inverse_->hold(points.windowed);
+  const int first_ladder = inverse_->ladder_count();
   report.iterations =
       conjugate_gradients(
           [&](const std::vector<double>& in, std::vector<double>& out) {
@@ -168,7 +177,7 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
             for (int c = 0; c < response_.components(); ++c) {
               const std::size_t offset = size_of(c * points.size());
               if (on_ladder)
-                inverse_.apply(in.data() + offset, out.data() + offset);
+                inverse_->apply(in.data() + offset, out.data() + offset);
               else
                 preconditioner_.apply(points, in.data() + offset, out.data() + offset);
             }
@@ -176,7 +185,7 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
           stop, tractions, misfit)
           .iterations;
   report.fft_count = response_.fft_count() - first_fft;
-  report.ladder_count = inverse_.ladder_count() - first_ladder;
+  report.ladder_count = inverse_->ladder_count() - first_ladder;
   return report;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <salebra/base/convolution.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
@@ -96,9 +97,11 @@ class ContactSystem {
 
  private:
   CellWindow window_;
+  Grid2D window_grid_;
+  Boundary boundary_;
   SurfaceResponse response_;
   StencilPreconditioner preconditioner_;
-  SetInverse inverse_;
+  std::optional<SetInverse> inverse_;  // made by solve(), which contacts with slip do not call
 };
 
 }  // namespace salebra::detail
