@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cyclic convolution of fields with stored kernels by FFT, two real rows in one complex transform.
 #include <algorithm>
+#include <optional>
 #include <salebra/base/convolution.hpp>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
@@ -32,6 +33,10 @@ Index padded(Index length) { return (length + gap - 1) / gap * gap + gap; }
 //     x_i = (z_i(k) + z_i(−k)*)/2,   x_{i+8} = (z_i(k) − z_i(−k)*)/2i,
 // which is all that is needed, since that of −k is its conjugate. The last block may have fewer rows, of which the second half are the
 // partners of the first; what is missing of its eight pairs is zero.
+//
+// Over several processes each holds blocks of rows and, for the pass over columns, a range of k together with all −k. The pass over rows
+// writes a column part by part, [process that has the column][component][column][its own block][pair], and an exchange brings the parts of a
+// column together as [process that has the rows][component][column][block of that process][pair].
 template <class Real>
 struct Convolution2D<Real>::Passes {
   using Api = detail::Fftw<Real>;
@@ -40,40 +45,132 @@ struct Convolution2D<Real>::Passes {
   const detail::SpectrumKernels<Real>& kernels = detail::spectrum_kernels<Real>();
   Shape shape;
   int components;
-  Index blocks;                 // of rows
-  Index modes;                  // columns of the field's half-spectrum
-  Index column_stride;          // from one column of z to the next
-  Complex* spectrum = nullptr;  // [component][column of z][block][pair]
+  Share rows_of_all;
+  Index modes;  // columns of the field's half-spectrum
+  // The columns k = low … low + low_count of a process, then −k = high … high + high_count, without those that are their own mirror.
+  struct Columns {
+    Index low = 0, low_count = 0, high = 0, high_count = 0;
+    Index place = 0;  // of its part in `by_rows`
+    Index count() const { return low_count + high_count; }
+    Index index(Index column) const {
+      return column < low + low_count ? column - low : low_count + column - high;
+    }
+  };
+  std::vector<Columns> columns_of;  // each process
+  struct Rows {
+    Index first_block = 0, blocks = 0;
+    Index stride = 0;  // from one column of its rows to the next
+    Index place = 0;   // of its part in `by_columns`
+  };
+  std::vector<Rows> rows_of;  // each process
+  std::optional<Exchange> to_columns, to_rows;
+  Complex* by_rows = nullptr;
+  Complex* by_columns = nullptr;  // the same memory where one process has all
   LargeArray<Complex> own_spectrum;
   struct Table {
-    LargeArray<Real> values;  // [column][i = 0 … period_x/2], over 2·points of the transform
+    LargeArray<Real>
+        values;  // [column of this process][i = 0 … period_x/2], over 2·points of the transform
     Parity parity = Parity::even;
   };
   std::array<Table, 3> tables;  // K_00, K_01 = K_10, K_11
   detail::FftwPlan<Real> row_forward, row_backward, column_forward, column_backward;
 
-  Passes(const Shape& fields, int number) : shape(fields), components(number) {
+  Passes(const Shape& fields, int number, const Share& rows)
+      : shape(fields), components(number), rows_of_all(rows) {
     require(shape.nx >= 1 && shape.ny >= 1, "nx, ny", std::min(shape.nx, shape.ny), "must be >= 1");
     require(shape.period_x >= shape.nx && shape.period_x < 1 << 24, "period_x", shape.period_x,
             "must be >= nx and below 2^24");
     require(shape.period_y >= shape.ny && shape.period_y < 1 << 24, "period_y", shape.period_y,
             "must be >= ny and below 2^24");
     require(components == 1 || components == 2, "components", components, "must be 1 or 2");
-    blocks = (shape.nx + rows_at_once - 1) / rows_at_once;
+    require(rows.rows() == shape.nx, "rows", rows.rows(), "must be nx rows in all");
     modes = shape.period_y / 2 + 1;
-    column_stride = padded(blocks * pairs_at_once);
+    spread_work();
     make_plans();
   }
 
-  Index points() const { return shape.period_x * shape.period_y; }
-  std::size_t spectrum_size() const { return count(components * shape.period_y * column_stride); }
-  Index table_rows() const { return shape.period_x / 2 + 1; }
-  // Pairs of a block; the last of an odd number of rows is without partner.
-  Index pairs(Index block) const {
-    return (std::min(rows_at_once, shape.nx - block * rows_at_once) + 1) / 2;
+  // The rows and columns of each process, and what goes from one to another.
+  void spread_work() {
+    const int ranks = rows_of_all.ranks().ranks(), me = rows_of_all.ranks().rank();
+    Index in_use = 0;  // processes with rows; others have no columns either
+    for (int rank = 0; rank < ranks; ++rank) {
+      const Index begin = rows_of_all.begin_of(rank), end = rows_of_all.end_of(rank);
+      require(begin % rows_at_once == 0 || begin == shape.nx, "rows", begin,
+              "must begin with a block of 16");
+      const Index blocks = (end - begin + rows_at_once - 1) / rows_at_once;
+      rows_of.push_back(
+          {begin / rows_at_once, blocks, blocks > 0 ? padded(blocks * pairs_at_once) : 0, 0});
+      if (blocks > 0) ++in_use;
+    }
+    for (int rank = 0; rank < ranks; ++rank) {
+      const Index begin = std::min<Index>(rank, in_use) * modes / in_use,
+                  end = std::min<Index>(rank + 1, in_use) * modes / in_use;
+      // −k of these k, but for k = 0 and k = period_y/2.
+      const Index first = std::max<Index>(begin, 1),
+                  last = 2 * (end - 1) == shape.period_y ? end - 1 : end;
+      columns_of.push_back(
+          {begin, end - begin, shape.period_y - last + 1, std::max<Index>(last - first, 0), 0});
+    }
+    const auto units = [&](int columns, int rows) {
+      return std::int64_t{components} * columns_of[static_cast<std::size_t>(columns)].count() *
+             rows_of[static_cast<std::size_t>(rows)].stride / gap;
+    };
+    std::vector<std::int64_t> away, here;
+    Index away_place = 0, here_place = 0;
+    for (int rank = 0; rank < ranks; ++rank) {
+      away.push_back(units(rank, me));
+      here.push_back(units(me, rank));
+      columns_of[static_cast<std::size_t>(rank)].place = away_place;
+      rows_of[static_cast<std::size_t>(rank)].place = here_place;
+      away_place += gap * away.back();
+      here_place += gap * here.back();
+    }
+    if (ranks == 1) return;
+    to_columns.emplace(gap * sizeof(Complex), away, here);
+    to_rows.emplace(gap * sizeof(Complex), here, away);
   }
-  Complex* column(int component, Index index) {
-    return spectrum + (component * shape.period_y + index) * column_stride;
+
+  const Rows& mine() const { return rows_of[static_cast<std::size_t>(rows_of_all.ranks().rank())]; }
+  const Columns& my_columns() const {
+    return columns_of[static_cast<std::size_t>(rows_of_all.ranks().rank())];
+  }
+  // Points of the transform in this process.
+  Index points() const { return mine().blocks * rows_at_once * shape.period_y; }
+  std::size_t rows_size() const {
+    return count(columns_of.back().place + components * columns_of.back().count() * mine().stride);
+  }
+  std::size_t columns_size() const {
+    return count(rows_of.back().place + components * my_columns().count() * rows_of.back().stride);
+  }
+  std::size_t spectrum_size() const { return rows_size() + (to_columns ? columns_size() : 0); }
+  void place_spectrum(Complex* memory) {
+    by_rows = memory;
+    by_columns = to_columns ? memory + rows_size() : memory;
+  }
+  Index table_rows() const { return shape.period_x / 2 + 1; }
+  // Pairs of a block of this process; the last of an odd number of rows is without partner.
+  Index pairs(Index block) const {
+    return (std::min(rows_at_once, rows_of_all.count() - block * rows_at_once) + 1) / 2;
+  }
+  // Where the numbers of a column lie in the part of the process that has the rows.
+  Complex* column(int component, Index index, const Rows& rows) {
+    return by_columns + rows.place +
+           (component * my_columns().count() + my_columns().index(index)) * rows.stride;
+  }
+  // body(first column, count of them, where their numbers of a block are to lie) for the columns of all processes.
+  template <class Body>
+  void for_columns(int component, Index block, const Body& body) {
+    const Index stride = mine().stride;
+    for (const Columns& some : columns_of) {
+      Complex* part =
+          by_rows + some.place + component * some.count() * stride + block * pairs_at_once;
+      if (some.low + some.low_count == some.high) {
+        body(some.low, some.count(), part);
+        continue;
+      }
+      body(some.low, some.low_count, part);
+      body(some.high, some.high_count, part + some.low_count * stride);
+    }
   }
   static Real* real(Complex* numbers) { return reinterpret_cast<Real*>(numbers); }
   static const Real* real(const Complex* numbers) { return reinterpret_cast<const Real*>(numbers); }
@@ -100,14 +197,16 @@ struct Convolution2D<Real>::Passes {
   void set_symbol(int a, int b, const Symbol& symbol, Parity parity) {
     Table& table = tables[static_cast<std::size_t>(a + b)];
     table.parity = parity;
-    table.values = large_array<Real>(count(modes * table_rows()));
-    const double in_all = 2 * static_cast<double>(points());
+    const Index first = my_columns().low, number = my_columns().low_count;
+    table.values = large_array<Real>(count(number * table_rows()));
+    const double in_all = 2 * static_cast<double>(shape.period_x * shape.period_y);
     parallel::for_slabs(
-        modes,
+        number,
         [&](Index begin, Index end) {
           for (Index j = begin; j < end; ++j)
             for (Index i = 0; i < table_rows(); ++i)
-              table.values[count(j * table_rows() + i)] = static_cast<Real>(symbol(i, j) / in_all);
+              table.values[count(j * table_rows() + i)] =
+                  static_cast<Real>(symbol(i, first + j) / in_all);
         },
         points());
   }
@@ -124,7 +223,7 @@ struct Convolution2D<Real>::Passes {
   void for_blocks(const Body& body) {
     const Index stride = padded(shape.period_y);
     parallel::for_slabs(
-        blocks,
+        mine().blocks,
         [&](Index begin, Index end) {
           const Room room{large_array<Complex>(count(stride)),
                           large_array<Complex>(count(pairs_at_once * stride)),
@@ -145,7 +244,7 @@ struct Convolution2D<Real>::Passes {
           Complex* to = room.rows.get() + i * room.stride;
           const Index row = first + i, partner = row + paired;
           const Real* near = i < paired ? source(component, row, room.near.get()) : nullptr;
-          const Real* far = i < paired && partner < shape.nx
+          const Real* far = i < paired && partner < rows_of_all.count()
                                 ? source(component, partner, room.far.get())
                                 : nullptr;
           if (!near && !far) {
@@ -160,8 +259,10 @@ struct Convolution2D<Real>::Passes {
           std::fill(room.row.get() + shape.ny, room.row.get() + shape.period_y, Complex{});
           Api::execute(row_forward.get(), raw(room.row.get()), raw(to));
         }
-        kernels.to_columns(real(room.rows.get()), room.stride, shape.period_y,
-                           real(column(component, 0) + block * pairs_at_once), column_stride);
+        for_columns(component, block, [&](Index first_column, Index number, Complex* to) {
+          kernels.to_columns(real(room.rows.get() + first_column), room.stride, number, real(to),
+                             mine().stride);
+        });
       }
     });
   }
@@ -172,14 +273,17 @@ struct Convolution2D<Real>::Passes {
     for_blocks([&](Index block, const Room& room) {
       const Index first = block * rows_at_once, paired = pairs(block);
       for (int component = 0; component < components; ++component) {
-        kernels.to_rows(real(column(component, 0) + block * pairs_at_once), column_stride,
-                        shape.period_y, real(room.rows.get()), room.stride);
+        for_columns(component, block, [&](Index first_column, Index number, const Complex* from) {
+          kernels.to_rows(real(from), mine().stride, number, real(room.rows.get() + first_column),
+                          room.stride);
+        });
         for (Index i = 0; i < paired; ++i) {
           Api::execute(row_backward.get(), raw(room.rows.get() + i * room.stride),
                        raw(room.row.get()));
           const Index row = first + i, partner = row + paired;
           Real* near = place(component, row, room.near.get());
-          Real* far = partner < shape.nx ? place(component, partner, room.far.get()) : nullptr;
+          Real* far =
+              partner < rows_of_all.count() ? place(component, partner, room.far.get()) : nullptr;
           kernels.split(real(room.row.get()), shape.ny, near, far);
           done(component, row, near);
           if (far) done(component, partner, far);
@@ -189,49 +293,60 @@ struct Convolution2D<Real>::Passes {
   }
 
   void columns() {
+    const Index first = my_columns().low;
     parallel::for_slabs(
-        modes,
+        my_columns().low_count,
         [&](Index begin, Index end) {
           const Index stride = padded(shape.period_x);
           const auto numbers = large_array<Complex>(count(stride));
           const auto scratch = large_array<Complex>(count(components * stride));
-          for (Index k = begin; k < end; ++k) {
-            const Index mirrored = k == 0 ? 0 : shape.period_y - k;
+          for (Index j = begin; j < end; ++j) {
+            const Index k = first + j, mirrored = k == 0 ? 0 : shape.period_y - k;
             for (int component = 0; component < components; ++component) {
-              separate(column(component, k), column(component, mirrored), numbers.get());
+              for (const Rows& rows : rows_of)
+                separate(column(component, k, rows), column(component, mirrored, rows), rows,
+                         numbers.get());
+              std::fill(numbers.get() + shape.nx, numbers.get() + shape.period_x, Complex{});
               Api::execute(column_forward.get(), raw(numbers.get()),
                            raw(scratch.get() + component * stride));
             }
             if (components == 1) {
-              multiply(k, scratch.get());
+              multiply(j, scratch.get());
             } else {
-              multiply_pair(k, scratch.get(), scratch.get() + stride);
+              multiply_pair(j, scratch.get(), scratch.get() + stride);
             }
             for (int component = 0; component < components; ++component) {
               Api::execute(column_backward.get(), raw(scratch.get() + component * stride),
                            raw(numbers.get()));
-              join(numbers.get(), column(component, k), column(component, mirrored));
+              for (const Rows& rows : rows_of)
+                join(numbers.get(), rows, column(component, k, rows),
+                     column(component, mirrored, rows));
             }
           }
         },
         points());
   }
 
-  // 2·x from z(k) and z(−k), zero-padded to the period.
-  void separate(const Complex* z, const Complex* mirrored, Complex* x) const {
-    const Index whole = shape.nx / rows_at_once;
-    kernels.separate(real(z), real(mirrored), whole, real(x));
-    for_last_pairs([&](Index pair, Index row, Index partner) {
-      const Complex other = std::conj(mirrored[pair]), difference = z[pair] - other;
-      x[row] = z[pair] + other;
-      if (partner < shape.nx) x[partner] = {difference.imag(), -difference.real()};
-    });
-    std::fill(x + shape.nx, x + shape.period_x, Complex{});
+  // Blocks of 16 rows among those of a process.
+  Index whole_blocks(const Rows& rows) const {
+    return std::min(rows.blocks, shape.nx / rows_at_once - rows.first_block);
   }
 
-  // z(k) and z(−k) from x.
-  void join(const Complex* x, Complex* z, Complex* mirrored) const {
-    const Index whole = shape.nx / rows_at_once;
+  // 2·x on the rows of a process, from z(k) and z(−k) there.
+  void separate(const Complex* z, const Complex* mirrored, const Rows& rows, Complex* x) const {
+    x += rows.first_block * rows_at_once;
+    kernels.separate(real(z), real(mirrored), whole_blocks(rows), real(x));
+    for_last_pairs(rows, [&](Index pair, Index row, Index partner, bool has_partner) {
+      const Complex other = std::conj(mirrored[pair]), difference = z[pair] - other;
+      x[row] = z[pair] + other;
+      if (has_partner) x[partner] = {difference.imag(), -difference.real()};
+    });
+  }
+
+  // z(k) and z(−k) from x on the rows of a process.
+  void join(const Complex* x, const Rows& rows, Complex* z, Complex* mirrored) const {
+    x += rows.first_block * rows_at_once;
+    const Index whole = whole_blocks(rows);
     if (z == mirrored) {
       // The spectrum of a real row is real here.
       for (Index block = 0; block < whole; ++block)
@@ -241,8 +356,8 @@ struct Convolution2D<Real>::Passes {
     } else {
       kernels.join(real(x), whole, real(z), real(mirrored));
     }
-    for_last_pairs([&](Index pair, Index row, Index partner) {
-      const Complex near = x[row], far = partner < shape.nx ? x[partner] : Complex{};
+    for_last_pairs(rows, [&](Index pair, Index row, Index partner, bool has_partner) {
+      const Complex near = x[row], far = has_partner ? x[partner] : Complex{};
       if (z == mirrored) {
         z[pair] = {near.real(), far.real()};
       } else {
@@ -252,14 +367,15 @@ struct Convolution2D<Real>::Passes {
     });
   }
 
-  // body(pair, row, partner) for the pairs of a block that is not full.
+  // body(pair, row, partner, whether it exists) for the pairs of a block that is not full, counted from the first row of the process.
   template <class Body>
-  void for_last_pairs(const Body& body) const {
-    const Index whole = shape.nx / rows_at_once;
-    if (whole == blocks) return;
-    for (Index i = 0; i < pairs(whole); ++i)
-      body(whole * pairs_at_once + i, whole * rows_at_once + i,
-           whole * rows_at_once + pairs(whole) + i);
+  void for_last_pairs(const Rows& rows, const Body& body) const {
+    const Index whole = whole_blocks(rows);
+    if (whole == rows.blocks) return;
+    const Index left = shape.nx % rows_at_once, paired = (left + 1) / 2;
+    for (Index i = 0; i < paired; ++i)
+      body(whole * pairs_at_once + i, whole * rows_at_once + i, whole * rows_at_once + paired + i,
+           paired + i < left);
   }
 
   void multiply(Index j, Complex* numbers) const {
@@ -291,12 +407,14 @@ struct Convolution2D<Real>::Passes {
       if (tables[static_cast<std::size_t>(t)].values == nullptr)
         set_symbol(
             t / 2, t - t / 2, [](Index, Index) { return 0.0; }, Parity::even);
-    if (!spectrum) {
+    if (!by_rows) {
       own_spectrum = large_array<Complex>(spectrum_size());
-      spectrum = own_spectrum.get();
+      place_spectrum(own_spectrum.get());
     }
     rows_forward(source);
+    if (to_columns) rows_of_all.ranks().exchange(*to_columns, by_rows, by_columns);
     columns();
+    if (to_rows) rows_of_all.ranks().exchange(*to_rows, by_columns, by_rows);
     rows_backward(place, done);
   }
 
@@ -309,7 +427,10 @@ struct Convolution2D<Real>::Passes {
 
 template <class Real>
 Convolution2D<Real>::Convolution2D(const Shape& shape, int components)
-    : passes_(std::make_unique<Passes>(shape, components)) {}
+    : Convolution2D(shape, components, Share(shape.nx)) {}
+template <class Real>
+Convolution2D<Real>::Convolution2D(const Shape& shape, int components, const Share& rows)
+    : passes_(std::make_unique<Passes>(shape, components, rows)) {}
 template <class Real>
 Convolution2D<Real>::Convolution2D(Convolution2D&&) noexcept = default;
 template <class Real>
@@ -358,7 +479,11 @@ std::size_t Convolution2D<Real>::spectrum_bytes() const {
 template <class Real>
 void Convolution2D<Real>::keep_spectrum_in(void* memory) {
   passes_->own_spectrum.reset();
-  passes_->spectrum = static_cast<std::complex<Real>*>(memory);
+  if (memory) {
+    passes_->place_spectrum(static_cast<std::complex<Real>*>(memory));
+  } else {
+    passes_->by_rows = passes_->by_columns = nullptr;
+  }
 }
 
 template class Convolution2D<float>;

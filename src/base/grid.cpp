@@ -3,7 +3,7 @@
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>
-#include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/base/undefined_points.hpp>
 #include <string>
 
@@ -18,22 +18,37 @@ void Grid2D::validate() const {
 
 Index Surface::undefined_points() const { return heights.isNaN().count(); }
 
+Share Surface::share() const { return {ranks, grid.nx}; }
+
+void Surface::require_whole(const std::string& purpose) const {
+  if (ranks.alone()) return;
+  throw InvalidInput("surface", "",
+                     "is spread over " + std::to_string(ranks.ranks()) + " processes, and " +
+                         purpose + " needs it whole; use one process");
+}
+
 void Surface::require_complete(const std::string& purpose) const {
+  require_whole(purpose);
+  require_complete_rows(purpose);
+}
+
+void Surface::require_complete_rows(const std::string& purpose) const {
   grid.validate();
-  require(heights.rows() == grid.nx && heights.cols() == grid.ny, "heights",
-          std::to_string(heights.rows()) + " x " + std::to_string(heights.cols()),
-          "must have the shape of the grid, " + std::to_string(grid.nx) + " x " +
-              std::to_string(grid.ny));
+  const Index rows = share().count();
+  require(
+      heights.rows() == rows && heights.cols() == grid.ny, "heights",
+      std::to_string(heights.rows()) + " x " + std::to_string(heights.cols()),
+      "must have the shape of the grid, " + std::to_string(rows) + " x " + std::to_string(grid.ny));
   // One pass for the usual case; what is wrong matters only where something is.
   const double wrong = parallel::sum_blocks(
-      grid.nx,
+      rows,
       [&](Index begin, Index end) {
         Index count = 0;
         for (Index k = begin * grid.ny; k < end * grid.ny; ++k)
           count += !std::isfinite(heights.data()[k]);
         return static_cast<double>(count);
       },
-      grid.points());
+      rows * grid.ny);
   if (wrong == 0) return;
   const Index undefined = undefined_points();
   if (undefined > 0)

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <salebra/base/grid.hpp>
+#include <salebra/base/share.hpp>
 
 namespace salebra {
 
@@ -18,8 +19,8 @@ enum class Parity { even, odd };
 /// convolution is circular, with period >= 2n − 1 it is that of isolated fields. Three passes over memory: rows, then columns, each
 /// of which stays in cache while it is transformed, multiplied by the symbols and transformed back, then rows.
 /// The result has the same bits for every thread count. One object may run in one thread at a time.
-/// Memory: sizeof(Real) bytes for each component and each of nx·period_y points while it is in use, and a quarter of that for each
-/// symbol and each point of the period.
+/// Memory: sizeof(Real) bytes for each component and each of nx·period_y points while it is in use, twice as many over several processes,
+/// and a quarter of that for each symbol and each point of the period.
 template <class Real>
 class Convolution2D {
  public:
@@ -32,6 +33,10 @@ class Convolution2D {
   using Symbol = std::function<double(Index i, Index j)>;
 
   explicit Convolution2D(const Shape& shape, int components = 1);
+  /// The same over the processes of a share of the nx rows. Fields, results and the numbers of rows are then those of this process;
+  /// spectra and symbols are spread by columns. apply() is collective and sends each number of a spectrum twice. The result has the same
+  /// bits for every number of processes.
+  Convolution2D(const Shape& shape, int components, const Share& rows);
   Convolution2D(Convolution2D&&) noexcept;
   Convolution2D& operator=(Convolution2D&&) noexcept;
   ~Convolution2D();

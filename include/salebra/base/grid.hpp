@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <salebra/base/communicator.hpp>
 #include <string>
 
 namespace salebra {
@@ -30,18 +31,29 @@ struct Grid2D {
   void validate() const;
 };
 
+class Share;
+
 /// Heights of the rough side. A hill is positive; hills touch first.
+/// A surface that is spread over several processes has its whole grid in each of them and in `heights` the rows of share(). What takes
+/// such surfaces says so; everything else refuses them.
 struct Surface {
   Grid2D grid;
-  Field heights;          ///< (nx, ny), m; NaN where the instrument has no value
-  bool periodic = false;  ///< generated surfaces are, measured ones are not
-  std::string origin;     ///< file, or generator with its seed: for provenance only
+  Field heights;  ///< (nx, ny) or (share().count(), ny), m; NaN where the instrument has no value
+  bool periodic = false;    ///< generated surfaces are, measured ones are not
+  std::string origin;       ///< file, or generator with its seed: for provenance only
+  Communicator ranks = {};  ///< the processes that hold its rows
 
+  /// The rows that each process holds.
+  Share share() const;
   /// Number of NaN heights. Cost: one pass.
   Index undefined_points() const;
-  /// Throws InvalidInput unless the grid is valid, heights has its shape and every height is finite.
+  /// Throws InvalidInput where several processes hold it. `purpose` completes "is spread over 4 processes, and <purpose> needs it whole".
+  void require_whole(const std::string& purpose) const;
+  /// require_whole(), and throws InvalidInput unless the grid is valid, heights has its shape and every height is finite.
   /// `purpose` completes "undefined points cannot be used in <purpose>".
   void require_complete(const std::string& purpose) const;
+  /// The same of the rows that this process holds, for what takes surfaces that are spread.
+  void require_complete_rows(const std::string& purpose) const;
 };
 
 }  // namespace salebra

@@ -32,14 +32,14 @@ void for_slabs(Index rows, const std::function<void(Index, Index)>& body,
 Index block_rows(Index rows);
 Index block_count(Index rows);
 
-/// The values of body(begin, end) over the blocks, in their order, for reductions of several quantities at once.
+/// The values of body(begin, end) over blocks of `size` rows, in their order.
 template <class Value, class Body>
-std::vector<Value> map_blocks(Index rows, const Body& body,
-                              Index work = std::numeric_limits<Index>::max()) {
-  const Index size = block_rows(rows);
-  std::vector<Value> values(static_cast<std::size_t>(block_count(rows)));
+std::vector<Value> map_blocks_of(Index size, Index rows, const Body& body,
+                                 Index work = std::numeric_limits<Index>::max()) {
+  const Index blocks = (rows + size - 1) / size;
+  std::vector<Value> values(static_cast<std::size_t>(blocks));
   for_slabs(
-      block_count(rows),
+      blocks,
       [&](Index first, Index last) {
         for (Index block = first; block < last; ++block)
           values[static_cast<std::size_t>(block)] =
@@ -47,6 +47,13 @@ std::vector<Value> map_blocks(Index rows, const Body& body,
       },
       work);
   return values;
+}
+
+/// The values of body(begin, end) over the blocks, in their order, for reductions of several quantities at once.
+template <class Value, class Body>
+std::vector<Value> map_blocks(Index rows, const Body& body,
+                              Index work = std::numeric_limits<Index>::max()) {
+  return map_blocks_of<Value>(block_rows(rows), rows, body, work);
 }
 
 /// Sum of body(begin, end) over the blocks, added in their order.

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace salebra {
+
+namespace detail {
+
+/// Carries bytes between the processes of a communicator. Each call is collective: all processes make it, in the same order.
+class Transport {
+ public:
+  virtual ~Transport() = default;
+  virtual int rank() const = 0;
+  virtual int ranks() const = 0;
+  virtual void broadcast(void* bytes, std::size_t count, int from) = 0;
+  /// bytes[r] of process r, one after the other in `all`.
+  virtual void gather_all(const void* mine, std::span<const std::size_t> bytes, void* all) = 0;
+  /// counts and places of a process, in units of `unit` bytes.
+  struct Parts {
+    std::span<const std::int64_t> counts, places;
+  };
+  virtual void exchange(std::size_t unit, const void* from, const Parts& sent, void* to,
+                        const Parts& received) = 0;
+};
+
+}  // namespace detail
+
+/// What each process of a communicator sends to each other one, in units of some bytes. Throws InvalidInput where a count or a place is
+/// beyond 2^31 − 1 units, the most that MPI 3 takes.
+class Exchange {
+ public:
+  /// sent[r], received[r]: units to and from process r; their places follow one another, in the order of the processes.
+  Exchange(std::size_t unit, std::vector<std::int64_t> sent, std::vector<std::int64_t> received);
+
+  std::size_t unit() const { return unit_; }
+  std::int64_t sent_units() const { return sent_places_.back(); }
+  std::int64_t received_units() const { return received_places_.back(); }
+  std::int64_t sent_place(int rank) const { return sent_places_[static_cast<std::size_t>(rank)]; }
+  std::int64_t received_place(int rank) const {
+    return received_places_[static_cast<std::size_t>(rank)];
+  }
+
+ private:
+  friend class Communicator;
+  std::size_t unit_;
+  std::vector<std::int64_t> sent_, received_;
+  std::vector<std::int64_t> sent_places_, received_places_;  // and behind the last
+};
+
+/// The processes that compute one surface together; a copy means the same processes. Each call but rank(), ranks() and is_root() is
+/// collective: all processes make it, in the same order and with the same sizes. A communicator of one process does nothing.
+/// The library has no other transport than that; salebra-mpi brings the one of MPI.
+class Communicator {
+ public:
+  Communicator() = default;  ///< this process alone
+  explicit Communicator(std::shared_ptr<detail::Transport> transport)
+      : transport_(std::move(transport)) {}
+
+  int rank() const { return transport_ ? transport_->rank() : 0; }
+  int ranks() const { return transport_ ? transport_->ranks() : 1; }
+  bool is_root() const { return rank() == 0; }
+  bool alone() const { return ranks() == 1; }
+
+  void broadcast(void* bytes, std::size_t count, int from = 0) const;
+  /// bytes[r] of process r, one after the other in `all`.
+  void gather_all(const void* mine, std::span<const std::size_t> bytes, void* all) const;
+  std::vector<std::string> gather_all(const std::string& mine) const;
+  /// from: units of this process for each other one; to: those of each other one for this. They must not overlap.
+  void exchange(const Exchange& plan, const void* from, void* to) const;
+
+ private:
+  std::shared_ptr<detail::Transport> transport_;
+};
+
+/// Runs body on every process and throws the failure of the first process that failed on all of them, as InvalidInput, IoError,
+/// NotConverged, Interrupted, std::bad_alloc or Error. body must not communicate. Collective.
+void collectively(const Communicator& ranks, const std::function<void()>& body);
+
+}  // namespace salebra

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rows of a field over processes: who holds which, their way to other processes, and sums over all of them.
+#include <algorithm>
+#include <cstring>
+#include <salebra/base/share.hpp>
+
+namespace salebra {
+namespace {
+
+constexpr Index least_unit = 16;  // the rows that a transform pairs
+
+std::vector<Index> block_begins(int ranks, Index rows, Index least) {
+  const Index unit = std::max(least_unit, parallel::block_rows(rows)),
+              blocks = (rows + unit - 1) / unit,
+              in_use = std::clamp<Index>(rows / std::max(least, unit), 1, ranks);
+  std::vector<Index> begins;
+  for (Index rank = 0; rank <= ranks; ++rank)
+    begins.push_back(rank < in_use ? std::min(rows, unit * (blocks * rank / in_use)) : rows);
+  return begins;
+}
+
+}  // namespace
+
+Share::Share(const Communicator& ranks, Index rows, Index least)
+    : ranks_(ranks), begins_(block_begins(ranks.ranks(), rows, least)) {}
+
+Share::Share(const Communicator& ranks, std::vector<Index> begins)
+    : ranks_(ranks), begins_(std::move(begins)) {}
+
+int Share::owner(Index row) const {
+  return static_cast<int>(std::upper_bound(begins_.begin(), begins_.end() - 1, row) -
+                          begins_.begin()) -
+         1;
+}
+
+RowExchange::RowExchange(const Share& from, const std::function<Window(int rank)>& wanted,
+                         Edge edge)
+    : ranks_(from.ranks()) {
+  const Index rows = from.rows();
+  const int me = ranks_.rank(), count = ranks_.ranks();
+  sent_counts_.assign(static_cast<std::size_t>(count), 0);
+  received_counts_ = sent_counts_;
+  // The row of the field that stands for one of a window; −1: none.
+  const auto row_of = [&](Index row) {
+    if (row >= 0 && row < rows) return row;
+    if (edge == Edge::none || rows == 0) return Index(-1);
+    return edge == Edge::clamp ? std::clamp<Index>(row, 0, rows - 1) : (row % rows + rows) % rows;
+  };
+  std::vector<std::vector<Index>> from_each(static_cast<std::size_t>(count));
+  for (int rank = 0; rank < count; ++rank) {
+    const Window window = wanted(rank);
+    for (Index k = 0; k < window.count; ++k) {
+      const Index row = row_of(window.first + k);
+      if (row < 0) continue;
+      const int owner = from.owner(row);
+      if (rank == me && owner == me) {
+        own_.push_back({row - from.begin(), k});
+      } else if (owner == me) {
+        sent_.push_back(row - from.begin());
+        ++sent_counts_[static_cast<std::size_t>(rank)];
+      } else if (rank == me) {
+        from_each[static_cast<std::size_t>(owner)].push_back(k);
+      }
+    }
+  }
+  for (std::size_t rank = 0; rank < from_each.size(); ++rank) {
+    received_counts_[rank] = static_cast<std::int64_t>(from_each[rank].size());
+    received_.insert(received_.end(), from_each[rank].begin(), from_each[rank].end());
+  }
+}
+
+void RowExchange::operator()(const void* rows, std::size_t row_stride, void* window,
+                             std::size_t window_stride, std::size_t row_bytes) const {
+  const auto* from = static_cast<const std::byte*>(rows);
+  auto* to = static_cast<std::byte*>(window);
+  const auto at = [](auto* field, Index row, std::size_t stride) {
+    return field + static_cast<std::ptrdiff_t>(row) * static_cast<std::ptrdiff_t>(stride);
+  };
+  for (const Move& move : own_) {
+    const std::byte* source = at(from, move.from, row_stride);
+    std::byte* target = at(to, move.to, window_stride);
+    if (source != target) std::memcpy(target, source, row_bytes);
+  }
+  if (ranks_.alone()) return;
+  std::vector<std::byte> sent(sent_.size() * row_bytes), received(received_.size() * row_bytes);
+  for (std::size_t k = 0; k < sent_.size(); ++k)
+    std::memcpy(sent.data() + k * row_bytes, at(from, sent_[k], row_stride), row_bytes);
+  ranks_.exchange({row_bytes, sent_counts_, received_counts_}, sent.data(), received.data());
+  for (std::size_t k = 0; k < received_.size(); ++k)
+    std::memcpy(at(to, received_[k], window_stride), received.data() + k * row_bytes, row_bytes);
+}
+
+namespace parallel {
+
+double sum_blocks(const Share& share, const std::function<double(Index, Index)>& body, Index work) {
+  double sum = 0;
+  for (const double value : map_blocks<double>(share, body, work)) sum += value;
+  return sum;
+}
+
+}  // namespace parallel
+}  // namespace salebra

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <condition_variable>
+#include <cstring>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <random>
+#include <salebra/base/communicator.hpp>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+// Processes as threads of the test: the transport that holds the distributed code to its promises without MPI. Ranks that call different
+// collectives, or the same one with sizes that do not fit, fail with a message instead of waiting for ever, and so do those that wait for
+// a rank which has ended. Copies are made in a random order after random delays.
+namespace salebra::testing {
+
+class ThreadTransport;
+
+// What the ranks share: where they wait for each other, and what each has brought to the present call.
+class Meeting {
+ public:
+  explicit Meeting(int ranks) : calls_(static_cast<std::size_t>(ranks)) {}
+
+  struct Call {
+    std::string name;  // with whatever must agree
+    const void* from = nullptr;
+    const std::int64_t* counts = nullptr;
+    const std::int64_t* places = nullptr;
+    std::uint64_t bytes_sent = 0;
+  };
+
+  // Waits for all ranks, then has `copy` run in each with the calls of all, and waits again before they leave.
+  void meet(int rank, const Call& call, const std::function<void(const std::vector<Call>&)>& copy) {
+    calls_[static_cast<std::size_t>(rank)] = call;
+    wait();
+    for (const Call& other : calls_)
+      if (other.name != call.name)
+        throw std::logic_error("ranks call different collectives: " + call.name + " in rank " +
+                               std::to_string(rank) + ", " + other.name + " in another");
+    copy(calls_);
+    wait();
+  }
+  // A rank has left: nobody may wait for it.
+  void leave() {
+    const std::scoped_lock lock(guard_);
+    ++left_;
+    everyone_.notify_all();
+  }
+
+ private:
+  void wait() {
+    std::unique_lock lock(guard_);
+    const long turn = turn_;
+    if (++waiting_ == static_cast<int>(calls_.size())) {
+      waiting_ = 0;
+      ++turn_;
+      everyone_.notify_all();
+      return;
+    }
+    everyone_.wait(lock, [&] { return turn_ != turn || left_ > 0; });
+    if (turn_ == turn) throw std::logic_error("a rank waits for one that has ended");
+  }
+
+  std::vector<Call> calls_;
+  std::mutex guard_;
+  std::condition_variable everyone_;
+  int waiting_ = 0, left_ = 0;
+  long turn_ = 0;
+};
+
+class ThreadTransport : public detail::Transport {
+ public:
+  ThreadTransport(std::shared_ptr<Meeting> meeting, int rank, int ranks)
+      : meeting_(std::move(meeting)),
+        rank_(rank),
+        ranks_(ranks),
+        chance_(static_cast<unsigned>(rank)) {}
+
+  int rank() const override { return rank_; }
+  int ranks() const override { return ranks_; }
+
+  void broadcast(void* bytes, std::size_t count, int from) override {
+    meeting_->meet(
+        rank_, {"broadcast of " + std::to_string(count) + " from " + std::to_string(from), bytes},
+        [&](const auto& calls) {
+          if (rank_ != from) std::memcpy(bytes, calls[static_cast<std::size_t>(from)].from, count);
+        });
+  }
+
+  void gather_all(const void* mine, std::span<const std::size_t> bytes, void* all) override {
+    std::string sizes;
+    std::vector<std::size_t> places;
+    std::size_t place = 0;
+    for (const std::size_t size : bytes) {
+      sizes += ' ' + std::to_string(size);
+      places.push_back(place);
+      place += size;
+    }
+    meeting_->meet(rank_, {"gather of" + sizes, mine}, [&](const auto& calls) {
+      for (const std::size_t from : shuffled())
+        if (bytes[from] > 0)
+          std::memcpy(static_cast<char*>(all) + places[from], calls[from].from, bytes[from]);
+    });
+  }
+
+  void exchange(std::size_t unit, const void* from, const Parts& sent, void* to,
+                const Parts& received) override {
+    Meeting::Call call{"exchange of units of " + std::to_string(unit), from, sent.counts.data(),
+                       sent.places.data()};
+    meeting_->meet(rank_, call, [&](const auto& calls) {
+      for (const std::size_t other : shuffled()) {
+        const auto me = static_cast<std::size_t>(rank_);
+        if (calls[other].counts[me] != received.counts[other])
+          throw std::logic_error("rank " + std::to_string(other) + " sends " +
+                                 std::to_string(calls[other].counts[me]) + " units to rank " +
+                                 std::to_string(rank_) + ", which expects " +
+                                 std::to_string(received.counts[other]));
+        const auto bytes = static_cast<std::size_t>(received.counts[other]) * unit;
+        if (bytes > 0)
+          std::memcpy(static_cast<char*>(to) + static_cast<std::size_t>(received.places[other]) * unit,
+                      static_cast<const char*>(calls[other].from) +
+                          static_cast<std::size_t>(calls[other].places[me]) * unit,
+                      bytes);
+      }
+    });
+  }
+
+ private:
+  std::vector<std::size_t> shuffled() {
+    std::vector<std::size_t> order(static_cast<std::size_t>(ranks_));
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+    std::shuffle(order.begin(), order.end(), chance_);
+    if (chance_() % 8 == 0)
+      std::this_thread::sleep_for(std::chrono::microseconds(chance_() % 50));
+    return order;
+  }
+
+  std::shared_ptr<Meeting> meeting_;
+  int rank_, ranks_;
+  std::minstd_rand chance_;
+};
+
+// Runs body(communicator) on so many ranks at once. Throws what the first rank that failed threw.
+inline void run_ranks(int ranks, const std::function<void(const Communicator&)>& body) {
+  const auto meeting = std::make_shared<Meeting>(ranks);
+  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(ranks));
+  std::vector<std::thread> threads;
+  for (int rank = 0; rank < ranks; ++rank)
+    threads.emplace_back([&, rank] {
+      try {
+        body(Communicator(std::make_shared<ThreadTransport>(meeting, rank, ranks)));
+      } catch (...) {
+        failures[static_cast<std::size_t>(rank)] = std::current_exception();
+      }
+      meeting->leave();
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace salebra::testing
