@@ -140,8 +140,8 @@ TEMPLATE_TEST_CASE("A convolution over processes has the bits of one process", "
     std::array<std::vector<TestType>, 2> together;
     convolve(rows, together);
     for (std::size_t component = 0; component < static_cast<std::size_t>(components); ++component)
-      if (!same_bits(alone[component].data() + rows.begin() * shape.ny,
-                     together[component].data(), together[component].size() * sizeof(TestType)))
+      if (!same_bits(alone[component].data() + rows.begin() * shape.ny, together[component].data(),
+                     together[component].size() * sizeof(TestType)))
         throw Error("other bits");
   });
 }
@@ -154,8 +154,8 @@ TEST_CASE("A failure of one process is thrown on all", "[share]") {
       });
       throw Error("no failure");
     } catch (const InvalidInput& error) {
-      if (error.field() != "FILE" || error.value() != "x.h5" || error.constraint() != "must exist" ||
-          error.remedy() != "name another")
+      if (error.field() != "FILE" || error.value() != "x.h5" ||
+          error.constraint() != "must exist" || error.remedy() != "name another")
         throw Error("another message: " + std::string(error.what()));
     }
     try {
