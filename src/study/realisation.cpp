@@ -20,11 +20,12 @@
 namespace salebra {
 namespace {
 
-Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Progress& progress) {
+Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Progress& progress,
+                 const Communicator& ranks) {
   const SelfAffineSpectrum spectrum(recipe.spectrum);
   return recipe.method == GenerationMethod::random_phase
-             ? random_phase(recipe.grid, spectrum, seed, progress)
-             : filtered_noise(recipe.grid, spectrum, seed, progress);
+             ? random_phase(recipe.grid, spectrum, seed, progress, ranks)
+             : filtered_noise(recipe.grid, spectrum, seed, progress, ranks);
 }
 
 Surface read(const MeasuredSurface& recipe) {
@@ -261,10 +262,13 @@ ModelResult& Realisation::of(ContactModel model) {
 }
 
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
-                      const Progress& progress) {
+                      const Progress& progress, const Communicator& ranks) {
   if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces))
-    return generate(*recipe, seed, progress);
-  return read(std::get<MeasuredSurface>(configuration.surfaces));
+    return generate(*recipe, seed, progress, ranks);
+  const auto& measured = std::get<MeasuredSurface>(configuration.surfaces);
+  require(ranks.alone(), "surface", measured.file.string(),
+          "is a file, and processes share generated surfaces only; use one process");
+  return read(measured);
 }
 
 double contact_scale(const StudyConfiguration& configuration) {
