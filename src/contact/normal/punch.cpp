@@ -9,6 +9,7 @@
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/normal/punch.hpp>
 #include <utility>
+#include <vector>
 
 #include "active_set_cg.hpp"
 #include "contact/half_space/cell_window.hpp"
@@ -212,6 +213,8 @@ void ActiveSetCg<Real>::renew_punch_residual() {
   for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, 0); });
 }
 
+template bool ActiveSetCg<float>::hold(const std::vector<Index>&);
+template void ActiveSetCg<float>::invert(const double*, double, double*, PunchOutcome&);
 template PunchOutcome ActiveSetCg<float>::punch_load(const double*, double, const PunchLimits&,
                                                      Field*);
 template PunchOutcome ActiveSetCg<double>::punch_load(const double*, double, const PunchLimits&,
