@@ -7,6 +7,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
 
+#include "conformance.hpp"
 #include "ranks_in_threads.hpp"
 
 using namespace salebra;
@@ -140,8 +141,8 @@ TEMPLATE_TEST_CASE("A convolution over processes has the bits of one process", "
     std::array<std::vector<TestType>, 2> together;
     convolve(rows, together);
     for (std::size_t component = 0; component < static_cast<std::size_t>(components); ++component)
-      if (!same_bits(alone[component].data() + rows.begin() * shape.ny,
-                     together[component].data(), together[component].size() * sizeof(TestType)))
+      if (!same_bits(alone[component].data() + rows.begin() * shape.ny, together[component].data(),
+                     together[component].size() * sizeof(TestType)))
         throw Error("other bits");
   });
 }
@@ -154,8 +155,8 @@ TEST_CASE("A failure of one process is thrown on all", "[share]") {
       });
       throw Error("no failure");
     } catch (const InvalidInput& error) {
-      if (error.field() != "FILE" || error.value() != "x.h5" || error.constraint() != "must exist" ||
-          error.remedy() != "name another")
+      if (error.field() != "FILE" || error.value() != "x.h5" ||
+          error.constraint() != "must exist" || error.remedy() != "name another")
         throw Error("another message: " + std::string(error.what()));
     }
     try {
@@ -190,4 +191,8 @@ TEST_CASE("Ranks that part are told so instead of waiting", "[share]") {
 TEST_CASE("A plan of an exchange refuses more units than MPI counts", "[share]") {
   REQUIRE_THROWS_WITH(Exchange(1, {2147483647, 1}, {0, 0}), Catch::Contains("2147483647 units"));
   REQUIRE_NOTHROW(Exchange(1 << 20, {2147483646, 1}, {0, 0}));
+}
+
+TEST_CASE("The transport of threads conforms like that of MPI", "[share]") {
+  run_ranks(GENERATE(1, 2, 3, 4), salebra::testing::check_conformance);
 }
