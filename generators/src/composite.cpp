@@ -16,6 +16,8 @@ std::string shape_of(const Grid2D& grid) {
 }  // namespace
 
 Surface composite_surface(const Surface& first, const Surface& second) {
+  first.require_whole("a sum of surfaces");
+  second.require_whole("a sum of surfaces");
   first.grid.validate();
   require(first.grid == second.grid, "second", shape_of(second.grid),
           "must have the points and the size of the first surface, " + shape_of(first.grid));
@@ -24,6 +26,7 @@ Surface composite_surface(const Surface& first, const Surface& second) {
 }
 
 Surface crop_surface(const Surface& surface, Index first_x, Index first_y, Index nx, Index ny) {
+  surface.require_whole("a crop");
   const Grid2D& grid = surface.grid;
   const auto check = [&](Index first, Index count, Index points, const char* axis) {
     const std::string of = std::to_string(points) + " points of the surface";

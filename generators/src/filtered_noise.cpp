@@ -7,10 +7,11 @@
 namespace salebra {
 
 Surface filtered_noise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
-                       const Progress& progress) {
-  return {grid,
-          detail::synthesise(grid, spectrum, seed, detail::Chance::gaussian_amplitude, progress),
-          true, "filtered noise, seed " + std::to_string(seed) + ", " + spectrum.description()};
+                       const Progress& progress, const Communicator& ranks) {
+  return {
+      grid,
+      detail::synthesise(grid, spectrum, seed, detail::Chance::gaussian_amplitude, progress, ranks),
+      true, "filtered noise, seed " + std::to_string(seed) + ", " + spectrum.description(), ranks};
 }
 
 }  // namespace salebra

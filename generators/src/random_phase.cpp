@@ -7,9 +7,10 @@
 namespace salebra {
 
 Surface random_phase(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
-                     const Progress& progress) {
-  return {grid, detail::synthesise(grid, spectrum, seed, detail::Chance::phase, progress), true,
-          "random phase, seed " + std::to_string(seed) + ", " + spectrum.description()};
+                     const Progress& progress, const Communicator& ranks) {
+  return {grid, detail::synthesise(grid, spectrum, seed, detail::Chance::phase, progress, ranks),
+          true, "random phase, seed " + std::to_string(seed) + ", " + spectrum.description(),
+          ranks};
 }
 
 }  // namespace salebra

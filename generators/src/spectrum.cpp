@@ -6,6 +6,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/loop_progress.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <sstream>
 #include <vector>
@@ -59,21 +60,32 @@ void Spectrum::density_row(Index first, double step_x, double qy,
   }
 }
 
-SpectralMoments Spectrum::lattice_moments(const Grid2D& grid, const Progress& progress) const {
+SpectralMoments Spectrum::lattice_moments(const Grid2D& grid, const Progress& progress,
+                                          const Communicator& ranks) const {
   const detail::CarriedModes carried(grid, *this);
-  std::vector<SpectralMoments> columns(static_cast<std::size_t>(carried.j_max() + 1));
-  LoopProgress loop(progress, "moments", carried.j_max() + 1);
-  parallel::for_slabs(carried.j_max() + 1, [&](Index begin, Index end) {
-    for (Index j = begin; j < end && loop.advance(); ++j)
-      detail::for_each_mode_of_column(carried, j,
-                                      [&](double qx, double qy, double power, bool pair) {
-                                        add(columns[static_cast<std::size_t>(j)],
-                                            moments_of_wave(qx, qy, pair ? 2 * power : power));
-                                      });
+  const Share columns(ranks, carried.j_max() + 1);
+  std::vector<SpectralMoments> own, all;
+  LoopProgress loop(progress, "moments", columns.count());
+  collectively(ranks, [&] {
+    own.resize(static_cast<std::size_t>(columns.count()));
+    all.resize(static_cast<std::size_t>(columns.rows()));
+    parallel::for_slabs(columns.count(), [&](Index begin, Index end) {
+      for (Index j = begin; j < end && loop.advance(); ++j)
+        detail::for_each_mode_of_column(carried, columns.begin() + j,
+                                        [&](double qx, double qy, double power, bool pair) {
+                                          add(own[static_cast<std::size_t>(j)],
+                                              moments_of_wave(qx, qy, pair ? 2 * power : power));
+                                        });
+    });
+    loop.finish();
   });
-  loop.finish();
+  std::vector<std::size_t> bytes;
+  for (int rank = 0; rank < ranks.ranks(); ++rank)
+    bytes.push_back(static_cast<std::size_t>(columns.end_of(rank) - columns.begin_of(rank)) *
+                    sizeof(SpectralMoments));
+  ranks.gather_all(own.data(), bytes, all.data());
   SpectralMoments sum;
-  for (const SpectralMoments& column : columns) add(sum, column);
+  for (const SpectralMoments& column : all) add(sum, column);
   return sum;
 }
 

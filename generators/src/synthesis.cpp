@@ -8,14 +8,18 @@
 namespace salebra::detail {
 
 Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Chance chance,
-                 const Progress& progress) {
+                 const Progress& progress, const Communicator& ranks) {
   const CarriedModes carried(grid, spectrum);
-  require_memory(grid, double(column_fft_memory(grid.nx, grid.ny)), "a surface");
+  const Share rows(ranks, grid.nx);
+  collectively(ranks, [&] {
+    require_memory(grid, double(column_fft_memory(grid.nx, grid.ny, rows)),
+                   ranks.alone() ? "a surface" : "the rows of a process");
+  });
   const RandomModes modes(carried, seed, chance);
   return backward_by_columns(
       grid.nx, grid.ny, carried.j_max() + 1,
       [&modes](Index j, std::span<std::complex<double>> column) { modes.column(j, column); },
-      progress);
+      progress, rows);
 }
 
 }  // namespace salebra::detail

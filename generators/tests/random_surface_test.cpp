@@ -156,28 +156,31 @@ TEST_CASE("A generator can be stopped at any of its reports, and reports change 
   const Grid2D grid{96, 80, 1, 1};
   const SelfAffineSpectrum spectrum(
       {.hurst = 0.7, .rolloff = 0.5, .short_cutoff = 0.05, .rms_height = 1e-6});
-  using Generator = Surface (*)(const Grid2D&, const Spectrum&, std::uint64_t, const Progress&);
+  using Generator = Surface (*)(const Grid2D&, const Spectrum&, std::uint64_t, const Progress&,
+                                const Communicator&);
   const Generator exact = [](const Grid2D& g, const Spectrum& s, std::uint64_t seed,
-                             const Progress& told) {
+                             const Progress& told, const Communicator&) {
     return exact_rms(g, s, seed, Rms::slope, told);
   };
   for (const int threads : {1, 3}) {
     parallel::set_threads(threads);
     for (const Generator make : {Generator(filtered_noise), Generator(random_phase), exact}) {
       std::vector<double> fractions;
-      const Surface told = make(grid, spectrum, 3, [&](const ProgressReport& report) {
-        CHECK(report.stage == "surface");
-        fractions.push_back(report.fraction);
-        return true;
-      });
-      CHECK((told.heights == make(grid, spectrum, 3, {}).heights).all());
+      const Surface told = make(grid, spectrum, 3,
+                                [&](const ProgressReport& report) {
+                                  CHECK(report.stage == "surface");
+                                  fractions.push_back(report.fraction);
+                                  return true;
+                                },
+                                {});
+      CHECK((told.heights == make(grid, spectrum, 3, {}, {}).heights).all());
       REQUIRE(fractions.size() >= 2);
       CHECK(std::is_sorted(fractions.begin(), fractions.end()));
       CHECK(fractions.back() == 1);
       const auto stop_at = [&](std::size_t report) {
         std::size_t reports = 0;
         CHECK_THROWS_AS(
-            make(grid, spectrum, 3, [&](const ProgressReport&) { return ++reports < report; }),
+            make(grid, spectrum, 3, [&](const ProgressReport&) { return ++reports < report; }, {}),
             Interrupted);
         // Nobody is asked again who said stop.
         CHECK(reports == report);

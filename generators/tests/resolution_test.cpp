@@ -9,7 +9,8 @@ using namespace salebra;
 
 namespace {
 
-using Generator = Surface (*)(const Grid2D&, const Spectrum&, std::uint64_t, const Progress&);
+using Generator = Surface (*)(const Grid2D&, const Spectrum&, std::uint64_t, const Progress&,
+                              const Communicator&);
 
 double rms(const Field& field) { return std::sqrt(field.square().mean()); }
 
@@ -21,10 +22,10 @@ TEST_CASE("A surface has the same bits for every number of threads", "[generator
   const SelfAffineSpectrum spectrum(
       {.rolloff = 0.5, .short_cutoff = 2 * std::max(grid.dx(), grid.dy()), .rms_height = 1.0});
   parallel::set_threads(1);
-  const Field serial = generate(grid, spectrum, 12, {}).heights;
+  const Field serial = generate(grid, spectrum, 12, {}, {}).heights;
   for (const int threads : {2, 3, 7}) {
     parallel::set_threads(threads);
-    CHECK((generate(grid, spectrum, 12, {}).heights == serial).all());
+    CHECK((generate(grid, spectrum, 12, {}, {}).heights == serial).all());
   }
   parallel::set_threads(0);
 }
@@ -44,8 +45,8 @@ TEST_CASE("Refining the grid keeps the heights at common points", "[generators][
   Grid2D fine = pair.coarse;
   fine.nx *= pair.factor_x;
   fine.ny *= pair.factor_y;
-  const Field coarse_heights = generate(pair.coarse, spectrum, 8, {}).heights;
-  const Field fine_heights = generate(fine, spectrum, 8, {}).heights;
+  const Field coarse_heights = generate(pair.coarse, spectrum, 8, {}, {}).heights;
+  const Field fine_heights = generate(fine, spectrum, 8, {}, {}).heights;
   double worst = 0;
   for (Index x = 0; x < pair.coarse.nx; ++x)
     for (Index y = 0; y < pair.coarse.ny; ++y)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Real field from the columns of its half-spectrum, so that no full complex array is held.
 #include <algorithm>
+#include <optional>
 #include <salebra/base/column_fft.hpp>
 #include <salebra/base/loop_progress.hpp>
 #include <salebra/base/memory.hpp>
@@ -15,7 +16,7 @@ namespace {
 using Api = detail::Fftw<double>;
 using Complex = std::complex<double>;
 
-// Columns that are copied to the rows together: 16 of them fill two cache lines of each row they touch.
+// Columns that are copied to the rows together: 16 of them fill two cache lines of each row they touch. They are sent together too.
 constexpr Index block = 16;
 
 constexpr const char* stage = "surface";
@@ -45,68 +46,209 @@ detail::FftwPlan<double> plan_row(Index ny) {
   });
 }
 
+// Which groups of columns a process makes: rank, rank + ranks, rank + 2·ranks, …, the next at_once of them in each batch. A process
+// that is alone makes all in one batch.
+struct Deal {
+  Index groups, ranks, at_once, batches;
+
+  Deal(Index ny, Index columns, const Share& rows)
+      : groups((columns + block - 1) / block), ranks(rows.ranks().ranks()) {
+    const Index most = (groups + ranks - 1) / ranks;
+    // A batch has three buffers of 16 complex columns for each group: as many bytes as ny/ranks real columns.
+    at_once = ranks == 1 ? most : std::clamp<Index>(ny / (6 * block * ranks), 1, most);
+    batches = (most + at_once - 1) / at_once;
+  }
+  Index group(Index rank, Index batch, Index k) const {
+    return rank + (batch * at_once + k) * ranks;
+  }
+  Index count(Index rank, Index batch) const {
+    return std::clamp<Index>((groups - rank + ranks - 1) / ranks - batch * at_once, 0, at_once);
+  }
+  // Units of a batch are the columns of a group in one row, by the process, then by the group, then by the row.
+  Exchange exchange(const Share& rows, Index batch) const {
+    const Index mine = count(rows.ranks().rank(), batch);
+    std::vector<std::int64_t> sent, received;
+    for (int rank = 0; rank < rows.ranks().ranks(); ++rank) {
+      sent.push_back(mine * (rows.end_of(rank) - rows.begin_of(rank)));
+      received.push_back(count(rank, batch) * rows.count());
+    }
+    return {block * sizeof(Complex), std::move(sent), std::move(received)};
+  }
+  // Of all batches.
+  Index columns(Index rank, Index of_all) const {
+    Index sum = 0;
+    for (Index group = rank; group < groups; group += ranks)
+      sum += std::min(block, of_all - group * block);
+    return sum;
+  }
+};
+
+class BackwardByColumns {
+ public:
+  BackwardByColumns(Index nx, Index ny, Index columns, const Share& rows)
+      : nx_(nx),
+        ny_(ny),
+        columns_(columns),
+        stored_(std::min(columns, ny / 2)),
+        rows_(rows),
+        rank_(rows.ranks().rank()),
+        alone_(rows.ranks().alone()),
+        deal_(ny, columns, rows) {}
+
+  // Takes all memory but the few rows and columns of each thread.
+  void prepare() {
+    field_ = uninitialised_field(rows_.count(), ny_);
+    touch_pages(field_);
+    if (columns_ > stored_) last_column_.resize(static_cast<std::size_t>(rows_.count()));
+    column_plan_ = plan_column(nx_);
+    row_plan_ = plan_row(ny_);
+    if (alone_) return;
+    const Index together = deal_.at_once * block;
+    sent_ = large_array<Complex>(static_cast<std::size_t>(together * nx_));
+    received_ =
+        large_array<Complex>(static_cast<std::size_t>(deal_.ranks * together * rows_.count()));
+  }
+
+  void columns(const SpectrumColumn& column, const Progress& progress) {
+    LoopProgress loop(progress, stage, deal_.columns(rank_, columns_), 0, 0.7);
+    for (Index batch = 0; batch < deal_.batches; ++batch) {
+      std::optional<Exchange> plan;
+      collectively(rows_.ranks(), [&] {
+        if (!alone_) plan.emplace(deal_.exchange(rows_, batch));
+        make_columns(batch, column, plan, loop);
+        loop.finish();
+      });
+      if (alone_) return;
+      rows_.ranks().exchange(*plan, sent_.get(), received_.get());
+      keep_received(batch, *plan);
+    }
+  }
+
+  Field rows(const Progress& progress) {
+    LoopProgress loop(progress, stage, rows_.count(), 0.7, 1);
+    collectively(rows_.ranks(), [&] {
+      parallel::for_slabs(rows_.count(), [&](Index begin, Index end) {
+        const auto modes =
+            detail::fftw_array<double, Complex>(static_cast<std::size_t>(ny_ / 2 + 1));
+        const auto values = detail::fftw_array<double>(static_cast<std::size_t>(ny_));
+        for (Index x = begin; x < end && loop.running(); ++x) {
+          double* row = field_.data() + x * ny_;
+          std::copy_n(row, 2 * stored_, reinterpret_cast<double*>(modes.get()));
+          std::fill(modes.get() + stored_, modes.get() + ny_ / 2 + 1, Complex{});
+          if (columns_ > stored_)
+            modes[static_cast<std::size_t>(stored_)] = last_column_[static_cast<std::size_t>(x)];
+          Api::execute_c2r(row_plan_.get(), fftw(modes.get()), values.get());
+          std::copy_n(values.get(), ny_, row);
+          loop.advance();
+        }
+      });
+      loop.finish();
+    });
+    return std::move(field_);
+  }
+
+ private:
+  Index columns_of(Index group) const { return std::min(block, columns_ - group * block); }
+
+  // Fills and transforms the groups of this process, and puts them where they are kept or sent from.
+  void make_columns(Index batch, const SpectrumColumn& column, const std::optional<Exchange>& plan,
+                    LoopProgress& loop) {
+    const Index pitch = column_pitch(nx_);
+    parallel::for_slabs(deal_.count(rank_, batch), [&](Index begin, Index end) {
+      const auto buffer =
+          detail::fftw_array<double, Complex>(static_cast<std::size_t>(block * pitch));
+      for (Index k = begin; k < end && loop.running(); ++k) {
+        const Index group = deal_.group(rank_, batch, k), count = columns_of(group);
+        for (Index j = 0; j < count; ++j) {
+          Complex* modes = buffer.get() + j * pitch;
+          column(group * block + j, {modes, static_cast<std::size_t>(nx_)});
+          Api::execute(column_plan_.get(), fftw(modes), fftw(modes));
+        }
+        if (alone_) {
+          keep(group, count, 0, nx_, buffer.get(), 1, pitch);
+        } else {
+          pack(k, count, *plan, buffer.get(), pitch);
+        }
+        loop.advance(count);
+      }
+    });
+  }
+
+  // Group number k of a batch into what is sent: the rows of each process apart, a row of the group after the other.
+  void pack(Index k, Index count, const Exchange& plan, const Complex* modes, Index pitch) {
+    for (int rank = 0; rank < rows_.ranks().ranks(); ++rank) {
+      const Index first = rows_.begin_of(rank), number = rows_.end_of(rank) - first;
+      Complex* to = sent_.get() + (plan.sent_place(rank) + k * number) * block;
+      for (Index row = first; row < first + number; ++row, to += block) {
+        for (Index j = 0; j < count; ++j) to[j] = modes[row + j * pitch];
+        std::fill(to + count, to + block, Complex{});
+      }
+    }
+  }
+
+  void keep_received(Index batch, const Exchange& plan) {
+    parallel::for_slabs(rows_.count(), [&](Index begin, Index end) {
+      for (int rank = 0; rank < rows_.ranks().ranks(); ++rank)
+        for (Index k = 0; k < deal_.count(rank, batch); ++k) {
+          const Index group = deal_.group(rank, batch, k);
+          keep(group, columns_of(group), begin, end,
+               received_.get() + (plan.received_place(rank) + k * rows_.count()) * block, block, 1);
+        }
+    });
+  }
+
+  // The modes of a row wait in the memory of the row for the transform. ny values hold ny/2 modes; where there is one more, it stands apart.
+  // modes[row·row_step + j·column_step]: of column j of the group, in a row of this process.
+  void keep(Index group, Index count, Index begin, Index end, const Complex* modes, Index row_step,
+            Index column_step) {
+    const Index first = group * block, within = std::min(count, stored_ - first);
+    for (Index x = begin; x < end; ++x) {
+      double* row = field_.data() + x * ny_ + 2 * first;
+      const Complex* from = modes + x * row_step;
+      for (Index j = 0; j < within; ++j) {
+        row[2 * j] = from[j * column_step].real();
+        row[2 * j + 1] = from[j * column_step].imag();
+      }
+      if (within < count) last_column_[static_cast<std::size_t>(x)] = from[within * column_step];
+    }
+  }
+
+  Index nx_, ny_, columns_, stored_;
+  Share rows_;
+  int rank_;
+  bool alone_;
+  Deal deal_;
+  Field field_;
+  std::vector<Complex> last_column_;
+  LargeArray<Complex> sent_, received_;
+  detail::FftwPlan<double> column_plan_, row_plan_;
+};
+
 }  // namespace
 
 Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column,
                           const Progress& progress) {
-  require(columns >= 1 && columns <= ny / 2 + 1, "columns", columns, "must lie in 1 … ny/2+1");
-  Field field = uninitialised_field(nx, ny);
-  touch_pages(field);
-  // ny values hold ny/2 modes; where there is one more, it stands apart.
-  const Index stored = std::min(columns, ny / 2);
-  std::vector<Complex> last_column(static_cast<std::size_t>(columns > stored ? nx : 0));
-
-  const Index pitch = column_pitch(nx);
-  const auto column_plan = plan_column(nx);
-  LoopProgress of_columns(progress, stage, columns, 0, 0.7);
-  parallel::for_slabs((columns + block - 1) / block, [&](Index begin, Index end) {
-    const auto buffer =
-        detail::fftw_array<double, Complex>(static_cast<std::size_t>(block * pitch));
-    for (Index group = begin; group < end && of_columns.running(); ++group) {
-      const Index first = group * block, count = std::min(block, columns - first);
-      for (Index k = 0; k < count; ++k) {
-        Complex* modes = buffer.get() + k * pitch;
-        column(first + k, {modes, static_cast<std::size_t>(nx)});
-        Api::execute(column_plan.get(), fftw(modes), fftw(modes));
-      }
-      const Index within = std::min(count, stored - first);
-      for (Index x = 0; x < nx; ++x) {
-        double* row = field.data() + x * ny + 2 * first;
-        for (Index k = 0; k < within; ++k) {
-          row[2 * k] = buffer[static_cast<std::size_t>(k * pitch + x)].real();
-          row[2 * k + 1] = buffer[static_cast<std::size_t>(k * pitch + x)].imag();
-        }
-      }
-      if (within < count) std::copy_n(buffer.get() + within * pitch, nx, last_column.begin());
-      of_columns.advance(count);
-    }
-  });
-  of_columns.finish();
-
-  const auto row_plan = plan_row(ny);
-  LoopProgress of_rows(progress, stage, nx, 0.7, 1);
-  parallel::for_slabs(nx, [&](Index begin, Index end) {
-    const auto modes = detail::fftw_array<double, Complex>(static_cast<std::size_t>(ny / 2 + 1));
-    const auto values = detail::fftw_array<double>(static_cast<std::size_t>(ny));
-    for (Index x = begin; x < end && of_rows.running(); ++x) {
-      double* row = field.data() + x * ny;
-      std::copy_n(row, 2 * stored, reinterpret_cast<double*>(modes.get()));
-      std::fill(modes.get() + stored, modes.get() + ny / 2 + 1, Complex{});
-      if (columns > stored)
-        modes[static_cast<std::size_t>(stored)] = last_column[static_cast<std::size_t>(x)];
-      Api::execute_c2r(row_plan.get(), fftw(modes.get()), values.get());
-      std::copy_n(values.get(), ny, row);
-      of_rows.advance();
-    }
-  });
-  of_rows.finish();
-  return field;
+  return backward_by_columns(nx, ny, columns, column, progress, Share(nx));
 }
 
-std::size_t column_fft_memory(Index nx, Index ny) {
-  const Index for_columns = block * column_pitch(nx), for_rows = ny / 2 + 1 + (ny + 1) / 2;
-  const Index complex_values = nx + parallel::threads() * std::max(for_columns, for_rows);
-  return static_cast<std::size_t>(nx * ny) * sizeof(double) +
+Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column,
+                          const Progress& progress, const Share& rows) {
+  require(columns >= 1 && columns <= ny / 2 + 1, "columns", columns, "must lie in 1 … ny/2+1");
+  require(rows.rows() == nx, "rows", rows.rows(), "must be nx rows in all");
+  BackwardByColumns transform(nx, ny, columns, rows);
+  collectively(rows.ranks(), [&] { transform.prepare(); });
+  transform.columns(column, progress);
+  return transform.rows(progress);
+}
+
+std::size_t column_fft_memory(Index nx, Index ny, const Share& rows) {
+  const Index threads = parallel::threads(), columns = ny / 2 + 1;
+  const Deal deal(ny, columns, rows);
+  const Index for_columns = std::min(threads, deal.at_once) * block * column_pitch(nx),
+              for_rows = threads * (columns + (ny + 1) / 2);
+  Index complex_values = rows.count() + std::max(for_columns, for_rows);
+  if (deal.ranks > 1) complex_values += deal.at_once * block * (nx + deal.ranks * rows.count());
+  return static_cast<std::size_t>(rows.count() * ny) * sizeof(double) +
          static_cast<std::size_t>(complex_values) * sizeof(Complex);
 }
 

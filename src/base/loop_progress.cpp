@@ -23,7 +23,8 @@ bool LoopProgress::advance(Index items) {
 void LoopProgress::tell(Index done) {
   if (progress_ && !stopped_ &&
       !progress_({.stage = stage_,
-                  .fraction = from_ + (to_ - from_) * static_cast<double>(done) / items_,
+                  .fraction =
+                      items_ > 0 ? from_ + (to_ - from_) * static_cast<double>(done) / items_ : to_,
                   .step = static_cast<int>(done)}))
     stopped_ = true;
 }

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <salebra/base/column_fft.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/fft.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 #include <vector>
 
+#include "ranks_in_threads.hpp"
+
 using namespace salebra;
+using salebra::testing::run_ranks;
 
 namespace {
 
@@ -20,6 +26,14 @@ std::vector<std::complex<double>> some_modes(Index nx, Index ny, Index columns) 
   for (Index i = 0; i < nx; ++i)
     for (Index j = columns; j < fft.modes_y(); ++j) modes[std::size_t(i * fft.modes_y() + j)] = 0;
   return modes;
+}
+
+// Whether the process has its rows of a field that one process has made, bit by bit.
+bool has_its_rows(const Field& mine, const Field& whole, const Share& rows) {
+  return mine.rows() == rows.count() && mine.cols() == whole.cols() &&
+         (mine.size() == 0 ||
+          std::memcmp(mine.data(), whole.data() + rows.begin() * whole.cols(),
+                      static_cast<std::size_t>(mine.size()) * sizeof(double)) == 0);
 }
 
 }  // namespace
@@ -54,4 +68,131 @@ TEST_CASE("A number of columns that the grid does not have is refused", "[fft]")
   };
   CHECK_THROWS_AS(backward_by_columns(8, 8, 6, zeros), InvalidInput);
   CHECK_THROWS_AS(backward_by_columns(8, 8, 0, zeros), InvalidInput);
+}
+
+TEST_CASE("Columns of several processes transform to the bits of one process", "[fft][share]") {
+  // Even and odd, without rows for the last processes, with columns for some processes only; the last have groups for several batches, of
+  // which the last is not full, and more than one group in a batch.
+  const auto [nx, ny] =
+      GENERATE(std::pair<Index, Index>{64, 64}, std::pair<Index, Index>{96, 50},
+               std::pair<Index, Index>{101, 64}, std::pair<Index, Index>{16, 16},
+               std::pair<Index, Index>{25, 81}, std::pair<Index, Index>{7, 1},
+               std::pair<Index, Index>{33, 1000}, std::pair<Index, Index>{50, 999});
+  const Index all = ny / 2 + 1;
+  for (const Index columns : {Index{1}, (all + 1) / 2, all - 1, all}) {
+    if (columns < 1) continue;
+    const auto modes = some_modes(nx, ny, columns);
+    const auto column = [&, nx = nx](Index j, std::span<std::complex<double>> out) {
+      for (Index i = 0; i < nx; ++i) out[std::size_t(i)] = modes[std::size_t(i * all + j)];
+    };
+    const Field whole = backward_by_columns(nx, ny, columns, column);
+    for (const int ranks : {1, 2, 3, 4, 5, 8})
+      for (const int threads : {1, 2}) {
+        CAPTURE(nx, ny, columns, ranks, threads);
+        parallel::set_threads(threads);
+        std::atomic<Index> made = 0;
+        std::atomic<int> right = 0, right_of_any = 0;
+        const auto counted = [&](Index j, std::span<std::complex<double>> out) {
+          ++made;
+          column(j, out);
+        };
+        run_ranks(ranks, [&, nx = nx, ny = ny](const Communicator& together) {
+          const Share rows(together, nx);
+          right +=
+              has_its_rows(backward_by_columns(nx, ny, columns, counted, {}, rows), whole, rows);
+          // Shares need not be blocks, and the first process may be the one without rows.
+          std::vector<Index> begins(static_cast<std::size_t>(ranks) + 1, nx);
+          for (std::size_t k = 0; k + 1 < begins.size(); ++k)
+            begins[k] = k < 2 ? 0 : std::min<Index>(nx, 5 * Index(k) - 7);
+          const Share any(together, begins);
+          right_of_any +=
+              has_its_rows(backward_by_columns(nx, ny, columns, column, {}, any), whole, any);
+        });
+        CHECK(right == ranks);
+        CHECK(right_of_any == ranks);
+        // Each column is made by one process.
+        CHECK(made == columns);
+      }
+    parallel::set_threads(0);
+  }
+}
+
+TEST_CASE("A stop or a failure of one process ends the transform on all", "[fft][share]") {
+  // The last process has columns and no rows.
+  const Index nx = 32, ny = 200, columns = 101;
+  const auto zeros = [](Index, std::span<std::complex<double>> out) {
+    std::fill(out.begin(), out.end(), 0.0);
+  };
+  const int ranks = 3, culprit = GENERATE(0, 1, 2);
+  // Reports of one process: how many there are, and whether they end at 1.
+  std::atomic<int> reports = 0;
+  std::atomic<bool> in_order = true;
+  parallel::set_threads(1);
+  run_ranks(ranks, [&](const Communicator& together) {
+    double last = 0;
+    const auto told = [&](const ProgressReport& report) {
+      ++reports;
+      if (!(report.fraction >= last && report.stage == "surface")) in_order = false;
+      last = report.fraction;
+      return true;
+    };
+    backward_by_columns(nx, ny, columns, zeros,
+                        together.rank() == culprit ? Progress(told) : Progress(),
+                        Share(together, nx));
+    if (together.rank() == culprit && last != 1) in_order = false;
+  });
+  CHECK(in_order);
+  REQUIRE(reports > 2);
+  for (int stop = 1; stop <= reports; ++stop) {
+    std::atomic<int> interrupted = 0;
+    run_ranks(ranks, [&](const Communicator& together) {
+      int heard = 0;
+      const auto told = [&](const ProgressReport&) { return ++heard < stop; };
+      try {
+        backward_by_columns(nx, ny, columns, zeros,
+                            together.rank() == culprit ? Progress(told) : Progress(),
+                            Share(together, nx));
+      } catch (const Interrupted&) {
+        ++interrupted;
+      }
+    });
+    CHECK(interrupted == ranks);
+  }
+  // One process after the other has no memory for one of its columns.
+  for (Index failing = 0; failing < columns; failing += 7) {
+    std::atomic<int> failed = 0;
+    run_ranks(ranks, [&](const Communicator& together) {
+      try {
+        backward_by_columns(
+            nx, ny, columns,
+            [&](Index j, std::span<std::complex<double>> out) {
+              if (j == failing) throw std::bad_alloc();
+              zeros(j, out);
+            },
+            {}, Share(together, nx));
+      } catch (const std::bad_alloc&) {
+        ++failed;
+      }
+    });
+    CHECK(failed == ranks);
+  }
+  parallel::set_threads(0);
+}
+
+TEST_CASE(
+    "Memory of a transform by columns is that of the rows of a process, and as much for a batch",
+    "[fft][share]") {
+  const Index n = 4096;
+  const int ranks = GENERATE(1, 2, 4, 16);
+  parallel::set_threads(2);
+  std::atomic<int> right = 0;
+  run_ranks(ranks, [&](const Communicator& together) {
+    const Share rows(together, n);
+    const double of_rows = double(rows.count() * n) * sizeof(double),
+                 memory = double(column_fft_memory(n, n, rows));
+    // The rows and columns of two threads come on top where the batch does not count them.
+    right += memory > of_rows && memory < (ranks == 1 ? 1.04 : 2.04) * of_rows;
+  });
+  CHECK(right == ranks);
+  parallel::set_threads(0);
 }

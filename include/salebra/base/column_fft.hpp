@@ -6,6 +6,7 @@
 #include <functional>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
+#include <salebra/base/share.hpp>
 #include <span>
 
 namespace salebra {
@@ -24,7 +25,18 @@ using SpectrumColumn = std::function<void(Index j, std::span<std::complex<double
 Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column,
                           const Progress& progress = {});
 
-/// Peak memory of backward_by_columns with the present number of threads, bytes, result included.
-std::size_t column_fft_memory(Index nx, Index ny);
+/// The same over the processes of a share of the nx rows. Returns the rows of this process, (rows.count(), ny), with the same bits for
+/// every number of processes. Each process makes every ranks-th group of 16 columns, because those near a cut-off are less work to fill.
+/// It sends them to the owners of the rows in batches. The buffers of a batch take at most as much memory as the rows of a process, or
+/// 768·nx bytes where that is more.
+/// column    called for the columns of this process alone
+/// progress  of the columns and rows of this process; a stop on any process, or any other failure, is thrown on all of them
+/// throws    InvalidInput also where rows has another number of rows than nx
+/// cost      collective; each process sends and receives 16·nx·columns/ranks bytes
+Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column,
+                          const Progress& progress, const Share& rows);
+
+/// Peak memory of backward_by_columns in this process with the present number of threads, bytes, result included.
+std::size_t column_fft_memory(Index nx, Index ny, const Share& rows);
 
 }  // namespace salebra

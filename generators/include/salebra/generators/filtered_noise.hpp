@@ -15,9 +15,11 @@ namespace salebra {
 /// the shortest wavelength exceeds two cells, the same heights at the common points of two grids on the same cell.
 /// seed      any value; 0 and 1 are different surfaces
 /// progress  "surface", many times a second; a stop throws Interrupted
+/// ranks     the processes that make the surface together, collectively: each has the rows of Surface::share(), with the same bits for every
+///           number of them. A stop or a failure of one process is thrown on all
 /// throws    InvalidInput if the grid does not carry the spectrum (Spectrum::require_carried_by)
-/// cost      less than one real FFT of the grid; memory as generation_memory(grid)
+/// cost      less than one real FFT of the grid; memory as generation_memory(grid, ranks)
 Surface filtered_noise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
-                       const Progress& progress = {});
+                       const Progress& progress = {}, const Communicator& ranks = {});
 
 }  // namespace salebra

@@ -26,8 +26,8 @@ struct Forecast {
 /// Cost: three sums over all modes.
 Forecast forecast(const Grid2D& grid, const Spectrum& spectrum, const Progress& progress = {});
 
-/// Peak memory of filtered_noise and random_phase on this grid, bytes, heights included. They refuse with InvalidInput
-/// what exceeds the memory that the system says is available.
-std::size_t generation_memory(const Grid2D& grid);
+/// Peak memory of filtered_noise and random_phase on this grid in this one of the processes, bytes, heights included. They refuse with
+/// InvalidInput what exceeds the memory that the system says is available.
+std::size_t generation_memory(const Grid2D& grid, const Communicator& ranks = {});
 
 }  // namespace salebra

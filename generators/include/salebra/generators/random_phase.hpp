@@ -12,8 +12,8 @@ namespace salebra {
 /// Every mode has its target power, including those that are their own conjugate (real, of random sign), so that rms height, slope
 /// and all moments equal Spectrum::lattice_moments(grid) for each seed. Only nearly Gaussian: heights become normal as the number of
 /// modes grows. Its phases are those of filtered_noise of the same seed.
-/// Arguments, errors, cost and independence of threads and grid as filtered_noise.
+/// Arguments, errors, cost and independence of threads, processes and grid as filtered_noise.
 Surface random_phase(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
-                     const Progress& progress = {});
+                     const Progress& progress = {}, const Communicator& ranks = {});
 
 }  // namespace salebra

@@ -32,9 +32,11 @@ class Spectrum {
 
   /// Moments that surfaces on this grid have in the mean: the same integrals as sums over the modes that the grid carries, without
   /// the zero mode; a mode on a Nyquist line counts once.
-  /// progress: "moments"; a stop throws Interrupted.
+  /// progress: "moments"; a stop throws Interrupted. ranks: processes that share the sum, collectively; it has the same bits for every
+  /// number of them.
   /// Throws as require_carried_by. Cost: one evaluation of C for each pair of modes within highest_wavenumber.
-  SpectralMoments lattice_moments(const Grid2D& grid, const Progress& progress = {}) const;
+  SpectralMoments lattice_moments(const Grid2D& grid, const Progress& progress = {},
+                                  const Communicator& ranks = {}) const;
 
   /// Throws InvalidInput where the cells are larger than half the shortest wavelength, so that the grid would fold short waves
   /// into long ones, or where the shortest wavelength does not fit into the cell at all.
