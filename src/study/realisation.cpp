@@ -20,22 +20,23 @@
 namespace salebra {
 namespace {
 
-Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Progress& progress) {
+Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Progress& progress,
+                 const Communicator& ranks) {
   const SelfAffineSpectrum spectrum(recipe.spectrum);
   return recipe.method == GenerationMethod::random_phase
-             ? random_phase(recipe.grid, spectrum, seed, progress)
-             : filtered_noise(recipe.grid, spectrum, seed, progress);
+             ? random_phase(recipe.grid, spectrum, seed, progress, ranks)
+             : filtered_noise(recipe.grid, spectrum, seed, progress, ranks);
 }
 
-Surface read(const MeasuredSurface& recipe) {
+Surface read(const MeasuredSurface& recipe, const Communicator& ranks) {
   require_that(!recipe.file.empty(), "surface",
                "none is given; name a file, or describe surfaces to generate");
   ReadOptions options;
   options.size_x = recipe.size_x;
   options.size_y = recipe.size_y;
   options.height_unit = recipe.height_unit;
-  Surface surface = read_surface(recipe.file, options);
-  surface.require_complete("a study");
+  Surface surface = read_surface(recipe.file, options, ranks);
+  collectively(ranks, [&] { surface.require_complete_rows("a study"); });
   const Detrend trend = recipe.detrend.value_or(default_detrend(surface));
   return detrended(std::move(surface), trend);
 }
@@ -261,10 +262,10 @@ ModelResult& Realisation::of(ContactModel model) {
 }
 
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
-                      const Progress& progress) {
+                      const Progress& progress, const Communicator& ranks) {
   if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces))
-    return generate(*recipe, seed, progress);
-  return read(std::get<MeasuredSurface>(configuration.surfaces));
+    return generate(*recipe, seed, progress, ranks);
+  return read(std::get<MeasuredSurface>(configuration.surfaces), ranks);
 }
 
 double contact_scale(const StudyConfiguration& configuration) {

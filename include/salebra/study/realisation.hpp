@@ -263,9 +263,9 @@ SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configur
 std::vector<StudyModel> models_of(const StudyConfiguration& configuration);
 
 /// The surface of a seed, or the measured one (its plane removed, as the configuration says). Throws as generators and readers do.
-/// progress: of the generator.
+/// progress: of the generator. ranks: processes over which it is spread; collective.
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
-                      const Progress& progress = {});
+                      const Progress& progress = {}, const Communicator& ranks = {});
 
 /// The unit of relative pressures, E*h'_rms, Pa, without looking at chance: what the lattice has in the mean, or what was measured.
 double contact_scale(const StudyConfiguration& configuration);
