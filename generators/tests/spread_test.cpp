@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/share.hpp>
@@ -54,7 +55,8 @@ std::vector<Make> ways() {
 
 // Cells of 1/points, the shortest wave two of the longer ones, so that a Nyquist line has power.
 std::shared_ptr<const Spectrum> spectrum_of(int kind, const Grid2D& grid) {
-  const double shortest = 2 * std::max(grid.dx(), grid.dy()), highest = 2 * M_PI / shortest;
+  const double shortest = 2 * std::max(grid.dx(), grid.dy()),
+               highest = 2 * std::numbers::pi / shortest;
   const auto self_affine = std::make_shared<SelfAffineSpectrum>(
       SelfAffineParameters{.hurst = 0.7,
                            .rolloff = 0.5,

@@ -165,7 +165,9 @@ class BackwardByColumns {
           Api::execute(column_plan_.get(), fftw(modes), fftw(modes));
         }
         if (alone_) {
-          keep(group, count, 0, nx_, buffer.get(), 1, pitch);
+          keep(group, 0, nx_, [modes = buffer.get(), pitch](Index row, Index j) {
+            return modes[row + j * pitch];
+          });
         } else {
           pack(k, count, *plan, buffer.get(), pitch);
         }
@@ -190,26 +192,28 @@ class BackwardByColumns {
     parallel::for_slabs(rows_.count(), [&](Index begin, Index end) {
       for (int rank = 0; rank < rows_.ranks().ranks(); ++rank)
         for (Index k = 0; k < deal_.count(rank, batch); ++k) {
-          const Index group = deal_.group(rank, batch, k);
-          keep(group, columns_of(group), begin, end,
-               received_.get() + (plan.received_place(rank) + k * rows_.count()) * block, block, 1);
+          const Complex* modes =
+              received_.get() + (plan.received_place(rank) + k * rows_.count()) * block;
+          keep(deal_.group(rank, batch, k), begin, end,
+               [modes](Index row, Index j) { return modes[row * block + j]; });
         }
     });
   }
 
   // The modes of a row wait in the memory of the row for the transform. ny values hold ny/2 modes; where there is one more, it stands apart.
-  // modes[row·row_step + j·column_step]: of column j of the group, in a row of this process.
-  void keep(Index group, Index count, Index begin, Index end, const Complex* modes, Index row_step,
-            Index column_step) {
-    const Index first = group * block, within = std::min(count, stored_ - first);
+  // mode(row of this process, column of the group)
+  template <class Mode>
+  void keep(Index group, Index begin, Index end, const Mode& mode) {
+    const Index first = group * block, count = columns_of(group),
+                within = std::min(count, stored_ - first);
     for (Index x = begin; x < end; ++x) {
       double* row = field_.data() + x * ny_ + 2 * first;
-      const Complex* from = modes + x * row_step;
       for (Index j = 0; j < within; ++j) {
-        row[2 * j] = from[j * column_step].real();
-        row[2 * j + 1] = from[j * column_step].imag();
+        const Complex value = mode(x, j);
+        row[2 * j] = value.real();
+        row[2 * j + 1] = value.imag();
       }
-      if (within < count) last_column_[static_cast<std::size_t>(x)] = from[within * column_step];
+      if (within < count) last_column_[static_cast<std::size_t>(x)] = mode(x, within);
     }
   }
 

@@ -28,15 +28,15 @@ Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Prog
              : filtered_noise(recipe.grid, spectrum, seed, progress, ranks);
 }
 
-Surface read(const MeasuredSurface& recipe, const Communicator& ranks) {
+Surface read(const MeasuredSurface& recipe) {
   require_that(!recipe.file.empty(), "surface",
                "none is given; name a file, or describe surfaces to generate");
   ReadOptions options;
   options.size_x = recipe.size_x;
   options.size_y = recipe.size_y;
   options.height_unit = recipe.height_unit;
-  Surface surface = read_surface(recipe.file, options, ranks);
-  collectively(ranks, [&] { surface.require_complete_rows("a study"); });
+  Surface surface = read_surface(recipe.file, options);
+  surface.require_complete("a study");
   const Detrend trend = recipe.detrend.value_or(default_detrend(surface));
   return detrended(std::move(surface), trend);
 }
@@ -265,7 +265,10 @@ Surface study_surface(const StudyConfiguration& configuration, std::uint64_t see
                       const Progress& progress, const Communicator& ranks) {
   if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces))
     return generate(*recipe, seed, progress, ranks);
-  return read(std::get<MeasuredSurface>(configuration.surfaces), ranks);
+  const auto& measured = std::get<MeasuredSurface>(configuration.surfaces);
+  require(ranks.alone(), "surface", measured.file.string(),
+          "is a file, and processes share generated surfaces only; use one process");
+  return read(measured);
 }
 
 double contact_scale(const StudyConfiguration& configuration) {

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <unistd.h>
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/study/study_file.hpp>
 
+#include "ranks_in_threads.hpp"
 #include "small_study.hpp"
 
 using namespace salebra;
@@ -173,4 +177,30 @@ TEST_CASE("Moduli that no elastic body has leave a study with (G*/E*)K, and it s
   CHECK_THAT(result.warnings[0], Catch::Contains("leave out the stick solves"));
   const ForceSample& sample = result.realisations[0].of(ContactModel::bem).curve.samples[5];
   CHECK(sample.tangential_stiffness == Approx(0.2 * sample.normal_stiffness));
+}
+
+TEST_CASE("The surface of a seed is made by several processes to the bits of one",
+          "[study][share]") {
+  StudyConfiguration study = small_study();
+  std::get<GeneratedSurfaces>(study.surfaces).method =
+      GENERATE(GenerationMethod::filtered_noise, GenerationMethod::random_phase);
+  const Surface alone = study_surface(study, 2);
+  std::atomic<int> right = 0, refused = 0;
+  salebra::testing::run_ranks(3, [&](const Communicator& together) {
+    const Surface mine = study_surface(study, 2, {}, together);
+    const Share rows = mine.share();
+    right += together.ranks() == mine.ranks.ranks() && mine.origin == alone.origin &&
+             mine.heights.rows() == rows.count() &&
+             std::memcmp(mine.heights.data(), alone.heights.data() + rows.begin() * alone.grid.ny,
+                         static_cast<std::size_t>(mine.heights.size()) * sizeof(double)) == 0;
+    StudyConfiguration measured = study;
+    measured.surfaces = MeasuredSurface{.file = "scan.txt"};
+    try {
+      study_surface(measured, 2, {}, together);
+    } catch (const InvalidInput& error) {
+      refused += error.field() == "surface";
+    }
+  });
+  CHECK(right == 3);
+  CHECK(refused == 3);
 }

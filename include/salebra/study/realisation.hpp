@@ -263,7 +263,7 @@ SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configur
 std::vector<StudyModel> models_of(const StudyConfiguration& configuration);
 
 /// The surface of a seed, or the measured one (its plane removed, as the configuration says). Throws as generators and readers do.
-/// progress: of the generator. ranks: processes over which it is spread; collective.
+/// progress: of the generator. ranks: the processes that make the surface together, as in filtered_noise; a measured one is refused then.
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
                       const Progress& progress = {}, const Communicator& ranks = {});
 
