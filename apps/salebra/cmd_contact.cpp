@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <salebra/base/error.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
