@@ -122,10 +122,11 @@ class ThreadTransport : public detail::Transport {
                                  std::to_string(received.counts[other]));
         const auto bytes = static_cast<std::size_t>(received.counts[other]) * unit;
         if (bytes > 0)
-          std::memcpy(static_cast<char*>(to) + static_cast<std::size_t>(received.places[other]) * unit,
-                      static_cast<const char*>(calls[other].from) +
-                          static_cast<std::size_t>(calls[other].places[me]) * unit,
-                      bytes);
+          std::memcpy(
+              static_cast<char*>(to) + static_cast<std::size_t>(received.places[other]) * unit,
+              static_cast<const char*>(calls[other].from) +
+                  static_cast<std::size_t>(calls[other].places[me]) * unit,
+              bytes);
       }
     });
   }
@@ -135,8 +136,7 @@ class ThreadTransport : public detail::Transport {
     std::vector<std::size_t> order(static_cast<std::size_t>(ranks_));
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
     std::shuffle(order.begin(), order.end(), chance_);
-    if (chance_() % 8 == 0)
-      std::this_thread::sleep_for(std::chrono::microseconds(chance_() % 50));
+    if (chance_() % 8 == 0) std::this_thread::sleep_for(std::chrono::microseconds(chance_() % 50));
     return order;
   }
 

@@ -50,9 +50,9 @@ Solved solve(const Surface& surface, const Case& c, LadderShare share) {
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
   const detail::ContactTarget target{detail::ContactTarget::Kind::mean_pressure, 0.1 * c.load,
                                      0.1 * c.hardness};
-  const auto levels =
-      detail::multigrid_levels(surface.grid, {surface.heights.data(), surface.heights.maxCoeff()},
-                               c.boundary, std::numeric_limits<int>::max());
+  const auto levels = detail::multigrid_levels(surface.grid, surface.share(),
+                                               {surface.heights.data(), surface.heights.maxCoeff()},
+                                               c.boundary, std::numeric_limits<int>::max());
   Solved solved;
   Field gap;
   for (std::size_t k = levels.size(); k-- > 0;) {
@@ -159,7 +159,7 @@ int main(int argc, char** argv) {
     const Index points = boundary == Boundary::free ? n / 2 : n;
     const Grid2D grid{points, points, static_cast<double>(points), static_cast<double>(points)};
     if (const auto ladder = detail::NearFieldLadder::make(
-            grid, detail::normal_symbol(grid, 1, boundary), 1, boundary))
+            grid, Share(points), detail::normal_symbol(grid, 1, boundary), 1, boundary))
       std::printf("%s: %d levels, eps %.4f, eps/(1 - eps) %.4f\n",
                   boundary == Boundary::free ? "free" : "periodic", ladder->depth(),
                   ladder->error(), ladder->error() / (1 - ladder->error()));

@@ -21,7 +21,7 @@ using namespace salebra;
 
 struct Tally {
   std::string family;
-  int runs = 0, failures = 0, iterations = 0, most = 0;
+  int runs = 0, failures = 0, on_ladder = 0, iterations = 0, most = 0;
   double residual = 0, balance = 0;
 };
 
@@ -39,6 +39,7 @@ class Table {
            const NormalContactState& state, double residual, double balance, double allowed) {
     Tally& tally = row(family, precision);
     ++tally.runs;
+    tally.on_ladder += state.ladder_count > 0 ? 1 : 0;
     tally.iterations += state.iterations;
     tally.most = std::max(tally.most, state.iterations);
     tally.residual = std::max(tally.residual, residual);
@@ -55,12 +56,13 @@ class Table {
   }
 
   void print() const {
-    std::printf("\n%-42s %-7s %5s %8s  %10s %6s  %9s  %10s\n", "contacts", "inner", "runs",
-                "failures", "iterations", "most", "worst e_c", "target off");
+    std::printf("\n%-42s %-7s %5s %8s %9s  %10s %6s  %9s  %10s\n", "contacts", "inner", "runs",
+                "failures", "on ladder", "iterations", "most", "worst e_c", "target off");
     for (const Tally& tally : rows_)
-      std::printf("%-50s %5d %8d  %10.1f %6d  %9.1e  %10.1e\n", tally.family.c_str(), tally.runs,
-                  tally.failures, static_cast<double>(tally.iterations) / tally.runs, tally.most,
-                  tally.residual, tally.balance);
+      std::printf("%-50s %5d %8d %9d  %10.1f %6d  %9.1e  %10.1e\n", tally.family.c_str(),
+                  tally.runs, tally.failures, tally.on_ladder,
+                  static_cast<double>(tally.iterations) / tally.runs, tally.most, tally.residual,
+                  tally.balance);
     std::printf("%zu failures\n", failures_.size());
   }
   bool failed() const { return !failures_.empty(); }

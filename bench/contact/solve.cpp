@@ -27,9 +27,10 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 double setup_seconds(const Surface& surface) {
   const auto start = std::chrono::steady_clock::now();
   const double side = static_cast<double>(surface.grid.nx);
-  const auto levels = detail::multigrid_levels({surface.grid.nx, surface.grid.ny, side, side},
-                                               {surface.heights.data(), surface.heights.maxCoeff()},
-                                               Boundary::periodic, std::numeric_limits<int>::max());
+  const auto levels =
+      detail::multigrid_levels({surface.grid.nx, surface.grid.ny, side, side}, surface.share(),
+                               {surface.heights.data(), surface.heights.maxCoeff()},
+                               Boundary::periodic, std::numeric_limits<int>::max());
   for (const auto& level : levels)
     detail::ActiveSetCg<float>(level.grid, 1, Boundary::periodic, level.heights, 1);
   return seconds_since(start);

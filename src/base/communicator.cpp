@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Collective calls of the processes that share a surface, and failures that all of them learn of.
+#include <algorithm>
 #include <cstring>
 #include <new>
 #include <numeric>
@@ -59,12 +60,18 @@ std::string failure_of(const std::function<void()>& body) {
 [[noreturn]] void fail(const std::string& failure) {
   const auto parts = parted(failure);
   switch (failure.front()) {
-    case 'v': throw InvalidInput(parts[0], parts[1], parts[2]);
-    case 'w': throw IoError(parts[0]);
-    case 'n': throw NotConverged(parts[0]);
-    case 'i': throw Interrupted(parts[0]);
-    case 'm': throw std::bad_alloc();
-    default: throw Error(parts[0]);
+    case 'v':
+      throw InvalidInput(parts[0], parts[1], parts[2]);
+    case 'w':
+      throw IoError(parts[0]);
+    case 'n':
+      throw NotConverged(parts[0]);
+    case 'i':
+      throw Interrupted(parts[0]);
+    case 'm':
+      throw std::bad_alloc();
+    default:
+      throw Error(parts[0]);
   }
 }
 
@@ -110,6 +117,23 @@ std::vector<std::string> Communicator::gather_all(const std::string& mine) const
     at += size;
   }
   return texts;
+}
+
+bool Communicator::all_agree(bool yes) const {
+  if (alone()) return yes;
+  const std::vector<std::size_t> one(static_cast<std::size_t>(ranks()), 1);
+  std::vector<char> all(one.size());
+  const char mine = yes ? 1 : 0;
+  gather_all(&mine, one, all.data());
+  return std::all_of(all.begin(), all.end(), [](char answer) { return answer != 0; });
+}
+
+double Communicator::least_of(double mine) const {
+  if (alone()) return mine;
+  const std::vector<std::size_t> one(static_cast<std::size_t>(ranks()), sizeof mine);
+  std::vector<double> all(one.size());
+  gather_all(&mine, one, all.data());
+  return *std::min_element(all.begin(), all.end());
 }
 
 void Communicator::exchange(const Exchange& plan, const void* from, void* to) const {

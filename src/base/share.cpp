@@ -49,6 +49,7 @@ RowExchange::RowExchange(const Share& from, const std::function<Window(int rank)
   std::vector<std::vector<Index>> from_each(static_cast<std::size_t>(count));
   for (int rank = 0; rank < count; ++rank) {
     const Window window = wanted(rank);
+    if (rank == me) count_ = window.count;
     for (Index k = 0; k < window.count; ++k) {
       const Index row = row_of(window.first + k);
       if (row < 0) continue;
@@ -69,25 +70,51 @@ RowExchange::RowExchange(const Share& from, const std::function<Window(int rank)
   }
 }
 
-void RowExchange::operator()(const void* rows, std::size_t row_stride, void* window,
-                             std::size_t window_stride, std::size_t row_bytes) const {
+namespace {
+
+template <class Byte>
+Byte* row_at(Byte* field, Index row, std::size_t stride) {
+  return field + static_cast<std::ptrdiff_t>(row) * static_cast<std::ptrdiff_t>(stride);
+}
+
+}  // namespace
+
+std::vector<std::byte> RowExchange::receive(const void* rows, std::size_t row_stride,
+                                            std::size_t row_bytes) const {
+  if (ranks_.alone()) return {};
   const auto* from = static_cast<const std::byte*>(rows);
-  auto* to = static_cast<std::byte*>(window);
-  const auto at = [](auto* field, Index row, std::size_t stride) {
-    return field + static_cast<std::ptrdiff_t>(row) * static_cast<std::ptrdiff_t>(stride);
-  };
-  for (const Move& move : own_) {
-    const std::byte* source = at(from, move.from, row_stride);
-    std::byte* target = at(to, move.to, window_stride);
-    if (source != target) std::memcpy(target, source, row_bytes);
-  }
-  if (ranks_.alone()) return;
   std::vector<std::byte> sent(sent_.size() * row_bytes), received(received_.size() * row_bytes);
   for (std::size_t k = 0; k < sent_.size(); ++k)
-    std::memcpy(sent.data() + k * row_bytes, at(from, sent_[k], row_stride), row_bytes);
+    std::memcpy(sent.data() + k * row_bytes, row_at(from, sent_[k], row_stride), row_bytes);
   ranks_.exchange({row_bytes, sent_counts_, received_counts_}, sent.data(), received.data());
+  return received;
+}
+
+void RowExchange::operator()(const void* rows, std::size_t row_stride, void* window,
+                             std::size_t window_stride, std::size_t row_bytes) const {
+  const auto received = receive(rows, row_stride, row_bytes);
+  auto* to = static_cast<std::byte*>(window);
+  for (const Move& move : own_) {
+    const std::byte* source = row_at(static_cast<const std::byte*>(rows), move.from, row_stride);
+    std::byte* target = row_at(to, move.to, window_stride);
+    if (source != target) std::memcpy(target, source, row_bytes);
+  }
   for (std::size_t k = 0; k < received_.size(); ++k)
-    std::memcpy(at(to, received_[k], window_stride), received.data() + k * row_bytes, row_bytes);
+    std::memcpy(row_at(to, received_[k], window_stride), received.data() + k * row_bytes,
+                row_bytes);
+}
+
+std::vector<const void*> RowExchange::fetch(const void* rows, std::size_t row_stride,
+                                            std::size_t row_bytes,
+                                            std::vector<std::byte>& room) const {
+  room = receive(rows, row_stride, row_bytes);
+  std::vector<const void*> places(static_cast<std::size_t>(count_), nullptr);
+  for (const Move& move : own_)
+    places[static_cast<std::size_t>(move.to)] =
+        row_at(static_cast<const std::byte*>(rows), move.from, row_stride);
+  for (std::size_t k = 0; k < received_.size(); ++k)
+    places[static_cast<std::size_t>(received_[k])] = room.data() + k * row_bytes;
+  return places;
 }
 
 namespace parallel {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
-#include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 
@@ -43,7 +43,7 @@ ForceSample sample_of(const NormalContactState& state, const Surface& surface,
       stick.on_progress = options.contact.on_progress;
       const StickStiffness stiffness =
           stick_stiffness(contact_set(state), surface.grid, material, stick, true,
-                          punch_pressure * material.modulus_ratio());
+                          punch_pressure * material.modulus_ratio(), surface.ranks);
       sample.tangential_stiffness = stiffness.xx;
       sample.converged = sample.converged && stiffness.converged;
     } else if (std::isfinite(material.tangential_modulus)) {
@@ -54,15 +54,25 @@ ForceSample sample_of(const NormalContactState& state, const Surface& surface,
   return sample;
 }
 
-double rms_height_of(const Field& heights) {
-  return std::sqrt((heights - heights.mean()).square().mean());
+double rms_height_of(const Surface& surface) {
+  const double points = static_cast<double>(surface.grid.points());
+  const auto sum_of = [&](const auto& term) {
+    return parallel::sum_blocks(surface.share(), [&](Index begin, Index end) {
+      double sum = 0;
+      for (Index k = begin * surface.grid.ny; k < end * surface.grid.ny; ++k)
+        sum += term(surface.heights.data()[k]);
+      return sum;
+    });
+  };
+  const double mean = sum_of([](double height) { return height; }) / points;
+  return std::sqrt(sum_of([mean](double h) { return (h - mean) * (h - mean); }) / points);
 }
 
 }  // namespace
 
 ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                            const std::vector<double>& pressures, const SweepOptions& options) {
-  surface.require_complete("a contact calculation");
+  collectively(surface.ranks, [&] { surface.require_complete_rows("a contact calculation"); });
   require_that(!pressures.empty(), "pressures", "none given; name at least one");
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     require_positive(pressures[k], "pressures");
@@ -72,14 +82,21 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
           "must be >= 0");
 
   const int loads = static_cast<int>(pressures.size());
-  const int wanted = options.concurrent_loads > 0 ? options.concurrent_loads : parallel::threads();
+  // Two loads of a surface that is spread would send through each other.
+  const int wanted = !surface.ranks.alone()         ? 1
+                     : options.concurrent_loads > 0 ? options.concurrent_loads
+                                                    : parallel::threads();
   const int concurrent = std::min({wanted, loads, parallel::threads()});
   // A stick solve follows a contact whose fields are still there.
-  const double each = detail::contact_memory(surface.grid, options.contact) +
-                      (options.stiffness && options.stick ? detail::stick_memory(surface.grid) : 0);
-  require_memory(
-      surface.grid, concurrent * each,
-      concurrent > 1 ? "contacts on all threads (fewer `threads` need less)" : "a contact");
+  const double each =
+      (detail::contact_memory(surface.grid, options.contact) +
+       (options.stiffness && options.stick ? detail::stick_memory(surface.grid) : 0)) *
+      static_cast<double>(surface.heights.rows()) / static_cast<double>(surface.grid.nx);
+  collectively(surface.ranks, [&] {
+    require_memory(
+        surface.grid, concurrent * each,
+        concurrent > 1 ? "contacts on all threads (fewer `threads` need less)" : "a contact");
+  });
   std::vector<std::optional<ForceSample>> samples(pressures.size());
   std::atomic<bool> stop = false;
   std::atomic<int> finished = 0;
@@ -113,6 +130,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
         if (omp_get_thread_num() == 0 && options.contact.on_progress &&
             !options.contact.on_progress({"sweep", double(done) / loads, done, state.residual}))
           stop = true;
+        if (!surface.ranks.all_agree(!stop)) stop = true;
       }
     } catch (...) {
       stop = true;
@@ -125,7 +143,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
   ForceCurve curve;
   curve.model = "bem";
   curve.nominal_area = surface.grid.area();
-  curve.rms_height = rms_height_of(surface.heights);
+  curve.rms_height = rms_height_of(surface);
   for (const auto& sample : samples)
     if (sample) curve.samples.push_back(*sample);
   return curve;

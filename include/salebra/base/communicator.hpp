@@ -72,6 +72,10 @@ class Communicator {
   /// bytes[r] of process r, one after the other in `all`.
   void gather_all(const void* mine, std::span<const std::size_t> bytes, void* all) const;
   std::vector<std::string> gather_all(const std::string& mine) const;
+  /// Whether all of them say yes.
+  bool all_agree(bool yes) const;
+  /// The least of their numbers.
+  double least_of(double mine) const;
   /// from: units of this process for each other one; to: those of each other one for this. They must not overlap.
   void exchange(const Exchange& plan, const void* from, void* to) const;
 

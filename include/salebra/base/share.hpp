@@ -53,14 +53,23 @@ class RowExchange {
 
   /// rows: the first row that this process holds; window: the first row of its window. Strides and the length of a row are in bytes.
   /// Rows of the window that this process holds itself may be in their place already.
-  void operator()(const void* rows, std::size_t row_stride, void* window,
-                  std::size_t window_stride, std::size_t row_bytes) const;
+  void operator()(const void* rows, std::size_t row_stride, void* window, std::size_t window_stride,
+                  std::size_t row_bytes) const;
+
+  /// Where each row of the window is: among the rows of this process, in `room`, or nullptr for one that is left alone.
+  std::vector<const void*> fetch(const void* rows, std::size_t row_stride, std::size_t row_bytes,
+                                 std::vector<std::byte>& room) const;
 
  private:
   struct Move {
     Index from, to;  // row of this process, row of its window
   };
+  // Rows from other processes, in the order of received_.
+  std::vector<std::byte> receive(const void* rows, std::size_t row_stride,
+                                 std::size_t row_bytes) const;
+
   Communicator ranks_;
+  Index count_ = 0;  // rows of the window of this process
   std::vector<std::int64_t> sent_counts_, received_counts_;
   std::vector<Index> sent_;      // rows of this process, in the order of the receivers
   std::vector<Index> received_;  // rows of the window, in the order of the senders
@@ -77,9 +86,9 @@ std::vector<Value> gather_blocks(const Share& share, const std::vector<Value>& m
   const Index size = block_rows(share.rows());
   std::vector<std::size_t> bytes;
   for (int rank = 0; rank < share.ranks().ranks(); ++rank)
-    bytes.push_back(static_cast<std::size_t>(
-                        (share.end_of(rank) - share.begin_of(rank) + size - 1) / size) *
-                    sizeof(Value));
+    bytes.push_back(
+        static_cast<std::size_t>((share.end_of(rank) - share.begin_of(rank) + size - 1) / size) *
+        sizeof(Value));
   std::vector<Value> all(static_cast<std::size_t>(block_count(share.rows())));
   share.ranks().gather_all(mine.data(), bytes, all.data());
   return all;
@@ -90,8 +99,8 @@ std::vector<Value> gather_blocks(const Share& share, const std::vector<Value>& m
 template <class Value, class Body>
 std::vector<Value> map_blocks(const Share& share, const Body& body,
                               Index work = std::numeric_limits<Index>::max()) {
-  return gather_blocks(
-      share, map_blocks_of<Value>(block_rows(share.rows()), share.count(), body, work));
+  return gather_blocks(share,
+                       map_blocks_of<Value>(block_rows(share.rows()), share.count(), body, work));
 }
 
 /// Sum of body(begin, end) over the blocks of all processes, added in their order.

@@ -27,6 +27,7 @@ struct SweepOptions {
 
 /// Force–gap curve of a surface by boundary elements, one independent solve for each pressure, in parallel over loads: a solve
 /// that starts from its own coarse grids is not slower than one that starts from the neighbouring load.
+/// A surface may be spread over several processes: the call is then collective, and solves one load after the other.
 /// pressures: > 0, Pa, increasing. Samples that did not converge are kept and marked. With a hardness this is the curve of first loading;
 /// that of unloading is the elastic sweep of after_first_loading() (contact/normal/first_loading.hpp).
 /// throws InvalidInput before any work

@@ -222,8 +222,8 @@ void archive(Archive& through, T& value) {
     archive_alternative(through, own);
   } else if constexpr (std::is_base_of_v<Eigen::DenseBase<Plain>, Plain>) {
     archive_field(through, own);
-  } else if constexpr (is_function<Plain>) {
-    // Who is told of the progress belongs to a call, not to the value.
+  } else if constexpr (is_function<Plain> || std::is_same_v<Plain, Communicator>) {
+    // Who is told of the progress and which processes are at work belongs to a call, not to the value.
   } else if constexpr (std::is_same_v<Plain, StudyResult>) {
     // Its bootstrap has no value of its own, and keeps the members from being counted.
     auto& [configuration, grid, contact_scale, pressures, realisations, warnings, flags,

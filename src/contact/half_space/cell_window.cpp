@@ -32,9 +32,17 @@ CellWindow loading_window(const ContactSet& contact, const Grid2D& grid, Boundar
 }
 
 void require_contact(const ContactSet& contact, const Grid2D& grid, Boundary boundary) {
-  require(contact.rows() == grid.nx && contact.cols() == grid.ny, "contact", contact.size(),
-          "cells do not match the grid; give one value for each of nx × ny cells");
-  require(boundary == Boundary::free || !contact.all(), "contact", contact.size(),
+  require_spread_contact(contact, grid, Share(grid.nx), boundary);
+}
+
+void require_spread_contact(const ContactSet& contact, const Grid2D& grid, const Share& rows,
+                            Boundary boundary) {
+  collectively(rows.ranks(), [&] {
+    require(contact.rows() == rows.count() && contact.cols() == grid.ny, "contact", contact.size(),
+            "cells do not match the grid; give one value for each of nx × ny cells");
+  });
+  require(boundary == Boundary::free || !rows.ranks().all_agree(contact.all()), "contact",
+          contact.size(),
           "cells are all in contact; a periodic surface in full contact has no finite stiffness");
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/base/grid.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
 #include <salebra/contact/half_space/half_space.hpp>
 
@@ -22,6 +22,9 @@ CellWindow loading_window(const ContactSet& contact, const Grid2D& grid, Boundar
 
 /// Throws InvalidInput unless the set has the grid's shape and, where periodic, a cell that is not in contact.
 void require_contact(const ContactSet& contact, const Grid2D& grid, Boundary boundary);
+/// The same of a set whose rows are spread over processes. Collective.
+void require_spread_contact(const ContactSet& contact, const Grid2D& grid, const Share& rows,
+                            Boundary boundary);
 /// Throws InvalidInput unless a solve on a contact set can be held to these: 1e-14 … 0.1, and >= 1.
 void require_limits(double tolerance, int max_iterations);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A field with a frame around it, which repeats the opposite edge or is zero.
+// A field with a frame around it, which repeats the opposite edge, holds rows of other processes, or is zero.
 #include "framed_field.hpp"
 
 #include <algorithm>
@@ -32,9 +32,8 @@ template <class Real>
 void FramedField<Real>::clear() {
   const Index rows = nx_ + 2 * rows_around;
   parallel::for_slabs(
-      nx_,
-      [&](Index begin, Index end) {
-        const Index last = end == nx_ ? rows : end;
+      rows,
+      [&](Index begin, Index last) {
         std::fill(data_.get() + begin * stride_, data_.get() + last * stride_, Real(0));
       },
       nx_ * ny_);
@@ -42,24 +41,32 @@ void FramedField<Real>::clear() {
 }
 
 template <class Real>
-void FramedField<Real>::wrap() {
+void FramedField<Real>::fill_frame(Boundary boundary, const RowExchange& frame_rows) {
   const auto wrapped = [](Index k, Index n) { return (k % n + n) % n; };
-  parallel::for_slabs(
-      nx_,
-      [&](Index begin, Index end) {
-        for (Index i = begin; i < end; ++i) {
-          Real* cells = row(i);
-          for (Index k = 1; k <= frame; ++k) {
-            cells[-k] = cells[wrapped(-k, ny_)];
-            cells[ny_ + k - 1] = cells[wrapped(k - 1, ny_)];
+  if (boundary == Boundary::periodic)
+    parallel::for_slabs(
+        nx_,
+        [&](Index begin, Index end) {
+          for (Index i = begin; i < end; ++i) {
+            Real* cells = row(i);
+            for (Index k = 1; k <= frame; ++k) {
+              cells[-k] = cells[wrapped(-k, ny_)];
+              cells[ny_ + k - 1] = cells[wrapped(k - 1, ny_)];
+            }
           }
-        }
-      },
-      nx_ * ny_);
-  for (Index k = 1; k <= frame; ++k) {
-    std::copy_n(row(wrapped(-k, nx_)) - side_frame, stride_, row(-k) - side_frame);
-    std::copy_n(row(wrapped(k - 1, nx_)) - side_frame, stride_, row(nx_ + k - 1) - side_frame);
-  }
+        },
+        nx_ * ny_);
+  const std::size_t bytes = static_cast<std::size_t>(stride_) * sizeof(Real);
+  frame_rows(row(0) - side_frame, bytes, row(-frame) - side_frame, bytes, bytes);
+}
+
+RowExchange frame_rows(const Share& rows, Boundary boundary) {
+  const auto framed = [&](int rank) {
+    return RowExchange::Window{rows.begin_of(rank) - frame,
+                               rows.end_of(rank) - rows.begin_of(rank) + 2 * frame};
+  };
+  return {rows, framed,
+          boundary == Boundary::periodic ? RowExchange::Edge::repeat : RowExchange::Edge::none};
 }
 
 template class FramedField<float>;

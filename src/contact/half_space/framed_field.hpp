@@ -2,6 +2,8 @@
 #pragma once
 
 #include <salebra/base/memory.hpp>
+#include <salebra/base/share.hpp>
+#include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
 
 #include "tile.hpp"
@@ -29,13 +31,17 @@ class FramedField {
   Real* row(Index row) const { return data_.get() + (row + rows_around) * stride_ + side_frame; }
 
   void clear();
-  // Puts the cells of the opposite edge into the frame: the field repeats.
-  void wrap();
+  // Puts the cells of the opposite edge into the frame, where the field repeats, and the rows of other processes, where it is spread over
+  // several. Collective.
+  void fill_frame(Boundary boundary, const RowExchange& frame_rows);
 
  private:
   static constexpr Index rows_around = frame + 1;
   Index nx_ = 0, ny_ = 0, stride_ = 0;
   LargeArray<Real> data_;
 };
+
+// The rows of the frame of a field, and with them how a field whose rows are shared so is framed.
+RowExchange frame_rows(const Share& rows, Boundary boundary);
 
 }  // namespace salebra::detail

@@ -140,34 +140,37 @@ NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary 
 }
 
 template <class Real>
-Convolution2D<Real> normal_compliance(const Grid2D& grid, const NormalSymbol& symbol) {
-  Convolution2D<Real> compliance({grid.nx, grid.ny, symbol.period_x, symbol.period_y});
+Convolution2D<Real> normal_compliance(const Grid2D& grid, const NormalSymbol& symbol,
+                                      const Share& rows) {
+  Convolution2D<Real> compliance({grid.nx, grid.ny, symbol.period_x, symbol.period_y}, 1, rows);
   compliance.set_symbol(0, 0, symbol.value);
   return compliance;
 }
 
-template Convolution2D<float> normal_compliance<float>(const Grid2D&, const NormalSymbol&);
-template Convolution2D<double> normal_compliance<double>(const Grid2D&, const NormalSymbol&);
+template Convolution2D<float> normal_compliance<float>(const Grid2D&, const NormalSymbol&,
+                                                       const Share&);
+template Convolution2D<double> normal_compliance<double>(const Grid2D&, const NormalSymbol&,
+                                                         const Share&);
 
 }  // namespace detail
 
 template <class Real>
-Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus,
-                                      Boundary boundary) {
-  return detail::normal_compliance<Real>(grid,
-                                         detail::normal_symbol(grid, contact_modulus, boundary));
+Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus, Boundary boundary,
+                                      const Communicator& ranks) {
+  return detail::normal_compliance<Real>(
+      grid, detail::normal_symbol(grid, contact_modulus, boundary), Share(ranks, grid.nx));
 }
 
 template <class Real>
 Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& material,
-                                          Boundary boundary) {
+                                          Boundary boundary, const Communicator& ranks) {
   grid.validate();
   const double isotropic = material.cerruti_isotropic, directed = material.cerruti_directed;
   require(std::isfinite(isotropic) && std::isfinite(directed), "tangential_modulus",
           material.tangential_modulus,
           "does not give Cerruti's constants; name the bodies or Poisson's ratio");
   const auto shape = shape_of<Real>(grid, boundary);
-  Convolution2D<Real> compliance(shape, 2);
+  Convolution2D<Real> compliance(shape, 2, Share(ranks, grid.nx));
   if (boundary == Boundary::periodic) {
     const auto along = [=](double component, double length) {
       return length == 0 ? 0
@@ -215,12 +218,14 @@ Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& ma
   return compliance;
 }
 
-template Convolution2D<float> normal_compliance<float>(const Grid2D&, double, Boundary);
-template Convolution2D<double> normal_compliance<double>(const Grid2D&, double, Boundary);
-template Convolution2D<float> tangential_compliance<float>(const Grid2D&, const Material&,
-                                                           Boundary);
+template Convolution2D<float> normal_compliance<float>(const Grid2D&, double, Boundary,
+                                                       const Communicator&);
+template Convolution2D<double> normal_compliance<double>(const Grid2D&, double, Boundary,
+                                                         const Communicator&);
+template Convolution2D<float> tangential_compliance<float>(const Grid2D&, const Material&, Boundary,
+                                                           const Communicator&);
 template Convolution2D<double> tangential_compliance<double>(const Grid2D&, const Material&,
-                                                             Boundary);
+                                                             Boundary, const Communicator&);
 
 double cell_compliance(const Grid2D& grid, double contact_modulus) {
   // The mean of 2/(E*q) over the wave vectors that the grid has, |q_x| < π/dx, |q_y| < π/dy, as an integral.
@@ -269,7 +274,8 @@ InverseStencil::InverseStencil(const Grid2D& grid) {
   if (least < wanted) weights_[index(0, 0)] += wanted - least;
 }
 
-void InverseStencil::apply(const Field& mask, const Field& r, Boundary boundary, Field& z) const {
+void InverseStencil::apply(const Share& rows, const Field& mask, const Field& r, Boundary boundary,
+                           Field& z) const {
   static_assert(radius <= detail::frame);
   const Index nx = r.rows(), ny = r.cols();
   detail::FramedField<double> framed(nx, ny);
@@ -278,7 +284,7 @@ void InverseStencil::apply(const Field& mask, const Field& r, Boundary boundary,
       for (Index j = 0; j < ny; ++j)
         if (mask(i, j) > 0) framed.row(i)[j] = r(i, j);
   });
-  if (boundary == Boundary::periodic) framed.wrap();
+  framed.fill_frame(boundary, detail::frame_rows(rows, boundary));
   z.resize(nx, ny);
   parallel::for_slabs(nx, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i)

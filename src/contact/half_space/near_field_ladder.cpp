@@ -22,8 +22,23 @@ FramedView view(const FramedField<float>& field) {
 }
 
 // The coarse cells I with |2I − x| <= 2: those that a spline takes cell x of the finer grid to, and from.
-Index first_reached(Index x) { return (x + 1) / 2 - 1; }
-Index last_reached(Index x) { return x / 2 + 1; }
+Index first_reached(Index x) { return ((x + 1) >> 1) - 1; }
+Index last_reached(Index x) { return (x >> 1) + 1; }
+
+// A process that takes part in the coarsest transform has at least so many rows of it: fewer are sooner transformed than sent.
+constexpr Index least_coarsest_rows = 64;
+
+// The rows of the next coarser level, nx in all. Row I goes with row 2I − shift of the finer one, or with the row behind that where a
+// process begins between the two: kernels then count rows of both levels from 0 on.
+Share coarser(const Share& finer, Index nx, Index shift) {
+  const int ranks = finer.ranks().ranks();
+  std::vector<Index> begins{0};
+  for (int rank = 1; rank <= ranks; ++rank)
+    begins.push_back(finer.begin_of(rank) == finer.rows()
+                         ? nx
+                         : std::min(nx, (finer.begin_of(rank) + shift) / 2));
+  return {finer.ranks(), std::move(begins)};
+}
 
 // Over the tiles of a list, each for itself.
 template <class Body>
@@ -44,7 +59,8 @@ std::array<float, size> whole_stencil(const LadderStencil& stencil, double scale
 
 }  // namespace
 
-std::optional<NearFieldLadder> NearFieldLadder::make(const Grid2D& grid, const NormalSymbol& symbol,
+std::optional<NearFieldLadder> NearFieldLadder::make(const Grid2D& grid, const Share& rows,
+                                                     const NormalSymbol& symbol,
                                                      double contact_modulus, Boundary boundary) {
   int depth = 0;
   for (Index x = symbol.period_x, y = symbol.period_y;
@@ -61,6 +77,8 @@ std::optional<NearFieldLadder> NearFieldLadder::make(const Grid2D& grid, const N
   if (!(ladder.error_ < acceptable_error)) return std::nullopt;
 
   ladder.boundary_ = boundary;
+  ladder.rows_ = rows;
+  ladder.frame_rows_.emplace(frame_rows(rows, boundary));
   ladder.ny_ = grid.ny;
   const double scale = std::sqrt(grid.cell_area()) / contact_modulus;
   ladder.stencil_ = whole_stencil<49>(rungs.front().stencil, scale);
@@ -72,7 +90,7 @@ std::optional<NearFieldLadder> NearFieldLadder::make(const Grid2D& grid, const N
   QuarterSymbol left = coarse_symbol(symbol, scaled(0));
   Index nx = grid.nx, ny = grid.ny;
   for (int k = 0; k < depth; ++k) {
-    Level level;
+    Shift shift = {0, 0};
     if (boundary == Boundary::periodic) {
       nx /= 2;
       ny /= 2;
@@ -81,10 +99,15 @@ std::optional<NearFieldLadder> NearFieldLadder::make(const Grid2D& grid, const N
       const Index finer_reach = k == 0 ? 0 : reach;
       nx = (nx + 1) / 2 + 2 * reach;
       ny = (ny + 1) / 2 + 2 * reach;
-      level.shift = {2 * reach - finer_reach, 2 * reach - finer_reach};
+      shift = {2 * reach - finer_reach, 2 * reach - finer_reach};
     }
-    level.source = FramedField<float>(nx, ny);
-    level.image = FramedField<float>(nx, ny);
+    const Share& finer = k == 0 ? rows : ladder.levels_.back().rows;
+    const Share of_level = coarser(finer, nx, shift.x);
+    Level level(of_level, boundary);
+    level.shift = level.local_shift = shift;
+    level.local_shift.x += finer.begin() - 2 * of_level.begin();
+    level.source = FramedField<float>(of_level.count(), ny);
+    level.image = FramedField<float>(of_level.count(), ny);
     if (k + 1 < depth) {
       level.stencil = whole_stencil<25>(rungs[static_cast<std::size_t>(k + 1)].stencil, scale);
       left = coarse_symbol(left, scaled(k + 1));
@@ -92,86 +115,114 @@ std::optional<NearFieldLadder> NearFieldLadder::make(const Grid2D& grid, const N
     ladder.levels_.push_back(std::move(level));
   }
   if (nx > left.period_x || ny > left.period_y) return std::nullopt;
-  ladder.coarsest_.emplace(Convolution2D<float>::Shape{nx, ny, left.period_x, left.period_y});
+  const Share last = ladder.levels_.back().rows,
+              whole_blocks(rows.ranks(), nx, least_coarsest_rows);
+  const auto all_of = [](const Share& share) {
+    return [share](int rank) {
+      return RowExchange::Window{share.begin_of(rank), share.end_of(rank) - share.begin_of(rank)};
+    };
+  };
+  ladder.coarsest_rows_ = whole_blocks;
+  ladder.to_coarsest_.emplace(last, all_of(whole_blocks), RowExchange::Edge::none);
+  ladder.from_coarsest_.emplace(whole_blocks, all_of(last), RowExchange::Edge::none);
+  ladder.coarsest_field_ = large_array<float>(static_cast<std::size_t>(whole_blocks.count() * ny));
+  ladder.coarsest_.emplace(Convolution2D<float>::Shape{nx, ny, left.period_x, left.period_y}, 1,
+                           whole_blocks);
   ladder.coarsest_->set_symbol(0, 0,
                                [&](Index i, Index j) { return left.value[left.index(i, j)]; });
   return ladder;
 }
 
 void NearFieldLadder::list_tiles(const std::vector<unsigned char>& in_use) {
+  const bool periodic = boundary_ == Boundary::periodic;
   const std::vector<unsigned char>* finer = &in_use;
+  const Share* finer_rows = &rows_;
   Index finer_ny = ny_;
   for (Level& level : levels_) {
-    const Index nx = level.source.nx(), ny = level.source.ny(), across = tiles_across(ny);
-    const Index finer_across = tiles_across(finer_ny),
-                finer_rows = static_cast<Index>(finer->size()) / finer_across;
-    const bool periodic = boundary_ == Boundary::periodic;
+    const Index ny = level.source.ny(), across = tiles_across(ny);
+    const Index finer_across = tiles_across(finer_ny);
     // The tiles of a coarse row that a tile of the finer grid reaches: the same for every row.
-    const auto within = [&](Index k, Index n) { return periodic ? (k % n + n) % n : k; };
     std::vector<std::vector<Index>> reached(static_cast<std::size_t>(finer_across));
     for (Index k = 0; k < finer_across; ++k) {
       const Index first = k * tile_width, last = std::min(first + tile_width, finer_ny) - 1;
       auto& tiles = reached[static_cast<std::size_t>(k)];
       for (Index j = first_reached(first + level.shift.y); j <= last_reached(last + level.shift.y);
            ++j) {
-        const Index tile = within(j, ny) / tile_width;
+        const Index tile = (periodic ? (j % ny + ny) % ny : j) / tile_width;
         if (std::find(tiles.begin(), tiles.end(), tile) == tiles.end()) tiles.push_back(tile);
       }
     }
-    level.in_use.assign(static_cast<std::size_t>(nx * across), 0);
-    for (Index row = 0; row < finer_rows; ++row) {
-      const unsigned char* used = finer->data() + row * finer_across;
+    // All rows of the finer grid that reach a row of this process.
+    const auto reaching = [&](int rank) {
+      const Index begin = level.rows.begin_of(rank), end = level.rows.end_of(rank);
+      if (begin == end) return RowExchange::Window{};
+      return RowExchange::Window{2 * begin - level.shift.x - reach,
+                                 2 * (end - 1 - begin) + 2 * reach + 1};
+    };
+    const auto window = reaching(level.rows.ranks().rank());
+    std::vector<unsigned char> used_rows(static_cast<std::size_t>(window.count * finer_across), 0);
+    const auto row_bytes = static_cast<std::size_t>(finer_across);
+    RowExchange(*finer_rows, reaching,
+                periodic ? RowExchange::Edge::repeat : RowExchange::Edge::none)(
+        finer->data(), row_bytes, used_rows.data(), row_bytes, row_bytes);
+    level.in_use.assign(static_cast<std::size_t>(level.rows.count() * across), 0);
+    for (Index row = 0; row < window.count; ++row) {
+      const unsigned char* used = used_rows.data() + row * finer_across;
+      const Index x = window.first + row + level.shift.x;
+      const Index first = std::max(first_reached(x), level.rows.begin()),
+                  last = std::min(last_reached(x), level.rows.end() - 1);
       for (Index k = 0; k < finer_across; ++k) {
         if (!used[k]) continue;
-        for (Index i = first_reached(row + level.shift.x); i <= last_reached(row + level.shift.x);
-             ++i)
+        for (Index i = first; i <= last; ++i)
           for (const Index tile : reached[static_cast<std::size_t>(k)])
-            level.in_use[static_cast<std::size_t>(within(i, nx) * across + tile)] = 1;
+            level.in_use[static_cast<std::size_t>((i - level.rows.begin()) * across + tile)] = 1;
       }
     }
     level.tiles.clear();
-    for (Index row = 0; row < nx; ++row)
+    for (Index row = 0; row < level.rows.count(); ++row)
       append_tiles(level.in_use.data() + row * across, row, across, level.tiles);
     level.source.clear();
     finer = &level.in_use;
+    finer_rows = &level.rows;
     finer_ny = ny;
   }
 }
 
 void NearFieldLadder::descend(FramedField<float>& source) {
   const LadderKernels& kernels = ladder_kernels();
-  const bool periodic = boundary_ == Boundary::periodic;
-  if (periodic) source.wrap();
+  source.fill_frame(boundary_, *frame_rows_);
   source_ = view(source);
   FramedView finer = source_;
   for (Level& level : levels_) {
     const FramedView coarse = view(level.source);
     for_tiles_of(level.tiles, [&](Index begin, Index end) {
-      kernels.restriction(level.tiles.data(), begin, end, finer, level.shift, coarse);
+      kernels.restriction(level.tiles.data(), begin, end, finer, level.local_shift, coarse);
     });
-    if (periodic) level.source.wrap();
+    level.source.fill_frame(boundary_, level.frame_rows);
     finer = coarse;
   }
   Level& last = levels_.back();
   const Index ny = last.source.ny();
-  coarsest_->apply(
-      [&](int, Index row, float*) { return last.source.row(row); },
-      [&](int, Index row, const float* values) { std::copy_n(values, ny, last.image.row(row)); });
-  if (periodic) last.image.wrap();
+  float* field = coarsest_field_.get();
+  const auto bytes = [](Index cells) { return static_cast<std::size_t>(cells) * sizeof(float); };
+  (*to_coarsest_)(last.source.row(0), bytes(last.source.stride()), field, bytes(ny), bytes(ny));
+  coarsest_->apply(field, field);
+  (*from_coarsest_)(field, bytes(ny), last.image.row(0), bytes(last.image.stride()), bytes(ny));
+  last.image.fill_frame(boundary_, last.frame_rows);
   for (std::size_t k = levels_.size() - 1; k-- > 0;) {
     Level& level = levels_[k];
     const FramedView coarse = view(levels_[k + 1].image), image = view(level.image);
     for_tiles_of(level.tiles, [&](Index begin, Index end) {
       kernels.ascent(level.tiles.data(), begin, end, view(level.source), level.stencil.data(),
-                     coarse, levels_[k + 1].shift, image);
+                     coarse, levels_[k + 1].local_shift, image);
     });
-    if (periodic) level.image.wrap();
+    level.image.fill_frame(boundary_, level.frame_rows);
   }
 }
 
 void NearFieldLadder::collect(const Tile* tiles, Index begin, Index end, float* row) const {
   ladder_kernels().last_ascent(tiles, begin, end, source_, stencil_.data(),
-                               view(levels_.front().image), levels_.front().shift, row);
+                               view(levels_.front().image), levels_.front().local_shift, row);
 }
 
 }  // namespace salebra::detail

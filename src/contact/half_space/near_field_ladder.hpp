@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <salebra/base/convolution.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
 
@@ -21,30 +22,43 @@ namespace salebra::detail {
 // way. (1 − eps) G <= G~ <= (1 + eps) G as quadratic forms, eps <= error(): a solve with G~ about an exact gap contracts the error by
 // eps/(1 − eps), whatever the grid, the load or the contact set (docs/theory.md).
 //
-// In float. G~ is symmetric up to rounding, and its result has the same bits for every thread count. One object may run in one thread at a
-// time. Memory: 8/3 bytes for each cell of the grid.
+// In float. G~ is symmetric up to rounding, and its result has the same bits for every number of threads and processes. One object may run
+// in one thread at a time. Memory: 8/3 bytes for each cell of the grid.
+//
+// Over several processes a row of a level belongs to the process of the row of the finer level that it lies on. An application sends the
+// frame of each level, and the rows of the coarsest.
 class NearFieldLadder {
  public:
   // None where the grid is too small for it, or has no stencils that are good enough: cells longer than about 1:2, or a period that
   // does not halve.
-  static std::optional<NearFieldLadder> make(const Grid2D& grid, const NormalSymbol& symbol,
-                                             double contact_modulus, Boundary boundary);
+  // rows: those of the grid that each process holds.
+  static std::optional<NearFieldLadder> make(const Grid2D& grid, const Share& rows,
+                                             const NormalSymbol& symbol, double contact_modulus,
+                                             Boundary boundary);
 
   int depth() const { return static_cast<int>(levels_.size()); }
   double error() const { return error_; }
 
-  // The tiles of the grid that hold the source and where the result is wanted: (nx, tiles per row), 1 where a tile is in use.
+  // The tiles of the grid that hold the source and where the result is wanted: (rows of this process, tiles per row), 1 where a tile is in
+  // use. Collective.
   void list_tiles(const std::vector<unsigned char>& in_use);
 
   // Everything that one application needs on the coarser levels. source: on the tiles in use, else zero; its frame is filled here.
+  // Collective.
   void descend(FramedField<float>& source);
   // G~x on tiles [begin, end) of one row, all in use, into its cells.
   void collect(const Tile* tiles, Index begin, Index end, float* row) const;
 
  private:
   struct Level {
+    Level(const Share& of_level, Boundary boundary)
+        : rows(of_level), frame_rows(detail::frame_rows(of_level, boundary)) {}
+
+    Share rows;
+    RowExchange frame_rows;
     FramedField<float> source, image;
-    Shift shift = {0, 0};                // of its cells on the finer grid
+    Shift shift = {0, 0};                // of its cells on the finer grid, of all processes
+    Shift local_shift = {0, 0};          // the same, rows counted from the first of this process
     std::array<float, 25> stencil = {};  // T there; of the coarsest unused
     std::vector<unsigned char> in_use;   // (nx, tiles per row)
     std::vector<Tile> tiles;
@@ -52,11 +66,17 @@ class NearFieldLadder {
 
   NearFieldLadder() = default;
   Boundary boundary_ = Boundary::periodic;
+  Share rows_;  // of the grid
+  std::optional<RowExchange> frame_rows_;
   double error_ = 0;
   Index ny_ = 0;
   std::array<float, 49> stencil_ = {};  // T1
   std::vector<Level> levels_;           // the coarsest last
+  // The transform of the coarsest, whose rows are shared by whole blocks, and their way there and back.
+  Share coarsest_rows_;
   std::optional<Convolution2D<float>> coarsest_;
+  std::optional<RowExchange> to_coarsest_, from_coarsest_;
+  LargeArray<float> coarsest_field_;
   FramedView source_ = {};  // of the last descend()
 };
 

@@ -14,6 +14,7 @@ struct NormalSymbol {
 NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary boundary);
 
 template <class Real>
-Convolution2D<Real> normal_compliance(const Grid2D& grid, const NormalSymbol& symbol);
+Convolution2D<Real> normal_compliance(const Grid2D& grid, const NormalSymbol& symbol,
+                                      const Share& rows);
 
 }  // namespace salebra::detail

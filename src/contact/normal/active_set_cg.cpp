@@ -33,16 +33,18 @@ constexpr int most_inexact_refreshes = 3;
 }  // namespace
 
 template <class Real>
-ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, double contact_modulus, Boundary boundary,
-                               const Heights& heights, double rms_height)
+ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, const Share& rows, double contact_modulus,
+                               Boundary boundary, const Heights& heights, double rms_height)
     : grid_(grid),
+      rows_(rows),
       boundary_(boundary),
+      frame_rows_(frame_rows(rows, boundary)),
       heights_(heights),
       rms_height_(rms_height),
       contact_modulus_(contact_modulus),
       cell_compliance_(salebra::cell_compliance(grid, contact_modulus)),
       symbol_(normal_symbol(grid, contact_modulus, boundary)),
-      compliance_(normal_compliance<Real>(grid, symbol_)),
+      compliance_(normal_compliance<Real>(grid, symbol_, rows)),
       kernels_(tile_kernels<Real>()),
       tiles_per_row_(tiles_across(grid.ny)) {
   const InverseStencil inverse(grid);
@@ -56,7 +58,7 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, double contact_modulus, Bound
 // Changes the pressures so that their mean is the one asked, within the bound.
 template <class Real>
 void ActiveSetCg<Real>::correct_load(const ContactTarget& target, double* p) const {
-  const double load = target.value * static_cast<double>(points()), bound = target.bound;
+  const double load = target.value * static_cast<double>(grid_.points()), bound = target.bound;
   const double carried = sum_rows([&](Index begin, Index end) {
     return kernels_.clip(p + begin * grid_.ny, (end - begin) * grid_.ny, bound);
   });
@@ -92,7 +94,7 @@ Convolution2D<double>& ActiveSetCg<Real>::exact_compliance() {
   if constexpr (std::is_same_v<Real, double>) {
     return compliance_;
   } else {
-    if (!exact_compliance_) exact_compliance_ = normal_compliance<double>(grid_, symbol_);
+    if (!exact_compliance_) exact_compliance_ = normal_compliance<double>(grid_, symbol_, rows_);
     // The tiles are listed anew after it is used.
     exact_compliance_->keep_spectrum_in(pool(exact_compliance_->spectrum_bytes()));
     return *exact_compliance_;
@@ -113,13 +115,13 @@ Convolution2D<Real>& ActiveSetCg<Real>::dense_compliance() {
 template <class Real>
 CurvatureSums ActiveSetCg<Real>::take_direction(double z_mean, double beta, double t_mean) {
   const auto a = arrays(std::numeric_limits<double>::infinity());
-  return total_of(by_blocks(displace<CurvatureSums>(
-      [&](Index begin, Index end, Real* row) {
-        kernels_.direct(a, begin, end, z_mean, beta, t_mean, row);
-      },
-      [&](Index begin, Index end, const Real* row) {
-        return kernels_.take_image(a, begin, end, row);
-      })));
+  return total_of(by_blocks(rows_, displace<CurvatureSums>(
+                                       [&](Index begin, Index end, Real* row) {
+                                         kernels_.direct(a, begin, end, z_mean, beta, t_mean, row);
+                                       },
+                                       [&](Index begin, Index end, const Real* row) {
+                                         return kernels_.take_image(a, begin, end, row);
+                                       })));
 }
 
 // g = Gp − h and what follows from it.
@@ -128,7 +130,7 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
   // Σp(g − plane) is offset by an approximate plane against cancellation; the true one is known only after the pass.
   const double near = run.load_given() ? run.level : run.target.value;
   const double bound = run.target.bound;
-  std::vector<GapSums> sums(static_cast<std::size_t>(grid_.nx));
+  std::vector<GapSums> sums(static_cast<std::size_t>(rows_.count()));
   const auto take = [&](auto kernel, Index row, const auto* displacement) {
     const Index first = row * grid_.ny;
     sums[static_cast<std::size_t>(row)] =
@@ -158,8 +160,9 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
     ++run.outcome.exact_fft_count;
     run.outcome.exact_fft_seconds += seconds;
   }
-  const GapSums total = total_of(by_blocks(sums));
-  if (total.saturated > 0) return contact_residual(grid_, run.target, rms_height_, run.p, run.g);
+  const GapSums total = total_of(by_blocks(rows_, sums));
+  if (total.saturated > 0)
+    return contact_residual(grid_, rows_, run.target, rms_height_, run.p, run.g);
   ContactResidual result;
   const double misfit =
       run.load_given() ? total.misfit + (near - total.least) * total.pressure : total.distance;
@@ -288,7 +291,8 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
   if (on_ladder_) run.at_refresh = residual;
   for (;;) {
     const bool progressed = iterate(run);
-    if (limits.keep_going && !limits.keep_going(run.outcome.iterations, run.estimate))
+    if (limits.keep_going &&
+        !rows_.ranks().all_agree(limits.keep_going(run.outcome.iterations, run.estimate)))
       run.outcome.interrupted = true;
     const bool stalled = run.stalls > other_thresholds.size();
     const double factor = on_ladder_ && limits.exact ? ladder_refresh_after : refresh_after;
@@ -301,8 +305,8 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
     if (stalled || !progressed) {
       // Where no cell is free, or the set flutters, a slower method finishes; a coarse level is left as it is.
       if (limits.exact)
-        gradient_projection(exact_compliance(), grid_, boundary_, heights_, rms_height_, target,
-                            limits, p, g, run.outcome);
+        gradient_projection(exact_compliance(), grid_, rows_, boundary_, heights_, rms_height_,
+                            target, limits, p, g, run.outcome);
       break;
     }
   }

@@ -8,6 +8,7 @@
 #include <salebra/base/convolution.hpp>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
 
@@ -44,7 +45,12 @@ template <class Real>
 class ActiveSetCg {
  public:
   ActiveSetCg(const Grid2D& grid, double contact_modulus, Boundary boundary, const Heights& heights,
-              double rms_height);
+              double rms_height)
+      : ActiveSetCg(grid, Share(grid.nx), contact_modulus, boundary, heights, rms_height) {}
+  // Over the processes of a share of the rows: fields, and tiles, are those of the rows of this process, and each call is collective.
+  // All decisions follow from sums that have the same bits everywhere, so that no process leaves the others waiting.
+  ActiveSetCg(const Grid2D& grid, const Share& rows, double contact_modulus, Boundary boundary,
+              const Heights& heights, double rms_height);
 
   // p: the start on entry, the solution on return; g = Gp − h on return.
   ActiveSetOutcome solve(const ContactTarget& target, const ActiveSetLimits& limits, double* p,
@@ -55,7 +61,7 @@ class ActiveSetCg {
   PunchOutcome punch_load(const double* p, double bound, const PunchLimits& limits,
                           Field* pressure = nullptr);
 
-  // Makes a set of cells ready for invert(): ix·ny + iy, in row order. False where the ladder cannot be used on it.
+  // Makes a set of cells ready for invert(): ix·ny + iy, in row order. False where the ladder cannot be used on it. In one process.
   bool hold(const std::vector<Index>& cells);
   // q ≈ G⁻¹u on the cells of hold(), with G~ in place of G: CG until a step gains less than this part of all that was gained.
   void invert(const double* u, double step_ends, double* q, PunchOutcome& outcome);
@@ -86,7 +92,7 @@ class ActiveSetCg {
     bool load_given() const { return target.load_given(); }
   };
 
-  Index points() const { return grid_.points(); }
+  Index points() const { return rows_.count() * grid_.ny; }  // of this process
   Index tile_points() const { return static_cast<Index>(tiles_.size()) * tile_width; }
   Index first_tile(Index row) const { return row_begins_[static_cast<std::size_t>(row)]; }
   TileArrays<Real> arrays(double bound);
@@ -94,16 +100,16 @@ class ActiveSetCg {
   // Dense passes: body(begin, end) over slabs of rows, or over blocks where it has a sum.
   template <class Body>
   void for_rows(const Body& body) const {
-    parallel::for_slabs(grid_.nx, body, points());
+    parallel::for_slabs(rows_.count(), body, points());
   }
   template <class Sums, class Body>
   std::vector<Sums> over_rows(const Body& body) const {
-    return parallel::map_blocks<Sums>(grid_.nx, body, points());
+    return parallel::map_blocks<Sums>(rows_, body, points());
   }
 
   template <class Body>
   double sum_rows(const Body& body) const {
-    return parallel::sum_blocks(grid_.nx, body, points());
+    return parallel::sum_blocks(rows_, body, points());
   }
 
   // Passes over the tiles: over slabs of their list, or over those of a block of rows where there is a sum.
@@ -114,16 +120,16 @@ class ActiveSetCg {
   template <class Sums, class Body>
   std::vector<Sums> over_tiles(const Body& body) const {
     return parallel::map_blocks<Sums>(
-        grid_.nx, [&](Index begin, Index end) { return body(first_tile(begin), first_tile(end)); },
+        rows_, [&](Index begin, Index end) { return body(first_tile(begin), first_tile(end)); },
         tile_points());
   }
 
   // Gx, or G~x on the ladder, of a field x that lives on the tiles: spread(begin, end, row) writes the tiles [begin, end) of a row into
-  // it, collect(begin, end, row) takes them from the row of Gx and returns its sums. Row by row, those of rows without tiles being
-  // Sums{}. On the ladder x is spread over the residual, which is made anew before it is read again.
+  // it, collect(begin, end, row) takes them from the row of Gx and returns its sums. Row by row of this process, those of rows without
+  // tiles being Sums{}. On the ladder x is spread over the residual, which is made anew before it is read again.
   template <class Sums, class Spread, class Collect>
   std::vector<Sums> displace(const Spread& spread, const Collect& collect) {
-    std::vector<Sums> sums(static_cast<std::size_t>(grid_.nx));
+    std::vector<Sums> sums(static_cast<std::size_t>(rows_.count()));
     if constexpr (std::is_same_v<Real, float>) {
       if (on_ladder_) {
         for_rows_in_use(
@@ -160,7 +166,7 @@ class ActiveSetCg {
   template <class Body>
   void for_rows_in_use(const Body& body) const {
     parallel::for_slabs(
-        grid_.nx,
+        rows_.count(),
         [&](Index first, Index last) {
           for (Index row = first; row < last; ++row) {
             const Index begin = first_tile(row), end = first_tile(row + 1);
@@ -207,7 +213,9 @@ class ActiveSetCg {
   void refresh(Run& run);
 
   Grid2D grid_;
+  Share rows_;
   Boundary boundary_;
+  RowExchange frame_rows_;
   Heights heights_;
   double rms_height_;
   double contact_modulus_;
@@ -226,7 +234,7 @@ class ActiveSetCg {
   Index tiles_per_row_;
   std::vector<Tile> tiles_;            // row by row
   std::vector<Index> row_begins_;      // the first tile of each row, and the number of tiles
-  std::vector<unsigned char> in_use_;  // (nx, tiles_per_row)
+  std::vector<unsigned char> in_use_;  // (rows, tiles_per_row)
   std::vector<double> nearest_;  // the same, of the last dense_gap(): least g, −∞ under load
   std::vector<Index> places_;    // of the cells of hold(), in packed fields
   // See TileArrays. Between two refreshes p and g are up to date only on the tiles.

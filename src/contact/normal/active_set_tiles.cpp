@@ -42,13 +42,13 @@ template <class Real>
 void ActiveSetCg<Real>::reset() {
   operator_chosen_ = on_ladder_ = false;
   tiles_.clear();
-  row_begins_.assign(static_cast<std::size_t>(grid_.nx + 1), 0);
-  in_use_.assign(static_cast<std::size_t>(grid_.nx * tiles_per_row_), 0);
+  row_begins_.assign(static_cast<std::size_t>(rows_.count() + 1), 0);
+  in_use_.assign(static_cast<std::size_t>(rows_.count() * tiles_per_row_), 0);
   nearest_.resize(in_use_.size());
   if (r_) {
     r_.clear();
   } else {
-    r_ = FramedField<Real>(grid_.nx, grid_.ny);
+    r_ = FramedField<Real>(rows_.count(), grid_.ny);
   }
 }
 
@@ -70,7 +70,7 @@ void ActiveSetCg<Real>::list_tiles() {
   const std::vector<Index> begins_before = std::move(row_begins_);
   tiles_.clear();
   row_begins_.clear();
-  for (Index row = 0; row < grid_.nx; ++row) {
+  for (Index row = 0; row < rows_.count(); ++row) {
     row_begins_.push_back(static_cast<Index>(tiles_.size()));
     append_tiles(in_use_.data() + row * tiles_per_row_, row, tiles_per_row_, tiles_);
   }
@@ -95,8 +95,14 @@ void ActiveSetCg<Real>::choose_operator() {
       operator_chosen_ = true;
       const double points = static_cast<double>(symbol_.period_x * symbol_.period_y);
       const double most = ladder_share_.value_or(worthwhile_share(points));
-      if (static_cast<double>(tile_points()) > most * points) return;
-      if (!ladder_) ladder_ = NearFieldLadder::make(grid_, symbol_, contact_modulus_, boundary_);
+      double tile_points = 0;  // of all processes
+      for (const double of_block : over_tiles<double>([](Index begin, Index end) {
+             return static_cast<double>((end - begin) * tile_width);
+           }))
+        tile_points += of_block;
+      if (tile_points > most * points) return;
+      if (!ladder_)
+        ladder_ = NearFieldLadder::make(grid_, rows_, symbol_, contact_modulus_, boundary_);
       on_ladder_ = ladder_.has_value();
     }
     if (on_ladder_) ladder_->list_tiles(in_use_);
@@ -188,7 +194,7 @@ void ActiveSetCg<Real>::collect_pressure(Run& run) {
        }))
     sum += part;
   const bool scaled = run.load_given() && std::isinf(run.target.bound) && sum > 0;
-  const double scale = scaled ? run.target.value * static_cast<double>(points()) / sum : 1;
+  const double scale = scaled ? run.target.value * static_cast<double>(grid_.points()) / sum : 1;
   for_tiles([&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
       const Tile tile = tiles_[static_cast<std::size_t>(k)];
@@ -210,16 +216,17 @@ void ActiveSetCg<Real>::begin_set(Run& run, const std::vector<SetSums>& parts) {
   for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, run.level); });
 }
 
-// Fills the frame of the residual, so that the stencil sees the periodic images.
+// Fills the frame of the residual, so that the stencil sees the periodic images and the rows of other processes.
 template <class Real>
 void ActiveSetCg<Real>::frame_residual() {
-  if (boundary_ == Boundary::periodic) r_.wrap();
+  r_.fill_frame(boundary_, frame_rows_);
 }
 
 // The correction that puts p on the tiles back to the load, given Σp over the cells below the bound.
 template <class Real>
 LoadCorrection ActiveSetCg<Real>::correction_over_tiles(const Run& run, double pressure) const {
-  const double load = run.target.value * static_cast<double>(points()), bound = run.target.bound;
+  const double load = run.target.value * static_cast<double>(grid_.points()),
+               bound = run.target.bound;
   if (std::isinf(bound)) return {.scale = pressure > 0 ? load / pressure : 1};
   return correction_for_load(load, bound, [&](const LoadCorrection& trial) {
     LoadSums total;
@@ -259,11 +266,12 @@ void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
   std::vector<SetSums> sums;
   {
     const Applying applying(*this, run.outcome);
-    sums = by_blocks(displace<SetSums>(
-        [&](Index begin, Index end, Real* row) { kernels_.spread_change(a, begin, end, row); },
-        [&](Index begin, Index end, const Real* row) {
-          return kernels_.add_displacement(a, begin, end, row);
-        }));
+    sums = by_blocks(
+        rows_, displace<SetSums>([&](Index begin, Index end,
+                                     Real* row) { kernels_.spread_change(a, begin, end, row); },
+                                 [&](Index begin, Index end, const Real* row) {
+                                   return kernels_.add_displacement(a, begin, end, row);
+                                 }));
   }
   begin_set(run, sums);
 }

@@ -17,12 +17,12 @@ struct DenseSums {
 
 }  // namespace
 
-ContactResidual contact_residual(const Grid2D& grid, const ContactTarget& target, double rms_height,
-                                 const double* p, const double* g) {
+ContactResidual contact_residual(const Grid2D& grid, const Share& rows, const ContactTarget& target,
+                                 double rms_height, const double* p, const double* g) {
   const double bound = target.bound;
   DenseSums total;
   for (const DenseSums& part : parallel::map_blocks<DenseSums>(
-           grid.nx,
+           rows,
            [&](Index begin, Index end) {
              DenseSums sums;
              for (Index k = begin * grid.ny; k < end * grid.ny; ++k) {
@@ -36,7 +36,7 @@ ContactResidual contact_residual(const Grid2D& grid, const ContactTarget& target
              }
              return sums;
            },
-           grid.points())) {
+           rows.count() * grid.ny)) {
     total.least_gap = std::min(total.least_gap, part.least_gap);
     total.pressure += part.pressure;
     total.free_count += part.free_count;
@@ -44,7 +44,7 @@ ContactResidual contact_residual(const Grid2D& grid, const ContactTarget& target
   }
   const double plane = target.load_given() ? total.least_gap : target.value;
   const double misfit = parallel::sum_blocks(
-      grid.nx,
+      rows,
       [&](Index begin, Index end) {
         double part = 0;
         for (Index k = begin * grid.ny; k < end * grid.ny; ++k) {
@@ -53,7 +53,7 @@ ContactResidual contact_residual(const Grid2D& grid, const ContactTarget& target
         }
         return part;
       },
-      grid.points());
+      rows.count() * grid.ny);
   ContactResidual result;
   result.residual = total.pressure > 0 ? misfit / (total.pressure * rms_height) : 0;
   if (target.load_given()) {

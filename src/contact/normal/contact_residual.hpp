@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
-#include <salebra/base/grid.hpp>
+#include <salebra/base/share.hpp>
 
 namespace salebra::detail {
 
@@ -84,7 +84,8 @@ struct ContactResidual {
 
 // e_c = Σp|g − plane|/(Σp·h_rms), with the plane at the least g (load given) or at the level given; a gap below the latter adds
 // its depth. Saturated cells may lie below the plane, so they count only where they stand above it.
-ContactResidual contact_residual(const Grid2D& grid, const ContactTarget& target, double rms_height,
-                                 const double* p, const double* g);
+// p and g are those of the rows of this process, the result that of all. Collective.
+ContactResidual contact_residual(const Grid2D& grid, const Share& rows, const ContactTarget& target,
+                                 double rms_height, const double* p, const double* g);
 
 }  // namespace salebra::detail

@@ -19,19 +19,21 @@ constexpr int refresh_every = 20;  // rounds, against the drift of g
 
 class Descent {
  public:
-  Descent(Convolution2D<double>& compliance, const Grid2D& grid, Boundary boundary,
-          const Heights& heights, const ContactTarget& target, double* p, double* g,
-          ActiveSetOutcome& outcome)
+  Descent(Convolution2D<double>& compliance, const Grid2D& grid, const Share& rows,
+          Boundary boundary, const Heights& heights, const ContactTarget& target, double* p,
+          double* g, ActiveSetOutcome& outcome)
       : compliance_(compliance),
+        rows_(rows),
+        cells_(static_cast<double>(grid.points())),
         boundary_(boundary),
         target_(target),
-        heights_(heights.values, grid.nx, grid.ny),
+        heights_(heights.values, rows.count(), grid.ny),
         zero_(heights.zero),
-        p_(p, grid.nx, grid.ny),
-        g_(g, grid.nx, grid.ny),
+        p_(p, rows.count(), grid.ny),
+        g_(g, rows.count(), grid.ny),
         inverse_(grid),
         outcome_(outcome) {
-    image_.resize(grid.nx, grid.ny);
+    image_.resize(rows.count(), grid.ny);
   }
 
   void refresh() {
@@ -43,11 +45,12 @@ class Descent {
   bool project_gradient() {
     if (!(step_ > 0)) step_ = first_step();
     for (int trial = 0; trial < most_backtracks; ++trial) {
-      const Field change = projected(p_ - step_ * gradient()) - p_;
-      const double slope = (gradient() * change).sum();
+      const Field down = gradient();
+      const Field change = projected(p_ - step_ * down) - p_;
+      const double slope = sum(down * change);
       if (!(slope < 0)) return false;
       apply(change);
-      const double curvature = (change * image_).sum();
+      const double curvature = sum(change * image_);
       const double best = -slope / curvature;  // of the multiples of this change
       if (slope + 0.5 * curvature <= sufficient_decrease * slope) {
         take(change);
@@ -63,22 +66,22 @@ class Descent {
   // the last step ends at a bound and p and g change with each step, within bounds.
   void descend_on_face(int most) {
     const Field mask = (p_ > 0 && p_ < target_.bound).cast<double>();
-    const double count = mask.sum();
+    const double count = sum(mask);
     if (count < 2) return;
     Field direction = Field::Zero(p_.rows(), p_.cols()), z, old_image;
     double curvature = 0, best_gain = 0;
     for (int k = 0; k < most; ++k) {
-      const double level = target_.load_given() ? (mask * g_).sum() / count : target_.value;
+      const double level = target_.load_given() ? sum(mask * g_) / count : target_.value;
       const Field r = mask * (g_ - level);
-      inverse_.apply(mask, r, boundary_, z);
-      if (target_.load_given()) z -= mask * (z.sum() / count);
-      const double beta = k > 0 ? -(z * old_image).sum() / curvature : 0;
+      inverse_.apply(rows_, mask, r, boundary_, z);
+      if (target_.load_given()) z -= mask * (sum(z) / count);
+      const double beta = k > 0 ? -sum(z * old_image) / curvature : 0;
       direction = z + beta * direction;
-      const double descent = (r * direction).sum();
+      const double descent = sum(r * direction);
       if (!(descent > 0)) return;
       apply(direction);
       old_image = image_;
-      curvature = (direction * image_).sum();
+      curvature = sum(direction * image_);
       if (!(curvature > 0)) return;
       const double step = descent / curvature;
       ++outcome_.iterations;
@@ -88,9 +91,10 @@ class Descent {
       } else {
         // Beyond the first bound: the projected step if it descends, or else as far as the bound.
         const Field change = projected(p_ - step * direction) - p_;
-        const double slope = (gradient() * change).sum();
+        const Field down = gradient();
+        const double slope = sum(down * change);
         apply(change);
-        if (slope < 0 && slope + 0.5 * (change * image_).sum() <= sufficient_decrease * slope) {
+        if (slope < 0 && slope + 0.5 * sum(change * image_) <= sufficient_decrease * slope) {
           take(change);
         } else {
           image_ = old_image;
@@ -121,9 +125,9 @@ class Descent {
   // At given load a constant may be taken off; the level of the free cells leaves the least to cancel.
   Field gradient() const {
     if (!target_.load_given()) return g_ - target_.value;
-    const auto free = p_ > 0 && p_ < target_.bound;
-    const double count = static_cast<double>(free.count());
-    return g_ - (count > 0 ? free.select(g_, 0.0).sum() / count : g_.minCoeff());
+    const Field free = (p_ > 0 && p_ < target_.bound).cast<double>();
+    const double count = sum(free);
+    return g_ - (count > 0 ? sum(free * g_) / count : least(g_));
   }
 
   // A step that would undo the gradient in one cell of the stencil: a scale, corrected by the first trials.
@@ -136,30 +140,48 @@ class Descent {
       if (t > 0) room = std::min(room, p / t);
       if (t < 0) room = std::min(room, (p - target_.bound) / t);
     }
-    return room;
+    return rows_.ranks().least_of(room);
   }
 
   // The nearest point within the bounds, and at the load where that is given: clamp(x + shift) with the right shift.
   Field projected(const Field& x) const {
     if (!target_.load_given()) return x.max(0.0).min(target_.bound);
-    const double load = target_.value * static_cast<double>(x.size());
-    double low = -x.maxCoeff(), high = std::isfinite(target_.bound) ? target_.bound - x.minCoeff()
-                                                                    : target_.value - x.minCoeff();
+    const double load = target_.value * cells_, lowest = least(x);
+    double low = least(-x),
+           high = std::isfinite(target_.bound) ? target_.bound - lowest : target_.value - lowest;
     double shift = 0;
     for (int round = 0; round < 100 && low < high; ++round) {
       if (!(shift > low && shift < high)) shift = 0.5 * (low + high);
       const Field y = x + shift;
-      const double missing = load - y.max(0.0).min(target_.bound).sum();
+      const double missing = load - sum(y.max(0.0).min(target_.bound));
       if (std::abs(missing) < 1e-15 * load) break;
       (missing > 0 ? low : high) = shift;
-      const double moving = static_cast<double>((y > 0 && y < target_.bound).count());
+      const double moving = sum((y > 0 && y < target_.bound).template cast<double>());
       shift = moving > 0 ? shift + missing / moving : 0.5 * (low + high);
     }
     return (x + shift).max(0.0).min(target_.bound);
   }
 
+  // Over the cells of all processes, added within blocks of rows.
+  template <class Values>
+  double sum(const Values& values) const {
+    return parallel::sum_blocks(rows_, [&](Index begin, Index end) {
+      double part = 0;
+      for (Index i = begin; i < end; ++i)
+        for (Index j = 0; j < values.cols(); ++j) part += values(i, j);
+      return part;
+    });
+  }
+  template <class Values>
+  double least(const Values& values) const {
+    return rows_.ranks().least_of(values.size() > 0 ? values.minCoeff()
+                                                    : std::numeric_limits<double>::infinity());
+  }
+
   using Dense = Eigen::Map<Field>;
   Convolution2D<double>& compliance_;
+  Share rows_;
+  double cells_;  // of all processes
   Boundary boundary_;
   ContactTarget target_;
   Eigen::Map<const Field> heights_;
@@ -173,11 +195,11 @@ class Descent {
 
 }  // namespace
 
-void gradient_projection(Convolution2D<double>& compliance, const Grid2D& grid, Boundary boundary,
-                         const Heights& heights, double rms_height, const ContactTarget& target,
-                         const ActiveSetLimits& limits, double* p, double* g,
-                         ActiveSetOutcome& outcome) {
-  Descent descent(compliance, grid, boundary, heights, target, p, g, outcome);
+void gradient_projection(Convolution2D<double>& compliance, const Grid2D& grid, const Share& rows,
+                         Boundary boundary, const Heights& heights, double rms_height,
+                         const ContactTarget& target, const ActiveSetLimits& limits, double* p,
+                         double* g, ActiveSetOutcome& outcome) {
+  Descent descent(compliance, grid, rows, boundary, heights, target, p, g, outcome);
   descent.refresh();
   int fruitless = 0;  // rounds without descent by gradient projection: rounding, or the solution
   for (int round = 1;; ++round) {
@@ -185,15 +207,16 @@ void gradient_projection(Convolution2D<double>& compliance, const Grid2D& grid, 
     ++outcome.iterations;
     descent.descend_on_face(
         std::min(most_steps_on_a_face, limits.max_iterations - outcome.iterations));
-    auto now = contact_residual(grid, target, rms_height, p, g);
+    auto now = contact_residual(grid, rows, target, rms_height, p, g);
     const bool ends =
         fruitless >= most_fruitless_rounds || outcome.iterations >= limits.max_iterations;
-    if (limits.keep_going && !limits.keep_going(outcome.iterations, now.residual))
+    if (limits.keep_going &&
+        !rows.ranks().all_agree(limits.keep_going(outcome.iterations, now.residual)))
       outcome.interrupted = true;
     if (now.residual < limits.tolerance || ends || outcome.interrupted ||
         round % refresh_every == 0) {
       descent.refresh();
-      now = contact_residual(grid, target, rms_height, p, g);
+      now = contact_residual(grid, rows, target, rms_height, p, g);
     }
     outcome.residual = now.residual;
     outcome.level = now.level;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/memory.hpp>
-#include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 
 namespace salebra::detail {
 namespace {
@@ -16,6 +16,13 @@ constexpr Index least_cells_across = 16;
 Index halved(Index n) {
   if (n <= least_cells_across) return n;
   return n % 2 == 0 ? n / 2 : fast_transform_size(n / 2);
+}
+
+// A process that takes part on a coarse grid has at least so many rows: fewer are sooner computed than sent.
+constexpr Index least_coarse_rows = 64;
+
+RowExchange::Edge edge_of(Boundary boundary) {
+  return boundary == Boundary::periodic ? RowExchange::Edge::repeat : RowExchange::Edge::clamp;
 }
 
 Index into(Index k, Index n, Boundary boundary) {
@@ -34,7 +41,8 @@ Place place(Index k, Index from, Index to) {
 
 // Four-point interpolation at one place: linear and cubic (Lagrange) weights of the points base − 1 … base + 2.
 struct Weights {
-  std::array<Index, 4> point;
+  Index base;
+  std::array<Index, 4> point;  // where these are, repeated or clamped
   std::array<float, 4> linear, cubic;
 };
 std::vector<Weights> interpolation(Index coarse, Index fine, Boundary boundary) {
@@ -42,6 +50,7 @@ std::vector<Weights> interpolation(Index coarse, Index fine, Boundary boundary) 
   for (Index k = 0; k < fine; ++k) {
     const auto [base, f] = place(k, fine, coarse);
     Weights& w = weights[static_cast<std::size_t>(k)];
+    w.base = base;
     for (Index i = 0; i < 4; ++i)
       w.point[static_cast<std::size_t>(i)] = into(base - 1 + i, coarse, boundary);
     w.linear = {0, static_cast<float>(1 - f), static_cast<float>(f), 0};
@@ -53,45 +62,62 @@ std::vector<Weights> interpolation(Index coarse, Index fine, Boundary boundary) 
   return weights;
 }
 
-Field sampled(const Grid2D& fine, const Heights& heights, Index nx, Index ny, Boundary boundary) {
-  Field coarse(nx, ny);
-  const auto at = [&](Index i, Index j) {
-    return heights[into(i, fine.nx, boundary) * fine.ny + into(j, fine.ny, boundary)];
+// The heights of the rows of this process on a coarser grid.
+Field sampled(const MultigridLevel& fine, const Share& rows, Index ny, Boundary boundary) {
+  const Index fine_ny = fine.grid.ny;
+  const auto wanted = [&](int rank) {
+    const Index begin = rows.begin_of(rank), end = rows.end_of(rank);
+    if (begin == end) return RowExchange::Window{};
+    const Index first = place(begin, rows.rows(), fine.grid.nx).base;
+    return RowExchange::Window{first, place(end - 1, rows.rows(), fine.grid.nx).base + 2 - first};
   };
+  const Index first = wanted(rows.ranks().rank()).first;
+  const std::size_t row_bytes = static_cast<std::size_t>(fine_ny) * sizeof(double);
+  std::vector<std::byte> room;
+  const auto fetched = RowExchange(fine.rows, wanted, edge_of(boundary))
+                           .fetch(fine.heights.values, row_bytes, row_bytes, room);
+  Field coarse(rows.count(), ny);
   std::vector<Place> along_y;
-  for (Index j = 0; j < ny; ++j) along_y.push_back(place(j, ny, fine.ny));
+  for (Index j = 0; j < ny; ++j) along_y.push_back(place(j, ny, fine_ny));
   parallel::for_slabs(
-      nx,
+      rows.count(),
       [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
-          const auto [a, x] = place(i, nx, fine.nx);
-          const double* row = heights.values + a * fine.ny;
+          const auto [a, x] = place(rows.begin() + i, rows.rows(), fine.grid.nx);
+          const auto* row =
+              static_cast<const double*>(fetched[static_cast<std::size_t>(a - first)]);
+          const auto* next =
+              static_cast<const double*>(fetched[static_cast<std::size_t>(a + 1 - first)]);
+          const double zero = fine.heights.zero;
           for (Index j = 0; j < ny; ++j) {
             const auto [b, y] = along_y[static_cast<std::size_t>(j)];
-            double value = row[b] - heights.zero;
-            if (x > 0 || y > 0)
-              value = (1 - x) * ((1 - y) * value + y * at(a, b + 1)) +
-                      x * ((1 - y) * at(a + 1, b) + y * at(a + 1, b + 1));
+            double value = row[b] - zero;
+            if (x > 0 || y > 0) {
+              const Index beyond = into(b + 1, fine_ny, boundary);
+              value = (1 - x) * ((1 - y) * value + y * (row[beyond] - zero)) +
+                      x * ((1 - y) * (next[b] - zero) + y * (next[beyond] - zero));
+            }
             coarse(i, j) = value;
           }
         }
       },
-      nx * ny);
+      rows.count() * ny);
   return coarse;
 }
 
 }  // namespace
 
-std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const Heights& heights,
-                                             Boundary boundary, int most) {
+std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const Share& rows,
+                                             const Heights& heights, Boundary boundary, int most) {
   std::vector<MultigridLevel> levels;
-  levels.push_back({grid, {}, heights});
+  levels.push_back({grid, rows, {}, heights});
   while (levels.back().grid.points() > coarsest_points && static_cast<int>(levels.size()) < most) {
     const MultigridLevel& fine = levels.back();
     const Index nx = halved(fine.grid.nx), ny = halved(fine.grid.ny);
     if (nx == fine.grid.nx && ny == fine.grid.ny) break;
+    const Share coarse_rows(rows.ranks(), nx, least_coarse_rows);
     MultigridLevel coarse{
-        {nx, ny, grid.lx, grid.ly}, sampled(fine.grid, fine.heights, nx, ny, boundary), {}};
+        {nx, ny, grid.lx, grid.ly}, coarse_rows, sampled(fine, coarse_rows, ny, boundary), {}};
     levels.push_back(std::move(coarse));
     levels.back().heights = {
         levels.back().coarse_heights.data()};  // a moved Eigen array keeps its memory
@@ -105,10 +131,10 @@ void prolong(const MultigridLevel& coarse, const Field& coarse_pressure, const F
   const Index coarse_ny = coarse.grid.ny, ny = fine.grid.ny;
   const auto along_y = interpolation(coarse_ny, ny, boundary);
   const auto along_x = interpolation(coarse.grid.nx, fine.grid.nx, boundary);
-  const auto size = static_cast<std::size_t>(coarse.grid.nx * ny);
+  const auto size = static_cast<std::size_t>(coarse.rows.count() * ny);
   const auto p_rows = large_array<float>(size), u_rows = large_array<float>(size);
   parallel::for_slabs(
-      coarse.grid.nx,
+      coarse.rows.count(),
       [&](Index begin, Index end) {
         // One point before and two beyond, as the interpolation between two points wants them.
         std::vector<float> p_framed(static_cast<std::size_t>(coarse_ny + 3)), u_framed(p_framed);
@@ -144,16 +170,30 @@ void prolong(const MultigridLevel& coarse, const Field& coarse_pressure, const F
           }
         }
       },
-      coarse.grid.points());
+      coarse.rows.count() * coarse_ny);
+  // The rows between which those of this process lie.
+  const auto wanted = [&](int rank) {
+    const Index begin = fine.rows.begin_of(rank), end = fine.rows.end_of(rank);
+    if (begin == end) return RowExchange::Window{};
+    const Index first = along_x[static_cast<std::size_t>(begin)].base - 1;
+    return RowExchange::Window{first, along_x[static_cast<std::size_t>(end - 1)].base + 3 - first};
+  };
+  const RowExchange neighbours(coarse.rows, wanted, edge_of(boundary));
+  const Index first = wanted(fine.rows.ranks().rank()).first;
+  const std::size_t row_bytes = static_cast<std::size_t>(ny) * sizeof(float);
+  std::vector<std::byte> p_room, u_room;
+  const auto p_places = neighbours.fetch(p_rows.get(), row_bytes, row_bytes, p_room);
+  const auto u_places = neighbours.fetch(u_rows.get(), row_bytes, row_bytes, u_room);
   parallel::for_slabs(
-      fine.grid.nx,
+      fine.rows.count(),
       [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
-          const Weights& w = along_x[static_cast<std::size_t>(i)];
+          const Weights& w = along_x[static_cast<std::size_t>(fine.rows.begin() + i)];
           std::array<const float*, 4> p{}, u{};
           for (std::size_t k = 0; k < 4; ++k) {
-            p[k] = p_rows.get() + w.point[k] * ny;
-            u[k] = u_rows.get() + w.point[k] * ny;
+            const auto place = static_cast<std::size_t>(w.base - 1 - first) + k;
+            p[k] = static_cast<const float*>(p_places[place]);
+            u[k] = static_cast<const float*>(u_places[place]);
           }
           const double* heights = fine.heights.values + i * ny;
           const double zero = fine.heights.zero;
@@ -173,7 +213,7 @@ void prolong(const MultigridLevel& coarse, const Field& coarse_pressure, const F
           }
         }
       },
-      fine.grid.points());
+      fine.rows.count() * ny);
 }
 
 }  // namespace salebra::detail

@@ -8,7 +8,7 @@
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
-#include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <vector>
@@ -37,13 +37,14 @@ struct Depths {
   double mean = 0;     // mean of highest − h: the mean gap at first touch
   double rms = 0;      // h_rms
 
-  explicit Depths(const Field& heights) {
-    const double* h = heights.data();
-    const double points = static_cast<double>(heights.size()), origin = h[0];
+  explicit Depths(const Surface& surface) {
+    const double points = static_cast<double>(surface.grid.points());
+    double origin = surface.ranks.is_root() ? surface.heights(0, 0) : 0;
+    surface.ranks.broadcast(&origin, sizeof origin);
     // Offset by one height, so that a large mean does not cost precision.
     Sums total;
     total.highest = origin;
-    for (const Sums& part : sums(heights, origin)) {
+    for (const Sums& part : sums(surface, origin)) {
       total.highest = std::max(total.highest, part.highest);
       total.first += part.first;
     }
@@ -51,7 +52,7 @@ struct Depths {
     const double mean_height = origin + total.first / points;
     mean = (highest - origin) - total.first / points;
     double square = 0, first = 0;
-    for (const Sums& part : sums(heights, mean_height)) {
+    for (const Sums& part : sums(surface, mean_height)) {
       square += part.second;
       first += part.first;
     }
@@ -65,9 +66,10 @@ struct Depths {
   struct Sums {
     double highest = 0, first = 0, second = 0;  // largest h, Σ(h − origin), Σ(h − origin)²
   };
-  static std::vector<Sums> sums(const Field& heights, double origin) {
+  static std::vector<Sums> sums(const Surface& surface, double origin) {
+    const Field& heights = surface.heights;
     return parallel::map_blocks<Sums>(
-        heights.rows(),
+        surface.share(),
         [&](Index begin, Index end) {
           // Several partial sums, because one alone waits for each of its additions.
           constexpr Index lanes = 8;
@@ -98,19 +100,28 @@ struct Depths {
   }
 };
 
-void check(const Surface& surface, double contact_modulus, const NormalContactOptions& options) {
-  surface.require_complete("a contact calculation");
+void check_here(const Surface& surface, double contact_modulus,
+                const NormalContactOptions& options) {
+  surface.require_complete_rows("a contact calculation");
   require_positive(contact_modulus, "contact_modulus");
   require(options.tolerance >= 1e-14 && options.tolerance <= 1e-1, "tolerance", options.tolerance,
           "must lie in 1e-14 … 1e-1");
   require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "must be >= 1");
   require(options.hardness > 0, "hardness", options.hardness, "must be > 0");
   if (const Field* start = options.initial_pressure)
-    require(start->rows() == surface.grid.nx && start->cols() == surface.grid.ny &&
+    require(start->rows() == surface.heights.rows() && start->cols() == surface.grid.ny &&
                 (*start >= 0 && *start <= std::numeric_limits<double>::max()).all(),
             "initial_pressure", start->size(),
             "cells must fill the grid with finite pressures >= 0");
-  require_memory(surface.grid, detail::contact_memory(surface.grid, options), "a contact");
+  require_memory(surface.grid,
+                 detail::contact_memory(surface.grid, options) *
+                     static_cast<double>(surface.heights.rows()) /
+                     static_cast<double>(surface.grid.nx),
+                 "a contact");
+}
+
+void check(const Surface& surface, double contact_modulus, const NormalContactOptions& options) {
+  collectively(surface.ranks, [&] { check_here(surface, contact_modulus, options); });
 }
 
 // Heights stay in metres; pressures are counted in E*/(cell size), which makes Gp a number of order p whatever the units.
@@ -131,15 +142,16 @@ struct Solution {
 
 // From the coarsest level to the finest.
 template <class Real>
-Solution solve_nested(const Scaled& scaled, const Heights& heights, double rms_height,
-                      const ContactTarget& target, const NormalContactOptions& options) {
+Solution solve_nested(const Scaled& scaled, const Share& rows, const Heights& heights,
+                      double rms_height, const ContactTarget& target,
+                      const NormalContactOptions& options) {
   auto levels =
-      detail::multigrid_levels(scaled.grid, heights, options.boundary,
+      detail::multigrid_levels(scaled.grid, rows, heights, options.boundary,
                                options.initial_pressure ? 1 : std::numeric_limits<int>::max());
   Solution solution;
   for (std::size_t k = levels.size(); k-- > 0;) {
     const MultigridLevel& level = levels[k];
-    const Index nx = level.grid.nx, ny = level.grid.ny;
+    const Index nx = level.rows.count(), ny = level.grid.ny;
     Field pressure;
     if (options.initial_pressure) {
       pressure = (*options.initial_pressure / scaled.pressure_unit).min(target.bound);
@@ -164,12 +176,13 @@ Solution solve_nested(const Scaled& scaled, const Heights& heights, double rms_h
         return options.on_progress(
             {"contact", std::isfinite(share) ? share : 0.0, iteration, residual});
       };
-    ActiveSetCg<Real> solver(level.grid, 1, options.boundary, level.heights, rms_height);
+    ActiveSetCg<Real> solver(level.grid, level.rows, 1, options.boundary, level.heights,
+                             rms_height);
     solution.outcome = solver.solve(target, limits, solution.pressure.data(), solution.gap.data());
     if (solution.outcome.interrupted && k > 0) {
       // Nothing on the finest grid to show: an empty contact that says so.
-      solution.pressure = Field::Zero(scaled.grid.nx, scaled.grid.ny);
-      solution.gap = Field::NullaryExpr(scaled.grid.nx, scaled.grid.ny, [&](Index i, Index j) {
+      solution.pressure = Field::Zero(rows.count(), scaled.grid.ny);
+      solution.gap = Field::NullaryExpr(rows.count(), scaled.grid.ny, [&](Index i, Index j) {
         return -heights[i * scaled.grid.ny + j];
       });
       solution.outcome.level = 0;
@@ -190,7 +203,7 @@ NormalContactState state_of(Solution&& solution, const ContactTarget& target, co
   };
   Sums total;
   for (const Sums& part : parallel::map_blocks<Sums>(
-           heights.rows(),
+           surface.share(),
            [&](Index begin, Index end) {
              Sums sums;
              for (Index k = begin * heights.cols(); k < end * heights.cols(); ++k) {
@@ -212,7 +225,8 @@ NormalContactState state_of(Solution&& solution, const ContactTarget& target, co
     total.work += part.work;
     total.gap += part.gap;
   }
-  const double points = static_cast<double>(heights.size());
+  const double points = static_cast<double>(surface.grid.points());
+  state.ranks = surface.ranks;
   state.pressure = std::move(solution.pressure);
   state.gap = std::move(solution.gap);
   state.mean_pressure = total.pressure / points * scaled.pressure_unit;
@@ -237,8 +251,9 @@ NormalContactState state_of(Solution&& solution, const ContactTarget& target, co
 // A plane touches everywhere under any pressure.
 NormalContactState full_contact_of_plane(const Surface& surface, double nominal_pressure) {
   NormalContactState state;
-  state.pressure = Field::Constant(surface.grid.nx, surface.grid.ny, nominal_pressure);
-  state.gap = Field::Zero(surface.grid.nx, surface.grid.ny);
+  state.pressure = Field::Constant(surface.heights.rows(), surface.grid.ny, nominal_pressure);
+  state.gap = Field::Zero(surface.heights.rows(), surface.grid.ny);
+  state.ranks = surface.ranks;
   state.mean_pressure = nominal_pressure;
   state.force = nominal_pressure * surface.grid.area();
   state.contact_area_fraction = 1;
@@ -259,9 +274,10 @@ NormalContactState press(const Surface& surface, double contact_modulus, const D
   const double displacement =
       load_given ? value / contact_modulus * std::sqrt(surface.grid.area()) : value;
   const double length = depths.rms > 0 ? depths.rms : displacement;
-  auto solution = options.precision == Precision::mixed
-                      ? solve_nested<float>(scaled, heights, length, target, options)
-                      : solve_nested<double>(scaled, heights, length, target, options);
+  auto solution =
+      options.precision == Precision::mixed
+          ? solve_nested<float>(scaled, surface.share(), heights, length, target, options)
+          : solve_nested<double>(scaled, surface.share(), heights, length, target, options);
   return state_of(std::move(solution), target, scaled, surface, heights, options.hardness);
 }
 
@@ -281,7 +297,7 @@ NormalContactState press_to_pressure(const Surface& surface, double contact_modu
       format_quantity(options.hardness, Dimension::pressure),
       fmt::format("must exceed the nominal pressure, {}: no contact carries more than its hardness",
                   format_quantity(nominal_pressure, Dimension::pressure)));
-  const Depths depths(surface.heights);
+  const Depths depths(surface);
   if (!(depths.rms > 0) && options.boundary == Boundary::periodic)
     return full_contact_of_plane(surface, nominal_pressure);
   return press(surface, contact_modulus, depths, ContactTarget::Kind::mean_pressure,
@@ -296,7 +312,7 @@ NormalContactState press_to_mean_gap(const Surface& surface, double contact_modu
   require(std::isinf(options.hardness), "hardness", options.hardness,
           "makes the mean gap depend on more than the approach; give a pressure or an indentation");
   require_positive(mean_gap, "mean_gap");
-  const Depths depths(surface.heights);
+  const Depths depths(surface);
   require(mean_gap < depths.mean, "mean_gap", mean_gap,
           fmt::format("must be below {} m, where the highest point first touches", depths.mean));
   // The mean of Gp is zero, so approach and mean gap add up to the mean gap at first touch.
@@ -308,7 +324,7 @@ NormalContactState press_to_indentation(const Surface& surface, double contact_m
                                         double indentation, const NormalContactOptions& options) {
   check(surface, contact_modulus, options);
   require_positive(indentation, "indentation");
-  const Depths depths(surface.heights);
+  const Depths depths(surface);
   require(options.boundary == Boundary::free || indentation < depths.mean, "indentation",
           indentation,
           fmt::format("must be below {} m, where a periodic contact is full", depths.mean));

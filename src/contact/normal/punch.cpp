@@ -9,6 +9,7 @@
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/normal/punch.hpp>
 #include <utility>
+#include <vector>
 
 #include "active_set_cg.hpp"
 #include "contact/half_space/cell_window.hpp"
@@ -124,7 +125,7 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
   double last_round = 0;
   int small_gains = 0;
   while (small_gains < gains_in_a_row && outcome.iterations < limits.max_iterations) {
-    if (limits.keep_going && !limits.keep_going(outcome.iterations)) {
+    if (limits.keep_going && !rows_.ranks().all_agree(limits.keep_going(outcome.iterations))) {
       outcome.interrupted = true;
       break;
     }
@@ -153,7 +154,7 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
     }
   }
   outcome.converged = small_gains == gains_in_a_row;
-  Field q = Field::Zero(grid_.nx, grid_.ny), image(grid_.nx, grid_.ny);
+  Field q = Field::Zero(rows_.count(), grid_.ny), image(rows_.count(), grid_.ny);
   for (std::size_t k = 0; k < tiles_.size(); ++k)
     std::copy_n(p_ + k * tile_width, std::min<Index>(tile_width, grid_.ny - tiles_[k].column),
                 q.data() + tiles_[k].row * grid_.ny + tiles_[k].column);
@@ -212,6 +213,8 @@ void ActiveSetCg<Real>::renew_punch_residual() {
   for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, 0); });
 }
 
+template bool ActiveSetCg<float>::hold(const std::vector<Index>&);
+template void ActiveSetCg<float>::invert(const double*, double, double*, PunchOutcome&);
 template PunchOutcome ActiveSetCg<float>::punch_load(const double*, double, const PunchLimits&,
                                                      Field*);
 template PunchOutcome ActiveSetCg<double>::punch_load(const double*, double, const PunchLimits&,
@@ -221,12 +224,14 @@ template PunchOutcome ActiveSetCg<double>::punch_load(const double*, double, con
 
 namespace {
 
-// The cells where 0 < p < bound pressed in as one piece. Alone on a half-space, they need no more of the grid than they span.
-PunchStiffness press_punch(const Field& p, double bound, const Grid2D& grid, double contact_modulus,
-                           Boundary boundary, Precision precision,
-                           const detail::PunchLimits& limits, Field* punch_pressure) {
+// The cells where 0 < p < bound pressed in as one piece. Alone on a half-space, they need no more of the grid than they span; where
+// several processes hold them, the rows of the grid stay with the processes that have them.
+PunchStiffness press_punch(const Field& p, double bound, const Grid2D& grid,
+                           const Communicator& ranks, double contact_modulus, Boundary boundary,
+                           Precision precision, const detail::PunchLimits& limits,
+                           Field* punch_pressure) {
   const double cell = std::sqrt(grid.cell_area());
-  const bool alone = boundary == Boundary::free;
+  const bool alone = boundary == Boundary::free && ranks.alone();
   const auto window = alone ? detail::bounding_window(ContactSet(p > 0 && p < bound))
                             : detail::CellWindow{0, 0, grid.nx, grid.ny};
   Field spanned;
@@ -235,14 +240,13 @@ PunchStiffness press_punch(const Field& p, double bound, const Grid2D& grid, dou
                       static_cast<double>(window.ny) * grid.dy() / cell};
   Field q;
   const auto press = [&]<class Real>(Real) {
-    return detail::ActiveSetCg<Real>(scaled, 1, boundary, {}, 0)
+    return detail::ActiveSetCg<Real>(scaled, Share(ranks, window.nx), 1, boundary, {}, 0)
         .punch_load((alone ? spanned : p).data(), bound, limits, punch_pressure ? &q : nullptr);
   };
   const detail::PunchOutcome outcome = precision == Precision::mixed ? press(0.0f) : press(0.0);
   if (punch_pressure) {
-    *punch_pressure = Field::Zero(grid.nx, grid.ny);
-    punch_pressure->block(window.x0, window.y0, window.nx, window.ny) =
-        q * (contact_modulus / cell);
+    *punch_pressure = Field::Zero(p.rows(), p.cols());
+    punch_pressure->block(window.x0, window.y0, q.rows(), window.ny) = q * (contact_modulus / cell);
   }
   // With lengths in cells and E* = 1, Σq counts forces in E*·(cell size)² for an approach of one cell size.
   return {.normal_stiffness = outcome.load * contact_modulus * cell,
@@ -265,15 +269,19 @@ double normal_stiffness(const NormalContactState& state, const Grid2D& grid, dou
                         const NormalContactOptions& options, Field* punch_pressure) {
   grid.validate();
   require_positive(contact_modulus, "contact_modulus");
-  require(state.pressure.rows() == grid.nx && state.pressure.cols() == grid.ny, "pressure",
-          state.pressure.size(), "points do not fill the grid");
+  const Share rows(state.ranks, grid.nx);
+  collectively(state.ranks, [&] {
+    require(state.pressure.rows() == rows.count() && state.pressure.cols() == grid.ny, "pressure",
+            state.pressure.size(), "points do not fill the grid");
+  });
   // In full contact the periodic cell approaches no further: its compliance has no mean.
   const auto elastic = state.pressure > 0 && state.pressure < options.hardness;
-  if (options.boundary == Boundary::periodic && elastic.all())
+  if (options.boundary == Boundary::periodic && state.ranks.all_agree(elastic.all()))
     return std::numeric_limits<double>::infinity();
-  if (!elastic.any()) return 0;
+  if (state.ranks.all_agree(!elastic.any())) return 0;
   const PunchStiffness punch = press_punch(
-      state.pressure, options.hardness, grid, contact_modulus, options.boundary, options.precision,
+      state.pressure, options.hardness, grid, state.ranks, contact_modulus, options.boundary,
+      options.precision,
       {.max_iterations = options.max_iterations, .keep_going = keep_going(options.on_progress)},
       punch_pressure);
   return punch.converged ? punch.normal_stiffness : std::numeric_limits<double>::quiet_NaN();
@@ -292,7 +300,7 @@ PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
   }
   // K is a minimum: its relative error is of the order of the square of the displacement's.
   const double gain = std::clamp(options.tolerance * options.tolerance, 1e-14, 1e-4);
-  return press_punch(contact.cast<double>(), std::numeric_limits<double>::infinity(), grid,
+  return press_punch(contact.cast<double>(), std::numeric_limits<double>::infinity(), grid, {},
                      contact_modulus, options.boundary, Precision::mixed,
                      {.relative_gain = gain,
                       .max_iterations = options.max_iterations,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <salebra/base/grid.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
 
@@ -13,12 +13,13 @@ namespace salebra::detail {
 // is preconditioned with it needs β = −<z, Ad>/<d, Ad>.
 class SetInverse {
  public:
-  SetInverse(const Grid2D& grid, Boundary boundary);
+  SetInverse(const Grid2D& grid, const Share& rows, Boundary boundary);
   SetInverse(SetInverse&&) noexcept;
   SetInverse& operator=(SetInverse&&) noexcept;
   ~SetInverse();
 
-  // The set: ix·ny + iy, in row order, not empty. False where the grid has no ladder: apply() must not be called then.
+  // The set: ix·ny + iy of the rows of this process, in row order. False where the grid has no ladder: apply() must not be called then.
+  // Both are collective.
   bool hold(const std::vector<Index>& cells);
   // One value for each cell of the set; q may be u.
   void apply(const double* u, double* q);

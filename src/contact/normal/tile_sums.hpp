@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 #include <vector>
 
 #include "tile_kernels.hpp"
@@ -57,17 +57,17 @@ Sums total_of(const std::vector<Sums>& parts) {
   return total;
 }
 
-// The sums of rows, added within each block of parallel.hpp.
+// The sums of the rows of this process, added within each block of parallel.hpp, and those of all processes. Collective.
 template <class Sums>
-std::vector<Sums> by_blocks(const std::vector<Sums>& rows) {
-  const auto size = static_cast<std::size_t>(parallel::block_rows(static_cast<Index>(rows.size())));
+std::vector<Sums> by_blocks(const Share& share, const std::vector<Sums>& rows) {
+  const auto size = static_cast<std::size_t>(parallel::block_rows(share.rows()));
   std::vector<Sums> blocks;
   for (std::size_t row = 0; row < rows.size(); ++row)
     if (row % size == 0)
       blocks.push_back(rows[row]);
     else
       add(blocks.back(), rows[row]);
-  return blocks;
+  return parallel::gather_blocks(share, blocks);
 }
 
 }  // namespace salebra::detail

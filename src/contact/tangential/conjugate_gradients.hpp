@@ -17,12 +17,13 @@ struct CgOutcome {
 // Preconditioned conjugate gradients on A x = b for vectors of points, A symmetric and positive.
 //   apply(x, Ax), precondition(misfit, z)
 //   stop(|misfit|², iterations)  before each step; true ends it
+//   dot(a, b)                    Σ a_i b_i
 //   x, misfit                    the guess and b − Ax on entry; both are up to date on return
 // β = −<z, Ad>/<d, Ad> makes the new direction conjugate to the last one d even where precondition() is not linear.
 // ActiveSetCg, gradient_projection and InteractingSummits have separate loops; each says why.
-template <class Apply, class Precondition, class Stop>
+template <class Apply, class Precondition, class Stop, class Dot>
 CgOutcome conjugate_gradients(const Apply& apply, const Precondition& precondition,
-                              const Stop& stop, std::vector<double>& x,
+                              const Stop& stop, const Dot& dot, std::vector<double>& x,
                               std::vector<double>& misfit) {
   const std::size_t unknowns = misfit.size();
   std::vector<double> preconditioned(unknowns), direction(unknowns, 0.0), image(unknowns);

@@ -130,7 +130,7 @@ std::vector<double> DiscProblem::newton_direction(const Iterate& iterate, const 
       [&](double square, int iterations) {
         return std::sqrt(square) <= goal || before + iterations >= max_iterations;
       },
-      solution, misfit);
+      dot, solution, misfit);
   // A step that the system's accuracy did not allow has cost as much as one taken.
   report.iterations += outcome.iterations + (outcome.exhausted ? 1 : 0);
   return solution;

@@ -2,7 +2,6 @@
 // Tangential stiffness of a stuck contact set, and its tractions for given displacements.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 
@@ -20,15 +19,15 @@ struct UnitMotion {
   StickReport report;
 };
 
-double sum_of(const std::vector<double>& values, Index first, Index count) {
-  double sum = 0;
-  for (Index k = first; k < first + count; ++k) sum += values[static_cast<std::size_t>(k)];
-  return sum;
-}
-
-// K_ij = e_i·τ_j at the solution τ_j; adding τ_i·(e_j − Kτ_j) makes the error of unfinished iterates quadratic.
-double correction(const UnitMotion& i, const UnitMotion& j) {
-  return std::inner_product(i.tractions.begin(), i.tractions.end(), j.misfit.begin(), 0.0);
+// K_ij/(area of a cell) = e_i·τ_j, e_i being 1 on component `moved` of the points, plus τ_i·(e_j − Kτ_j), which makes the error of
+// unfinished iterates quadratic.
+double stiffness_of(const detail::ContactSystem& system, const detail::PointList& points, int moved,
+                    const UnitMotion& i, const UnitMotion& j) {
+  const std::vector<double> ones(points.cell.size(), 1.0);
+  const int components =
+      points.cell.empty() ? 1 : static_cast<int>(i.tractions.size() / points.cell.size());
+  return system.dot(points, ones.data(), j.tractions.data() + moved * points.size(), 1) +
+         system.dot(points, i.tractions.data(), j.misfit.data(), components);
 }
 
 // Component `moving` of the displacement is 1 on the contact set, the other 0.
@@ -100,21 +99,26 @@ void StickSolver::reserve(const ContactSet& largest) {
 
 StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options,
-                               bool along_x_only, const Field& guess) {
+                               bool along_x_only, const Field& guess, const Communicator& ranks) {
   grid.validate();
   detail::require_limits(options.tolerance, options.max_iterations);
   detail::require_tangential(material);
-  detail::require_contact(contact, grid, options.boundary);
-  const detail::CellWindow window = detail::loading_window(contact, grid, options.boundary);
+  const Share rows(ranks, grid.nx);
+  collectively(ranks, [&] {
+    require(guess.size() == 0 || (guess.rows() == rows.count() && guess.cols() == grid.ny), "guess",
+            guess.size(), "values do not match the grid; give one value for each cell");
+  });
+  detail::require_spread_contact(contact, grid, rows, options.boundary);
+  const detail::CellWindow window = ranks.alone()
+                                        ? detail::loading_window(contact, grid, options.boundary)
+                                        : detail::CellWindow{0, 0, grid.nx, grid.ny};
   const auto system_of = [&](detail::Traction traction) {
-    return detail::ContactSystem(grid, material, options.boundary, traction, window);
+    return detail::ContactSystem(grid, material, options.boundary, traction, window,
+                                 ranks.alone() ? Share(window.nx) : rows);
   };
   detail::ContactSystem system =
       system_of(options.hold_lateral ? detail::Traction::tangential : detail::Traction::along_x);
   const detail::PointList points = system.points(contact);
-  const Index count = points.size();
-  require(guess.size() == 0 || (guess.rows() == grid.nx && guess.cols() == grid.ny), "guess",
-          guess.size(), "values do not match the grid; give nx × ny values");
   const UnitMotion along_x = move_by_one(system, points, 0, options, guess);
   StickStiffness stiffness;
   const auto add = [&](const StickReport& report) {
@@ -126,26 +130,22 @@ StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
   };
   stiffness.converged = true;
   add(along_x.report);
-  stiffness.xx =
-      (sum_of(along_x.tractions, 0, count) + correction(along_x, along_x)) * grid.cell_area();
+  stiffness.xx = stiffness_of(system, points, 0, along_x, along_x) * grid.cell_area();
   if (along_x_only) {
     stiffness.yy = stiffness.xy = unknown;
     return stiffness;
   }
   if (!options.hold_lateral) {
     detail::ContactSystem across = system_of(detail::Traction::along_y);
-    const UnitMotion along_y = move_by_one(across, across.points(contact), 0, options, guess);
+    const UnitMotion along_y = move_by_one(across, points, 0, options, guess);
     add(along_y.report);
-    stiffness.yy =
-        (sum_of(along_y.tractions, 0, count) + correction(along_y, along_y)) * grid.cell_area();
+    stiffness.yy = stiffness_of(across, points, 0, along_y, along_y) * grid.cell_area();
     return stiffness;
   }
   const UnitMotion along_y = move_by_one(system, points, 1, options, guess);
   add(along_y.report);
-  stiffness.yy =
-      (sum_of(along_y.tractions, count, count) + correction(along_y, along_y)) * grid.cell_area();
-  stiffness.xy =
-      (sum_of(along_x.tractions, count, count) + correction(along_y, along_x)) * grid.cell_area();
+  stiffness.yy = stiffness_of(system, points, 1, along_y, along_y) * grid.cell_area();
+  stiffness.xy = stiffness_of(system, points, 1, along_y, along_x) * grid.cell_area();
   return stiffness;
 }
 

@@ -21,10 +21,12 @@ Grid2D grid_of(const CellWindow& window, const Grid2D& grid) {
           static_cast<double>(window.ny) * grid.dy()};
 }
 
-/// The window, once its memory is known to be there.
-CellWindow affordable(const CellWindow& window, const Grid2D& grid) {
+/// The window, once the memory of the rows of each process is known to be there.
+CellWindow affordable(const CellWindow& window, const Grid2D& grid, const Share& rows) {
   const Grid2D part = grid_of(window, grid);
-  require_memory(part, stick_memory(part), "a stick solve");
+  const double of_all = static_cast<double>(rows.count()) / static_cast<double>(rows.rows());
+  collectively(rows.ranks(),
+               [&] { require_memory(part, stick_memory(part) * of_all, "a stick solve"); });
   return window;
 }
 
@@ -52,10 +54,11 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 SurfaceResponse::SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,
-                                 Traction traction, const CellWindow& window)
-    : window_(affordable(window, grid)),
+                                 Traction traction, const CellWindow& window, const Share& rows)
+    : window_(affordable(window, grid, rows)),
       traction_(traction),
-      compliance_(tangential_compliance<double>(grid_of(window, grid), material, boundary)) {}
+      compliance_(
+          tangential_compliance<double>(grid_of(window, grid), material, boundary, rows.ranks())) {}
 
 void SurfaceResponse::apply(const PointList& loaded, const double* tractions, const PointList& read,
                             double* displacements) {
@@ -90,8 +93,11 @@ void SurfaceResponse::apply(const PointList& loaded, const double* tractions, co
 }
 
 StencilPreconditioner::StencilPreconditioner(const Grid2D& grid, Boundary boundary,
-                                             const CellWindow& window)
-    : window_(window), periodic_(boundary == Boundary::periodic), field_(window.nx, window.ny) {
+                                             const CellWindow& window, const Share& rows)
+    : window_(window),
+      boundary_(boundary),
+      field_(rows.count(), window.ny),
+      frame_rows_(frame_rows(rows, boundary)) {
   const InverseStencil stencil(grid);
   for (int a = 0; a < width; ++a)
     for (int b = 0; b < width; ++b)
@@ -102,7 +108,7 @@ void StencilPreconditioner::apply(const PointList& points, const double* in, dou
   const Index length = field_.stride();
   double* field = field_.row(0);
   for (std::size_t k = 0; k < points.framed.size(); ++k) field[points.framed[k]] = in[k];
-  if (periodic_) field_.wrap();
+  field_.fill_frame(boundary_, frame_rows_);
   for_points(points.size(), [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
       const double* corner = field + points.framed[size_of(k)] - reach * length - reach;
@@ -117,16 +123,17 @@ void StencilPreconditioner::apply(const PointList& points, const double* in, dou
 }
 
 ContactSystem::ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary,
-                             Traction traction, const CellWindow& window)
+                             Traction traction, const CellWindow& window, const Share& rows)
     : window_(window),
+      rows_(rows),
       window_grid_(grid_of(window, grid)),
       boundary_(boundary),
-      response_(grid, material, boundary, traction, window),
-      preconditioner_(grid, boundary, window) {}
+      response_(grid, material, boundary, traction, window, rows),
+      preconditioner_(grid, boundary, window, rows) {}
 
 PointList ContactSystem::points(const ContactSet& cells) const {
   PointList list;
-  for (Index ix = window_.x0; ix < window_.x0 + window_.nx; ++ix) {
+  for (Index ix = window_.x0; ix < window_.x0 + rows_.count(); ++ix) {
     list.row_begins.push_back(list.size());
     for (Index iy = window_.y0; iy < window_.y0 + window_.ny; ++iy)
       if (cells(ix, iy)) {
@@ -139,33 +146,57 @@ PointList ContactSystem::points(const ContactSet& cells) const {
   return list;
 }
 
+double ContactSystem::dot(const PointList& points, const double* a, const double* b,
+                          int components) const {
+  return parallel::sum_blocks(
+      rows_,
+      [&](Index begin, Index end) {
+        const Index first = points.row_begins[size_of(begin)],
+                    last = points.row_begins[size_of(end)];
+        double sum = 0;
+        for (int c = 0; c < components; ++c)
+          for (Index k = c * points.size() + first; k < c * points.size() + last; ++k)
+            sum += a[k] * b[k];
+        return sum;
+      },
+      points.size());
+}
+
 StickReport ContactSystem::solve(const PointList& points, const std::vector<double>& displacements,
                                  double tolerance, int max_iterations, const Progress& progress,
                                  std::vector<double>& tractions, std::vector<double>& misfit) {
   StickReport report;
   const int first_fft = response_.fft_count();
+  const Communicator& ranks = rows_.ranks();
   const std::size_t unknowns = displacements.size();
   misfit = displacements;
-  if (unknowns == 0) {
+  if (ranks.all_agree(unknowns == 0)) {
     report.converged = true;
     return report;
   }
-  if (std::any_of(tractions.begin(), tractions.end(), [](double t) { return t != 0; })) {
+  if (!ranks.all_agree(
+          std::all_of(tractions.begin(), tractions.end(), [](double t) { return t == 0; }))) {
     std::vector<double> response(unknowns);
     response_.apply(points, tractions.data(), points, response.data());
     for (std::size_t i = 0; i < unknowns; ++i) misfit[i] -= response[i];
   }
-  const double root = std::sqrt(static_cast<double>(unknowns));
+  const int components = response_.components();
+  const double unknowns_of_all = parallel::sum_blocks(rows_, [&](Index begin, Index end) {
+    return static_cast<double>(
+        components * (points.row_begins[size_of(end)] - points.row_begins[size_of(begin)]));
+  });
+  const double root = std::sqrt(unknowns_of_all);
   const auto stop = [&](double square, int iterations) {
     report.residual = std::sqrt(square) / root;
     report.converged = report.residual < tolerance;
     if (report.converged || iterations == max_iterations) return true;
     report.interrupted =
-        progress && !progress({"stick", iterations / static_cast<double>(max_iterations),
-                               iterations, report.residual});
+        progress &&
+        !ranks.all_agree(progress({"stick", iterations / static_cast<double>(max_iterations),
+                                   iterations, report.residual}));
     return report.interrupted;
   };
-  if (!inverse_) inverse_.emplace(window_grid_, boundary_);
+  if (!inverse_) inverse_.emplace(window_grid_, rows_, boundary_);
   const bool on_ladder = inverse_->hold(points.windowed);
   const int first_ladder = inverse_->ladder_count();
   report.iterations =
@@ -174,7 +205,7 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
             response_.apply(points, in.data(), points, out.data());
           },
           [&](const std::vector<double>& in, std::vector<double>& out) {
-            for (int c = 0; c < response_.components(); ++c) {
+            for (int c = 0; c < components; ++c) {
               const std::size_t offset = size_of(c * points.size());
               if (on_ladder)
                 inverse_->apply(in.data() + offset, out.data() + offset);
@@ -182,7 +213,11 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
                 preconditioner_.apply(points, in.data() + offset, out.data() + offset);
             }
           },
-          stop, tractions, misfit)
+          stop,
+          [&](const std::vector<double>& a, const std::vector<double>& b) {
+            return dot(points, a.data(), b.data(), components);
+          },
+          tractions, misfit)
           .iterations;
   report.fft_count = response_.fft_count() - first_fft;
   report.ladder_count = inverse_->ladder_count() - first_ladder;

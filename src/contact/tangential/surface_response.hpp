@@ -20,9 +20,9 @@ namespace salebra::detail {
 /// Σ a_i b_i, with the same bits for every thread count.
 double dot(const std::vector<double>& a, const std::vector<double>& b);
 
-/// Cells of a set in row order, as positions in the window and in the preconditioner's framed window.
+/// Cells of a set in row order, as positions in the window and in the preconditioner's framed window: of the rows of this process.
 struct PointList {
-  std::vector<Index> cell;        ///< ix·ny + iy in the grid
+  std::vector<Index> cell;        ///< ix·ny + iy in the fields
   std::vector<Index> windowed;    ///< ix·ny + iy in the window
   std::vector<Index> framed;      ///< in StencilPreconditioner's field
   std::vector<Index> row_begins;  ///< the first point of each row of the window, and their number
@@ -34,11 +34,12 @@ struct PointList {
 enum class Traction { along_x, along_y, tangential };
 
 /// Displacements of the surface of a half-space under tractions in cells, on a window: the whole grid where periodic, any rectangle
-/// where free. A component of a vector of points is contiguous.
+/// where free. A component of a vector of points is contiguous. Over the processes of a share of the window's rows each has the points of
+/// its rows, and calls are collective.
 class SurfaceResponse {
  public:
   SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,
-                  Traction traction, const CellWindow& window);
+                  Traction traction, const CellWindow& window, const Share& rows);
 
   int components() const { return traction_ == Traction::tangential ? 2 : 1; }
   /// displacements (components × read.size()) of tractions (components × loaded.size()).
@@ -57,7 +58,8 @@ class SurfaceResponse {
 /// where there is no contact.
 class StencilPreconditioner {
  public:
-  StencilPreconditioner(const Grid2D& grid, Boundary boundary, const CellWindow& window);
+  StencilPreconditioner(const Grid2D& grid, Boundary boundary, const CellWindow& window,
+                        const Share& rows);
 
   Index framed_index(Index ix, Index iy) const {
     return (ix - window_.x0) * field_.stride() + iy - window_.y0;
@@ -71,21 +73,29 @@ class StencilPreconditioner {
   static constexpr Index width = InverseStencil::width;
 
   CellWindow window_;
-  bool periodic_;
+  Boundary boundary_;
   std::array<double, width * width> weights_;
   FramedField<double> field_;
+  RowExchange frame_rows_;
 };
 
 /// A response with its preconditioner and the points of a contact set: solves K τ = u on the set.
 class ContactSystem {
  public:
   ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary, Traction traction,
-                const CellWindow& window);
+                const CellWindow& window)
+      : ContactSystem(grid, material, boundary, traction, window, Share(window.nx)) {}
+  ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary, Traction traction,
+                const CellWindow& window, const Share& rows);
 
   const CellWindow& window() const { return window_; }
+  const Share& rows() const { return rows_; }
   SurfaceResponse& response() { return response_; }
   StencilPreconditioner& preconditioner() { return preconditioner_; }
+  /// cells: the whole grid, or of a window that is the whole grid the rows of this process.
   PointList points(const ContactSet& cells) const;
+  /// Σ a_i b_i of so many components over the points of all processes, with the same bits for every number of threads and processes.
+  double dot(const PointList& points, const double* a, const double* b, int components) const;
 
   /// Conjugate gradients from the guess in `tractions`; stops at rms(u − Kτ) < tolerance, in m. Preconditioned by SetInverse for each
   /// component: Cerruti's response has Σ(1−ν_i)/(G_i q) and Σ1/(G_i q) as eigenvalues, so that the condition number is
@@ -97,6 +107,7 @@ class ContactSystem {
 
  private:
   CellWindow window_;
+  Share rows_;
   Grid2D window_grid_;
   Boundary boundary_;
   SurfaceResponse response_;

@@ -25,7 +25,7 @@ Solved solve(const Surface& surface, Boundary boundary, const ContactTarget& tar
              double tolerance, LadderShare share) {
   const Heights heights{surface.heights.data(), surface.heights.maxCoeff()};
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
-  const auto levels = multigrid_levels(surface.grid, heights, boundary, 2);
+  const auto levels = multigrid_levels(surface.grid, surface.share(), heights, boundary, 2);
   Solved coarse, fine;
   for (std::size_t k = levels.size(); k-- > 0;) {
     const Grid2D& grid = levels[k].grid;
@@ -156,8 +156,9 @@ TEST_CASE(
     limits.ladder_share = 0.0;
     ActiveSetCg<float> sharp(surface.grid, 1, Boundary::periodic, {}, 0);
     const double load_exact = sharp.punch_load(contact.pressure.data(), infinite, limits).load;
-    const auto ladder = NearFieldLadder::make(
-        surface.grid, normal_symbol(surface.grid, 1, Boundary::periodic), 1, Boundary::periodic);
+    const auto ladder = NearFieldLadder::make(surface.grid, surface.share(),
+                                              normal_symbol(surface.grid, 1, Boundary::periodic), 1,
+                                              Boundary::periodic);
     REQUIRE(ladder);
     const double contraction = std::pow(ladder->error() / (1 - ladder->error()), 2);
     // A gain asked for that one round must reach, because what is left by the bound is below it; solved to 1e-4 within the round.

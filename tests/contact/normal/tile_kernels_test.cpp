@@ -200,13 +200,15 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
                  s.change_set(b.arrays(), 0, b.count(), level));
   });
   // Scaled only, shifted, and scaled with the cells left alone that are at their bound, or beyond half of it.
-  for (const auto& [scale, shift, full_from] :
-       {std::array{1.25, 0.0, std::numeric_limits<double>::infinity()},
-        std::array{1.25, 0.125, std::numeric_limits<double>::infinity()},
-        std::array{0.75, 0.0, 0.5}})
+  struct Correction {
+    double scale, shift, full_from;
+  };
+  for (const Correction& by :
+       {Correction{1.25, 0, std::numeric_limits<double>::infinity()},
+        Correction{1.25, 0.125, std::numeric_limits<double>::infinity()}, Correction{0.75, 0, 0.5}})
     both("truncate", [&](auto& f, auto& a, auto& s, auto& b) {
-      f.truncate(a.arrays(), 0, a.count(), level, scale, shift, full_from * a.bound);
-      s.truncate(b.arrays(), 0, b.count(), level, scale, shift, full_from * b.bound);
+      f.truncate(a.arrays(), 0, a.count(), level, by.scale, by.shift, by.full_from * a.bound);
+      s.truncate(b.arrays(), 0, b.count(), level, by.scale, by.shift, by.full_from * b.bound);
       return true;
     });
   both("spread_change", [&](auto& f, auto& a, auto& s, auto& b) {

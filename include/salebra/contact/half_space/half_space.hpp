@@ -27,9 +27,10 @@ CellIntegrals cell_integrals(double x, double y, double dx, double dy);
 /// Normal displacement of a pressure field, u = Gp:
 ///     periodic  û(q) = 2 p̂(q)/(E*|q|), û(0) = 0;      free  u = (1/πE*) ∬ p/r, uniform over each cell, zero-padded.
 /// contact_modulus   E* > 0, Pa
+/// ranks             processes that share the rows of the fields
 template <class Real>
-Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus,
-                                      Boundary boundary);
+Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus, Boundary boundary,
+                                      const Communicator& ranks = {});
 
 /// Tangential displacement (u_x, u_y) of shear tractions (τ_x, τ_y), with Cerruti's constants c1, c2 of the material:
 ///     periodic  û_x = (2π/q) [(c1 + c2 − c2 q_x²/q²) τ̂_x − (c2 q_x q_y/q²) τ̂_y], mean zero; u_y by exchange
@@ -37,7 +38,7 @@ Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus
 /// throws InvalidInput where the material does not know its Cerruti constants
 template <class Real>
 Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& material,
-                                          Boundary boundary);
+                                          Boundary boundary, const Communicator& ranks = {});
 
 /// Displacement of a cell under a unit pressure on itself alone, m/Pa: a scale, not exact for the periodic kernel.
 double cell_compliance(const Grid2D& grid, double contact_modulus);
@@ -53,8 +54,10 @@ class InverseStencil {
   explicit InverseStencil(const Grid2D& grid);
   /// Weight of the neighbour (i, j), −radius <= i, j <= radius; 1/m.
   double weight(int i, int j) const { return weights_[index(i, j)]; }
-  /// z = M S M r with M the cells where mask > 0: z is zero elsewhere. All fields (nx, ny); neighbours wrap where periodic.
-  void apply(const Field& mask, const Field& r, Boundary boundary, Field& z) const;
+  /// z = M S M r with M the cells where mask > 0: z is zero elsewhere. All fields hold the rows of this process; neighbours wrap where
+  /// periodic. Collective.
+  void apply(const Share& rows, const Field& mask, const Field& r, Boundary boundary,
+             Field& z) const;
 
  private:
   static std::size_t index(int i, int j) {

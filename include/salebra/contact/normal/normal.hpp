@@ -21,15 +21,15 @@ struct NormalContactOptions {
   Precision precision = Precision::mixed;
   /// Largest pressure that the bodies carry, Pa: perfectly plastic cells saturate there and sink in without further load.
   double hardness = std::numeric_limits<double>::infinity();
-  /// Start of the iteration, (nx, ny), Pa, >= 0, instead of one from coarser grids. It must outlive the call.
+  /// Start of the iteration, of the shape of the heights, Pa, >= 0, instead of one from coarser grids. It must outlive the call.
   const Field* initial_pressure = nullptr;
   Progress on_progress = {};
 };
 
 /// Result of a normal contact. Unless converged, the numbers describe the last iterate and must not be used as the answer.
 struct NormalContactState {
-  Field pressure;            ///< (nx, ny), Pa, >= 0
-  Field gap;                 ///< (nx, ny), m, >= 0 up to the tolerance; 0 where pressure saturates
+  Field pressure;            ///< (nx, ny) or the rows of this process, Pa, >= 0
+  Field gap;                 ///< the same, m, >= 0 up to the tolerance; 0 where pressure saturates
   double mean_pressure = 0;  ///< Pa
   double force = 0;          ///< N
   double mean_gap = 0;       ///< ū: mean of gap over all cells, m
@@ -43,6 +43,7 @@ struct NormalContactState {
   int ladder_count = 0;  ///< applications of the near-field ladder there, each in place of a pair
   bool converged = false;
   bool interrupted = false;  ///< the progress callback said stop
+  Communicator ranks = {};   ///< the processes that hold the fields, as those of the surface
 };
 
 /// Cells with p > 0.
@@ -53,6 +54,7 @@ ContactSet contact_set(const NormalContactState& state);
 /// by nested conjugate gradients on the contact set with a preconditioner that needs no transform. It departs from the usual
 /// constrained CG of Polonsky and Keer (1999) in that CG is not restarted when the set changes. On large grids of which the contact and
 /// its neighbourhood are a small part, the iterations apply a ladder of stencils in place of G, and exact transforms only renew the gap.
+/// A surface may be spread over several processes: the call is then collective, and all numbers have the same bits as in one process.
 /// contact_modulus   E* > 0, Pa;   nominal_pressure > 0, Pa, below the hardness
 /// throws            InvalidInput before any work; non-convergence is returned, not thrown
 /// cost              15 to 100 iterations of one transform pair each, or of one application of the ladder and 5 to 7 pairs in all;

@@ -83,8 +83,10 @@ struct StickStiffness {
 /// K_t of a contact set by two stick solves. With hold_lateral off each is a motion with no force across it, and xy = 0.
 /// The stiffness of one direction alone (yy = xy = NaN) costs half: `along_x_only`.
 /// guess: traction along the motion, for a unit motion, to start from, such as G*/E* times the pressure of a punch; empty: none.
+/// ranks: processes that hold the set by rows, as those of a NormalContactState; the call is then collective.
 StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options = {},
-                               bool along_x_only = false, const Field& guess = {});
+                               bool along_x_only = false, const Field& guess = {},
+                               const Communicator& ranks = {});
 
 }  // namespace salebra

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <limits>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
+#include <salebra/contact/normal/normal.hpp>
+#include <salebra/contact/sweep.hpp>
+#include <salebra/contact/tangential/stick.hpp>
+
+#include "contact/normal/active_set_cg.hpp"
+#include "contact/normal/gradient_projection.hpp"
+#include "ranks_in_threads.hpp"
+#include "rough_surface.hpp"
+
+// One contact over several processes: every number has the bits of one process, since sums go by blocks of rows and transforms by
+// rows and columns that are the same everywhere. Hence no tolerance is needed.
+
+using namespace salebra;
+using salebra::testing::run_ranks;
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+Surface spread(const Surface& surface, const Communicator& ranks) {
+  Surface mine{surface.grid, {}, surface.periodic, surface.origin, ranks};
+  const Share rows = mine.share();
+  mine.heights = surface.heights.middleRows(rows.begin(), rows.count());
+  return mine;
+}
+
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_rows(const Field& whole, const Field& mine, const Share& rows) {
+  return mine.rows() == rows.count() &&
+         std::memcmp(whole.data() + rows.begin() * whole.cols(), mine.data(),
+                     static_cast<std::size_t>(mine.size()) * sizeof(double)) == 0;
+}
+
+void require_same(const NormalContactState& alone, const NormalContactState& together,
+                  const Share& rows) {
+  if (!together.converged) throw Error("not converged");
+  if (alone.iterations != together.iterations || alone.fft_count != together.fft_count ||
+      alone.ladder_count != together.ladder_count)
+    throw Error("another number of iterations");
+  if (!same_bits(alone.mean_pressure, together.mean_pressure) ||
+      !same_bits(alone.mean_gap, together.mean_gap) ||
+      !same_bits(alone.indentation, together.indentation) ||
+      !same_bits(alone.contact_area_fraction, together.contact_area_fraction) ||
+      !same_bits(alone.elastic_energy, together.elastic_energy) ||
+      !same_bits(alone.residual, together.residual))
+    throw Error("other bits of a number");
+  if (!same_rows(alone.pressure, together.pressure, rows) ||
+      !same_rows(alone.gap, together.gap, rows))
+    throw Error("other bits of a field");
+}
+
+using Press = std::function<NormalContactState(const Surface&)>;
+
+// The same contact, and its stiffness, by so many processes.
+void compare(const Surface& surface, const Press& press, const NormalContactOptions& options,
+             int ranks) {
+  const NormalContactState alone = press(surface);
+  REQUIRE(alone.converged);
+  Field alone_punch;
+  const double alone_stiffness = normal_stiffness(alone, surface.grid, 1, options, &alone_punch);
+  run_ranks(ranks, [&](const Communicator& all) {
+    const Surface mine = spread(surface, all);
+    const NormalContactState together = press(mine);
+    require_same(alone, together, mine.share());
+    if (options.boundary == Boundary::free) return;
+    Field punch;
+    const double stiffness = normal_stiffness(together, surface.grid, 1, options, &punch);
+    if (!same_bits(alone_stiffness, stiffness)) throw Error("another stiffness");
+    if (!same_rows(alone_punch, punch, mine.share())) throw Error("other bits of the punch");
+  });
+}
+
+}  // namespace
+
+TEST_CASE("A contact over processes has the bits of one process", "[spread]") {
+  const int ranks = GENERATE(2, 3, 5, 8);
+  NormalContactOptions options;
+  options.tolerance = 1e-9;
+  const auto to_pressure = [&options](double pressure) {
+    return [&options, pressure](const Surface& surface) {
+      return press_to_pressure(surface, 1, pressure, options);
+    };
+  };
+  SECTION("of a part of the cells from 0.01 to a half") {
+    const Surface surface = test::rough_surface({192, 192, 192, 192});
+    compare(surface, to_pressure(GENERATE(5e-4, 5e-3, 5e-2)), options, ranks);
+  }
+  SECTION("on the ladder") {
+    const Surface surface = test::rough_surface({512, 512, 512, 512});
+    compare(surface, to_pressure(5e-4), options, ranks);
+  }
+  SECTION("of odd and unequal sizes, and with more processes than blocks") {
+    const auto [nx, ny] = GENERATE(std::pair<Index, Index>{96, 50}, std::pair<Index, Index>{101, 64},
+                                   std::pair<Index, Index>{150, 128}, std::pair<Index, Index>{16, 16});
+    const Surface surface = test::rough_surface(
+        {nx, ny, static_cast<double>(nx), static_cast<double>(ny)}, {.rolloff = 1, .cutoff = 6});
+    compare(surface, to_pressure(5e-3), options, ranks);
+  }
+  SECTION("with hardness") {
+    options.hardness = 0.03;
+    compare(test::rough_surface({192, 192, 192, 192}), to_pressure(5e-3), options, ranks);
+  }
+  SECTION("in double precision") {
+    options.precision = Precision::full;
+    compare(test::rough_surface({96, 96, 96, 96}), to_pressure(5e-3), options, ranks);
+  }
+  SECTION("at a given gap and indentation") {
+    const Surface surface = test::rough_surface({128, 128, 128, 128});
+    const NormalContactState state = press_to_pressure(surface, 1, 3e-3, options);
+    compare(
+        surface,
+        [&](const Surface& s) { return press_to_mean_gap(s, 1, state.mean_gap, options); }, options,
+        ranks);
+    compare(
+        surface,
+        [&](const Surface& s) { return press_to_indentation(s, 1, state.indentation, options); },
+        options, ranks);
+  }
+  SECTION("of an isolated surface") {
+    options.boundary = Boundary::free;
+    compare(test::rough_surface({150, 128, 150, 128}), to_pressure(5e-3), options, ranks);
+  }
+  SECTION("from a start that is given") {
+    const Surface surface = test::rough_surface({128, 128, 128, 128});
+    const Field start = press_to_pressure(surface, 1, 2e-3, options).pressure;
+    options.initial_pressure = &start;
+    const NormalContactState alone = press_to_pressure(surface, 1, 3e-3, options);
+    run_ranks(ranks, [&](const Communicator& all) {
+      const Surface mine = spread(surface, all);
+      const Share rows = mine.share();
+      const Field my_start = start.middleRows(rows.begin(), rows.count());
+      NormalContactOptions of_mine = options;
+      of_mine.initial_pressure = &my_start;
+      require_same(alone, press_to_pressure(mine, 1, 3e-3, of_mine), rows);
+    });
+  }
+}
+
+TEST_CASE("A contact over processes has the bits of one process for two threads each",
+          "[spread]") {
+  const Surface surface = test::rough_surface({192, 192, 192, 192});
+  const NormalContactState alone = press_to_pressure(surface, 1, 5e-3);
+  parallel::set_threads(2);
+  run_ranks(3, [&](const Communicator& all) {
+    const Surface mine = spread(surface, all);
+    require_same(alone, press_to_pressure(mine, 1, 5e-3), mine.share());
+  });
+  parallel::set_threads(0);
+}
+
+TEST_CASE("The ladder over processes has the bits of one process", "[spread]") {
+  using namespace salebra::detail;
+  const auto boundary = GENERATE(Boundary::periodic, Boundary::free);
+  const int ranks = GENERATE(2, 3, 5, 8);
+  // Rows that begin a process on even and on odd rows of the coarser levels.
+  const Index nx = 320, ny = 256;
+  const Surface surface = test::rough_surface({nx, ny, double(nx), double(ny)});
+  const double highest = surface.heights.maxCoeff();
+  const auto solve = [&](const Surface& mine, Field& p, Field& g) {
+    p = Field::Constant(mine.heights.rows(), ny, 1e-3);
+    g = p;
+    ActiveSetCg<float> solver(surface.grid, mine.share(), 1, boundary,
+                              {mine.heights.data(), highest}, 1);
+    ActiveSetLimits limits;
+    limits.ladder_share = infinite;
+    return solver.solve({ContactTarget::Kind::mean_pressure, 1e-3, infinite}, limits, p.data(),
+                        g.data());
+  };
+  Field p, g;
+  const ActiveSetOutcome alone = solve(surface, p, g);
+  REQUIRE(alone.converged);
+  REQUIRE(alone.ladder_count > 10);
+  run_ranks(ranks, [&](const Communicator& all) {
+    const Surface mine = spread(surface, all);
+    Field my_p, my_g;
+    const ActiveSetOutcome together = solve(mine, my_p, my_g);
+    if (alone.ladder_count != together.ladder_count || alone.fft_count != together.fft_count)
+      throw Error("another number of iterations");
+    if (!same_rows(p, my_p, mine.share()) || !same_rows(g, my_g, mine.share()))
+      throw Error("other bits of a field");
+  });
+}
+
+TEST_CASE("The slower method that finishes stalled contacts has the bits of one process",
+          "[spread]") {
+  using namespace salebra::detail;
+  const Surface surface = test::rough_surface({96, 64, 96, 64});
+  const double bound = GENERATE(infinite, 0.03);
+  const ContactTarget target{ContactTarget::Kind::mean_pressure, 5e-3, bound};
+  const auto solve = [&](const Surface& mine, Field& p, Field& g) {
+    const Share rows = mine.share();
+    p = Field::Constant(rows.count(), 64, target.value);
+    g = p;
+    auto compliance = normal_compliance<double>(
+        surface.grid, normal_symbol(surface.grid, 1, Boundary::periodic), rows);
+    ActiveSetOutcome outcome;
+    gradient_projection(compliance, surface.grid, rows, Boundary::periodic, {mine.heights.data()},
+                        1, target, {.tolerance = 1e-8}, p.data(), g.data(), outcome);
+    return outcome;
+  };
+  Field p, g;
+  REQUIRE(solve(surface, p, g).converged);
+  const int ranks = GENERATE(2, 5, 8);
+  run_ranks(ranks, [&](const Communicator& all) {
+    const Surface mine = spread(surface, all);
+    Field my_p, my_g;
+    if (!solve(mine, my_p, my_g).converged) throw Error("not converged");
+    if (!same_rows(p, my_p, mine.share()) || !same_rows(g, my_g, mine.share()))
+      throw Error("other bits of a field");
+  });
+}
+
+TEST_CASE("A force curve with both stiffnesses over processes has the bits of one process",
+          "[spread]") {
+  const auto boundary = GENERATE(Boundary::periodic, Boundary::free);
+  const int ranks = GENERATE(2, 3, 8);
+  // The smaller grid has no ladder: its stick solves are preconditioned by the stencil.
+  const Index n = GENERATE(96, 256);
+  const Surface surface = test::rough_surface({n, n, double(n), double(n)});
+  const Material material = Material::of_contact_modulus(1, 0.3);
+  SweepOptions options;
+  options.contact.boundary = boundary;
+  options.stick = true;
+  const std::vector<double> pressures{1e-3, 4e-3};
+  // K and K_t of an isolated contact are solved on the cells that it spans, over processes on the whole grid: to the tolerance of
+  // 1e-11 of the gain for K, and of the square of 1e-3 for K_t.
+  const auto same = [&](double a, double b, double tolerance) {
+    return boundary == Boundary::periodic ? same_bits(a, b) : std::abs(a - b) <= tolerance * a;
+  };
+  const ForceCurve alone = sweep_pressures(surface, material, pressures, options);
+  run_ranks(ranks, [&](const Communicator& all) {
+    const ForceCurve together = sweep_pressures(spread(surface, all), material, pressures, options);
+    if (!same_bits(alone.rms_height, together.rms_height)) throw Error("another rms height");
+    for (std::size_t k = 0; k < pressures.size(); ++k) {
+      const ForceSample &a = alone.samples[k], &b = together.samples[k];
+      if (!b.converged || !same_bits(a.force, b.force) || !same_bits(a.indentation, b.indentation))
+        throw Error("another force");
+      if (!same(a.normal_stiffness, b.normal_stiffness, 1e-8)) throw Error("another K");
+      if (!same(a.tangential_stiffness, b.tangential_stiffness, 1e-5)) throw Error("another K_t");
+    }
+  });
+}
+
+TEST_CASE("The stiffness of both directions over processes has the bits of one process",
+          "[spread]") {
+  const Surface surface = test::rough_surface({128, 96, 128, 96});
+  const ContactSet contact = contact_set(press_to_pressure(surface, 1, 3e-3));
+  const Material material = Material::of_contact_modulus(1, 0.3);
+  StickOptions options;
+  options.hold_lateral = GENERATE(true, false);
+  const StickStiffness alone = stick_stiffness(contact, surface.grid, material, options);
+  REQUIRE(alone.converged);
+  run_ranks(5, [&](const Communicator& all) {
+    const Share rows(all, 128);
+    const ContactSet mine = contact.middleRows(rows.begin(), rows.count());
+    const StickStiffness together =
+        stick_stiffness(mine, surface.grid, material, options, false, {}, all);
+    if (!same_bits(alone.xx, together.xx) || !same_bits(alone.yy, together.yy) ||
+        !same_bits(alone.xy, together.xy))
+      throw Error("other bits");
+  });
+}
+
+TEST_CASE("A stop and a bad surface in one process end all of them", "[spread]") {
+  const Surface surface = test::rough_surface({64, 64, 64, 64});
+  run_ranks(3, [&](const Communicator& all) {
+    Surface mine = spread(surface, all);
+    NormalContactOptions options;
+    options.on_progress = [&](const ProgressReport& report) {
+      return all.rank() != 1 || report.step < 3;
+    };
+    if (!press_to_pressure(mine, 1, 1e-3, options).interrupted) throw Error("not interrupted");
+    if (all.rank() == 2) mine.heights(0, 5) = std::nan("");
+    try {
+      press_to_pressure(mine, 1, 1e-3);
+      throw Error("no failure");
+    } catch (const InvalidInput& error) {
+      if (error.field() != "heights") throw Error("another failure");
+    }
+  });
+}
