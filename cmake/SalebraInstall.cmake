@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The installed package in two components: `program` with its manual, study files and documentation, and `development` with the
-# libraries, their headers, and what find_package(salebra) needs.
+# The installed package in components: `program` with its manual, study files and documentation, `development` with the
+# libraries, their headers, and what find_package(salebra) needs, and with SALEBRA_BUILD_MPI `mpi` with the program salebra-mpi.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/salebra)
 
@@ -34,6 +34,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL program development)
+if(TARGET salebra_mpi_program)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
@@ -42,6 +45,11 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
   "Generates and measures rough surfaces, presses them by boundary elements and by Greenwood-Williamson's\n model, and computes the relaxation damping of oscillating contacts.")
+set(CPACK_DEBIAN_MPI_PACKAGE_NAME salebra-mpi)
+set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS salebra)  # its manual, study files and documentation
+set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS "openmpi-bin")
+set(CPACK_COMPONENT_MPI_DESCRIPTION "salebra over the processes of MPI: generates and presses a surface that one machine does not hold.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsalebra-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS

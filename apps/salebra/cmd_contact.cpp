@@ -2,11 +2,14 @@
 // `salebra contact`: one contact by boundary elements.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <salebra/base/error.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
@@ -63,19 +66,30 @@ bool reaches_edge(const Field& pressure) {
 }
 
 void write_contact(const Session& session, const Grid2D& grid, const NormalContactState& state) {
-  ResultFile file(session.output(), session.provenance(), session.write_options());
-  QuantityGroup group(file.group("contact"));
-  write_axes(group, grid);
-  group.dataset("contact_pressure", state.pressure);
-  group.dataset("gap", state.gap);
-  group.attribute("pressure", state.mean_pressure);
-  group.attribute("force", state.force);
-  group.attribute("mean_gap", state.mean_gap);
-  group.attribute("indentation", state.indentation);
-  group.attribute("contact_area_fraction", state.contact_area_fraction);
-  group.attribute("elastic_energy", state.elastic_energy);
-  group.attribute("residual", state.residual);
-  file.commit();
+  std::optional<ResultFile> file;
+  collectively(session.ranks(), [&] {
+    file.emplace(session.output(), session.provenance(), session.write_options(), session.ranks());
+    QuantityGroup group(file->group("contact"));
+    write_axes(group, grid);
+    group.dataset("contact_pressure", state.pressure);
+    group.dataset("gap", state.gap);
+    group.attribute("pressure", state.mean_pressure);
+    group.attribute("force", state.force);
+    group.attribute("mean_gap", state.mean_gap);
+    group.attribute("indentation", state.indentation);
+    group.attribute("contact_area_fraction", state.contact_area_fraction);
+    group.attribute("elastic_energy", state.elastic_energy);
+    group.attribute("residual", state.residual);
+  });
+  file->commit();
+}
+
+/// The largest pressure of all processes.
+double max_pressure(const Communicator& ranks, const NormalContactState& state) {
+  const double mine = state.pressure.size() > 0 ? state.pressure.maxCoeff() : 0.0;
+  std::vector<double> all(static_cast<std::size_t>(ranks.ranks()));
+  ranks.gather_all(&mine, std::vector<std::size_t>(all.size(), sizeof mine), all.data());
+  return *std::ranges::max_element(all);
 }
 
 /// Bad names are refused before the work.
@@ -90,9 +104,14 @@ void check_residual(const ContactArguments& arguments, const Session& session) {
 }
 
 void run(const ContactArguments& arguments, Session& session) {
+  for (const auto& [given, option] : {std::pair(!arguments.residual.empty(), "--residual"),
+                                      {arguments.boundary != "periodic", "--boundary free"},
+                                      {session.has_plot(), "--plot"}})
+    if (given) session.require_one_process(option);
   std::vector<std::string> missing = arguments.material.missing(false);
   if (arguments.position.count() == 0)
     missing.insert(missing.begin(), "--pressure (or --mean-gap, --normal-force or --indentation)");
+  if (!arguments.surface.given()) missing.insert(missing.begin(), "SURFACE (or --recipe)");
   require_options(missing, "a contact");
   require(arguments.position.count() == 1, "--pressure", arguments.position.count(),
           "positions are given; give exactly one of --pressure, --mean-gap, --normal-force, "
@@ -116,7 +135,9 @@ void run(const ContactArguments& arguments, Session& session) {
       session.warn(line);
   Field initial;
   if (!arguments.initial.empty()) {
-    initial = ResultReader(arguments.initial).field("contact/contact_pressure");
+    collectively(session.ranks(), [&] {
+      initial = ResultReader(arguments.initial).field("contact/contact_pressure", surface.share());
+    });
     options.initial_pressure = &initial;
   }
   const auto start = std::chrono::steady_clock::now();
@@ -145,7 +166,7 @@ void run(const ContactArguments& arguments, Session& session) {
                  {"contact_area_fraction", state.contact_area_fraction},
                  {"mean_gap", state.mean_gap},
                  {"indentation", state.indentation},
-                 {"max_pressure", state.pressure.size() > 0 ? state.pressure.maxCoeff() : 0.0},
+                 {"max_pressure", max_pressure(session.ranks(), state)},
                  {"elastic_energy", state.elastic_energy},
                  {"iterations", state.iterations},
                  {"fft_count", state.fft_count},
@@ -159,7 +180,7 @@ void run(const ContactArguments& arguments, Session& session) {
     answer["normal_stiffness"] = stiffness;
     answer["normal_stiffness_per_area"] = stiffness / surface.grid.area();
   }
-  if (interrupted()) throw Interrupted("contact: interrupted; the stiffness was not computed");
+  if (session.stopped()) throw Interrupted("contact: interrupted; the stiffness was not computed");
   session.answer(answer);
   if (!state.converged) {
     throw NotConverged(
@@ -180,7 +201,8 @@ void add_contact_command(Program& program) {
        "--poisson 0.3 -o "
        "contact.h5"},
       [arguments](Session& session) { run(*arguments, session); }, "maps of pressure and gap");
-  arguments->surface.add_to(command);
+  arguments->surface.add_to(command, false);
+  arguments->surface.add_recipe_to(command);
   arguments->position.add_to(command, true);
   arguments->material.add_to(command);
   add_choice<Boundary>(command, "--boundary", arguments->boundary, "default periodic");

@@ -2,7 +2,6 @@
 // `salebra generate`: random surfaces, analytic shapes and profiles.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <salebra/base/error.hpp>
@@ -61,14 +60,6 @@ Grid2D grid_of(const GenerateArguments& arguments) {
   return grid;
 }
 
-std::uint64_t seed_of(const std::string& text) {
-  std::uint64_t seed = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  require(status == std::errc{} && end == text.data() + text.size(), "--seed", text,
-          "must be a whole number from 0 to 2^64 - 1");
-  return seed;
-}
-
 Json rms_of(const SpectralMoments& moments) {
   return Json{{"rms_height", moments.rms_height()}, {"rms_slope", moments.rms_slope()}};
 }
@@ -106,8 +97,9 @@ std::optional<HeightDistribution> distribution_of(const GenerateArguments& argum
 }
 
 void report_memory(const Grid2D& grid, std::size_t bytes, Session& session) {
-  const double needed = static_cast<double>(bytes);
-  require_memory(grid, needed, "a surface");
+  // Processes of one machine share its memory.
+  const double needed = static_cast<double>(bytes) * session.ranks_of_node().ranks();
+  collectively(session.ranks(), [&] { require_memory(grid, needed, "a surface"); });
   session.note(fmt::format("memory: {} needed, {} available", memory_text(needed),
                            memory_text(static_cast<double>(available_memory()))));
 }
@@ -121,7 +113,8 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
   // Before the sums over all modes, which take long on a grid that does not fit.
   spectrum->require_carried_by(grid);
   report_memory(grid,
-                arguments.non_gaussian() ? non_gaussian_memory(grid) : generation_memory(grid),
+                arguments.non_gaussian() ? non_gaussian_memory(grid)
+                                         : generation_memory(grid, session.ranks()),
                 session);
   const Forecast expected = forecast(grid, *spectrum, session.progress());
   for (const std::string& warning : expected.warnings) session.warn(warning);
@@ -153,11 +146,12 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
     return std::move(made.surface);
   }
   if (method == "random-phase")
-    return random_phase(grid, *spectrum, arguments.seed, session.progress());
+    return random_phase(grid, *spectrum, arguments.seed, session.progress(), session.ranks());
   if (method == "exact-rms")
     return exact_rms(grid, *spectrum, arguments.seed,
-                     arguments.spectrum.rms_slope ? Rms::slope : Rms::height, session.progress());
-  return filtered_noise(grid, *spectrum, arguments.seed, session.progress());
+                     arguments.spectrum.rms_slope ? Rms::slope : Rms::height, session.progress(),
+                     session.ranks());
+  return filtered_noise(grid, *spectrum, arguments.seed, session.progress(), session.ranks());
 }
 
 Surface cropped(const GenerateArguments& arguments, const Surface& surface) {
@@ -202,7 +196,19 @@ void make_profile(const GenerateArguments& arguments, Session& session) {
   session.answer(answer);
 }
 
+/// Refuses what needs the surface whole, where it is spread over processes.
+void require_spreadable(const GenerateArguments& arguments, const Session& session) {
+  for (const auto& [given, option] : {std::pair(arguments.shape.given(), "--shape"),
+                                      {arguments.profile, "--profile"},
+                                      {arguments.non_gaussian(), "a distribution of heights"},
+                                      {!arguments.composite.empty(), "--composite"},
+                                      {!arguments.crop.empty(), "--crop"},
+                                      {session.has_plot(), "--plot"}})
+    if (given) session.require_one_process(option);
+}
+
 void run(const GenerateArguments& arguments, Session& session) {
+  require_spreadable(arguments, session);
   require(!arguments.shape.given() || (!arguments.spectrum.given() && !arguments.profile &&
                                        !arguments.non_gaussian() && arguments.method.empty()),
           "--shape", arguments.shape.shape, "cannot be combined with a spectrum; give one of them");
@@ -230,15 +236,19 @@ void run(const GenerateArguments& arguments, Session& session) {
     answer["size_y"] = surface.grid.ly;
     answer["periodic"] = surface.periodic;
   }
-  // Wave by wave where the surface is periodic, by differences of its points elsewhere.
-  if (surface.periodic || (surface.grid.nx >= 3 && surface.grid.ny >= 3))
+  // Spectra are of whole surfaces.
+  if (!session.ranks().alone()) {
+    answer["realised"] = Json{{"rms_height", height_statistics(surface).rms_height}};
+  } else if (surface.periodic || (surface.grid.nx >= 3 && surface.grid.ny >= 3)) {
+    // Wave by wave where the surface is periodic, by differences of its points elsewhere.
     answer["realised"] = all_of(surface_moments(surface));
+  }
   if (arguments.non_gaussian()) {
     const HeightStatistics heights = height_statistics(surface);
     answer["realised"]["skewness"] = heights.skewness;
     answer["realised"]["kurtosis"] = heights.kurtosis;
   }
-  if (interrupted()) throw Interrupted("generate: interrupted; no surface was written");
+  if (session.stopped()) throw Interrupted("generate: interrupted; no surface was written");
   if (session.has_output()) {
     Provenance provenance = session.provenance();
     if (!arguments.shape.given()) provenance.seed = arguments.seed;
@@ -274,11 +284,7 @@ void add_generate_command(Program& program) {
   add_choice(command, "--method", arguments->method,
              {"filtered-noise", "random-phase", "exact-rms"},
              "Gaussian process, exact mode powers, or exact rms; default filtered-noise");
-  command
-      .add_option_function(
-          "--seed", [arguments](const std::string& text) { arguments->seed = seed_of(text); },
-          "any whole number >= 0; default 1")
-      ->type_name("INTEGER");
+  add_seed(command, arguments->seed, "any whole number >= 0; default 1");
   arguments->spectrum.add_to(command);
 
   const std::string heights = "Heights that are not Gaussian";

@@ -28,14 +28,20 @@ struct SweepArguments {
 };
 
 void run(const SweepArguments& arguments, Session& session) {
+  for (const auto& [given, option] : {std::pair(arguments.hardness.has_value(), "--hardness"),
+                                      {arguments.boundary != "periodic", "--boundary free"},
+                                      {session.has_plot(), "--plot"}})
+    if (given) session.require_one_process(option);
   std::vector<std::string> missing = arguments.material.missing(false);
   if (arguments.pressures.empty()) missing.insert(missing.begin(), "--pressures");
+  if (!arguments.surface.given()) missing.insert(missing.begin(), "SURFACE (or --recipe)");
   require_options(missing, "a sweep");
   SweepOptions options;
   require_that(arguments.stiffness || !arguments.stick, "--stick",
                "given without --stiffness; give both");
   options.stiffness = arguments.stiffness;
   options.stick = arguments.stick;
+  if (!session.ranks().alone()) options.concurrent_loads = 1;
   options.contact.boundary = *value_of<Boundary>(arguments.boundary);
   if (arguments.tolerance) options.contact.tolerance = *arguments.tolerance;
   options.contact.on_progress = session.progress();
@@ -52,9 +58,11 @@ void run(const SweepArguments& arguments, Session& session) {
   const std::optional<FirstLoading> first_loading = load_first(
       surface, arguments.hardness, material.contact_modulus, pressures.back(), options.contact);
   const ForceCurve curve = sweep_pressures(surface, material, pressures, options);
-  if (interrupted()) throw Interrupted("sweep: interrupted; nothing was written");
-  if (session.has_output())
-    write_force_curve(session.output(), curve, session.provenance(), session.write_options());
+  if (session.stopped()) throw Interrupted("sweep: interrupted; nothing was written");
+  collectively(session.ranks(), [&] {
+    if (session.has_output() && session.ranks().is_root())
+      write_force_curve(session.output(), curve, session.provenance(), session.write_options());
+  });
   if (session.has_plot()) session.plot(curve_figure(curve));
   Json answer = {{"curve", to_json(curve)}};
   add_first_loading(answer, first_loading);
@@ -78,7 +86,8 @@ void add_sweep_command(Program& program) {
        "salebra sweep scan.txt --pressures 1MPa,5MPa,20MPa --young 70GPa --poisson 0.33 --json"},
       [arguments](Session& session) { run(*arguments, session); },
       "pressure over gap, area, stiffness", OutputCheck::curve);
-  arguments->surface.add_to(command);
+  arguments->surface.add_to(command, false);
+  arguments->surface.add_recipe_to(command);
   add_values(command, "--pressures", arguments->pressures, Dimension::pressure,
              "nominal pressures");
   command.add_flag("--stiffness", arguments->stiffness,

@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/io/surface_formats.hpp>
+#include <salebra/study/realisation.hpp>
 
 #include "plausibility.hpp"
 
@@ -130,6 +132,25 @@ double MaterialOptions::modulus_ratio() const {
   return material_with_tangential_modulus().modulus_ratio();
 }
 
+namespace {
+
+std::uint64_t seed_of(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  require(status == std::errc{} && end == text.data() + text.size(), "--seed", text,
+          "must be a whole number from 0 to 2^64 - 1");
+  return seed;
+}
+
+}  // namespace
+
+Option* add_seed(Command& app, std::uint64_t& target, const std::string& help) {
+  return app
+      .add_option_function(
+          "--seed", [&target](const std::string& text) { target = seed_of(text); }, help)
+      ->type_name("INTEGER");
+}
+
 void SurfaceOptions::add_to(Command& app, bool needed, const std::string& field) {
   app.add_option(field, file, "file with heights, recognised by its content: " + read_extensions())
       ->required(needed)
@@ -149,7 +170,38 @@ void SurfaceOptions::add_to(Command& app, bool needed, const std::string& field)
       ->group(group);
 }
 
+void SurfaceOptions::add_recipe_to(Command& app) {
+  const std::string group = "Surface";
+  app.add_option("--recipe", recipe,
+                 "study file that says how to generate the surface, in place of SURFACE")
+      ->type_name("FILE")
+      ->group(group);
+  add_seed(app, seed, "of --recipe; default 1")->group(group);
+}
+
+namespace {
+
+/// Of a study's recipe.
+Surface generated(const SurfaceOptions& options, Session& session) {
+  require_that(
+      options.file.empty() && !options.size_x && !options.size_y && options.height_unit.empty(),
+      "--recipe", "given together with a file or with options of files; give one of them");
+  StudyConfiguration study;
+  collectively(session.ranks(), [&] { study = read_study_configuration(options.recipe); });
+  require(std::holds_alternative<GeneratedSurfaces>(study.surfaces), "--recipe", options.recipe,
+          "describes no surfaces to generate; name the file of the surface as SURFACE");
+  return study_surface(study, options.seed, session.progress(), session.ranks());
+}
+
+}  // namespace
+
 Surface SurfaceOptions::read(Session& session) const {
+  if (!recipe.empty()) {
+    Surface made = generated(*this, session);
+    for (const std::string& line : doubts_of_cells(made.grid)) session.warn(line);
+    const Detrend trend = value_of<Detrend>(detrend).value_or(default_detrend(made));
+    return detrended(std::move(made), trend);
+  }
   if (size_x) require_positive(*size_x, "--size-x");
   if (size_y) require_positive(*size_y, "--size-y");
   ReadOptions options;
@@ -158,7 +210,7 @@ Surface SurfaceOptions::read(Session& session) const {
   options.height_unit = height_unit;
   std::vector<std::string> remarks;
   options.remarks = &remarks;
-  Surface surface = read_surface(file, options);
+  Surface surface = read_surface(file, options, session.ranks());
   for (const auto& lines : {remarks, doubts_of_cells(surface.grid)})
     for (const std::string& line : lines) session.warn(line);
   const Detrend method = value_of<Detrend>(detrend).value_or(default_detrend(surface));

@@ -39,6 +39,9 @@ Option* add_choice(Command& app, const std::string& name, std::string& target,
   return add_choice(app, name, target, words, help);
 }
 
+/// --seed, any whole number.
+Option* add_seed(Command& app, std::uint64_t& target, const std::string& help);
+
 /// The value of an option that the other options make necessary.
 double required(const std::optional<double>& value, std::string_view option,
                 std::string_view reason);
@@ -70,11 +73,15 @@ struct SurfaceOptions {
   std::string file;
   std::optional<double> size_x, size_y;
   std::string detrend, height_unit;
+  std::string recipe;
+  std::uint64_t seed = 1;
 
   /// field: "SURFACE", or "--surface" to make it an option.
   void add_to(Command& app, bool needed = true, const std::string& field = "SURFACE");
-  bool given() const { return !file.empty(); }
-  /// Read and, with --detrend or else as is customary for its kind, detrended. Warns of cells and sizes that are most likely a slip.
+  /// --recipe and --seed, in place of SURFACE.
+  void add_recipe_to(Command& app);
+  bool given() const { return !file.empty() || !recipe.empty(); }
+  /// Read or made, over the processes of the session, and, with --detrend or else as is customary for its kind, detrended. Warns of cells and sizes that are most likely a slip.
   Surface read(Session& session) const;
 };
 

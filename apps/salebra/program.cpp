@@ -33,13 +33,13 @@ int fail(int status, std::string_view message) {
   std::string line = printable(in_options(message));
   std::ranges::replace_if(
       line, [](char symbol) { return symbol == '\n' || symbol == '\t'; }, ' ');
-  print_remark(
-      fmt::format("salebra: {} {}\n", emphasised("error:", Emphasis::error, STDERR_FILENO), line));
+  print_remark(fmt::format("{}: {} {}\n", program_name(),
+                           emphasised("error:", Emphasis::error, STDERR_FILENO), line));
   return status;
 }
 
 std::string join(int argc, char** argv) {
-  std::string line = "salebra";
+  std::string line(program_name());
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     const bool plain = !word.empty() && word.find_first_of(" \t\n'\"$*?") == std::string::npos;
@@ -50,8 +50,9 @@ std::string join(int argc, char** argv) {
 
 std::string help_hint(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
-  return chosen.empty() ? "see salebra --help"
-                        : "see salebra " + chosen.front()->get_name() + " --help";
+  return chosen.empty()
+             ? fmt::format("see {} --help", program_name())
+             : fmt::format("see {} {} --help", program_name(), chosen.front()->get_name());
 }
 
 /// What is wrong with a command line that CLI11 refused. Reports a misspelt option before its consequences, such as the lack of
@@ -77,8 +78,8 @@ std::string describe(const CLI::App& app, const CLI::ParseError& error) {
   for (const CLI::Option* known : chosen.front()->get_options())
     for (const std::string& name : known->get_lnames()) options.push_back("--" + name);
   const std::string name = option->substr(0, option->find('='));
-  return fmt::format("{}: is not an option of salebra {}{}", name, chosen.front()->get_name(),
-                     did_you_mean(name, options));
+  return fmt::format("{}: is not an option of {} {}{}", name, program_name(),
+                     chosen.front()->get_name(), did_you_mean(name, options));
 }
 
 /// CLI11's help with the text of a command below its one line, headings emphasised on a terminal.
@@ -145,6 +146,9 @@ void declare(CLI::App& app, const Command& command) {
   made->callback(command.action());
 }
 
+/// What several processes compute together; the rest is for one.
+constexpr std::string_view spread_commands[] = {"contact", "generate", "sweep"};
+
 }  // namespace
 
 Command& Program::add_command(const std::string& name, const std::string& what,
@@ -152,13 +156,16 @@ Command& Program::add_command(const std::string& name, const std::string& what,
                               const std::string& picture, OutputCheck check) {
   auto common = std::make_shared<CommonOptions>();
   Command& command = commands_.emplace_back(
-      name, what, examples, [common, action = std::move(action), line = command_line_, check] {
-        Session session(*common, line, check);
+      name, what, examples,
+      [common, name, action = std::move(action), line = command_line_, check, &launch = launch_] {
+        if (std::ranges::find(spread_commands, name) == std::end(spread_commands))
+          require_one_process(launch, name);
         const int threads = std::min(common->threads, parallel::most_threads());
+        parallel::set_threads(threads);
+        Session session(*common, line, check, launch);
         if (threads < common->threads)
           session.warn(fmt::format("--threads {}: too many for this machine; {} are used",
                                    common->threads, threads));
-        parallel::set_threads(threads);
         action(session);
       });
   const std::string group = "Common options";
@@ -196,14 +203,15 @@ struct NotUnderstood : Error {
 };
 
 /// Parses and runs. Throws NotUnderstood, and what the command throws.
-void run(int argc, char** argv) {
-  CLI::App app("Statistics of rough-surface contact and its relaxation damping.", "salebra");
-  app.set_version_flag("--version", "salebra " + std::string(version()));
+void run(int argc, char** argv, const Launch& launch) {
+  const std::string name(program_name());
+  CLI::App app("Statistics of rough-surface contact and its relaxation damping.", name);
+  app.set_version_flag("--version", name + " " + std::string(version()));
   app.require_subcommand(1);
   app.formatter(std::make_shared<HelpFormatter>());
   app.get_formatter()->column_width(34);
   app.footer(std::string(first_steps()));
-  Program program(join(argc, argv));
+  Program program(join(argc, argv), launch);
 #define SALEBRA_COMMAND(name) add_##name##_command(program);
 #include "command_list.inc"
 #undef SALEBRA_COMMAND
@@ -221,7 +229,7 @@ void run(int argc, char** argv) {
   const std::string word = words.front();
   if (!word.starts_with('-') && std::ranges::find(names, word) == names.end()) {
     throw InvalidInput(
-        word, fmt::format("is not a command{}; see salebra --help", did_you_mean(word, names)));
+        word, fmt::format("is not a command{}; see {} --help", did_you_mean(word, names), name));
   }
   const auto chosen = std::ranges::find(program.commands(), word, &Command::name);
   if (chosen != program.commands().end()) name_options(*chosen);
@@ -231,56 +239,76 @@ void run(int argc, char** argv) {
   } catch (const CLI::Success& request) {
     std::ostringstream text;
     app.exit(request, text, text);
-    print_answer(wrapped(text.str(), text_width()));
+    if (launch.ranks.is_root()) print_answer(wrapped(text.str(), text_width()));
   } catch (const CLI::ParseError& error) {
     throw NotUnderstood(fmt::format("{}; {}", describe(app, error), help_hint(app)));
   }
 }
 
-constexpr std::string_view no_memory =
-    "salebra: error: memory: not enough for this grid; use fewer points\n";
+constexpr std::string_view no_memory = "memory: not enough for this grid; use fewer points";
+
+/// Without an allocation.
+void print_lack_of_memory() noexcept {
+  print_remark(program_name());
+  print_remark(": error: ");
+  print_remark(no_memory);
+  print_remark("\n");
+}
 
 /// An allocation may fail where no exception can leave: in a thread of OpenMP, in a destructor, while another is thrown.
 [[noreturn]] void end_without_unwinding() {
   try {
     if (std::current_exception()) throw;
   } catch (const std::bad_alloc&) {
-    print_remark(no_memory);
+    print_lack_of_memory();
     _exit(1);
   } catch (...) {
   }
   std::abort();
 }
 
+/// Exit status of a failure, which is said by the root where all processes have failed, and else by this one, which ends the others.
+int end(const Launch& launch, int status, std::string_view message) {
+  if (launch.ranks.alone()) return fail(status, message);
+  if (launch.all_here()) return launch.ranks.is_root() ? fail(status, message) : status;
+  fail(status,
+       fmt::format("process {} of {}: {}", launch.ranks.rank() + 1, launch.ranks.ranks(), message));
+  launch.abort(status);
+  return status;
+}
+
 }  // namespace
 
-int run_program(int argc, char** argv) {
+int run_program(int argc, char** argv, const Launch& launch) {
+  name_program(launch.name);
   std::set_terminate(end_without_unwinding);
   // Past a file-size limit a write must fail like on a full disk, and so must printing to a pipe that nobody reads: neither may kill
   // the process beside a half-written file.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   catch_interrupts();
-  confinement::install();
+  // Libraries of networks do not survive a child process. Several processes trust the files that they are given.
+  if (launch.ranks.alone()) confinement::install();
   prepare_for_scarce_memory();
   try {
-    run(argc, argv);
+    run(argc, argv, launch);
     return 0;
   } catch (const UndefinedPoints& error) {
-    return fail(2, std::string(error.what()) + " (salebra convert --fill)");
+    return end(launch, 2, std::string(error.what()) + " (salebra convert --fill)");
   } catch (const InvalidInput& error) {
-    return fail(2, with_option(error));
+    return end(launch, 2, with_option(error));
   } catch (const NotUnderstood& error) {
-    return fail(2, error.what());
+    return end(launch, 2, error.what());
   } catch (const Incomplete& error) {
-    return fail(3, error.what());
+    return end(launch, 3, error.what());
   } catch (const Interrupted& error) {
-    return fail(130, error.what());
+    return end(launch, 130, error.what());
   } catch (const std::bad_alloc&) {
-    print_remark(no_memory);
+    if (!launch.ranks.alone()) return end(launch, 1, no_memory);
+    print_lack_of_memory();
     return 1;
   } catch (const std::exception& error) {
-    return fail(interrupted() ? 130 : 1, error.what());
+    return end(launch, interrupted() ? 130 : 1, error.what());
   }
 }
 

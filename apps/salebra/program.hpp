@@ -7,20 +7,24 @@
 #include <string>
 
 #include "command.hpp"
+#include "launch.hpp"
 #include "session.hpp"
 
 namespace salebra::cli {
 
 /// Parses the command line and runs the command it names.
-/// Returns the exit status: 0 done, 1 failed while running, 2 bad usage or input, 3 incomplete, 130 interrupted.
-int run_program(int argc, char** argv);
+/// Returns the exit status: 0 done, 1 failed while running, 2 bad usage or input, 3 incomplete, 130 interrupted. Of several processes the
+/// root says what all of them failed of; a failure of some alone is said by those, with their place, and ends all processes.
+int run_program(int argc, char** argv, const Launch& launch = {});
 
 /// All commands, each with the common options. An action runs after all options have been read.
 class Program {
  public:
   using Action = std::function<void(Session&)>;
 
-  explicit Program(std::string command_line) : command_line_(std::move(command_line)) {}
+  /// launch: outlives it.
+  Program(std::string command_line, const Launch& launch)
+      : command_line_(std::move(command_line)), launch_(launch) {}
 
   /// examples: two command lines with what they do, shown at the end of --help.
   /// picture: what Session::plot() is given, for the help of --plot; a command without pictures has no such option.
@@ -33,6 +37,7 @@ class Program {
 
  private:
   std::string command_line_;
+  const Launch& launch_;
   std::deque<Command> commands_;
 };
 

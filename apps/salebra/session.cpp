@@ -3,12 +3,16 @@
 #include "session.hpp"
 
 #include <fmt/format.h>
+#include <sched.h>
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
 #include <salebra/base/printable.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
@@ -50,25 +54,75 @@ void catch_interrupts() {
   if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
 }
 
-Session::Session(CommonOptions options, std::string command_line, OutputCheck check)
-    : options_(std::move(options)),
+Session::Session(CommonOptions options, std::string command_line, OutputCheck check,
+                 const Launch& launch)
+    : launch_(launch),
+      options_(std::move(options)),
       command_line_(std::move(command_line)),
-      bar_(options_.progress == "always" ||
-           (options_.progress == "auto" && !options_.quiet && isatty(STDERR_FILENO) != 0)) {
+      bar_(launch.ranks.is_root() &&
+           (options_.progress == "always" ||
+            (options_.progress == "auto" && !options_.quiet && isatty(STDERR_FILENO) != 0))) {
   if (check == OutputCheck::curve) {
     if (has_output()) require_curve_name(output());
   } else if (check != OutputCheck::any_name) {
     require_result_name();
   }
   if (check != OutputCheck::by_command) require_free_output();
-  if (has_plot()) require_plot(options_.plot, write_options());
+  collectively(ranks(), [&] {
+    if (has_plot() && ranks().is_root()) require_plot(options_.plot, write_options());
+  });
+  if (!ranks().alone()) warn_of_few_cores();
+}
+
+void Session::warn_of_few_cores() {
+  cpu_set_t mine;
+  CPU_ZERO(&mine);
+  if (sched_getaffinity(0, sizeof mine, &mine) != 0)
+    for (long core = 0; core < std::min<long>(sysconf(_SC_NPROCESSORS_ONLN), CPU_SETSIZE); ++core)
+      CPU_SET(core, &mine);
+  const std::string bytes(reinterpret_cast<const char*>(&mine), sizeof mine);
+  cpu_set_t cores = mine;
+  for (const std::string& other : launch_.ranks_of_node.gather_all(bytes)) {
+    cpu_set_t set;
+    std::memcpy(&set, other.data(), sizeof set);
+    CPU_OR(&cores, &cores, &set);
+  }
+  int threads = 0;
+  for (const std::string& count :
+       launch_.ranks_of_node.gather_all(std::to_string(parallel::threads())))
+    threads += std::stoi(count);
+  char host[256] = "";
+  gethostname(host, sizeof host - 1);
+  const int available = CPU_COUNT(&cores);
+  const std::string line =
+      threads > available
+          ? fmt::format(
+                "{} processes with {} threads in all share {} cores of {}; use fewer "
+                "processes or --threads, or bind processes to more cores",
+                launch_.ranks_of_node.ranks(), threads, available, host)
+          : "";
+  for (const std::string& found : ranks().gather_all(line))
+    if (!found.empty()) return warn(found);
+}
+
+bool Session::stopped() const {
+  bool stop = interrupted();
+  ranks().broadcast(&stop, sizeof stop);
+  return stop;
 }
 
 WriteOptions Session::write_options() const {
-  if (const std::string place = place_among_tasks(); !place.empty())
-    throw InvalidInput("--output", fmt::format("would be written by each of several tasks, for "
-                                               "this is {}; start one, or use study --shard",
-                                               place));
+  const std::string place = ranks().alone() ? place_among_tasks() : "";
+  if (!place.empty() && launch_.by_mpi)
+    throw InvalidInput("--output",
+                       fmt::format("would be written by each of several tasks, for this is {} "
+                                   "and yet alone; start it with the mpirun of its own MPI",
+                                   place));
+  if (!place.empty())
+    throw InvalidInput(
+        "--output", fmt::format("would be written by each of several tasks, for this is {}; start "
+                                "one, or use salebra-mpi for one surface, study --shard for many",
+                                place));
   return {.overwrite = options_.overwrite};
 }
 
@@ -80,7 +134,9 @@ void Session::require_result_name() const {
 }
 
 void Session::require_free_output() const {
-  if (has_output()) require_output(output(), write_options());
+  collectively(ranks(), [&] {
+    if (has_output() && ranks().is_root()) require_output(output(), write_options());
+  });
 }
 
 Provenance Session::provenance() const {
@@ -92,10 +148,11 @@ Provenance Session::provenance() const {
 }
 
 void Session::plot(const Figure& figure) {
-  if (has_plot()) write_plot(options_.plot, figure, write_options());
+  if (has_plot() && ranks().is_root()) write_plot(options_.plot, figure, write_options());
 }
 
 Progress Session::progress() {
+  if (!ranks().is_root()) return [](const ProgressReport&) { return true; };
   return [this](const ProgressReport& report) {
     bar_.draw(report);
     return !interrupted();
@@ -103,20 +160,21 @@ Progress Session::progress() {
 }
 
 void Session::note(std::string_view text) {
-  if (options_.quiet) return;
+  if (options_.quiet || !ranks().is_root()) return;
   bar_.clear();
   print_remark(fmt::format("{}\n", printable(text)));
 }
 
 void Session::warn(std::string_view text) {
-  if (options_.quiet) return;
+  if (options_.quiet || !ranks().is_root()) return;
   bar_.clear();
-  print_remark(fmt::format("salebra: {} {}\n",
+  print_remark(fmt::format("{}: {} {}\n", program_name(),
                            emphasised("warning:", Emphasis::warning, STDERR_FILENO),
                            printable(in_options(text))));
 }
 
 void Session::answer(const Json& object, const std::string& text) {
+  if (!ranks().is_root()) return;
   bar_.clear();
   if (options_.json) {
     print_answer(object.dump(2) + "\n");
@@ -125,6 +183,13 @@ void Session::answer(const Json& object, const std::string& text) {
   }
 }
 
-void Session::answer(const Json& object) { answer(object, options_.json ? "" : to_text(object)); }
+void Session::answer(const Json& object) {
+  Json all = object;
+  if (launch_.by_mpi) {
+    all["ranks"] = ranks().ranks();
+    all["threads"] = parallel::threads();
+  }
+  answer(all, options_.json ? "" : to_text(all));
+}
 
 }  // namespace salebra::cli

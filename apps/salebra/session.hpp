@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "launch.hpp"
 #include "progress_bar.hpp"
 
 namespace salebra::cli {
@@ -34,16 +35,22 @@ enum class OutputCheck {
   any_name     ///< a file that is not there yet; the command knows formats of its own
 };
 
-/// One run of a command: where its answer, its remarks and its progress go.
+/// One run of a command: where its answer, its remarks and its progress go. Of several processes the root alone prints, draws and makes
+/// files; the others do what is collective.
 class Session {
  public:
-  /// Throws InvalidInput where the output may not be written, so that no work is done unnecessarily.
-  Session(CommonOptions options, std::string command_line,
-          OutputCheck check = OutputCheck::results);
+  /// Throws InvalidInput where the output may not be written, so that no work is done unnecessarily. Collective. launch: outlives it.
+  Session(CommonOptions options, std::string command_line, OutputCheck check, const Launch& launch);
 
   bool has_output() const { return !options_.output.empty(); }
   std::filesystem::path output() const { return options_.output; }
-  /// Throws as the constructor does.
+  /// The processes that compute together, for what is spread over them.
+  const Communicator& ranks() const { return launch_.ranks; }
+  const Communicator& ranks_of_node() const { return launch_.ranks_of_node; }
+  void require_one_process(std::string_view what) const { cli::require_one_process(launch_, what); }
+  /// interrupted() of the root. Collective: all processes get the same answer.
+  bool stopped() const;
+  /// Throws as the constructor does. Collective.
   void require_free_output() const;
   bool quiet() const { return options_.quiet; }
   bool has_plot() const { return !options_.plot.empty(); }
@@ -54,22 +61,24 @@ class Session {
   bool overwrites() const { return options_.overwrite; }
   Provenance provenance() const;
 
-  /// For the library: draws the bar where one is wanted, and returns false after Ctrl-C.
+  /// For the library: draws the bar where one is wanted, and returns false after Ctrl-C, of several processes in the root alone.
   Progress progress();
 
   /// A remark for the person at the terminal, on stderr; --quiet leaves out both, and errors only remain.
   void note(std::string_view text);
   void warn(std::string_view text);
 
-  /// The command's answer: the object with --json, the text without.
+  /// The command's answer: the object with --json, the text without. That of salebra-mpi has the numbers of processes and threads too.
   void answer(const Json& object, const std::string& text);
   /// The same with the object itself laid out as text.
   void answer(const Json& object);
 
  private:
   void require_result_name() const;
+  void warn_of_few_cores();
 
   const std::string started_ = utc_now();
+  const Launch& launch_;
   CommonOptions options_;
   std::string command_line_;
   ProgressBar bar_;

@@ -12,6 +12,16 @@
 #include <salebra/base/error.hpp>
 
 namespace salebra::cli {
+namespace {
+
+std::string name_of_program = "salebra";
+
+}  // namespace
+
+void name_program(std::string_view name) { name_of_program = name; }
+
+std::string_view program_name() { return name_of_program; }
+
 bool in_colour(int descriptor) {
   const char* unwanted = std::getenv("NO_COLOR");
   if (unwanted && *unwanted) return false;

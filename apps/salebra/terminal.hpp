@@ -26,6 +26,10 @@ std::string wrapped(std::string_view text, std::size_t width);
 /// Characters, not bytes: "µ" takes two bytes and one column.
 std::size_t columns_of(std::string_view text);
 
+/// The name by which messages call this program: salebra, unless it was given another.
+void name_program(std::string_view name);
+std::string_view program_name();
+
 /// Prints an answer on standard output. Throws IoError where it does not arrive there.
 void print_answer(std::string_view text);
 

@@ -14,6 +14,8 @@ class Salebra(CMakePackage):
     license("GPL-3.0-or-later")
     version("0.1.0")
 
+    variant("mpi", default=False, description="salebra-mpi: one surface over many processes")
+
     depends_on("c", type="build")
     depends_on("cxx", type="build")
     depends_on("cmake@3.25:", type="build")
@@ -31,6 +33,7 @@ class Salebra(CMakePackage):
     depends_on("nlohmann-json", type="build")
     depends_on("cli11", type="build")
     depends_on("gnuplot", type="run")
+    depends_on("mpi@3:", when="+mpi")
 
     generator("ninja")
 
@@ -38,5 +41,6 @@ class Salebra(CMakePackage):
         return [
             self.define("SALEBRA_BUILD_TESTS", False),
             self.define("SALEBRA_BUILD_EXAMPLES", False),
+            self.define_from_variant("SALEBRA_BUILD_MPI", "mpi"),
             self.define("RANDOM123_INCLUDE_DIR", self.spec["random123"].prefix.include),
         ]

@@ -6,6 +6,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -67,6 +68,64 @@ void require_output(const std::filesystem::path& file, const WriteOptions& optio
 }
 
 namespace detail {
+namespace {
+
+[[noreturn]] void fail_at(const std::filesystem::path& target, const char* doing, int error) {
+  throw IoError(target.string() + ": cannot " + doing + " (" + std::strerror(error) +
+                "); nothing was written");
+}
+
+[[noreturn]] void fail_by_disk(const std::filesystem::path& target) {
+  throw IoError(target.string() +
+                ": the disk returns other bytes than were written; check the disk; nothing was "
+                "written");
+}
+
+/// Of so many bytes from there, fewer where the file ends before.
+Checksum checksum_on_disk(const std::filesystem::path& target, int descriptor, std::uint64_t place,
+                          std::uint64_t count) {
+  Checksum found;
+  std::vector<char> bytes(1 << 20);
+  for (ssize_t got = 1; got > 0 && found.size() < count;) {
+    const std::size_t wanted = std::min<std::uint64_t>(bytes.size(), count - found.size());
+    got = without_interruption([&] {
+      return pread(descriptor, bytes.data(), wanted, static_cast<off_t>(place + found.size()));
+    });
+    if (got < 0) fail_at(target, "be read back", errno);
+    found.add({bytes.data(), static_cast<std::size_t>(got)});
+  }
+  return found;
+}
+
+}  // namespace
+
+void FilePieces::write(std::uint64_t place, std::string_view bytes) {
+  pieces_.push_back({place, {}});
+  pieces_.back().bytes.add(bytes);
+  while (!bytes.empty()) {
+    const ssize_t written = without_interruption(
+        [&] { return pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(place)); });
+    if (written < 0) fail_at(target_, "be written", errno);
+    place += static_cast<std::uint64_t>(written);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void FilePieces::finish() const {
+  if (without_interruption([&] { return fsync(descriptor_); }) != 0)
+    fail_at(target_, "be written", errno);
+  for (const Piece& piece : pieces_)
+    if (checksum_on_disk(target_, descriptor_, piece.place, piece.bytes.size()) != piece.bytes)
+      fail_by_disk(target_);
+}
+
+OthersFile::OthersFile(const std::filesystem::path& temporary, const std::filesystem::path& target)
+    : descriptor_(
+          without_interruption([&] { return open(temporary.c_str(), O_RDWR | O_CLOEXEC); })) {
+  if (descriptor_ < 0) fail_at(target, "be opened by each process", errno);
+}
+
+OthersFile::~OthersFile() { close(descriptor_); }
 
 AtomicFile::AtomicFile(const std::filesystem::path& target, const WriteOptions& options)
     : target_(target), overwrite_(options.overwrite) {
@@ -100,27 +159,28 @@ void AtomicFile::write(std::string_view bytes) {
   }
 }
 
+void AtomicFile::reserve(std::uint64_t size) {
+  in_pieces_ = true;
+  const auto length = static_cast<off_t>(size);
+  if (without_interruption([&] { return ftruncate(descriptor_, length); }) != 0)
+    fail("be written", errno);
+  // posix_fallocate() would write to every block where the file system has no such promise.
+  if (size > 0 && without_interruption([&] { return fallocate(descriptor_, 0, 0, length); }) != 0 &&
+      errno != EOPNOTSUPP && errno != ENOSYS)
+    fail("be written", errno);
+}
+
 void AtomicFile::finish() {
   if (without_interruption([&] { return fsync(descriptor_); }) != 0) fail("be written", errno);
-  read_back();
+  if (!in_pieces_) read_back();
   // After EINTR the descriptor is closed all the same, and what it wrote is on the disk.
   if (close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) fail("be closed", errno);
 }
 
 void AtomicFile::read_back() const {
-  Checksum found;
-  std::vector<char> bytes(1 << 20);
-  for (ssize_t count = 1; count > 0;) {
-    count = without_interruption([&] {
-      return pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(found.size()));
-    });
-    if (count < 0) fail("be read back", errno);
-    found.add({bytes.data(), static_cast<std::size_t>(count)});
-  }
-  if (found != written_)
-    throw IoError(target_.string() +
-                  ": the disk returns other bytes than were written; check the disk; nothing was "
-                  "written");
+  // One byte more, by which a file that is too long is found.
+  if (checksum_on_disk(target_, descriptor_, 0, written_.size() + 1) != written_)
+    fail_by_disk(target_);
 }
 
 void AtomicFile::place() {
@@ -146,10 +206,7 @@ void AtomicFile::place() {
                   "disk (" + std::strerror(error) + "); check the disk");
 }
 
-void AtomicFile::fail(const char* doing, int error) const {
-  throw IoError(target_.string() + ": cannot " + doing + " (" + std::strerror(error) +
-                "); nothing was written");
-}
+void AtomicFile::fail(const char* doing, int error) const { fail_at(target_, doing, error); }
 
 }  // namespace detail
 

@@ -286,9 +286,30 @@ void Document::numbers(const std::string& path, std::span<double> values) const 
     std::ranges::copy(*object.numbers, values.begin());
     return;
   }
+  read(path, object, 0, object.shape.empty() ? 1 : object.shape[0], values);
+}
+
+void Document::rows(const std::string& path, const Share& share, std::span<double> values) const {
+  const Object& object = numeric(path);
+  const auto begin = static_cast<std::uint64_t>(share.begin()),
+             end = static_cast<std::uint64_t>(share.end());
+  if (object.shape.size() != 2 || object.shape[0] != static_cast<std::uint64_t>(share.rows()) ||
+      values.size() != (end - begin) * object.shape[1])
+    refuse(file_.path(), "has other rows in " + path);
+  if (values.empty()) return;
+  if (object.numbers) {
+    std::ranges::copy(std::span(*object.numbers).subspan(begin * object.shape[1], values.size()),
+                      values.begin());
+    return;
+  }
+  read(path, object, begin, end, values);
+}
+
+void Document::read(const std::string& path, const Object& object, std::uint64_t begin,
+                    std::uint64_t end, std::span<double> values) const {
   Hdf5Reading reading = reading_of(file_, values.size_bytes());
   reading.read = [&](const HandOver& hand_over) {
-    read_numbers(file_, normal(path), object.shape, hand_over);
+    read_numbers(file_, normal(path), object.shape, begin, end, hand_over);
   };
   std::size_t filled = 0;
   reading.place = [&](std::size_t count) {

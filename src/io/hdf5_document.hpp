@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <salebra/base/share.hpp>
 #include <salebra/io/json.hpp>
 #include <span>
 #include <string>
@@ -60,8 +61,13 @@ class Document {
   /// Copies the values of a dataset of numbers, count() of them, the last dimension contiguous.
   /// Throws InvalidInput as numeric() does, and where they turn out to be damaged.
   void numbers(const std::string& path, std::span<double> values) const;
+  /// The same of the rows of a field that a process holds.
+  void rows(const std::string& path, const Share& share, std::span<double> values) const;
 
  private:
+  void read(const std::string& path, const Object& object, std::uint64_t begin, std::uint64_t end,
+            std::span<double> values) const;
+
   InputFile file_;
   std::map<std::string, Object, std::less<>> objects_;  ///< by normal path: "/", "/curve/pressure"
 };
@@ -72,9 +78,11 @@ std::uint64_t most_bytes(std::uint64_t file_size);
 /// The two sides of the runner. The reading side is the only one that calls HDF5 on a file.
 using HandOver = std::function<void(std::span<const std::byte>)>;
 void read_outline(const InputFile& file, const HandOver& hand_over);
-/// shape   as the outline said; a file that changed since is refused
+/// shape       as the outline said; a file that changed since is refused
+/// begin, end  along the first dimension
 void read_numbers(const InputFile& file, const std::string& path,
-                  const std::vector<std::uint64_t>& shape, const HandOver& hand_over);
+                  const std::vector<std::uint64_t>& shape, std::uint64_t begin, std::uint64_t end,
+                  const HandOver& hand_over);
 /// Calls work while no other thread is inside HDF5.
 void alone(const std::function<void()>& work);
 

@@ -5,8 +5,11 @@
 #include <hdf5_hl.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 #include <numeric>
+#include <salebra/base/share.hpp>
 #include <salebra/base/version.hpp>
 
 #include "hdf5_read.hpp"
@@ -134,6 +137,35 @@ std::string path_of(hid_t dataset) {
   return path;
 }
 
+/// The dimension scales that a dataset lies on.
+struct Scales {
+  std::vector<Dataset> handles;
+  std::vector<hsize_t> shape;
+};
+
+Scales scales_of(hid_t group, const std::string& name, const std::vector<std::string>& dimensions) {
+  Scales scales;
+  for (const std::string& dimension : dimensions) {
+    require(H5Lexists(group, dimension.c_str(), H5P_DEFAULT) > 0, "dimension", dimension,
+            "is no coordinate of the group of " + name + "; write it first");
+    scales.handles.emplace_back(H5Dopen2(group, dimension.c_str(), H5P_DEFAULT),
+                                "open " + dimension);
+    require(H5DSis_scale(scales.handles.back()) > 0, "dimension", dimension, "is no coordinate");
+    scales.shape.push_back(shape_of(scales.handles.back()).at(0));
+  }
+  return scales;
+}
+
+hsize_t points_of(const std::vector<hsize_t>& shape) {
+  return std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
+}
+
+Dataset attached(const Scales& scales, Dataset dataset, const std::string& name) {
+  for (std::size_t i = 0; i < scales.handles.size(); ++i)
+    check(H5DSattach_scale(dataset, scales.handles[i], static_cast<unsigned>(i)), "write " + name);
+  return dataset;
+}
+
 void require_free(hid_t group, const std::string& name) {
   require(!name.empty() && name.find('/') == std::string::npos, "dataset", "'" + name + "'",
           "is no name");
@@ -144,11 +176,13 @@ void require_free(hid_t group, const std::string& name) {
 }  // namespace
 
 Output::Output(const std::filesystem::path& file, const Provenance& provenance,
-               const WriteOptions& options)
-    : atomic_(file, options) {
+               const WriteOptions& options, const Communicator& ranks)
+    : target_(file), ranks_(ranks) {
+  if (!ranks_.is_root()) return;
+  atomic_.emplace(file, options);
   be_silent();
   closed_before_ = failed_closes();
-  file_ = file_in_memory(atomic_.temporary());
+  file_ = ranks_.alone() ? file_in_memory(atomic_->temporary()) : create_in(image_);
   root_ = Group(H5Gopen2(file_, "/", H5P_DEFAULT), "open the root of " + file.string());
   attribute(root_, "program", std::string_view("salebra"));
   attribute(root_, "version", version());
@@ -164,6 +198,7 @@ Output::Output(const std::filesystem::path& file, const Provenance& provenance,
 }
 
 Group Output::group(const std::string& path) {
+  if (!ranks_.is_root()) return {};
   const Properties links(H5Pcreate(H5P_LINK_CREATE), "prepare a group");
   check(H5Pset_create_intermediate_group(links, 1), "prepare a group");
   bool exists = true;
@@ -178,6 +213,7 @@ Group Output::group(const std::string& path) {
 
 template <class T>
 void Output::number(hid_t object, const std::string& name, const T& value) {
+  if (!ranks_.is_root()) return;
   const Types types = types_of(&value);
   const Space space(H5Screate(H5S_SCALAR), "write " + name);
   const Attribute attribute(
@@ -199,6 +235,7 @@ void Output::attribute(hid_t object, const std::string& name, std::uint64_t valu
 }
 
 void Output::attribute(hid_t object, const std::string& name, std::string_view value) {
+  if (!ranks_.is_root()) return;
   // Variable length: h5py and xarray read it as str, fixed length as bytes; and it may exceed the 64 KiB of an object header.
   const Type type = text_type(H5T_VARIABLE);
   const Space space(H5Screate(H5S_SCALAR), "write " + name);
@@ -211,11 +248,11 @@ void Output::attribute(hid_t object, const std::string& name, std::string_view v
 
 template <class T>
 Dataset Output::create(hid_t group, const std::string& name, const T* values,
-                       const std::vector<hsize_t>& shape, const Label& label) {
+                       const std::vector<hsize_t>& shape, const Label& label, bool spread) {
   require_free(group, name);
   require(!label.units.empty() && !label.long_name.empty(), "dataset", name,
           "has no units or long_name; give both");
-  const auto count = std::accumulate(shape.begin(), shape.end(), hsize_t{1}, std::multiplies<>());
+  const hsize_t count = points_of(shape);
   const Space space(shape.empty()
                         ? H5Screate(H5S_SCALAR)
                         : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
@@ -225,11 +262,21 @@ Dataset Output::create(hid_t group, const std::string& name, const T* values,
   Dataset dataset(H5Dcreate2(group, name.c_str(), types_of(values).file, space, H5P_DEFAULT,
                              creation, H5P_DEFAULT),
                   "write " + name);
-  if (count > 0)
-    check(H5Dwrite(dataset, types_of(values).memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values),
+  if (spread) {
+    // Room is allotted by the first number that is written.
+    const std::vector<hsize_t> first(shape.size(), 0), one(shape.size(), 1);
+    check(H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, one.data(), nullptr),
           "write " + name);
-  given_.push_back({path_of(dataset), types_of(values).memory, {}});
-  given_.back().values.add({reinterpret_cast<const char*>(values), count * sizeof(T)});
+    const Space single(H5Screate(H5S_SCALAR), "write " + name);
+    check(H5Dwrite(dataset, types_of(values).memory, single, space, H5P_DEFAULT, values),
+          "write " + name);
+  } else {
+    if (count > 0)
+      check(H5Dwrite(dataset, types_of(values).memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values),
+            "write " + name);
+    given_.push_back({path_of(dataset), types_of(values).memory, {}});
+    given_.back().values.add({reinterpret_cast<const char*>(values), count * sizeof(T)});
+  }
   attribute(dataset, "units", label.units);
   attribute(dataset, "long_name", label.long_name);
   return dataset;
@@ -238,33 +285,41 @@ Dataset Output::create(hid_t group, const std::string& name, const T* values,
 template <class T>
 Dataset Output::dataset(hid_t group, const std::string& name, const T* values, std::size_t count,
                         const std::vector<std::string>& dimensions, const Label& label) {
-  std::vector<Dataset> scales;
-  std::vector<hsize_t> shape;
-  hsize_t points = 1;
-  for (const std::string& dimension : dimensions) {
-    require(H5Lexists(group, dimension.c_str(), H5P_DEFAULT) > 0, "dimension", dimension,
-            "is no coordinate of the group of " + name + "; write it first");
-    scales.emplace_back(H5Dopen2(group, dimension.c_str(), H5P_DEFAULT), "open " + dimension);
-    require(H5DSis_scale(scales.back()) > 0, "dimension", dimension, "is no coordinate");
-    shape.push_back(shape_of(scales.back()).at(0));
-    points *= shape.back();
-  }
-  require(points == count, name, count, "values do not fill " + joined(shape));
-  Dataset result = create(group, name, values, shape, label);
-  for (std::size_t i = 0; i < scales.size(); ++i)
-    check(H5DSattach_scale(result, scales[i], static_cast<unsigned>(i)), "write " + name);
-  return result;
+  if (!ranks_.is_root()) return {};
+  const Scales scales = scales_of(group, name, dimensions);
+  require(points_of(scales.shape) == count, name, count,
+          "values do not fill " + joined(scales.shape));
+  return attached(scales, create(group, name, values, scales.shape, label), name);
+}
+
+Dataset Output::field(hid_t group, const std::string& name, const Field& values,
+                      const std::vector<std::string>& dimensions, const Label& label) {
+  if (ranks_.alone())
+    return dataset(group, name, values.data(), static_cast<std::size_t>(values.size()), dimensions,
+                   label);
+  fields_.push_back(&values);
+  if (!ranks_.is_root()) return {};
+  const Scales scales = scales_of(group, name, dimensions);
+  Dataset result = create(group, name, values.data(), scales.shape, label, true);
+  // A file of several processes has no block before its superblock, which this would count from.
+  const haddr_t place = H5Dget_offset(result);
+  check(place == HADDR_UNDEF ? -1 : 0, "place " + name);
+  spread_.push_back({place, static_cast<std::int64_t>(scales.shape[0]),
+                     static_cast<std::int64_t>(scales.shape[1])});
+  return attached(scales, std::move(result), name);
 }
 
 template <class T>
 void Output::scale(hid_t group, const std::string& name, const T* values, std::size_t count,
                    const Label& label) {
+  if (!ranks_.is_root()) return;
   const Dataset dataset = create(group, name, values, {count}, label);
   check(H5DSset_scale(dataset, name.c_str()), "write " + name);
 }
 
 void Output::text_scale(hid_t group, const std::string& name,
                         const std::vector<std::string>& values, const std::string& long_name) {
+  if (!ranks_.is_root()) return;
   require_free(group, name);
   std::vector<const char*> pointers;
   for (const std::string& value : values) pointers.push_back(value.c_str());
@@ -284,19 +339,75 @@ void Output::text_scale(hid_t group, const std::string& name,
 }
 
 void Output::commit() {
-  const std::string name = atomic_.target().string();
+  if (ranks_.alone()) return commit_alone();
+  commit_spread();
+}
+
+void Output::commit_alone() {
+  const std::string name = target_.string();
   if (!root_.closed()) throw IoError("cannot close the root of " + name);
   check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write " + name);
   const std::string_view image = image_of(file_);
-  require_given(image);
-  atomic_.write(image);
+  require_given(file_of_image(image, atomic_->temporary(), "read back " + name));
+  atomic_->write(image);
   if (!file_.closed() || failed_closes() != closed_before_) throw IoError("cannot close " + name);
-  atomic_.commit();
+  atomic_->commit();
 }
 
-void Output::require_given(std::string_view image) const {
-  const std::string name = atomic_.target().string();
-  const File copy = file_of_image(image, atomic_.temporary(), "read back " + name);
+void Output::write_without_fields() {
+  const std::string name = target_.string();
+  if (!root_.closed()) throw IoError("cannot close the root of " + name);
+  check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write " + name);
+  const std::uint64_t size = size_of(file_);
+  require_given(open_in(image_, size));
+  atomic_->reserve(size);
+  FilePieces pieces(target_, atomic_->descriptor());
+  for (const auto& [place, page] : image_.pages())
+    if (place < size)
+      pieces.write(place, {page.data(), std::min<std::uint64_t>(page.size(), size - place)});
+  pieces.finish();
+  if (!file_.closed() || failed_closes() != closed_before_) throw IoError("cannot close " + name);
+}
+
+void Output::commit_spread() {
+  static_assert(std::endian::native == std::endian::little);
+  const std::string name = target_.string();
+  collectively(ranks_, [&] {
+    if (ranks_.is_root()) write_without_fields();
+  });
+  std::string temporary = atomic_ ? atomic_->temporary().string() : "";
+  std::array<std::size_t, 2> lengths{temporary.size(), spread_.size()};
+  ranks_.broadcast(lengths.data(), sizeof lengths);
+  temporary.resize(lengths[0]);
+  ranks_.broadcast(temporary.data(), temporary.size());
+  spread_.resize(lengths[1]);
+  ranks_.broadcast(spread_.data(), spread_.size() * sizeof(Spread));
+  collectively(ranks_, [&] {
+    require(fields_.size() == spread_.size(), "result file", fields_.size(),
+            "fields are given by one process, and others by another");
+    const OthersFile file(temporary, target_);
+    FilePieces pieces(target_, file.descriptor());
+    for (std::size_t k = 0; k < spread_.size(); ++k) {
+      const auto& [place, rows, columns] = spread_[k];
+      const Share share(ranks_, rows);
+      const Field& mine = *fields_[k];
+      require(mine.rows() == share.count() && mine.cols() == columns, "field", mine.rows(),
+              "rows are not those of this process");
+      const auto row = static_cast<std::uint64_t>(columns) * sizeof(double);
+      if (mine.size() > 0)
+        pieces.write(place + static_cast<std::uint64_t>(share.begin()) * row,
+                     {reinterpret_cast<const char*>(mine.data()),
+                      static_cast<std::size_t>(mine.size()) * sizeof(double)});
+    }
+    pieces.finish();
+  });
+  collectively(ranks_, [&] {
+    if (atomic_) atomic_->commit();
+  });
+}
+
+void Output::require_given(hid_t copy) const {
+  const std::string name = target_.string();
   for (const Given& given : given_) {
     const Dataset dataset(H5Dopen2(copy, given.dataset.c_str(), H5P_DEFAULT),
                           "read back " + given.dataset + " of " + name);

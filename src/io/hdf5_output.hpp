@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <salebra/base/grid.hpp>
 #include <salebra/io/provenance.hpp>
 #include <string>
 #include <string_view>
@@ -11,6 +13,7 @@
 #include "atomic_file.hpp"
 #include "checksum.hpp"
 #include "hdf5_handle.hpp"
+#include "hdf5_sparse.hpp"
 
 namespace salebra::detail::hdf5 {
 
@@ -23,10 +26,13 @@ struct Label {
 /// An HDF5 file in the making, whose datasets have units, names and dimension scales.
 /// It is made in memory and written as bytes at the end: HDF5 does not report every failed write (small datasets are flushed by the
 /// closing of a handle) and crashes at the end of a process where a file could not be closed. Memory: the size of the file.
+/// Over several processes the root alone makes the file, with holes for the fields that are spread, which each process then fills with its
+/// rows. What another process than the root adds is nothing but its rows. The bytes are those of one process.
 class Output {
  public:
+  /// Not collective: a failure must be made known before commit(), by collectively().
   Output(const std::filesystem::path& file, const Provenance& provenance,
-         const WriteOptions& options);
+         const WriteOptions& options, const Communicator& ranks = {});
 
   hid_t root() const { return root_; }
   /// Opens the group at that path below the root, creating what is missing.
@@ -42,6 +48,9 @@ class Output {
   template <class T>
   Dataset dataset(hid_t group, const std::string& name, const T* values, std::size_t count,
                   const std::vector<std::string>& dimensions, const Label& label);
+  /// A field on two scales. Over several processes it holds the rows of Share(ranks, rows of the first scale), and must stay until commit().
+  Dataset field(hid_t group, const std::string& name, const Field& values,
+                const std::vector<std::string>& dimensions, const Label& label);
   /// A one-dimensional dataset that is a dimension scale.
   template <class T>
   void scale(hid_t group, const std::string& name, const T* values, std::size_t count,
@@ -50,7 +59,7 @@ class Output {
                   const std::string& long_name);
 
   /// Compares each dataset of the finished file with the values it was given, writes the file and puts it in its place; nothing can
-  /// be written afterwards.
+  /// be written afterwards. Collective: a failure of one process is thrown on all, and nothing is left.
   void commit();
 
  private:
@@ -58,18 +67,32 @@ class Output {
   void number(hid_t object, const std::string& name, const T& value);
   template <class T>
   Dataset create(hid_t group, const std::string& name, const T* values,
-                 const std::vector<hsize_t>& shape, const Label& label);
+                 const std::vector<hsize_t>& shape, const Label& label, bool spread = false);
   /// What a dataset was given.
   struct Given {
     std::string dataset;  ///< path from the root
     hid_t type;           ///< of the values in memory
     Checksum values;
   };
-  void require_given(std::string_view image) const;
+  void require_given(hid_t copy) const;
+  void commit_alone();
+  void commit_spread();
+  void write_without_fields();
 
-  AtomicFile atomic_;
+  /// A field of which each process writes its rows.
+  struct Spread {
+    std::uint64_t place = 0;  ///< in the file
+    std::int64_t rows = 0, columns = 0;
+  };
+
+  std::filesystem::path target_;
+  Communicator ranks_;
+  std::optional<AtomicFile> atomic_;  ///< of the root
   std::vector<Given> given_;
-  int closed_before_ = 0;  ///< failed_closes() at the start
+  std::vector<Spread> spread_;        ///< of the root, until commit()
+  std::vector<const Field*> fields_;  ///< the rows of this process, for each of them
+  SparseImage image_;                 ///< of the root of several processes
+  int closed_before_ = 0;             ///< failed_closes() at the start
   File file_;
   Group root_;
 };

@@ -355,7 +355,8 @@ void read_outline(const InputFile& file, const HandOver& hand_over) {
 }
 
 void read_numbers(const InputFile& file, const std::string& path,
-                  const std::vector<std::uint64_t>& shape, const HandOver& hand_over) {
+                  const std::vector<std::uint64_t>& shape, std::uint64_t begin, std::uint64_t end,
+                  const HandOver& hand_over) {
   about(file, [&](const auto& require_read) {
     const File handle = open_descriptor(file.descriptor());
     const Dataset dataset(H5Dopen2(handle, path.c_str(), H5P_DEFAULT), "open " + path);
@@ -374,13 +375,13 @@ void read_numbers(const InputFile& file, const std::string& path,
     }
     hsize_t row = 1;
     for (std::size_t i = 1; i < now.size(); ++i) row *= now[i];
-    const hsize_t rows = std::min(now[0], rows_at_once(properties, now));
+    const hsize_t rows = std::min<hsize_t>(end - begin, rows_at_once(properties, now));
     std::vector<double> values(rows * row);
     const Space in_file(H5Dget_space(dataset), "read " + path);
     std::vector<hsize_t> start(now.size()), count = now;
-    for (hsize_t first = 0; first < now[0] && row > 0; first += rows) {
+    for (hsize_t first = begin; first < end && row > 0; first += rows) {
       start[0] = first;
-      count[0] = std::min(rows, now[0] - first);
+      count[0] = std::min<hsize_t>(rows, end - first);
       check(H5Sselect_hyperslab(in_file, H5S_SELECT_SET, start.data(), nullptr, count.data(),
                                 nullptr),
             "read " + path);

@@ -29,7 +29,7 @@ std::string heights_name(const Document& document) {
 
 }  // namespace
 
-LoadedSurface read_hdf5(const std::filesystem::path& file) {
+LoadedSurface read_hdf5(const std::filesystem::path& file, const Communicator& ranks) {
   const Document document{InputFile(file)};
   const std::string name = heights_name(document);
   const Object& heights = document.dataset(name);
@@ -48,10 +48,11 @@ LoadedSurface read_hdf5(const std::filesystem::path& file) {
   if (const auto periodic = number("periodic")) surface.periodic = *periodic != 0;
   for (const Object* object : {&heights, &root})
     if (surface.unit.empty()) surface.unit = object->text("units").value_or("");
-  surface.heights =
-      heights_of(file, static_cast<Index>(heights.shape[0]), static_cast<Index>(heights.shape[1]));
-  document.numbers(name,
-                   {surface.heights.data(), static_cast<std::size_t>(surface.heights.size())});
+  const Share share(ranks, static_cast<Index>(heights.shape[0]));
+  surface.rows = share.rows();
+  surface.heights = heights_of(file, share.count(), static_cast<Index>(heights.shape[1]));
+  document.rows(name, share,
+                {surface.heights.data(), static_cast<std::size_t>(surface.heights.size())});
   return surface;
 }
 

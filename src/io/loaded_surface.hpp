@@ -13,6 +13,7 @@ namespace salebra::detail {
 
 struct LoadedSurface {
   Field heights;                 ///< in `unit`
+  std::optional<Index> rows;     ///< of the surface, where `heights` has those of one process
   std::optional<double> size_x;  ///< m
   std::optional<double> size_y;  ///< m
   std::optional<bool> periodic;
@@ -42,6 +43,7 @@ Surface completed(const std::filesystem::path& file, LoadedSurface loaded,
                   const ReadOptions& options);
 
 /// The reader of HDF5; those of other formats are in surface_formats.cpp.
-LoadedSurface read_hdf5(const std::filesystem::path& file);
+/// ranks: each gets its rows.
+LoadedSurface read_hdf5(const std::filesystem::path& file, const Communicator& ranks = {});
 
 }  // namespace salebra::detail

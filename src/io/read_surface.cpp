@@ -4,6 +4,7 @@
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <stdexcept>
@@ -95,7 +96,7 @@ double metres_per(const std::filesystem::path& file, const std::string& unit) {
 Surface completed(const std::filesystem::path& file, LoadedSurface loaded,
                   const ReadOptions& options) {
   Surface surface;
-  surface.grid.nx = loaded.heights.rows();
+  surface.grid.nx = loaded.rows.value_or(loaded.heights.rows());
   surface.grid.ny = loaded.heights.cols();
   surface.grid.lx = size_along(file, "size_x", options.size_x, loaded.size_x, options.remarks);
   surface.grid.ly = size_along(file, "size_y", options.size_y, loaded.size_y, options.remarks);
@@ -111,8 +112,53 @@ Surface completed(const std::filesystem::path& file, LoadedSurface loaded,
 
 }  // namespace detail
 
-Surface read_surface(const std::filesystem::path& file, const ReadOptions& options) {
-  return detail::completed(file, load(file), options);
+namespace {
+
+/// The rows of each process of a surface that the root holds.
+Surface scattered(Surface surface, const Communicator& ranks) {
+  std::string origin = surface.origin;
+  struct {
+    Grid2D grid;
+    std::size_t length;
+    bool periodic;
+  } head{surface.grid, origin.size(), surface.periodic};
+  ranks.broadcast(&head, sizeof head);
+  origin.resize(head.length);
+  ranks.broadcast(origin.data(), origin.size());
+  std::vector<Index> begins(static_cast<std::size_t>(ranks.ranks()) + 1, head.grid.nx);
+  begins.front() = 0;
+  Surface rows{head.grid, {}, head.periodic, origin, ranks};
+  const Share share = rows.share();
+  collectively(ranks, [&] { rows.heights = uninitialised_field(share.count(), head.grid.ny); });
+  const auto row_bytes = static_cast<std::size_t>(head.grid.ny) * sizeof(double);
+  RowExchange(
+      Share(ranks, begins),
+      [&](int rank) {
+        return RowExchange::Window{share.begin_of(rank), share.end_of(rank) - share.begin_of(rank)};
+      },
+      RowExchange::Edge::none)(surface.heights.data(), row_bytes, rows.heights.data(), row_bytes,
+                               row_bytes);
+  return rows;
+}
+
+}  // namespace
+
+Surface read_surface(const std::filesystem::path& file, const ReadOptions& options,
+                     const Communicator& ranks) {
+  if (ranks.alone()) return detail::completed(file, load(file), options);
+  Surface surface;
+  bool hdf5 = false;
+  collectively(ranks, [&] {
+    if (!ranks.is_root()) return;
+    hdf5 = detail::is_hdf5(file);
+    if (!hdf5) surface = detail::completed(file, load(file), options);
+  });
+  ranks.broadcast(&hdf5, sizeof hdf5);
+  if (!hdf5) return scattered(std::move(surface), ranks);
+  collectively(ranks,
+               [&] { surface = detail::completed(file, detail::read_hdf5(file, ranks), options); });
+  surface.ranks = ranks;
+  return surface;
 }
 
 }  // namespace salebra

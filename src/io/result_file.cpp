@@ -78,8 +78,7 @@ void ResultGroup::dataset(const std::string& name, std::span<const std::int16_t>
 void ResultGroup::dataset(const std::string& name, const Field& values, const std::string& x,
                           const std::string& y, const std::string& units,
                           const std::string& long_name) {
-  place_->open().dataset(place_->group, name, values.data(),
-                         static_cast<std::size_t>(values.size()), {x, y}, {units, long_name});
+  place_->open().field(place_->group, name, values, {x, y}, {units, long_name});
 }
 
 void ResultGroup::flags(const std::string& name, const std::vector<bool>& values,
@@ -109,9 +108,9 @@ void ResultGroup::attribute(const std::string& name, std::string_view value) {
 }
 
 ResultFile::ResultFile(const std::filesystem::path& file, const Provenance& provenance,
-                       const WriteOptions& options)
+                       const WriteOptions& options, const Communicator& ranks)
     : state_(std::make_unique<State>()) {
-  state_->output = std::make_shared<Output>(file, provenance, options);
+  state_->output = std::make_shared<Output>(file, provenance, options, ranks);
 }
 
 ResultFile::ResultFile(ResultFile&&) noexcept = default;

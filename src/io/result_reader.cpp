@@ -74,6 +74,14 @@ Field ResultReader::field(const std::string& dataset) const {
   return values;
 }
 
+Field ResultReader::field(const std::string& dataset, const Share& share) const {
+  const auto& extents = state_->document.numeric(dataset).shape;
+  if (extents.size() != 2) detail::refuse(file(), "has no field in " + dataset);
+  Field values(share.count(), static_cast<Index>(extents[1]));
+  state_->document.rows(dataset, share, {values.data(), static_cast<std::size_t>(values.size())});
+  return values;
+}
+
 std::vector<std::string> ResultReader::labels(const std::string& dataset) const {
   const Object& object = state_->document.dataset(dataset);
   if (object.kind != Object::Kind::labels || !object.refusal.empty())

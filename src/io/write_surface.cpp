@@ -7,7 +7,9 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <salebra/base/error.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/io/json.hpp>
 #include <salebra/io/result_file.hpp>
@@ -25,21 +27,21 @@ namespace salebra::detail {
 
 void write_hdf5(const std::filesystem::path& file, const Surface& surface,
                 const Provenance& provenance, const WriteOptions& options) {
-  hdf5::Output output(file, provenance, options);
-  const Grid2D& grid = surface.grid;
-  const std::vector<double> x = positions(grid.nx, grid.dx()), y = positions(grid.ny, grid.dy());
-  output.scale(output.root(), "x", x.data(), x.size(), {"m", "position along x"});
-  output.scale(output.root(), "y", y.data(), y.size(), {"m", "position along y"});
-  {
-    const auto heights = output.dataset(output.root(), "heights", surface.heights.data(),
-                                        static_cast<std::size_t>(grid.points()), {"x", "y"},
-                                        {"m", "height, positive out of the material"});
-    output.attribute(heights, "size_x", grid.lx);
-    output.attribute(heights, "size_y", grid.ly);
-    output.attribute(heights, "periodic", std::int64_t{surface.periodic});
-    output.attribute(heights, "origin", surface.origin);
-  }
-  output.commit();
+  std::optional<hdf5::Output> output;
+  collectively(surface.ranks, [&] {
+    output.emplace(file, provenance, options, surface.ranks);
+    const Grid2D& grid = surface.grid;
+    const std::vector<double> x = positions(grid.nx, grid.dx()), y = positions(grid.ny, grid.dy());
+    output->scale(output->root(), "x", x.data(), x.size(), {"m", "position along x"});
+    output->scale(output->root(), "y", y.data(), y.size(), {"m", "position along y"});
+    const auto heights = output->field(output->root(), "heights", surface.heights, {"x", "y"},
+                                       {"m", "height, positive out of the material"});
+    output->attribute(heights, "size_x", grid.lx);
+    output->attribute(heights, "size_y", grid.ly);
+    output->attribute(heights, "periodic", std::int64_t{surface.periodic});
+    output->attribute(heights, "origin", surface.origin);
+  });
+  output->commit();
 }
 
 void write_npy(const std::filesystem::path& file, const Surface& surface,
@@ -143,10 +145,16 @@ void require_surface_name(const std::filesystem::path& file) { written_format(fi
 
 void write_surface(const std::filesystem::path& file, const Surface& surface,
                    const Provenance& provenance, const WriteOptions& options) {
-  surface.grid.validate();
-  require(surface.heights.rows() == surface.grid.nx && surface.heights.cols() == surface.grid.ny,
-          "heights", surface.heights.size(), "points do not match the grid");
-  written_format(file).write(file, surface, provenance, options);
+  const detail::SurfaceFormatEntry& format = written_format(file);
+  if (format.write != detail::write_hdf5)
+    surface.require_whole("a file of the format " + file.extension().string());
+  collectively(surface.ranks, [&] {
+    surface.grid.validate();
+    require(surface.heights.rows() == surface.share().count() &&
+                surface.heights.cols() == surface.grid.ny,
+            "heights", surface.heights.size(), "points do not match the grid");
+  });
+  format.write(file, surface, provenance, options);
 }
 
 }  // namespace salebra

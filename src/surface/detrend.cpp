@@ -111,6 +111,7 @@ Detrend default_detrend(const Surface& surface) {
 }
 
 Surface detrended(Surface surface, Detrend method) {
+  if (method != Detrend::none && method != Detrend::mean) surface.require_whole("this detrending");
   switch (method) {
     case Detrend::none:
       break;

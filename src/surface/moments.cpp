@@ -7,6 +7,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/fft.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/surface/axis.hpp>
 #include <salebra/surface/moments.hpp>
 #include <vector>
@@ -17,10 +18,10 @@
 namespace salebra {
 namespace {
 
-/// Sum of term(height) over the defined heights.
+/// Sum of term(height) over the defined heights of all processes.
 template <class Term>
 double sum_defined(const Surface& surface, const Term& term) {
-  return parallel::sum_blocks(surface.grid.nx, [&](Index begin, Index end) {
+  return parallel::sum_blocks(surface.share(), [&](Index begin, Index end) {
     double sum = 0;
     for (Index ix = begin; ix < end; ++ix)
       for (Index iy = 0; iy < surface.grid.ny; ++iy)
@@ -97,9 +98,9 @@ ProfileMoments profile_moments(const Surface& surface, Axis axis, double mean) {
 }  // namespace
 
 HeightStatistics height_statistics(const Surface& surface) {
-  detail::require_shape(surface);
+  collectively(surface.ranks, [&] { detail::require_shape_of_rows(surface); });
   HeightStatistics result;
-  result.defined_points = surface.grid.points() - surface.undefined_points();
+  result.defined_points = static_cast<Index>(sum_defined(surface, [](double) { return 1.0; }));
   require(result.defined_points > 0, "heights", "all points",
           "are undefined; there is nothing to measure");
   const double count = static_cast<double>(result.defined_points);
@@ -112,13 +113,25 @@ HeightStatistics height_statistics(const Surface& surface) {
   result.rms_height = std::sqrt(second);
   result.skewness = central([](double z) { return z * z * z; }) / (second * result.rms_height);
   result.kurtosis = central([](double z) { return z * z * z * z; }) / (second * second);
-  result.minimum = std::numeric_limits<double>::infinity();
-  result.maximum = -result.minimum;
-  for (const double height : surface.heights.reshaped<Eigen::RowMajor>()) {
-    if (std::isnan(height)) continue;
-    result.minimum = std::min(result.minimum, height);
-    result.maximum = std::max(result.maximum, height);
-  }
+  struct Range {
+    double minimum = std::numeric_limits<double>::infinity(), maximum = -minimum;
+    void add(const Range& other) {
+      minimum = std::min(minimum, other.minimum);
+      maximum = std::max(maximum, other.maximum);
+    }
+  };
+  Range range;
+  for (const Range& block :
+       parallel::map_blocks<Range>(surface.share(), [&](Index begin, Index end) {
+         Range found;
+         for (Index k = begin * surface.grid.ny; k < end * surface.grid.ny; ++k)
+           if (const double height = surface.heights.data()[k]; !std::isnan(height))
+             found.add({height, height});
+         return found;
+       }))
+    range.add(block);
+  result.minimum = range.minimum;
+  result.maximum = range.maximum;
   return result;
 }
 

@@ -3,18 +3,25 @@
 
 #include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>
+#include <salebra/base/share.hpp>
 #include <string>
 
 namespace salebra::detail {
 
-/// The check of Surface::require_complete without its demand that every height be defined.
-inline void require_shape(const Surface& surface) {
+/// The check of Surface::require_complete_rows without its demand that every height be defined.
+inline void require_shape_of_rows(const Surface& surface) {
   surface.grid.validate();
-  require(surface.heights.rows() == surface.grid.nx && surface.heights.cols() == surface.grid.ny,
-          "heights",
+  const Index rows = surface.share().count();
+  require(surface.heights.rows() == rows && surface.heights.cols() == surface.grid.ny, "heights",
           std::to_string(surface.heights.rows()) + " x " + std::to_string(surface.heights.cols()),
-          "must have the shape of the grid, " + std::to_string(surface.grid.nx) + " x " +
+          "must have the shape of the grid, " + std::to_string(rows) + " x " +
               std::to_string(surface.grid.ny));
+}
+
+/// The same of a surface in one process.
+inline void require_shape(const Surface& surface) {
+  surface.require_whole("this calculation");
+  require_shape_of_rows(surface);
 }
 
 }  // namespace salebra::detail

@@ -211,7 +211,7 @@ TEST_CASE("One of several tasks writes nothing but a shard", "[shard]") {
       check_refused(
           test.run(command, "export " + several + ";"),
           "would be written by each of several tasks, for this is one of 64 tasks; start one, "
-          "or use study --shard");
+          "or use salebra-mpi for one surface, study --shard for many");
     }
   check_refused(test.run("init b.toml", "export PMIX_RANK=1;"), "one of several tasks");
   CHECK(test.run("init b.toml", "export SLURM_STEP_NUM_TASKS=1 PMIX_RANK=0;").status == 0);

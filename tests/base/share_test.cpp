@@ -7,6 +7,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
 
+#include "conformance.hpp"
 #include "ranks_in_threads.hpp"
 
 using namespace salebra;
@@ -190,4 +191,8 @@ TEST_CASE("Ranks that part are told so instead of waiting", "[share]") {
 TEST_CASE("A plan of an exchange refuses more units than MPI counts", "[share]") {
   REQUIRE_THROWS_WITH(Exchange(1, {2147483647, 1}, {0, 0}), Catch::Contains("2147483647 units"));
   REQUIRE_NOTHROW(Exchange(1 << 20, {2147483646, 1}, {0, 0}));
+}
+
+TEST_CASE("The transport of threads conforms like that of MPI", "[share]") {
+  run_ranks(GENERATE(1, 2, 3, 4), salebra::testing::check_conformance);
 }

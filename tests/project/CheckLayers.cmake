@@ -2,7 +2,7 @@
 # cmake -D ROOT=<tree> -P CheckLayers.cmake: fails where a file includes a header of a higher layer than its own, or, inside
 # contact/, of a room that its own room must not see. A file's layer and room are the folders that it stands in.
 cmake_minimum_required(VERSION 3.25)
-set(layers base generators surface contact damping io results study report apps)
+set(layers base generators surface contact damping io results study report mpi apps)
 
 # The rooms of contact/, and which others each of them sees: folders, and single files of that name.
 set(rooms half_space/ law/ normal/ asperity/ mdr/ tangential/ theories. sweep. hermite. quadrature.)
@@ -21,6 +21,7 @@ file(GLOB_RECURSE files RELATIVE ${ROOT}
   ${ROOT}/include/*.[hc]pp ${ROOT}/src/*.[hc]pp ${ROOT}/src/*.inl ${ROOT}/generators/*.[hc]pp ${ROOT}/apps/*.[hc]pp)
 list(FILTER files EXCLUDE REGEX "^generators/tests/")  # tests may look at anything
 set(seen 0)
+list(FIND layers mpi mpi)
 
 # layer_of(path out): the first layer named by a folder of the path, and its rank.
 function(layer_of path out)
@@ -74,6 +75,9 @@ foreach(file IN LISTS files)
     layer_of(${target} there)
     if(there GREATER here)
       message(SEND_ERROR "${file} must not ${line}: layers only look down (${layers})")
+    endif()
+    if(here EQUAL mpi AND there GREATER 0 AND there LESS mpi)
+      message(SEND_ERROR "${file} must not ${line}: mpi sees only base")
     endif()
     room_of(${target} that_room)
     if(this_room AND that_room AND NOT this_room STREQUAL that_room)

@@ -26,6 +26,11 @@ check("layers only look down" src/io/hdf5.cpp "#include \"../study/run.hpp\"")
 check("layers only look down" src/io/hdf5.cpp "#include \"study/run.hpp\"")
 check("layers only look down" src/study/study.cpp "#include <salebra/report/report.hpp>")
 check("" apps/salebra/cmd_report.cpp "#include <salebra/report/report.hpp>")
+# MPI stands beside base: it sees nothing else, and the programs alone see it.
+check("" src/mpi/mpi.cpp "#include <salebra/mpi/mpi.hpp>")
+check("" apps/salebra/main_mpi.cpp "#include <salebra/mpi/mpi.hpp>")
+check("mpi sees only base" src/mpi/mpi.cpp "#include <salebra/contact/law/law.hpp>")
+check("layers only look down" src/base/communicator.cpp "#include <salebra/mpi/mpi.hpp>")
 # Rooms of contact/: each direction that the table allows passes, its reverse does not.
 check("" src/contact/normal/normal.cpp "#include <salebra/contact/half_space/half_space.hpp>")
 check("" src/contact/normal/punch.cpp "#include \"tile_kernels.hpp\"")

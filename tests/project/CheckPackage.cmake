@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake -D BUILD= -D SCRATCH= -P CheckPackage.cmake: the Debian package of the build holds what a user needs, names the libraries that
+# cmake -D BUILD= -D SCRATCH= [-D MPI=ON] -P CheckPackage.cmake: the Debian package of the build holds what a user needs, names the libraries that
 # it depends on, and its program runs from where it was unpacked.
 cmake_minimum_required(VERSION 3.25)
 find_program(shlibdeps dpkg-shlibdeps)
@@ -45,4 +45,20 @@ foreach(file include/salebra/base/grid.hpp cmake/salebra/salebraConfig.cmake lib
     message(FATAL_ERROR "libsalebra-dev lacks ${file}")
   endif()
 endforeach()
+if(MPI)
+  file(GLOB mpi ${SCRATCH}/salebra-mpi_*.deb)
+  step(needed dpkg-deb --field ${mpi} Depends)
+  if(NOT needed MATCHES "libopenmpi|libmpich" OR NOT needed MATCHES "salebra")
+    message(FATAL_ERROR "salebra-mpi does not depend on MPI and on salebra: ${needed}")
+  endif()
+  step(contents dpkg-deb --contents ${mpi})
+  foreach(file bin/salebra-mpi man1/salebra-mpi.1)
+    if(NOT contents MATCHES ${file})
+      message(FATAL_ERROR "salebra-mpi lacks ${file}")
+    endif()
+  endforeach()
+endif()
+if(depends MATCHES "mpi")
+  message(FATAL_ERROR "the package depends on MPI: ${depends}")
+endif()
 message("${version}${depends}")

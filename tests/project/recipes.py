@@ -8,11 +8,12 @@ import sys
 
 ROOT = pathlib.Path(sys.argv[1])
 
-# What cmake/SalebraDependencies.cmake looks for → what conda-forge and Spack call it; None: comes with the compiler.
+# What cmake/SalebraDependencies.cmake looks for → what conda-forge and Spack call it; None: comes with the compiler, or is not for every recipe.
 NAMES = {
     "Threads": None, "OpenMP": None, "PkgConfig": "pkg-config|pkgconfig", "Eigen3": "eigen", "fmt": "fmt", "fftw3": "fftw", "fftw3f": "fftw",
     "RANDOM123_INCLUDE_DIR": "random123", "GSL": "gsl", "HDF5": "hdf5", "libzip": "libzip", "pugixml": "pugixml",
     "tomlplusplus": "tomlplusplus", "nlohmann_json": "nlohmann_json|nlohmann-json", "CLI11": "cli11",
+    "MPI": None,  # for salebra-mpi alone, which only Spack's recipe makes
 }
 
 cmake = (ROOT / "cmake/SalebraDependencies.cmake").read_text()

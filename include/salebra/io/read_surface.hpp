@@ -38,7 +38,10 @@ struct ReadOptions {
 /// Undefined points become NaN. Heights are metres unless the file or the options name a unit.
 /// throws   InvalidInput "<file>: <what is wrong>; <what to do>" for a file that is absent, not one of these, truncated,
 ///          larger by its header than by its content, ambiguous, without a size, or with an infinite height
+/// ranks    processes over which the surface is spread: of an HDF5 file each reads its rows, any other is read by the root whole. Collective;
+///          what fails in one process is thrown on all
 /// cost     one pass over the file; memory: the file and the heights
-Surface read_surface(const std::filesystem::path& file, const ReadOptions& options = {});
+Surface read_surface(const std::filesystem::path& file, const ReadOptions& options = {},
+                     const Communicator& ranks = {});
 
 }  // namespace salebra

@@ -48,7 +48,8 @@ class ResultGroup {
   void dataset(const std::string& name, std::span<const std::int16_t> values,
                const std::vector<std::string>& coordinates, const std::string& units,
                const std::string& long_name);
-  /// A field on the coordinates of its x and y.
+  /// A field on the coordinates of its x and y. In a file of several processes it holds the rows that Share gives to this one, and must
+  /// stay until commit().
   void dataset(const std::string& name, const Field& values, const std::string& x,
                const std::string& y, const std::string& units, const std::string& long_name);
   /// Truth values, stored as 0 and 1, which xarray reads as bool.
@@ -77,15 +78,17 @@ class ResultGroup {
 class ResultFile {
  public:
   /// Throws as require_output does; IoError when the disk is full.
+  /// ranks  the processes over which fields are spread. Each makes the same calls; the root writes everything but the rows of
+  ///        the others. What fails before commit() fails in one process alone: make it known by collectively()
   ResultFile(const std::filesystem::path& file, const Provenance& provenance,
-             const WriteOptions& options = {});
+             const WriteOptions& options = {}, const Communicator& ranks = {});
   ResultFile(ResultFile&&) noexcept;
   ResultFile& operator=(ResultFile&&) noexcept;
   ~ResultFile();
 
   /// The group at that path, such as "damping" or "realisations/3", created when it is not there.
   ResultGroup group(const std::string& path);
-  /// Closes the file and puts it in its place. The file and its groups cannot be used afterwards.
+  /// Closes the file and puts it in its place. Collective; what fails in one process is thrown on all, and nothing is left. The file and its groups cannot be used afterwards.
   void commit();
 
  private:
@@ -110,6 +113,8 @@ class ResultReader {
   std::vector<double> numbers(const std::string& dataset) const;
   double number(const std::string& dataset) const;
   Field field(const std::string& dataset) const;
+  /// The rows of a field that a process holds.
+  Field field(const std::string& dataset, const Share& share) const;
   std::vector<std::string> labels(const std::string& dataset) const;
   /// Whether a dataset is a list of names, which labels() reads and numbers() refuses.
   bool holds_labels(const std::string& dataset) const;

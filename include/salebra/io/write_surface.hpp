@@ -22,7 +22,8 @@ namespace salebra {
 ///   .gxyzf .xyz points (x, y, z), undefined ones left out (.gxyzf) or nan (.xyz); at least two lines either way, half of the grid
 ///               defined. Sizes may change in their last digits. Whether it is periodic is lost
 /// read_surface reads each of them back. throws InvalidInput for another extension, an invalid surface, and as
-/// require_output does; IoError when the system refuses. Cost: one pass; memory in addition to the heights:
+/// require_output does; IoError when the system refuses. A surface that is spread over processes goes into an HDF5 file that is byte
+/// for byte that of one process, the dates apart; collective. Cost: one pass; memory in addition to the heights:
 /// one row; for .h5 the file; for .x3p the heights again and the packed file
 void write_surface(const std::filesystem::path& file, const Surface& surface,
                    const Provenance& provenance = {}, const WriteOptions& options = {});

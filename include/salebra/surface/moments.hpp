@@ -20,7 +20,7 @@ struct HeightStatistics {
 };
 
 /// Throws InvalidInput if the heights have not the shape of the grid, hold an infinity, or none of
-/// them is defined. Cost: two passes. Same bits for every thread count.
+/// them is defined. Cost: two passes. Same bits for every number of threads and of processes over which a surface is spread; collective.
 HeightStatistics height_statistics(const Surface& surface);
 
 /// Moments of a periodic surface from its spectrum (PHYSICS convention h_rms² = ∫C d²q):

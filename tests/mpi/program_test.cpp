@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// salebra-mpi as a user runs it: by the launcher, in a folder of its own. SALEBRA_PROGRAM of run_program.cpp is the launcher.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <salebra/io/read_surface.hpp>
+
+#include "apps/run_program.hpp"
+
+using namespace salebra;
+using Catch::Contains;
+
+namespace {
+
+const std::string surface =
+    "--points 96,50 --size-x 1um --hurst 0.8 --short-cutoff 100nm --rms-height 1nm --seed 7 ";
+const std::string quiet = "--quiet --threads 1 ";
+
+const std::string environment = "export " SALEBRA_MPI_ENVIRONMENT ";";
+
+// So many processes of salebra-mpi with these arguments.
+ProgramTest::Result run(const ProgramTest& test, int ranks, const std::string& arguments) {
+  return test.run(fmt::format("--quiet -n {} {} {}", ranks, SALEBRA_MPI_PROGRAM, arguments),
+                  environment);
+}
+
+// The same by salebra, without the launcher.
+ProgramTest::Result run_alone(const ProgramTest& test, const std::string& arguments) {
+  return test.run("", fmt::format("exec {} {};", SALEBRA_ALONE_PROGRAM, arguments));
+}
+
+bool same_heights(const ProgramTest& test, const std::string& a, const std::string& b) {
+  const Surface first = read_surface(test.folder() / a), second = read_surface(test.folder() / b);
+  return first.grid == second.grid && first.periodic == second.periodic && first.origin != "" &&
+         std::memcmp(first.heights.data(), second.heights.data(),
+                     static_cast<std::size_t>(first.heights.size()) * sizeof(double)) == 0;
+}
+
+// Bad input as all processes see it: one line of the root.
+void check_refused_once(const ProgramTest::Result& result, const std::string& part) {
+  CHECK(result.status == 2);
+  CHECK(result.out.empty());
+  CHECK_THAT(result.err, Catch::StartsWith("salebra-mpi: error: "));
+  CHECK_THAT(result.err, Contains(part));
+  CHECK(std::ranges::count(result.err, '\n') == 1);
+}
+
+}  // namespace
+
+TEST_CASE("A surface that processes generate has the bits of one process", "[mpi]") {
+  const ProgramTest test;
+  const auto alone = run_alone(test, "generate " + surface + "-o alone.h5 --json --quiet");
+  REQUIRE(alone.status == 0);
+  CHECK_FALSE(alone.json().contains("ranks"));
+  for (const int ranks : {1, 2, 4}) {
+    const std::string file = fmt::format("spread{}.h5", ranks);
+    const auto spread = run(test, ranks, "generate " + surface + "--json -o " + file + " " + quiet);
+    INFO(spread.err);
+    REQUIRE(spread.status == 0);
+    CHECK(spread.err.empty());
+    CHECK(spread.json()["ranks"] == ranks);
+    CHECK(spread.json()["threads"] == 1);
+    CHECK(spread.json()["lattice"] == alone.json()["lattice"]);
+    CHECK(spread.json()["realised"]["rms_height"] == alone.json()["realised"]["rms_height"]);
+    CHECK(same_heights(test, file, "alone.h5"));
+  }
+}
+
+TEST_CASE("Bad input is said once, with status 2, and leaves no file", "[mpi]") {
+  const ProgramTest test;
+  check_refused_once(run(test, 2, "statistics none.h5"), "is computed by one process alone");
+  check_refused_once(run(test, 2, "generate " + surface + "--crop 8 -o a.h5 " + quiet), "--crop: ");
+  check_refused_once(run(test, 2, "generate " + surface + "-o none/a.h5 " + quiet),
+                     "does not exist; create it first");
+  check_refused_once(
+      run(test, 2, "contact none.h5 --pressure 1MPa --contact-modulus 1GPa " + quiet),
+      "none.h5: does not exist");
+  CHECK(test.files().empty());
+}
+
+TEST_CASE("A failure of one process alone names it and ends the others", "[mpi]") {
+  const ProgramTest test;
+  const auto result = test.run(fmt::format("--quiet -n 1 {0} generate {1} {2} -o a.h5 : -n 1 {0} "
+                                           "generate {1} {2} --bad",
+                                           SALEBRA_MPI_PROGRAM, surface, quiet),
+                               environment);
+  CHECK(result.status == 2);
+  CHECK_THAT(result.err, Contains("salebra-mpi: error: process 2 of 2: --bad"));
+  CHECK(test.files().empty());
+}
+
+TEST_CASE("SIGUSR1 stops all processes with status 130 and leaves no file", "[mpi]") {
+  const ProgramTest test;
+  // The shell takes the program's place in run(). A grid that takes many seconds: the signal comes after one.
+  const auto result = test.run(
+      "", environment +
+              fmt::format("{} --quiet -n 2 {} generate --points 8192 --size-x 10um --hurst 0.8 "
+                          "--short-cutoff 3nm --rms-height 30nm --threads 1 -o a.h5 --quiet & "
+                          "launcher=$!; sleep 2; kill -USR1 $launcher; wait $launcher; exit $?;",
+                          SALEBRA_PROGRAM, SALEBRA_MPI_PROGRAM));
+  CHECK(result.status == 130);
+  CHECK_THAT(result.err, Contains("interrupted"));
+  CHECK(test.files().empty());
+}
