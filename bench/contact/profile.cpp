@@ -111,7 +111,7 @@ void profile(const Surface& surface, double load, double bandwidth) {
   Share coarse, fine;
   double start = now();
   const auto levels =
-      detail::multigrid_levels(grid, Share(grid.nx), {surface.heights.data(), highest},
+      detail::multigrid_levels(grid, surface.share(), {surface.heights.data(), highest},
                                Boundary::periodic, std::numeric_limits<int>::max());
   coarse.setup += now() - start;
   Field pressure, gap;

@@ -8,6 +8,7 @@
 #include <salebra/base/share.hpp>
 
 #include "conformance.hpp"
+#include "one_of_many.hpp"
 #include "ranks_in_threads.hpp"
 
 using namespace salebra;
@@ -186,6 +187,33 @@ TEST_CASE("Ranks that part are told so instead of waiting", "[share]") {
                                   if (all.is_root()) all.broadcast(&number, sizeof number);
                                 }),
                       Catch::Contains("has ended"));
+}
+
+TEST_CASE("The transform of 65 536 squared points over 1024 processes fits the counts of MPI",
+          "[share]") {
+  const int ranks = 1024;
+  const Index n = 65536;
+  for (const int rank : {0, 511, 1023}) {
+    const auto transport = std::make_shared<salebra::testing::OneOfMany>(rank, ranks);
+    const Share rows(Communicator(transport), n);
+    REQUIRE(rows.count() == 64);
+    Convolution2D<float> convolution({n, n, n, n}, 1, rows);
+    // Two buffers of 4 bytes for each of the cells of this process; columns are padded by one unit in eight, and the process of the
+    // column ny/2 has one more.
+    const double bytes = 4.0 * static_cast<double>(n) * 64;
+    CHECK(static_cast<double>(convolution.spectrum_bytes()) >= 2 * bytes);
+    CHECK(static_cast<double>(convolution.spectrum_bytes()) <= 2 * 1.3 * bytes);
+    convolution.apply([](int, Index, float*) -> const float* { return nullptr; },
+                      [](int, Index, const float*) {});
+    CHECK(transport->exchanged.calls == 2);
+    CHECK(transport->exchanged.messages == 2 * (ranks - 1));
+    // 8N²/P bytes there and back, and what is padded.
+    CHECK(transport->exchanged.sent >= 2 * bytes * (1 - 1.0 / ranks) * 0.99);
+    CHECK(transport->exchanged.sent <= 2 * bytes * 1.3);
+  }
+  // In double precision with the period of an isolated surface, the most that is ever sent at this size.
+  const Share rows(Communicator(std::make_shared<salebra::testing::OneOfMany>(0, ranks)), n);
+  CHECK_NOTHROW(Convolution2D<double>({n, n, 2 * n, 2 * n}, 2, rows));
 }
 
 TEST_CASE("A plan of an exchange refuses more units than MPI counts", "[share]") {
