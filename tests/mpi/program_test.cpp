@@ -7,6 +7,7 @@
 #include <cstring>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/io/result_file.hpp>
+#include <thread>
 
 #include "apps/run_program.hpp"
 
@@ -108,10 +109,26 @@ TEST_CASE("A contact and a sweep over processes have the numbers of one process"
   CHECK(numbers_of(run(test, 2, pressed + "--initial alone.h5 " + quiet)) == started);
 }
 
+TEST_CASE("More threads than the machine has cores are warned of once", "[mpi]") {
+  const ProgramTest test;
+  // Bound to nothing, as Open MPI 4 and 5 each call it: two processes see the same cores.
+  const auto result =
+      test.run(fmt::format("--quiet -n 2 {} generate {} --threads {} --json", SALEBRA_MPI_PROGRAM,
+                           surface, std::max(1U, std::thread::hardware_concurrency())),
+               environment +
+                   "export OMPI_MCA_hwloc_base_binding_policy=none "
+                   "PRTE_MCA_hwloc_default_binding_policy=none;");
+  INFO(result.err);
+  CHECK(result.status == 0);
+  CHECK(result.json()["ranks"] == 2);
+  CHECK_THAT(result.err, Contains("salebra-mpi: warning: 2 processes with"));
+  const std::size_t first = result.err.find("processes with");
+  CHECK(result.err.find("processes with", first + 1) == std::string::npos);
+}
+
 TEST_CASE("Bad input is said once, with status 2, and leaves no file", "[mpi]") {
   const ProgramTest test;
   check_refused_once(run(test, 2, "statistics none.h5"), "is computed by one process alone");
-  check_refused_once(run(test, 2, "generate " + surface + "--crop 8 -o a.h5 " + quiet), "--crop: ");
   check_refused_once(run(test, 2, "generate " + surface + "-o none/a.h5 " + quiet),
                      "does not exist; create it first");
   check_refused_once(
