@@ -266,6 +266,7 @@ class CoupledBody final : public SlidingBody {
 
 PressureLevels boundary_element_pressures(Surface surface, double contact_modulus,
                                           const NormalContactOptions& options) {
+  surface.require_whole("an oscillating contact");
   return [surface = std::move(surface), contact_modulus, options](double indentation) {
     if (indentation <= 0)
       return PressureAt{.pressure = Field::Zero(surface.grid.nx, surface.grid.ny)};
@@ -293,6 +294,7 @@ CycleResult simulate_frictional_cycle(const PressureLevels& levels, const Grid2D
 CycleResult simulate_coupled_cycle(const Surface& surface, const Material& material,
                                    const Trajectory& trajectory, const CycleOptions& options,
                                    const NormalContactOptions& contact) {
+  surface.require_whole("an oscillating contact");
   const detail::TrajectoryRange range = detail::checked_range(trajectory, options);
   require(range.indentation_min >= 0, "indentation", range.indentation_min,
           "must be >= 0 throughout a coupled cycle");

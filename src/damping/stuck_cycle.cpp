@@ -238,6 +238,7 @@ double step_error_of(const CycleResult& result, const Trajectory& trajectory, do
 
 ContactLevels boundary_element_levels(Surface surface, double contact_modulus,
                                       const NormalContactOptions& options) {
+  surface.require_whole("an oscillating contact");
   return [surface = std::move(surface), contact_modulus, options](double indentation) {
     if (indentation <= 0)
       return ContactSetAt{ContactSet::Constant(surface.grid.nx, surface.grid.ny, false)};

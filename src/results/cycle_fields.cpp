@@ -39,6 +39,7 @@ CycleFields::CycleFields(std::filesystem::path prefix, const Surface& surface,
       grid_(surface.grid),
       heights_(surface.heights),
       provenance_(std::move(provenance)) {
+  surface.require_whole("fields of an oscillating contact");
   require_output(with_ending(prefix_, ".xdmf"), options);
   x_ = positions(grid_.nx, grid_.dx());
   y_ = positions(grid_.ny, grid_.dy());

@@ -54,6 +54,7 @@ bool wants_picture(const StudyConfiguration& configuration, std::uint64_t seed) 
 }
 
 SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& configuration) {
+  surface.require_whole("its picture");
   const Grid2D& grid = surface.grid;
   constexpr Index side = SurfacePicture::picture_side;
   SurfacePicture picture;

@@ -156,6 +156,7 @@ void set_gradients(ArealParameters& result, const Surface& surface) {
 }  // namespace
 
 ArealParameters areal_parameters(const Surface& surface) {
+  surface.require_whole("areal parameters");
   const HeightStatistics heights = height_statistics(surface);
   ArealParameters result;
   result.Sq = heights.rms_height;

@@ -34,6 +34,7 @@ Line fit_line(const std::vector<double>& heights, std::size_t first, std::size_t
 }  // namespace
 
 BearingCurve::BearingCurve(const Surface& surface) {
+  surface.require_whole("a bearing curve");
   require_memory(surface.grid, 16 * static_cast<double>(surface.grid.points()), "a bearing curve");
   const HeightStatistics statistics = height_statistics(surface);
   heights_.reserve(static_cast<std::size_t>(statistics.defined_points));

@@ -59,6 +59,7 @@ Index padded(Index n, bool periodic) { return periodic ? n : fast_transform_size
 }  // namespace
 
 CorrelationMap correlation_map(const Surface& surface) {
+  surface.require_whole("a correlation map");
   const double mean = height_statistics(surface).mean;
   const Grid2D& grid = surface.grid;
   // Two fields of the grid, and two sets of complex modes of its pairs, which are four times as many where it is not periodic.

@@ -93,6 +93,7 @@ double ReliabilityLimit::wavelength() const {
 }
 
 ReliabilityLimit short_wavelength_limit(const Surface& surface, const ReliabilityOptions& options) {
+  surface.require_whole("a limit of reliability");
   require_positive(options.safety_factor, "safety_factor");
   ReliabilityLimit limit;
   limit.pixel = 2 * std::max(surface.grid.dx(), surface.grid.dy());

@@ -78,6 +78,7 @@ std::optional<NormalContactState> at_top(const Surface& residual, double contact
 ResidualSurface residual_surface(Surface surface, double contact_modulus,
                                  const NormalContactState& state,
                                  const NormalContactOptions& options) {
+  surface.require_whole("a residual surface");
   require(state.pressure.rows() == surface.grid.nx && state.pressure.cols() == surface.grid.ny,
           "pressure", state.pressure.size(), "points do not fill the grid");
   ResidualSurface residual{.surface = std::move(surface),
@@ -105,6 +106,7 @@ ResidualSurface residual_surface(Surface surface, double contact_modulus,
 ResidualSurface after_first_loading(Surface surface, double contact_modulus,
                                     double nominal_pressure, const NormalContactOptions& options,
                                     double normal_amplitude) {
+  surface.require_whole("a residual surface");
   require(normal_amplitude >= 0 && normal_amplitude < std::numeric_limits<double>::infinity(),
           "normal_amplitude", normal_amplitude, "must be finite and >= 0");
   NormalContactState state = press_to_pressure(surface, contact_modulus, nominal_pressure, options);

@@ -97,8 +97,9 @@ TEST_CASE("A contact over processes has the bits of one process", "[spread]") {
     compare(surface, to_pressure(5e-4), options, ranks);
   }
   SECTION("of odd and unequal sizes, and with more processes than blocks") {
-    const auto [nx, ny] = GENERATE(std::pair<Index, Index>{96, 50}, std::pair<Index, Index>{101, 64},
-                                   std::pair<Index, Index>{150, 128}, std::pair<Index, Index>{16, 16});
+    const auto [nx, ny] =
+        GENERATE(std::pair<Index, Index>{96, 50}, std::pair<Index, Index>{101, 64},
+                 std::pair<Index, Index>{150, 128}, std::pair<Index, Index>{16, 16});
     const Surface surface = test::rough_surface(
         {nx, ny, static_cast<double>(nx), static_cast<double>(ny)}, {.rolloff = 1, .cutoff = 6});
     compare(surface, to_pressure(5e-3), options, ranks);
@@ -115,9 +116,8 @@ TEST_CASE("A contact over processes has the bits of one process", "[spread]") {
     const Surface surface = test::rough_surface({128, 128, 128, 128});
     const NormalContactState state = press_to_pressure(surface, 1, 3e-3, options);
     compare(
-        surface,
-        [&](const Surface& s) { return press_to_mean_gap(s, 1, state.mean_gap, options); }, options,
-        ranks);
+        surface, [&](const Surface& s) { return press_to_mean_gap(s, 1, state.mean_gap, options); },
+        options, ranks);
     compare(
         surface,
         [&](const Surface& s) { return press_to_indentation(s, 1, state.indentation, options); },
@@ -143,8 +143,7 @@ TEST_CASE("A contact over processes has the bits of one process", "[spread]") {
   }
 }
 
-TEST_CASE("A contact over processes has the bits of one process for two threads each",
-          "[spread]") {
+TEST_CASE("A contact over processes has the bits of one process for two threads each", "[spread]") {
   const Surface surface = test::rough_surface({192, 192, 192, 192});
   const NormalContactState alone = press_to_pressure(surface, 1, 5e-3);
   parallel::set_threads(2);
