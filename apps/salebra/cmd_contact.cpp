@@ -58,11 +58,15 @@ NormalContactState solve(const PositionOptions& position, const Surface& surface
   return press_to_pressure(surface, contact_modulus, pressure, options);
 }
 
-bool reaches_edge(const Field& pressure) {
+/// Of any process.
+bool reaches_edge(const Surface& surface, const Field& pressure) {
+  const Share share = surface.share();
   const Index rows = pressure.rows(), columns = pressure.cols();
-  if (rows == 0 || columns == 0) return false;
-  return (pressure.row(0) > 0).any() || (pressure.row(rows - 1) > 0).any() ||
-         (pressure.col(0) > 0).any() || (pressure.col(columns - 1) > 0).any();
+  const bool reached =
+      pressure.size() > 0 && ((share.begin() == 0 && (pressure.row(0) > 0).any()) ||
+                              (share.end() == share.rows() && (pressure.row(rows - 1) > 0).any()) ||
+                              (pressure.col(0) > 0).any() || (pressure.col(columns - 1) > 0).any());
+  return !surface.ranks.all_agree(!reached);
 }
 
 void write_contact(const Session& session, const Grid2D& grid, const NormalContactState& state) {
@@ -104,9 +108,8 @@ void check_residual(const ContactArguments& arguments, const Session& session) {
 }
 
 void run(const ContactArguments& arguments, Session& session) {
-  for (const auto& [given, option] : {std::pair(!arguments.residual.empty(), "--residual"),
-                                      {arguments.boundary != "periodic", "--boundary free"},
-                                      {session.has_plot(), "--plot"}})
+  for (const auto& [given, option] :
+       {std::pair(arguments.hardness.has_value(), "--hardness"), {session.has_plot(), "--plot"}})
     if (given) session.require_one_process(option);
   std::vector<std::string> missing = arguments.material.missing(false);
   if (arguments.position.count() == 0)
@@ -144,7 +147,7 @@ void run(const ContactArguments& arguments, Session& session) {
   const NormalContactState state = solve(arguments.position, surface, contact_modulus, options);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   if (state.interrupted) throw Interrupted("contact: interrupted; nothing was written");
-  if (options.boundary == Boundary::free && reaches_edge(state.pressure))
+  if (options.boundary == Boundary::free && reaches_edge(surface, state.pressure))
     session.warn(
         "the contact reaches the edge of the surface, beyond which there is nothing; press less, "
         "or take a larger piece of the surface");

@@ -28,9 +28,8 @@ struct SweepArguments {
 };
 
 void run(const SweepArguments& arguments, Session& session) {
-  for (const auto& [given, option] : {std::pair(arguments.hardness.has_value(), "--hardness"),
-                                      {arguments.boundary != "periodic", "--boundary free"},
-                                      {session.has_plot(), "--plot"}})
+  for (const auto& [given, option] :
+       {std::pair(arguments.hardness.has_value(), "--hardness"), {session.has_plot(), "--plot"}})
     if (given) session.require_one_process(option);
   std::vector<std::string> missing = arguments.material.missing(false);
   if (arguments.pressures.empty()) missing.insert(missing.begin(), "--pressures");
@@ -41,7 +40,6 @@ void run(const SweepArguments& arguments, Session& session) {
                "given without --stiffness; give both");
   options.stiffness = arguments.stiffness;
   options.stick = arguments.stick;
-  if (!session.ranks().alone()) options.concurrent_loads = 1;
   options.contact.boundary = *value_of<Boundary>(arguments.boundary);
   if (arguments.tolerance) options.contact.tolerance = *arguments.tolerance;
   options.contact.on_progress = session.progress();
