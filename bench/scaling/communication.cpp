@@ -31,8 +31,7 @@ void count(Index n, int ranks) {
     return;
   }
   const auto reset = [&] { transport->exchanged = transport->gathered = {}; };
-  const double cells = static_cast<double>(n) * static_cast<double>(n),
-               of_others = 1 - 1.0 / ranks;
+  const double cells = static_cast<double>(n) * static_cast<double>(n), of_others = 1 - 1.0 / ranks;
 
   Convolution2D<float> pair({n, n, n, n}, 1, rows);
   reset();

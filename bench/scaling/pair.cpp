@@ -52,11 +52,14 @@ int main(int argc, char** argv) {
       seconds_of(ranks, repeats, [&] { compliance.apply(field.data(), result.data()); });
 
   // Waves from a quarter of the side to 8 cells, slope 0.1; this pressure brings some 2 % of the cells into contact.
-  const SelfAffineParameters parameters{
-      .hurst = 0.8, .long_cutoff = side / 4, .rolloff = side / 4, .short_cutoff = 8, .rms_slope = 0.1};
+  const SelfAffineParameters parameters{.hurst = 0.8,
+                                        .long_cutoff = side / 4,
+                                        .rolloff = side / 4,
+                                        .short_cutoff = 8,
+                                        .rms_slope = 0.1};
   const Surface surface = filtered_noise(grid, SelfAffineSpectrum(parameters), 1, {}, ranks);
-  const auto contact = seconds_of(ranks, std::max(1, repeats / 3),
-                                  [&] { press_to_pressure(surface, 1, 1e-3); });
+  const auto contact =
+      seconds_of(ranks, std::max(1, repeats / 3), [&] { press_to_pressure(surface, 1, 1e-3); });
   if (ranks.is_root())
     std::printf("%ld %d %d %.2f %.2f %.3f %.3f\n", long(n), ranks.ranks(), parallel::threads(),
                 1e3 * pair[pair.size() / 2], 1e3 * pair.front(), contact[contact.size() / 2],

@@ -98,8 +98,7 @@ struct Convolution2D<Real>::Passes {
       require(begin % rows_at_once == 0 || begin == shape.nx, "rows", begin,
               "must begin with a block of 16");
       const Index blocks = (end - begin + rows_at_once - 1) / rows_at_once;
-      rows_of.push_back(
-          {begin / rows_at_once, blocks, blocks > 0 ? padded(blocks * pairs_at_once) : 0, 0});
+      rows_of.push_back({begin / rows_at_once, blocks, column_stride(blocks, ranks), 0});
       if (blocks > 0) ++in_use;
     }
     for (int rank = 0; rank < ranks; ++rank) {
@@ -130,6 +129,13 @@ struct Convolution2D<Real>::Passes {
     to_rows.emplace(gap * sizeof(Complex), here, away);
   }
 
+  // What is padded is sent too: over several processes only lengths of whole pages are.
+  static Index column_stride(Index blocks, int ranks) {
+    const Index length = blocks * pairs_at_once;
+    if (length == 0) return 0;
+    const bool whole_pages = length * static_cast<Index>(sizeof(Complex)) % 4096 == 0;
+    return ranks > 1 && !whole_pages ? length : padded(length);
+  }
   const Rows& mine() const { return rows_of[static_cast<std::size_t>(rows_of_all.ranks().rank())]; }
   const Columns& my_columns() const {
     return columns_of[static_cast<std::size_t>(rows_of_all.ranks().rank())];

@@ -285,3 +285,43 @@ TEST_CASE("A stop and a bad surface in one process end all of them", "[spread]")
     }
   });
 }
+
+TEST_CASE("Two hundred faults, each in one process, end all of them alike", "[spread]") {
+  const Surface surface = test::rough_surface({64, 64, 64, 64});
+  test::Lcg chance(7);
+  for (int fault = 0; fault < 200; ++fault) {
+    const int ranks = 2 + static_cast<int>(3 * chance.uniform()),
+              failing = static_cast<int>(ranks * chance.uniform()),
+              kind = static_cast<int>(5 * chance.uniform()),
+              step = static_cast<int>(20 * chance.uniform());
+    CAPTURE(fault, ranks, failing, kind, step);
+    std::vector<std::string> ends(static_cast<std::size_t>(ranks));
+    run_ranks(ranks, [&](const Communicator& all) {
+      const bool fails = all.rank() == failing;
+      Surface mine = spread(surface, all);
+      const Share rows = mine.share();
+      Field start = Field::Constant(rows.count(), 64, 1e-3);
+      NormalContactOptions options;
+      options.tolerance = 1e-12;
+      if (kind == 1) options.initial_pressure = &start;
+      if (fails && kind == 0 && rows.count() > 0) mine.heights(0, 3) = std::nan("");
+      if (fails && kind == 1 && rows.count() > 0) start(0, 3) = -1;
+      if (fails && kind == 2) mine.heights.conservativeResize(rows.count() + 1, 64);
+      if (kind == 3)
+        options.on_progress = [&](const ProgressReport& report) {
+          return !fails || report.step < step;
+        };
+      if (kind == 4) options.on_progress = [&](const ProgressReport&) { return !fails; };
+      std::string& end = ends[static_cast<std::size_t>(all.rank())];
+      try {
+        end = press_to_pressure(mine, 1, 1e-3, options).interrupted ? "interrupted" : "solved";
+      } catch (const InvalidInput& error) {
+        end = error.field();
+      }
+    });
+    for (const std::string& end : ends) {
+      CHECK(end == ends.front());
+      CHECK(end != "solved");
+    }
+  }
+}
