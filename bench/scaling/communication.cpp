@@ -18,7 +18,7 @@ using salebra::testing::OneOfMany;
 
 namespace {
 
-// The ladder's symbol is made by each process as a whole: larger grids take minutes.
+// The ladder's symbol is made by each process as a whole, for larger grids in half a minute and more.
 constexpr Index largest_for_ladder = 16384;
 
 void count(Index n, int ranks) {
