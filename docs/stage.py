@@ -25,6 +25,7 @@ MODULES = {
     "results": "what each result is called, with unit and meaning; files of curves",
     "study": "the whole path for an ensemble",
     "report": "the results of a study as a page",
+    "mpi": "MPI as a transport between processes, in builds with it",
 }
 NOTEBOOKS = ("10_damping_of_scan", "12_joint", "13_tunable_damper", "15_own_law")
 # The submodules of the Python package.
