@@ -36,7 +36,8 @@ Index padded(Index length) { return (length + gap - 1) / gap * gap + gap; }
 //
 // Over several processes each holds blocks of rows and, for the pass over columns, a range of k together with all −k. The pass over rows
 // writes a column part by part, [process that has the column][component][column][its own block][pair], and an exchange brings the parts of a
-// column together as [process that has the rows][component][column][block of that process][pair].
+// column together as [process that has the rows][component][column][block of that process][pair]. The part of its own columns stays where
+// the pass over rows wrote it.
 template <class Real>
 struct Convolution2D<Real>::Passes {
   using Api = detail::Fftw<Real>;
@@ -63,9 +64,10 @@ struct Convolution2D<Real>::Passes {
     Index place = 0;   // of its part in `by_columns`
   };
   std::vector<Rows> rows_of;  // each process
+  Index received = 0;         // numbers from other processes
   std::optional<Exchange> to_columns, to_rows;
   Complex* by_rows = nullptr;
-  Complex* by_columns = nullptr;  // the same memory where one process has all
+  Complex* by_columns = nullptr;  // of the rows of other processes
   LargeArray<Complex> own_spectrum;
   struct Table {
     LargeArray<Real>
@@ -119,11 +121,14 @@ struct Convolution2D<Real>::Passes {
     for (int rank = 0; rank < ranks; ++rank) {
       away.push_back(units(rank, me));
       here.push_back(units(me, rank));
+      if (rank == me) away.back() = here.back() = 0;
       columns_of[static_cast<std::size_t>(rank)].place = away_place;
       rows_of[static_cast<std::size_t>(rank)].place = here_place;
       away_place += gap * away.back();
       here_place += gap * here.back();
     }
+    columns_of[static_cast<std::size_t>(me)].place = away_place;  // behind those of the others
+    received = here_place;
     if (ranks == 1) return;
     to_columns.emplace(gap * sizeof(Complex), away, here);
     to_rows.emplace(gap * sizeof(Complex), here, away);
@@ -143,15 +148,12 @@ struct Convolution2D<Real>::Passes {
   // Points of the transform in this process.
   Index points() const { return mine().blocks * rows_at_once * shape.period_y; }
   std::size_t rows_size() const {
-    return count(columns_of.back().place + components * columns_of.back().count() * mine().stride);
+    return count(my_columns().place + components * my_columns().count() * mine().stride);
   }
-  std::size_t columns_size() const {
-    return count(rows_of.back().place + components * my_columns().count() * rows_of.back().stride);
-  }
-  std::size_t spectrum_size() const { return rows_size() + (to_columns ? columns_size() : 0); }
+  std::size_t spectrum_size() const { return rows_size() + count(received); }
   void place_spectrum(Complex* memory) {
     by_rows = memory;
-    by_columns = to_columns ? memory + rows_size() : memory;
+    by_columns = memory + rows_size();
   }
   Index table_rows() const { return shape.period_x / 2 + 1; }
   // Pairs of a block of this process; the last of an odd number of rows is without partner.
@@ -160,8 +162,8 @@ struct Convolution2D<Real>::Passes {
   }
   // Where the numbers of a column lie in the part of the process that has the rows.
   Complex* column(int component, Index index, const Rows& rows) {
-    return by_columns + rows.place +
-           (component * my_columns().count() + my_columns().index(index)) * rows.stride;
+    Complex* part = &rows == &mine() ? by_rows + my_columns().place : by_columns + rows.place;
+    return part + (component * my_columns().count() + my_columns().index(index)) * rows.stride;
   }
   // body(first column, count of them, where their numbers of a block are to lie) for the columns of all processes.
   template <class Body>

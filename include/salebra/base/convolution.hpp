@@ -19,7 +19,7 @@ enum class Parity { even, odd };
 /// convolution is circular, with period >= 2n − 1 it is that of isolated fields. Three passes over memory: rows, then columns, each
 /// of which stays in cache while it is transformed, multiplied by the symbols and transformed back, then rows.
 /// The result has the same bits for every thread count. One object may run in one thread at a time.
-/// Memory: sizeof(Real) bytes for each component and each of nx·period_y points while it is in use, twice as many over several processes,
+/// Memory: sizeof(Real) bytes for each component and each of nx·period_y points while it is in use, (2 − 1/P) times as many over P processes,
 /// and a quarter of that for each symbol and each point of the period.
 template <class Real>
 class Convolution2D {
