@@ -36,7 +36,7 @@ class Stopwatch {
 };
 
 // Minimises ½p·Gp − p·h over 0 <= p <= bound on one grid: conjugate gradients on the free cells, preconditioned by
-// InverseStencil, that are not restarted when the set of free cells changes. Search directions and their images are Real;
+// InverseStencil, that are restarted by a fresh residual only, not when the set of free cells changes. Search directions and their images are Real;
 // p and g are double, and a result is accepted on a residual computed afresh over all cells. The iteration is a separate loop, not
 // tangential/conjugate_gradients.hpp: an iteration reads and writes each tile in three fused passes, and its cost is memory traffic.
 //
@@ -202,7 +202,6 @@ class ActiveSetCg {
   void begin_punch();
   double punch_step(double& curvature, PunchOutcome& outcome);
   void renew_punch_residual();
-  void keep_directions(const std::vector<Tile>& before, const std::vector<Index>& begins_before);
   std::byte* pool(std::size_t bytes);
   void collect_pressure(Run& run);
   void begin_set(Run& run, const std::vector<SetSums>& parts);
@@ -240,11 +239,9 @@ class ActiveSetCg {
   // See TileArrays. Between two refreshes p and g are up to date only on the tiles.
   FramedField<Real> r_;
   double *p_ = nullptr, *g_ = nullptr;
-  Real *z_ = nullptr, *m_ = nullptr;
-  LargeArray<Real> t_, w_;  // outlive a new list of tiles
-  std::size_t directions_size_ = 0;
+  Real *z_ = nullptr, *m_ = nullptr, *t_ = nullptr, *w_ = nullptr;
   std::vector<unsigned char> quiet_;
-  // Holds the tiles' other arrays and, while they are not needed, the spectrum of a dense residual.
+  // Holds the tiles' arrays and, while they are not needed, the spectrum of a dense residual.
   LargeArray<std::byte> pool_;
   std::size_t pool_size_ = 0;
 };

@@ -29,8 +29,8 @@ TileArrays<Real> ActiveSetCg<Real>::arrays(double bound) {
           r_.row(-frame) - side_frame,
           p_,
           g_,
-          t_.get(),
-          w_.get(),
+          t_,
+          w_,
           z_,
           m_,
           quiet_.data(),
@@ -62,12 +62,10 @@ std::byte* ActiveSetCg<Real>::pool(std::size_t bytes) {
   return pool_.get();
 }
 
-// The tiles that are in use, with room for what is stored tile after tile; of that, t and w stay as they were where there were tiles
-// already.
+// The tiles that are in use, with room for what is stored tile after tile. There is no direction yet: to carry the last one over to the new
+// tiles costs more iterations than it saves, since it belongs to the residual before.
 template <class Real>
 void ActiveSetCg<Real>::list_tiles() {
-  const std::vector<Tile> before = std::move(tiles_);
-  const std::vector<Index> begins_before = std::move(row_begins_);
   tiles_.clear();
   row_begins_.clear();
   for (Index row = 0; row < rows_.count(); ++row) {
@@ -76,12 +74,17 @@ void ActiveSetCg<Real>::list_tiles() {
   }
   row_begins_.push_back(static_cast<Index>(tiles_.size()));
   const auto size = static_cast<std::size_t>(tile_points());
-  std::byte* memory = pool(size * 2 * (sizeof(double) + sizeof(Real)));
+  std::byte* memory = pool(size * (2 * sizeof(double) + 4 * sizeof(Real)));
   p_ = reinterpret_cast<double*>(memory);
   g_ = p_ + size;
   z_ = reinterpret_cast<Real*>(g_ + size);
   m_ = z_ + size;
-  keep_directions(before, begins_before);
+  t_ = m_ + size;
+  w_ = t_ + size;
+  for_tiles([&](Index begin, Index end) {
+    std::fill(t_ + begin * tile_width, t_ + end * tile_width, Real(0));
+    std::fill(w_ + begin * tile_width, w_ + end * tile_width, Real(0));
+  });
   quiet_.assign(tiles_.size(), 0);
   choose_operator();
 }
@@ -109,39 +112,6 @@ void ActiveSetCg<Real>::choose_operator() {
   }
 }
 
-// Moves t and w to the places of the new tiles. A tile that is new has no direction yet, and its w comes with the next transform.
-template <class Real>
-void ActiveSetCg<Real>::keep_directions(const std::vector<Tile>& before,
-                                        const std::vector<Index>& begins_before) {
-  const auto size = static_cast<std::size_t>(tile_points());
-  for (LargeArray<Real>* field : {&t_, &w_}) {
-    for_rows([&](Index begin, Index end) {
-      for (Index row = begin; row < end; ++row) {
-        Index old = begins_before[static_cast<std::size_t>(row)];
-        const Index old_end = begins_before[static_cast<std::size_t>(row + 1)];
-        for (Index k = first_tile(row); k < first_tile(row + 1); ++k) {
-          const auto column = tiles_[static_cast<std::size_t>(k)].column;
-          while (old < old_end && before[static_cast<std::size_t>(old)].column < column) ++old;
-          Real* to = z_ + k * tile_width;
-          if (old < old_end && before[static_cast<std::size_t>(old)].column == column) {
-            std::copy_n(field->get() + old * tile_width, tile_width, to);
-          } else {
-            std::fill_n(to, tile_width, Real(0));
-          }
-        }
-      }
-    });
-    if (size > directions_size_) {
-      field->reset();  // free first, to avoid holding both
-      *field = large_array<Real>(size);
-    }
-    for_tiles([&](Index begin, Index end) {
-      std::copy(z_ + begin * tile_width, z_ + end * tile_width, field->get() + begin * tile_width);
-    });
-  }
-  directions_size_ = std::max(directions_size_, size);
-}
-
 // The tiles of all cells that carry pressure or are closer to the plane than margin·h_rms, and the free cells in them.
 template <class Real>
 void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
@@ -157,6 +127,7 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
     }
   });
   list_tiles();
+  run.has_direction = false;
   begin_set(
       run, over_tiles<SetSums>([&](Index begin, Index end) {
         SetSums sums;
@@ -176,9 +147,7 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
             sums.g += free ? g : 0;
             busy |= free || p != 0;
           }
-          if (busy) continue;
-          quiet_[static_cast<std::size_t>(k)] = 1;
-          std::fill_n(t_.get() + packed, tile_width, Real(0));
+          if (!busy) quiet_[static_cast<std::size_t>(k)] = 1;
         }
         return sums;
       }));
