@@ -61,7 +61,7 @@ class ActiveSetCg {
   PunchOutcome punch_load(const double* p, double bound, const PunchLimits& limits,
                           Field* pressure = nullptr);
 
-  // Makes a set of cells ready for invert(): ix·ny + iy, in row order. False where the ladder cannot be used on it. In one process.
+  // Makes a set of cells ready for invert(): ix·ny + iy of the rows of this process, in row order. False where the ladder cannot be used.
   bool hold(const std::vector<Index>& cells);
   // q ≈ G⁻¹u on the cells of hold(), with G~ in place of G: CG until a step gains less than this part of all that was gained.
   void invert(const double* u, double step_ends, double* q, PunchOutcome& outcome);
