@@ -4,6 +4,10 @@
 
 namespace salebra::parallel {
 
+Index block_rows(Index rows) { return rows > 0 ? rows : 1; }
+
+Index block_count(Index rows) { return rows > 0 ? 1 : 0; }
+
 double sum_blocks(Index rows, const std::function<double(Index, Index)>& slab, Index) {
   return rows > 0 ? slab(0, rows) : 0;
 }
