@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstring>
 #include <exception>
@@ -9,6 +10,8 @@
 #include <mutex>
 #include <random>
 #include <salebra/base/communicator.hpp>
+#include <salebra/base/error.hpp>
+#include <salebra/base/progress.hpp>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -162,6 +165,29 @@ inline void run_ranks(int ranks, const std::function<void(const Communicator&)>&
   for (std::thread& thread : threads) thread.join();
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
+}
+
+struct ReportedStop {
+  int reports = 0;      // to the one rank that listens
+  int interrupted = 0;  // ranks that threw Interrupted
+};
+
+// Runs work on so many ranks, of which one listens and says stop at its report number `stop`; 0: never.
+inline ReportedStop stop_one(
+    int ranks, int listener, int stop,
+    const std::function<void(const Communicator&, const Progress&)>& work) {
+  ReportedStop result;
+  std::atomic<int> interrupted = 0;
+  run_ranks(ranks, [&](const Communicator& together) {
+    const auto told = [&](const ProgressReport&) { return ++result.reports != stop; };
+    try {
+      work(together, together.rank() == listener ? Progress(told) : Progress());
+    } catch (const Interrupted&) {
+      ++interrupted;
+    }
+  });
+  result.interrupted = interrupted;
+  return result;
 }
 
 }  // namespace salebra::testing

@@ -2,7 +2,6 @@
 // `salebra contact`: one contact by boundary elements.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <filesystem>
@@ -90,10 +89,7 @@ void write_contact(const Session& session, const Grid2D& grid, const NormalConta
 
 /// The largest pressure of all processes.
 double max_pressure(const Communicator& ranks, const NormalContactState& state) {
-  const double mine = state.pressure.size() > 0 ? state.pressure.maxCoeff() : 0.0;
-  std::vector<double> all(static_cast<std::size_t>(ranks.ranks()));
-  ranks.gather_all(&mine, std::vector<std::size_t>(all.size(), sizeof mine), all.data());
-  return *std::ranges::max_element(all);
+  return -ranks.least_of(state.pressure.size() > 0 ? -state.pressure.maxCoeff() : 0.0);
 }
 
 /// Bad names are refused before the work.

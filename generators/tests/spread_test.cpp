@@ -23,6 +23,7 @@
 
 using namespace salebra;
 using salebra::testing::run_ranks;
+using salebra::testing::stop_one;
 
 namespace {
 
@@ -142,25 +143,13 @@ TEST_CASE("A stop of one process ends a generator on all", "[generators][share]"
   const int ranks = 3, culprit = GENERATE(0, 2);
   parallel::set_threads(1);
   for (const Make& make : ways()) {
-    std::atomic<int> reports = 0;
-    run_ranks(ranks, [&](const Communicator& together) {
-      const auto count = [&](const ProgressReport&) { return ++reports > 0; };
-      make(grid, *spectrum, together.rank() == culprit ? Progress(count) : Progress(), together);
-    });
+    const auto work = [&](const Communicator& together, const Progress& on_progress) {
+      make(grid, *spectrum, on_progress, together);
+    };
+    const int reports = stop_one(ranks, culprit, 0, work).reports;
     REQUIRE(reports > 2);
-    for (int stop = 1; stop <= reports; ++stop) {
-      std::atomic<int> interrupted = 0;
-      run_ranks(ranks, [&](const Communicator& together) {
-        int heard = 0;
-        const auto told = [&](const ProgressReport&) { return ++heard < stop; };
-        try {
-          make(grid, *spectrum, together.rank() == culprit ? Progress(told) : Progress(), together);
-        } catch (const Interrupted&) {
-          ++interrupted;
-        }
-      });
-      CHECK(interrupted == ranks);
-    }
+    for (int stop = 1; stop <= reports; ++stop)
+      CHECK(stop_one(ranks, culprit, stop, work).interrupted == ranks);
   }
   parallel::set_threads(0);
 }

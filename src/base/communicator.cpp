@@ -119,14 +119,7 @@ std::vector<std::string> Communicator::gather_all(const std::string& mine) const
   return texts;
 }
 
-bool Communicator::all_agree(bool yes) const {
-  if (alone()) return yes;
-  const std::vector<std::size_t> one(static_cast<std::size_t>(ranks()), 1);
-  std::vector<char> all(one.size());
-  const char mine = yes ? 1 : 0;
-  gather_all(&mine, one, all.data());
-  return std::all_of(all.begin(), all.end(), [](char answer) { return answer != 0; });
-}
+bool Communicator::all_agree(bool yes) const { return least_of(yes ? 1 : 0) > 0; }
 
 double Communicator::least_of(double mine) const {
   if (alone()) return mine;

@@ -12,6 +12,7 @@
 #include <salebra/base/share.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/contact/tangential/stick.hpp>
+#include <salebra/surface/moments.hpp>
 
 #include "normal/contact_memory.hpp"
 
@@ -52,20 +53,6 @@ ForceSample sample_of(const NormalContactState& state, const Surface& surface,
     }
   }
   return sample;
-}
-
-double rms_height_of(const Surface& surface) {
-  const double points = static_cast<double>(surface.grid.points());
-  const auto sum_of = [&](const auto& term) {
-    return parallel::sum_blocks(surface.share(), [&](Index begin, Index end) {
-      double sum = 0;
-      for (Index k = begin * surface.grid.ny; k < end * surface.grid.ny; ++k)
-        sum += term(surface.heights.data()[k]);
-      return sum;
-    });
-  };
-  const double mean = sum_of([](double height) { return height; }) / points;
-  return std::sqrt(sum_of([mean](double h) { return (h - mean) * (h - mean); }) / points);
 }
 
 }  // namespace
@@ -143,7 +130,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
   ForceCurve curve;
   curve.model = "bem";
   curve.nominal_area = surface.grid.area();
-  curve.rms_height = rms_height_of(surface);
+  curve.rms_height = height_statistics(surface).rms_height;
   for (const auto& sample : samples)
     if (sample) curve.samples.push_back(*sample);
   return curve;

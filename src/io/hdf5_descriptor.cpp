@@ -9,6 +9,8 @@
 #include <limits>
 #include <new>
 
+#include "hdf5_driver.hpp"
+
 namespace salebra::detail::hdf5 {
 namespace {
 
@@ -16,10 +18,8 @@ constexpr haddr_t longest = std::numeric_limits<off_t>::max();
 
 thread_local int read_failure = 0;
 
-/// HDF5 casts its base to this and back.
-struct OpenFile : H5FD_t {
+struct OpenFile : DriverFile {
   int descriptor = -1;
-  haddr_t end_of_addresses = 0, size = 0;
 };
 
 H5FD_t* open_file(const char*, unsigned flags, hid_t access, haddr_t) {
@@ -30,29 +30,13 @@ H5FD_t* open_file(const char*, unsigned flags, hid_t access, haddr_t) {
   auto* file = new (std::nothrow) OpenFile();
   if (!file) return nullptr;
   file->descriptor = *descriptor;
-  file->size = static_cast<haddr_t>(status.st_size);
+  file->end = static_cast<haddr_t>(status.st_size);
   return file;
 }
 
 herr_t close_file(H5FD_t* file) {
   delete static_cast<OpenFile*>(file);
   return 0;
-}
-
-/// Without a comparison HDF5 would take two files read at once for one.
-int compare(const H5FD_t* a, const H5FD_t* b) { return a < b ? -1 : a > b ? 1 : 0; }
-
-haddr_t end_of_addresses(const H5FD_t* file, H5FD_mem_t) {
-  return static_cast<const OpenFile*>(file)->end_of_addresses;
-}
-
-herr_t set_end_of_addresses(H5FD_t* file, H5FD_mem_t, haddr_t address) {
-  static_cast<OpenFile*>(file)->end_of_addresses = address;
-  return 0;
-}
-
-haddr_t end_of_file(const H5FD_t* file, H5FD_mem_t) {
-  return static_cast<const OpenFile*>(file)->size;
 }
 
 herr_t read_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size,
@@ -75,20 +59,11 @@ herr_t read_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t 
 herr_t refuse_to_write(H5FD_t*, H5FD_mem_t, hid_t, haddr_t, std::size_t, const void*) { return -1; }
 
 H5FD_class_t driver_class() {
-  H5FD_class_t driver{};
-  driver.name = "salebra_descriptor";
-  driver.maxaddr = longest;
-  driver.fc_degree = H5F_CLOSE_WEAK;
-  driver.fapl_size = sizeof(int);
+  H5FD_class_t driver = driver_class_of("salebra_descriptor", sizeof(int));
   driver.open = open_file;
   driver.close = close_file;
-  driver.cmp = compare;
-  driver.get_eoa = end_of_addresses;
-  driver.set_eoa = set_end_of_addresses;
-  driver.get_eof = end_of_file;
   driver.read = read_bytes;
   driver.write = refuse_to_write;
-  for (H5FD_mem_t& kind : driver.fl_map) kind = H5FD_MEM_DEFAULT;
   return driver;
 }
 

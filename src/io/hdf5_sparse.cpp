@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <new>
+
+#include "hdf5_driver.hpp"
 
 namespace salebra::detail::hdf5 {
 namespace {
@@ -16,10 +17,8 @@ struct Access {
   std::uint64_t size;
 };
 
-/// HDF5 casts its base to this and back.
-struct SparseFile : H5FD_t {
+struct SparseFile : DriverFile {
   SparseImage* image = nullptr;
-  haddr_t end_of_addresses = 0, end = 0;
 };
 
 H5FD_t* open_sparse(const char*, unsigned, hid_t access, haddr_t) {
@@ -36,27 +35,11 @@ herr_t close_sparse(H5FD_t* file) {
   return 0;
 }
 
-/// Without a comparison HDF5 would take two files for one.
-int compare_sparse(const H5FD_t* a, const H5FD_t* b) { return a < b ? -1 : a > b ? 1 : 0; }
-
 /// As HDF5's own driver of files in memory has it, on which the layout of the file depends.
 herr_t features_of_sparse(const H5FD_t*, unsigned long* features) {
   *features = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
               H5FD_FEAT_AGGREGATE_SMALLDATA;
   return 0;
-}
-
-haddr_t sparse_end_of_addresses(const H5FD_t* file, H5FD_mem_t) {
-  return static_cast<const SparseFile*>(file)->end_of_addresses;
-}
-
-herr_t set_sparse_end_of_addresses(H5FD_t* file, H5FD_mem_t, haddr_t address) {
-  static_cast<SparseFile*>(file)->end_of_addresses = address;
-  return 0;
-}
-
-haddr_t sparse_end(const H5FD_t* file, H5FD_mem_t) {
-  return static_cast<const SparseFile*>(file)->end;
 }
 
 herr_t read_sparse(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size,
@@ -88,18 +71,10 @@ herr_t lock_sparse(H5FD_t*, hbool_t) { return 0; }
 herr_t unlock_sparse(H5FD_t*) { return 0; }
 
 H5FD_class_t sparse_driver_class() {
-  H5FD_class_t driver{};
-  driver.name = "salebra_sparse";
-  driver.maxaddr = std::numeric_limits<std::int64_t>::max();
-  driver.fc_degree = H5F_CLOSE_WEAK;
-  driver.fapl_size = sizeof(Access);
+  H5FD_class_t driver = driver_class_of("salebra_sparse", sizeof(Access));
   driver.open = open_sparse;
   driver.close = close_sparse;
-  driver.cmp = compare_sparse;
   driver.query = features_of_sparse;
-  driver.get_eoa = sparse_end_of_addresses;
-  driver.set_eoa = set_sparse_end_of_addresses;
-  driver.get_eof = sparse_end;
   driver.read = read_sparse;
   driver.write = write_sparse;
   driver.lock = lock_sparse;

@@ -14,6 +14,7 @@
 
 using namespace salebra;
 using salebra::testing::run_ranks;
+using salebra::testing::stop_one;
 
 namespace {
 
@@ -128,6 +129,9 @@ TEST_CASE("A stop or a failure of one process ends the transform on all", "[fft]
   std::atomic<int> reports = 0;
   std::atomic<bool> in_order = true;
   parallel::set_threads(1);
+  const auto work = [&](const Communicator& together, const Progress& on_progress) {
+    backward_by_columns(nx, ny, columns, zeros, on_progress, Share(together, nx));
+  };
   run_ranks(ranks, [&](const Communicator& together) {
     double last = 0;
     const auto told = [&](const ProgressReport& report) {
@@ -136,28 +140,13 @@ TEST_CASE("A stop or a failure of one process ends the transform on all", "[fft]
       last = report.fraction;
       return true;
     };
-    backward_by_columns(nx, ny, columns, zeros,
-                        together.rank() == culprit ? Progress(told) : Progress(),
-                        Share(together, nx));
+    work(together, together.rank() == culprit ? Progress(told) : Progress());
     if (together.rank() == culprit && last != 1) in_order = false;
   });
   CHECK(in_order);
   REQUIRE(reports > 2);
-  for (int stop = 1; stop <= reports; ++stop) {
-    std::atomic<int> interrupted = 0;
-    run_ranks(ranks, [&](const Communicator& together) {
-      int heard = 0;
-      const auto told = [&](const ProgressReport&) { return ++heard < stop; };
-      try {
-        backward_by_columns(nx, ny, columns, zeros,
-                            together.rank() == culprit ? Progress(told) : Progress(),
-                            Share(together, nx));
-      } catch (const Interrupted&) {
-        ++interrupted;
-      }
-    });
-    CHECK(interrupted == ranks);
-  }
+  for (int stop = 1; stop <= reports; ++stop)
+    CHECK(stop_one(ranks, culprit, stop, work).interrupted == ranks);
   // One process after the other has no memory for one of its columns.
   for (Index failing = 0; failing < columns; failing += 7) {
     std::atomic<int> failed = 0;

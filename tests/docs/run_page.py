@@ -154,7 +154,9 @@ def commands_of(text, where):
 
 
 def run(command, scratch, environment, where):
-    done = subprocess.run(["bash", "-euo", "pipefail", "-c", command], cwd=scratch, env=environment, stdin=subprocess.DEVNULL,
+    # What stands before `head` in a pipe may still write when it has ended, which pipefail would call a failure.
+    command_of_page = 'head() { command head "$@" && cat > /dev/null; }\n' + command
+    done = subprocess.run(["bash", "-euo", "pipefail", "-c", command_of_page], cwd=scratch, env=environment, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode != 0:
         raise PageError(f"{where}: status {done.returncode} of\n{command}\n{done.stdout[-3000:]}")

@@ -39,7 +39,6 @@ class Exchange {
   /// sent[r], received[r]: units to and from process r; their places follow one another, in the order of the processes.
   Exchange(std::size_t unit, std::vector<std::int64_t> sent, std::vector<std::int64_t> received);
 
-  std::size_t unit() const { return unit_; }
   std::int64_t sent_units() const { return sent_places_.back(); }
   std::int64_t received_units() const { return received_places_.back(); }
   std::int64_t sent_place(int rank) const { return sent_places_[static_cast<std::size_t>(rank)]; }

@@ -28,7 +28,6 @@ class Share {
   Index begin() const { return begin_of(ranks_.rank()); }
   Index end() const { return end_of(ranks_.rank()); }
   Index count() const { return end() - begin(); }
-  bool whole() const { return count() == rows(); }
   Index begin_of(int rank) const { return begins_[static_cast<std::size_t>(rank)]; }
   Index end_of(int rank) const { return begins_[static_cast<std::size_t>(rank) + 1]; }
   int owner(Index row) const;

@@ -21,13 +21,11 @@ struct UnitMotion {
 
 // K_ij/(area of a cell) = e_i·τ_j, e_i being 1 on component `moved` of the points, plus τ_i·(e_j − Kτ_j), which makes the error of
 // unfinished iterates quadratic.
-double stiffness_of(const detail::ContactSystem& system, const detail::PointList& points, int moved,
+double stiffness_of(detail::ContactSystem& system, const detail::PointList& points, int moved,
                     const UnitMotion& i, const UnitMotion& j) {
   const std::vector<double> ones(points.cell.size(), 1.0);
-  const int components =
-      points.cell.empty() ? 1 : static_cast<int>(i.tractions.size() / points.cell.size());
   return system.dot(points, ones.data(), j.tractions.data() + moved * points.size(), 1) +
-         system.dot(points, i.tractions.data(), j.misfit.data(), components);
+         system.dot(points, i.tractions.data(), j.misfit.data(), system.response().components());
 }
 
 // Component `moving` of the displacement is 1 on the contact set, the other 0.
