@@ -15,6 +15,8 @@ namespace {
 
 // Cells closer to contact than this part of h_rms are worked on; later, when little moves, fewer.
 constexpr double widest_margin = 0.1, narrowest_margin = 0.03;
+// A gap that no result needs is kept up to so far from the expected plane: the widest margin, and as much for the plane's own change.
+constexpr double kept_reach = 0.2;
 // The set of free cells changes when its violations exceed this part of the last step …
 constexpr double usual_threshold = 0.5;
 // … and when CG stalls, of these, one after the other.
@@ -124,18 +126,51 @@ CurvatureSums ActiveSetCg<Real>::take_direction(double z_mean, double beta, doub
                                        })));
 }
 
-// g = Gp − h and what follows from it.
+// A row of the pressure for a transform. Only tiles in use carry load, and others are not read; before there are any, all are.
 template <class Real>
-ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
+template <class Number>
+const Number* ActiveSetCg<Real>::pressure_of(const Run& run, Index row, Number* room) const {
+  const double* p = run.p + row * grid_.ny;
+  const auto copy = [&](Index begin, Index end) {
+    std::transform(p + begin, p + end, room + begin,
+                   [](double value) { return static_cast<Number>(value); });
+  };
+  if (tiles_.empty()) {
+    copy(0, grid_.ny);
+    return room;
+  }
+  const Index begin = first_tile(row), end = first_tile(row + 1);
+  if (begin == end) return nullptr;
+  std::fill_n(room, grid_.ny, Number(0));
+  for (Index k = begin; k < end; ++k) {
+    const Index column = tiles_[static_cast<std::size_t>(k)].column;
+    copy(column, std::min<Index>(column + tile_width, grid_.ny));
+  }
+  return room;
+}
+
+// g = Gp − h, and what follows from it; g is kept near the plane only unless `whole`.
+template <class Real>
+ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact, bool whole) {
   // Σp(g − plane) is offset by an approximate plane against cancellation; the true one is known only after the pass.
   const double near = run.load_given() ? run.level : run.target.value;
-  const double bound = run.target.bound;
+  const double kept_below = whole || std::isfinite(run.target.bound)
+                                ? std::numeric_limits<double>::infinity()
+                                : near + kept_reach * rms_height_;
   std::vector<GapSums> sums(static_cast<std::size_t>(rows_.count()));
   const auto take = [&](auto kernel, Index row, const auto* displacement) {
-    const Index first = row * grid_.ny;
+    const Index first = row * grid_.ny, tile = row * tiles_per_row_;
     sums[static_cast<std::size_t>(row)] =
-        kernel(displacement, heights_.values + first, heights_.zero, run.p + first, run.g + first,
-               grid_.ny, bound, near, nearest_.data() + row * tiles_per_row_);
+        kernel(displacement, {.heights = heights_.values + first,
+                              .zero = heights_.zero,
+                              .p = run.p + first,
+                              .in_use = tiles_.empty() ? nullptr : in_use_.data() + tile,
+                              .count = grid_.ny,
+                              .bound = run.target.bound,
+                              .plane = near,
+                              .kept_below = kept_below,
+                              .g = run.g + first,
+                              .nearest = nearest_.data() + tile});
   };
   ++run.outcome.fft_count;
   double seconds = 0;
@@ -143,15 +178,11 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
     const Stopwatch stopwatch(seconds);
     if (exact || std::is_same_v<Real, double>) {
       exact_compliance().apply(
-          [&](int, Index row, double*) { return run.p + row * grid_.ny; },
+          [&](int, Index row, double* room) { return pressure_of(run, row, room); },
           [&](int, Index row, const double* values) { take(kernels_.exact_gap, row, values); });
     } else {
       dense_compliance().apply(
-          [&](int, Index row, Real* room) {
-            std::transform(run.p + row * grid_.ny, run.p + (row + 1) * grid_.ny, room,
-                           [](double p) { return static_cast<Real>(p); });
-            return room;
-          },
+          [&](int, Index row, Real* room) { return pressure_of(run, row, room); },
           [&](int, Index row, const Real* values) { take(kernels_.gap, row, values); });
     }
   }
@@ -173,6 +204,8 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact) {
     result.residual += std::max(0.0, near - total.least) / rms_height_;
     result.level = near;
   }
+  // The next tiles want a g that was not kept.
+  if (result.level + widest_margin * rms_height_ > kept_below) return dense_gap(run, exact, true);
   return result;
 }
 
@@ -250,12 +283,15 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
 
 // p within its bounds and at its load, g = Gp − h and e_c over all cells, and the tiles that they call for.
 template <class Real>
-void ActiveSetCg<Real>::refresh(Run& run) {
+void ActiveSetCg<Real>::refresh(Run& run, bool last) {
   collect_pressure(run);
   const bool exact =
       run.limits.exact &&
       !(on_ladder_ && run.estimate > std::max(exact_below, 0.7 * run.limits.tolerance));
-  const auto [level, residual] = dense_gap(run, exact);
+  const bool whole = last || run.estimate < 2 * run.limits.tolerance || run.outcome.interrupted ||
+                     run.outcome.iterations >= run.limits.max_iterations ||
+                     (!run.limits.exact && run.refreshes + 1 >= most_inexact_refreshes);
+  const auto [level, residual] = dense_gap(run, exact, whole);
   run.level = level;
   run.outcome.residual = residual;
   if (on_ladder_) {
@@ -269,6 +305,7 @@ void ActiveSetCg<Real>::refresh(Run& run) {
   run.finished = run.outcome.converged || run.outcome.interrupted ||
                  run.outcome.iterations >= run.limits.max_iterations ||
                  (!run.limits.exact && run.refreshes >= most_inexact_refreshes);
+  if (run.finished && !whole) dense_gap(run, exact, true);
   if (!run.finished)
     choose_tiles(run, std::min(widest_margin, std::max(narrowest_margin, 20 * residual)));
 }
@@ -281,11 +318,13 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
   run.threshold = usual_threshold;
   if (run.load_given()) {
     correct_load(target, p);
+    run.level = limits.expected_level.value_or(0);
   } else {
     run.level = target.value;
   }
   ladder_share_ = limits.ladder_share;
-  const auto [level, residual] = dense_gap(run, false);
+  const auto [level, residual] =
+      dense_gap(run, false, run.load_given() && !limits.expected_level.has_value());
   run.level = level;
   choose_tiles(run, widest_margin);
   if (on_ladder_) run.at_refresh = residual;
@@ -300,9 +339,10 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
         run.estimate < 0.7 * limits.tolerance || run.outcome.interrupted ||
         run.outcome.iterations >= limits.max_iterations ||
         (std::is_same_v<Real, float> && run.estimate < factor * run.at_refresh);
-    if (fresh_needed || stalled || !progressed) refresh(run);
+    const bool gives_way = stalled || !progressed;
+    if (fresh_needed || gives_way) refresh(run, gives_way);
     if (run.finished) break;
-    if (stalled || !progressed) {
+    if (gives_way) {
       // Where no cell is free, or the set flutters, a slower method finishes; a coarse level is left as it is.
       if (limits.exact)
         gradient_projection(exact_compliance(), grid_, rows_, boundary_, heights_, rms_height_,

@@ -195,7 +195,9 @@ class ActiveSetCg {
   void correct_load(const ContactTarget& target, double* p) const;
   Convolution2D<double>& exact_compliance();
   Convolution2D<Real>& dense_compliance();
-  ContactResidual dense_gap(Run& run, bool exact);
+  ContactResidual dense_gap(Run& run, bool exact, bool whole);
+  template <class Number>
+  const Number* pressure_of(const Run& run, Index row, Number* room) const;
   void choose_tiles(Run& run, double margin);
   void list_tiles();
   void choose_operator();
@@ -209,7 +211,7 @@ class ActiveSetCg {
   bool iterate(Run& run);
   LoadCorrection correction_over_tiles(const Run& run, double pressure) const;
   void change_set(Run& run, bool truncate, double pressure);
-  void refresh(Run& run);
+  void refresh(Run& run, bool last);
 
   Grid2D grid_;
   Share rows_;

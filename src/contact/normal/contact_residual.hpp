@@ -60,6 +60,8 @@ struct ActiveSetLimits {
   // gradient_projection().
   int patience = 40;
   LadderShare ladder_share = {};
+  // About where the contact plane will be, where it is not prescribed; it saves work and changes no result.
+  std::optional<double> expected_level = {};
 };
 
 struct ActiveSetOutcome {

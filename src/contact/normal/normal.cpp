@@ -169,6 +169,7 @@ Solution solve_nested(const Scaled& scaled, const Share& rows, const Heights& he
     ActiveSetLimits limits{
         k == 0 ? options.tolerance : std::max(coarse_tolerance, options.tolerance),
         options.max_iterations, k == 0};
+    if (k + 1 < levels.size()) limits.expected_level = solution.outcome.level;
     if (options.on_progress)
       limits.keep_going = [&](int iteration, double residual) {
         const double decades = std::log10(std::clamp(residual, options.tolerance, 1.0));

@@ -209,25 +209,29 @@ SetSums add_displacement(const TileArrays<Real>& a, std::ptrdiff_t begin, std::p
 }
 
 template <class Displacement>
-GapSums gap(const Displacement* u, const double* heights, double zero, const double* p, double* g,
-            std::ptrdiff_t count, double bound, double plane, double* nearest) {
+GapSums gap(const Displacement* u, const GapRow& row) {
   GapSums sums;
   sums.least = std::numeric_limits<double>::infinity();
-  for (std::ptrdiff_t k = 0; k < count; ++k) {
-    double& of_tile = nearest[k / tile_width];
+  const auto g = [&](std::ptrdiff_t k) { return double(u[k]) - (row.heights[k] - row.zero); };
+  const auto p = [&](std::ptrdiff_t k) {
+    return row.in_use && !row.in_use[k / tile_width] ? 0 : row.p[k];
+  };
+  for (std::ptrdiff_t k = 0; k < row.count; ++k) {
+    double& of_tile = row.nearest[k / tile_width];
     if (k % tile_width == 0) of_tile = std::numeric_limits<double>::infinity();
-    g[k] = double(u[k]) - (heights[k] - zero);
-    sums.pressure += p[k];
-    if (p[k] > 0 && p[k] < bound) {
+    sums.pressure += p(k);
+    if (p(k) > 0 && p(k) < row.bound) {
       sums.count += 1;
-      sums.g += g[k];
+      sums.g += g(k);
     }
-    sums.misfit += p[k] * (g[k] - plane);
-    sums.distance += std::abs(p[k] * (g[k] - plane));
-    sums.saturated += !(p[k] < bound);
-    sums.least = std::min(sums.least, g[k]);
-    of_tile = std::min(of_tile, p[k] > 0 ? -std::numeric_limits<double>::infinity() : g[k]);
+    sums.misfit += p(k) * (g(k) - row.plane);
+    sums.distance += std::abs(p(k) * (g(k) - row.plane));
+    sums.saturated += !(p(k) < row.bound);
+    sums.least = std::min(sums.least, g(k));
+    of_tile = std::min(of_tile, p(k) > 0 ? -std::numeric_limits<double>::infinity() : g(k));
   }
+  for (std::ptrdiff_t k = 0; k < row.count; ++k)
+    if (row.nearest[k / tile_width] < row.kept_below) row.g[k] = g(k);
   return sums;
 }
 

@@ -64,6 +64,22 @@ struct GapSums {
   double least = 0;         // least g
 };
 
+// A row of cells whose gap is computed afresh.
+struct GapRow {
+  const double* heights;
+  double zero;      // of the heights
+  const double* p;  // pressure
+  const unsigned char*
+      in_use;  // of each tile: 0 where p is zero, which is not read; nullptr: p is read everywhere
+  std::ptrdiff_t count;  // cells
+  double bound;          // largest pressure allowed
+  double plane;          // close to the contact plane
+  double
+      kept_below;  // g is written on tiles whose `nearest` is below this: what is far away is not read again
+  double* g;        // u − (heights − zero)
+  double* nearest;  // of each tile: its least g; −∞ where a cell of it carries load
+};
+
 // begin and end count tiles. Where a row is given they are the tiles of that row, and it holds its ny cells.
 template <class Real>
 struct TileKernels {
@@ -94,13 +110,9 @@ struct TileKernels {
   SetSums (*add_displacement)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                               const Real* row);
 
-  // Over the cells of a row: g = u − (heights − zero), what the contact plane follows from, and for each tile in `nearest` its least g,
-  // −∞ where a cell of it carries load.
-  GapSums (*gap)(const Real* u, const double* heights, double zero, const double* p, double* g,
-                 std::ptrdiff_t count, double bound, double plane, double* nearest);
-  GapSums (*exact_gap)(const double* u, const double* heights, double zero, const double* p,
-                       double* g, std::ptrdiff_t count, double bound, double plane,
-                       double* nearest);
+  // g and `nearest` of a row from its displacement, and what the contact plane follows from.
+  GapSums (*gap)(const Real* u, const GapRow&);
+  GapSums (*exact_gap)(const double* u, const GapRow&);
   // Σp over consecutive cells, p clipped to [0, bound] first.
   double (*clip)(double* p, std::ptrdiff_t count, double bound);
 };

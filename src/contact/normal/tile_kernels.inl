@@ -358,29 +358,36 @@ SALEBRA_INLINE void for_runs(Size count, const Body& body) {
 }
 
 template <class Displacement>
-GapSums gap(const Displacement* u, const double* heights, double zero, const double* p, double* g,
-            Size count, double bound, double plane, double* nearest) {
+GapSums gap(const Displacement* u, const GapRow& row) {
   Lanes pressure, free_count, free_g, misfit, distance, saturated, least;
   for (int lane = 0; lane < tile_width; ++lane) least.value[lane] = __builtin_inf();
-  for_runs(count, [&](Size first, auto width) {
-    Lanes close;
+  for_runs(row.count, [&](Size first, auto width) {
+    Lanes g, close;
     for (int lane = 0; lane < tile_width; ++lane) close.value[lane] = __builtin_inf();
     for (Size i = 0; i < width; ++i) {
-      const double x = p[first + i], height = heights[first + i] - zero;
+      const double height = row.heights[first + i] - row.zero;
       const double y = static_cast<double>(u[first + i]) - height;
-      g[first + i] = y;
-      const double loaded = x > 0 ? 1.0 : 0.0, free = x < bound ? loaded : 0.0;
-      const double part = x * (y - plane);
-      pressure.value[i] += x;
-      free_count.value[i] += free;
-      free_g.value[i] += free * y;
-      misfit.value[i] += part;
-      distance.value[i] += part < 0 ? -part : part;
-      saturated.value[i] += x < bound ? 0.0 : 1.0;
+      g.value[i] = close.value[i] = y;
       least.value[i] = y < least.value[i] ? y : least.value[i];
-      close.value[i] = x > 0 ? -__builtin_inf() : y;
     }
-    nearest[first / tile_width] = close.least();
+    if (!row.in_use || row.in_use[first / tile_width]) {
+      for (Size i = 0; i < width; ++i) {
+        const double x = row.p[first + i], y = g.value[i];
+        const double loaded = x > 0 ? 1.0 : 0.0, free = x < row.bound ? loaded : 0.0;
+        const double part = x * (y - row.plane);
+        pressure.value[i] += x;
+        free_count.value[i] += free;
+        free_g.value[i] += free * y;
+        misfit.value[i] += part;
+        distance.value[i] += part < 0 ? -part : part;
+        saturated.value[i] += x < row.bound ? 0.0 : 1.0;
+        close.value[i] = x > 0 ? -__builtin_inf() : y;
+      }
+    }
+    const double of_tile = close.least();
+    row.nearest[first / tile_width] = of_tile;
+    if (of_tile < row.kept_below)
+      for (Size i = 0; i < width; ++i) row.g[first + i] = g.value[i];
   });
   const double lowest = least.least();
   return {pressure.sum(), free_count.sum(), free_g.sum(), misfit.sum(),

@@ -222,25 +222,30 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
     return equal(f.add_displacement(a.arrays(), begin, end, a.row.data()),
                  s.add_displacement(b.arrays(), begin, end, b.row.data()));
   });
-  both("gap", [&](auto& f, auto& a, auto& s, auto& b) {
-    // Any 53 numbers will do as heights; p as it is: within bounds and beyond.
-    const std::vector<double> heights = a.g;
-    std::array<double, tiles_per_row> near, near_plain;
-    return equal(f.gap(a.row.data(), heights.data(), 0.5, a.p.data(), a.g.data(), ny, bound, level,
-                       near.data()),
-                 s.gap(b.row.data(), heights.data(), 0.5, b.p.data(), b.g.data(), ny, bound, level,
-                       near_plain.data())) &&
-           near == near_plain;
-  });
-  both("exact_gap", [&](auto& f, auto& a, auto& s, auto& b) {
-    const std::vector<double> heights = a.g, u = a.p;
-    std::array<double, tiles_per_row> near, near_plain;
-    return equal(f.exact_gap(u.data(), heights.data(), 0.5, a.p.data(), a.g.data(), ny, bound,
-                             level, near.data()),
-                 s.exact_gap(u.data(), heights.data(), 0.5, b.p.data(), b.g.data(), ny, bound,
-                             level, near_plain.data())) &&
-           near == near_plain;
-  });
+  // Any 53 numbers will do as heights; p as it is: within bounds and beyond. Read everywhere or on some tiles; all gaps kept, or near ones.
+  std::array<unsigned char, tiles_per_row> some{};
+  some[0] = some[tiles_per_row - 1] = 1;
+  for (const unsigned char* in_use : std::array<const unsigned char*, 2>{nullptr, some.data()})
+    for (const double kept_below : {infinity, level + 0.5}) {
+      const auto row_of = [&](auto& fields, const std::vector<double>& heights, double* nearest) {
+        return GapRow{heights.data(), 0.5,   fields.p.data(), in_use,          ny,
+                      bound,          level, kept_below,      fields.g.data(), nearest};
+      };
+      both("gap", [&](auto& f, auto& a, auto& s, auto& b) {
+        const std::vector<double> heights = a.g;
+        std::array<double, tiles_per_row> near, near_plain;
+        return equal(f.gap(a.row.data(), row_of(a, heights, near.data())),
+                     s.gap(b.row.data(), row_of(b, heights, near_plain.data()))) &&
+               near == near_plain;
+      });
+      both("exact_gap", [&](auto& f, auto& a, auto& s, auto& b) {
+        const std::vector<double> heights = a.g, u = a.p;
+        std::array<double, tiles_per_row> near, near_plain;
+        return equal(f.exact_gap(u.data(), row_of(a, heights, near.data())),
+                     s.exact_gap(u.data(), row_of(b, heights, near_plain.data()))) &&
+               near == near_plain;
+      });
+    }
   both("clip", [&](auto& f, auto& a, auto& s, auto& b) {
     return close(f.clip(a.p.data(), ny, bound), s.clip(b.p.data(), ny, bound)) &&
            close(f.clip(a.g.data(), ny, infinity), s.clip(b.g.data(), ny, infinity));
