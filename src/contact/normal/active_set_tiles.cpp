@@ -136,18 +136,25 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
           const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
           const Index dense = tile.row * grid_.ny + tile.column;
           const Index packed = k * tile_width;
-          bool busy = false;
-          for (Index i = 0; i < tile_width; ++i) {
-            const double p = i < width ? run.p[dense + i] : 0, g = i < width ? run.g[dense + i] : 0;
-            const bool free = i < width && (p >= bound ? g > run.level : p > 0 || g < run.level);
-            p_[packed + i] = p;
-            g_[packed + i] = g;
-            m_[packed + i] = free ? Real(1) : Real(0);
-            sums.count += free ? 1 : 0;
-            sums.g += free ? g : 0;
-            busy |= free || p != 0;
+          std::copy_n(run.p + dense, width, p_ + packed);
+          std::copy_n(run.g + dense, width, g_ + packed);
+          // What lies beyond the row is never free.
+          std::fill_n(p_ + packed + width, tile_width - width, 0.0);
+          std::fill_n(g_ + packed + width, tile_width - width, 0.0);
+          std::fill_n(m_ + packed, tile_width, Real(0));
+          // Most tiles hold neither load nor a gap below the plane.
+          if (!(nearest_[static_cast<std::size_t>(tile.row * tiles_per_row_ +
+                                                  tile.column / tile_width)] < run.level)) {
+            quiet_[static_cast<std::size_t>(k)] = 1;
+            continue;
           }
-          if (!busy) quiet_[static_cast<std::size_t>(k)] = 1;
+          for (Index i = 0; i < width; ++i) {
+            const double p = p_[packed + i], g = g_[packed + i];
+            if (!(p >= bound ? g > run.level : p > 0 || g < run.level)) continue;
+            m_[packed + i] = Real(1);
+            sums.count += 1;
+            sums.g += g;
+          }
         }
         return sums;
       }));

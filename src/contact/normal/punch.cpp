@@ -154,34 +154,51 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
     }
   }
   outcome.converged = small_gains == gains_in_a_row;
-  Field q = Field::Zero(rows_.count(), grid_.ny), image(rows_.count(), grid_.ny);
-  for (std::size_t k = 0; k < tiles_.size(); ++k)
-    std::copy_n(p_ + k * tile_width, std::min<Index>(tile_width, grid_.ny - tiles_[k].column),
-                q.data() + tiles_[k].row * grid_.ny + tiles_[k].column);
-  if (pressure) *pressure = q;
-  exact_compliance().apply(q.data(), image.data());
-  ++outcome.fft_count;
-  struct Sums {
-    double load = 0, misfit = 0, cells = 0;
+  // The transform takes the memory of the tiles' fields.
+  const std::vector<double> q(p_, p_ + tile_points());
+  const std::vector<Real> in_set_of_tiles(m_, m_ + tile_points());
+  const auto on_row = [&](Index row, const auto& body) {  // body(k, column, width) for its tiles
+    for (Index k = first_tile(row); k < first_tile(row + 1); ++k) {
+      const Index column = tiles_[static_cast<std::size_t>(k)].column;
+      body(k, column, std::min<Index>(tile_width, grid_.ny - column));
+    }
   };
-  Sums total;
-  for (const Sums& part : over_rows<Sums>([&](Index begin, Index end) {
-         Sums sums;
-         for (Index k = begin * grid_.ny; k < end * grid_.ny; ++k) {
-           const double q_k = q.data()[k], image_k = image.data()[k];
-           sums.load += q_k * (2 - image_k);
-           if (!in_set(p[k])) continue;
-           sums.misfit += (1 - image_k) * (1 - image_k);
-           sums.cells += 1;
-         }
-         return sums;
-       })) {
-    total.load += part.load;
-    total.misfit += part.misfit;
-    total.cells += part.cells;
-  }
+  const auto spread = [&](Index row, double* to) {
+    on_row(row, [&](Index k, Index column, Index width) {
+      std::copy_n(q.data() + k * tile_width, width, to + column);
+    });
+  };
+  std::vector<PunchSums> sums(static_cast<std::size_t>(rows_.count()));
+  exact_compliance().apply(
+      [&](int, Index row, double* room) -> const double* {
+        if (first_tile(row) == first_tile(row + 1)) return nullptr;
+        std::fill_n(room, grid_.ny, 0.0);
+        spread(row, room);
+        return room;
+      },
+      [&](int, Index row, const double* image) {
+        on_row(row, [&](Index k, Index column, Index width) {
+          auto& [load, misfit, cells] = sums[static_cast<std::size_t>(row)];
+          for (Index i = 0; i < width; ++i) {
+            const Index packed = k * tile_width + i;
+            if (!(in_set_of_tiles[static_cast<std::size_t>(packed)] > 0)) continue;
+            const double value = image[column + i];
+            load += q[static_cast<std::size_t>(packed)] * (2 - value);
+            misfit += (1 - value) * (1 - value);
+            cells += 1;
+          }
+        });
+      });
+  ++outcome.fft_count;
+  const PunchSums total = total_of(by_blocks(rows_, sums));
   outcome.load = total.load;
   outcome.residual = std::sqrt(total.misfit / total.cells);
+  if (pressure) {
+    *pressure = Field::Zero(rows_.count(), grid_.ny);
+    for_rows([&](Index begin, Index end) {
+      for (Index row = begin; row < end; ++row) spread(row, pressure->data() + row * grid_.ny);
+    });
+  }
   return outcome;
 }
 

@@ -39,6 +39,15 @@ inline void add(SetSums& total, const SetSums& part) {
   total.count += part.count;
   total.g += part.g;
 }
+// Over the cells of a punch: its load, and how far its displacement is from 1.
+struct PunchSums {
+  double load = 0, misfit = 0, cells = 0;
+};
+inline void add(PunchSums& total, const PunchSums& part) {
+  total.load += part.load;
+  total.misfit += part.misfit;
+  total.cells += part.cells;
+}
 inline void add(GapSums& total, const GapSums& part) {
   total.pressure += part.pressure;
   total.count += part.count;
