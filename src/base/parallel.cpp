@@ -48,11 +48,15 @@ Index block_rows(Index rows) {
 Index block_count(Index rows) { return (rows + block_rows(rows) - 1) / block_rows(rows); }
 
 void for_slabs(Index rows, const std::function<void(Index, Index)>& body, Index work) {
+  if (rows == 0) return;
+  if (work < least_parallel_work || threads() == 1 || omp_in_parallel()) {
+    body(0, rows);
+    return;
+  }
   const Index slabs = std::min(rows, largest_slab_count);
   std::exception_ptr failure;
   std::mutex failure_guard;
-  const bool in_parallel = work >= least_parallel_work && threads() > 1 && !omp_in_parallel();
-#pragma omp parallel for schedule(dynamic) num_threads(threads()) if (in_parallel)
+#pragma omp parallel for schedule(dynamic) num_threads(threads())
   for (Index slab = 0; slab < slabs; ++slab) {
     try {
       body(slab_begin(rows, slab), slab_begin(rows, slab + 1));

@@ -21,7 +21,7 @@ void set_threads(int threads);
 int threads();
 
 /// Calls body(begin, end) for consecutive half-open slabs that cover [0, rows), in parallel.
-/// body must not touch another slab's data. The first exception is rethrown after all slabs have ended.
+/// body must not touch another slab's data. A single thread takes all rows as one slab. The first exception is rethrown after all slabs have ended.
 /// work: points or operations in all, where that is known to be small; waking a thread costs as much as about 20 000.
 void for_slabs(Index rows, const std::function<void(Index, Index)>& body,
                Index work = std::numeric_limits<Index>::max());
