@@ -128,36 +128,35 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
   });
   list_tiles();
   run.has_direction = false;
-  begin_set(
-      run, over_tiles<SetSums>([&](Index begin, Index end) {
-        SetSums sums;
-        for (Index k = begin; k < end; ++k) {
-          const Tile tile = tiles_[static_cast<std::size_t>(k)];
-          const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
-          const Index dense = tile.row * grid_.ny + tile.column;
-          const Index packed = k * tile_width;
-          std::copy_n(run.p + dense, width, p_ + packed);
-          std::copy_n(run.g + dense, width, g_ + packed);
-          // What lies beyond the row is never free.
-          std::fill_n(p_ + packed + width, tile_width - width, 0.0);
-          std::fill_n(g_ + packed + width, tile_width - width, 0.0);
-          std::fill_n(m_ + packed, tile_width, Real(0));
-          // Most tiles hold neither load nor a gap below the plane.
-          if (!(nearest_[static_cast<std::size_t>(tile.row * tiles_per_row_ +
-                                                  tile.column / tile_width)] < run.level)) {
-            quiet_[static_cast<std::size_t>(k)] = 1;
-            continue;
-          }
-          for (Index i = 0; i < width; ++i) {
-            const double p = p_[packed + i], g = g_[packed + i];
-            if (!(p >= bound ? g > run.level : p > 0 || g < run.level)) continue;
-            m_[packed + i] = Real(1);
-            sums.count += 1;
-            sums.g += g;
-          }
-        }
-        return sums;
-      }));
+  begin_set(run, over_tiles<SetSums>([&](Index begin, Index end) {
+              SetSums sums;
+              for (Index k = begin; k < end; ++k) {
+                const Tile tile = tiles_[static_cast<std::size_t>(k)];
+                const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
+                const Index dense = tile.row * grid_.ny + tile.column;
+                const Index packed = k * tile_width;
+                std::copy_n(run.p + dense, width, p_ + packed);
+                std::copy_n(run.g + dense, width, g_ + packed);
+                // What lies beyond the row is never free.
+                std::fill_n(p_ + packed + width, tile_width - width, 0.0);
+                std::fill_n(g_ + packed + width, tile_width - width, 0.0);
+                std::fill_n(m_ + packed, tile_width, Real(0));
+                // Most tiles hold neither load nor a gap below the plane.
+                if (!(nearest_[static_cast<std::size_t>(tile.row * tiles_per_row_ +
+                                                        tile.column / tile_width)] < run.level)) {
+                  quiet_[static_cast<std::size_t>(k)] = 1;
+                  continue;
+                }
+                for (Index i = 0; i < width; ++i) {
+                  const double p = p_[packed + i], g = g_[packed + i];
+                  if (!(p >= bound ? g > run.level : p > 0 || g < run.level)) continue;
+                  m_[packed + i] = Real(1);
+                  sums.count += 1;
+                  sums.g += g;
+                }
+              }
+              return sums;
+            }));
 }
 
 // Puts p back into the dense array, within its bounds and at its load.

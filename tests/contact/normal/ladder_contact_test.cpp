@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <salebra/base/parallel.hpp>
 
 #include "contact/normal/active_set_cg.hpp"
@@ -157,6 +158,47 @@ TEST_CASE("Tiles that come into contact only after a refresh are on the ladder t
       // As from any start: seven are measured. With the tiles of the patch alone there are 28 and more, or no end.
       CHECK(outcome.fft_count <= 8);
     }
+}
+
+TEST_CASE(
+    "Wherever the plane is expected, the contact is the same and its gap is there everywhere") {
+  const Surface surface = unit_cells(512, 512, 4);
+  const ContactTarget target = pressed(0.01);
+  const Heights heights{surface.heights.data(), surface.heights.maxCoeff()};
+  const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
+  const auto solved = [&](std::optional<double> expected, LadderShare share) {
+    Solved found{Field::Constant(512, 512, target.value),
+                 Field::Constant(512, 512, std::numeric_limits<double>::quiet_NaN()),
+                 {}};
+    ActiveSetLimits limits;
+    limits.tolerance = 1e-8;
+    limits.ladder_share = share;
+    limits.expected_level = expected;
+    found.outcome = ActiveSetCg<float>(surface.grid, 1, Boundary::periodic, heights, rms)
+                        .solve(target, limits, found.pressure.data(), found.gap.data());
+    return found;
+  };
+  for (const double share : {0.0, 1.0}) {
+    const Solved plain = solved({}, share);
+    REQUIRE(plain.outcome.converged);
+    Field exact(512, 512);
+    normal_compliance<double>(surface.grid, normal_symbol(surface.grid, 1, Boundary::periodic),
+                              Share(512))
+        .apply(plain.pressure.data(), exact.data());
+    exact -= surface.heights - heights.zero;
+    // The same numbers by the same transform, but for what it reads of rows without load.
+    CHECK((plain.gap - exact).abs().maxCoeff() < 1e-13 * rms);
+    const double level = plain.outcome.level;
+    for (const double off : {0.0, 0.05, -1.0, 2.0}) {
+      const Solved found = solved(level + off * rms, share);
+      CAPTURE(share, off);
+      CHECK(found.outcome.converged);
+      CHECK((found.gap == plain.gap).all());
+      CHECK((found.pressure == plain.pressure).all());
+      // From uniform pressure the first plane lies far above that of the contact, and a transform more finds the gap that was not kept.
+      CHECK(found.outcome.fft_count <= plain.outcome.fft_count + 1);
+    }
+  }
 }
 
 TEST_CASE("A punch takes three exact transforms on the ladder and has the same stiffness") {
