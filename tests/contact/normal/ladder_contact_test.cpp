@@ -167,9 +167,11 @@ TEST_CASE(
   const Heights heights{surface.heights.data(), surface.heights.maxCoeff()};
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
   const auto solved = [&](std::optional<double> expected, LadderShare share) {
-    Solved found{Field::Constant(512, 512, target.value),
+    // Few cells carry load at first: the gap of those that do is always kept.
+    Solved found{Field::Zero(512, 512),
                  Field::Constant(512, 512, std::numeric_limits<double>::quiet_NaN()),
                  {}};
+    found.pressure.block(100, 200, 64, 64) = 64 * target.value;
     ActiveSetLimits limits;
     limits.tolerance = 1e-8;
     limits.ladder_share = share;
@@ -195,7 +197,7 @@ TEST_CASE(
       CHECK(found.outcome.converged);
       CHECK((found.gap == plain.gap).all());
       CHECK((found.pressure == plain.pressure).all());
-      // From uniform pressure the first plane lies far above that of the contact, and a transform more finds the gap that was not kept.
+      // A transform more finds the gap that was not kept.
       CHECK(found.outcome.fft_count <= plain.outcome.fft_count + 1);
     }
   }
