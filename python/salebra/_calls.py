@@ -61,6 +61,7 @@ _FIELDS = {"heights", "initial_pressure", "contact", "pressure"}
 _KINDS = {
     "float": "a number", "int": "a whole number", "bool": "True or False", "str": "a text", "None": "None",
     "numpy.typing.ArrayLike": "an array of numbers", "os.PathLike[str]": "a path",
+    "mpi4py.MPI.Intracomm": "a communicator of mpi4py",
 }  # fmt: skip
 _HINTS = {
     "Surface": "make one with salebra.Surface(heights, size_x, size_y)",
@@ -155,6 +156,8 @@ def _fits(part: str, value: Any) -> bool:
         return isinstance(value, str)
     if part == "os.PathLike[str]":
         return hasattr(value, "__fspath__")
+    if part == "mpi4py.MPI.Intracomm":
+        return hasattr(value, "py2f")
     if part.startswith("collections.abc.Callable"):
         return callable(value)
     if part.startswith(("collections.abc.Sequence", "list", "tuple")):

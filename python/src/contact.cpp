@@ -105,11 +105,14 @@ BoundContact* press(const BoundSurface& surface, double contact_modulus, double 
                                .precision = precision.value("precision"),
                                .hardness = hardness,
                                .initial_pressure = initial ? &initial->field() : nullptr};
-  return interruptible(progress, [&](Progress told) {
-    options.on_progress = std::move(told);
-    return new BoundContact{solve(surface.surface, options), surface.surface.grid, contact_modulus,
-                            options.boundary};
-  });
+  return interruptible(
+      progress,
+      [&](Progress told) {
+        options.on_progress = std::move(told);
+        return new BoundContact{solve(surface.surface, options), surface.surface.grid,
+                                contact_modulus, options.boundary};
+      },
+      surface.surface.ranks);
 }
 
 constexpr const char* options_of_contact = R"(
@@ -124,7 +127,7 @@ precision : {"mixed", "full"}
 hardness : float
     Largest pressure that the bodies carry, Pa: cells saturate there.
 initial_pressure : array_like, optional
-    (nx, ny). Start of the iteration, Pa; not copied if C-contiguous float64.
+    Of the shape of the heights. Start of the iteration, Pa; not copied if C-contiguous float64.
 progress : bool or callable
     True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop.
 
@@ -153,6 +156,30 @@ Unless `converged`, the numbers describe the last iterate and must not be used a
   view_property(state, "contact_pressure", &NormalContactState::pressure, "(nx, ny), Pa, >= 0.");
   view_property(state, "gap", &NormalContactState::gap, "(nx, ny), m, >= 0 up to the tolerance.");
   state.def_ro("grid", &BoundContact::grid, "Points and size.")
+      .def_prop_ro(
+          "rows",
+          [](const BoundContact& self) { return range_of(Share(self.ranks, self.grid.nx)); },
+          nb::sig("def rows(self) -> range"),
+          "Rows ix of the fields that this process holds, as those of the surface.")
+      .def(
+          "gather",
+          [](nb::handle_t<BoundContact> self, int root) {
+            const auto& mine = nb::cast<const BoundContact&>(nb::handle(self));
+            return gather(self, root, mine.ranks, [&] {
+              return unlocked([&] {
+                const Share rows(mine.ranks, mine.grid.nx);
+                auto whole = std::make_unique<BoundContact>(mine);
+                whole->ranks = {};
+                whole->pressure = gathered(rows, mine.pressure, root);
+                whole->gap = gathered(rows, mine.gap, root);
+                return whole;
+              });
+            });
+          },
+          nb::arg("root") = 0,
+          nb::sig("def gather(self, root: int = 0) -> NormalContactState | None"),
+          "The state with its whole fields in one process, None in the others; see "
+          ":meth:`Surface.gather`.")
       .def_ro("contact_modulus", &BoundContact::contact_modulus, "E*, Pa, as given.")
       .def_prop_ro(
           "boundary", [](const BoundContact& self) { return std::string(word_of(self.boundary)); },
@@ -261,10 +288,13 @@ indentation : float
          const ProgressArgument& progress) {
         NormalContactOptions options{
             .tolerance = tolerance, .max_iterations = max_iterations, .boundary = state.boundary};
-        return interruptible(progress, [&](Progress told) {
-          options.on_progress = std::move(told);
-          return normal_stiffness(state, state.grid, state.contact_modulus, options);
-        });
+        return interruptible(
+            progress,
+            [&](Progress told) {
+              options.on_progress = std::move(told);
+              return normal_stiffness(state, state.grid, state.contact_modulus, options);
+            },
+            state.ranks);
       },
       nb::arg("state"), nb::kw_only(), nb::arg("tolerance") = 1e-10,
       nb::arg("max_iterations") = 1000, nb::arg("progress") = false,
@@ -364,6 +394,7 @@ void bind_spots(nb::module_& m) {
       "contact_spots",
       [](const BoundContact& state) {
         cite({"yastrebov2017"});
+        require_whole(state, "a list of contact spots");
         return unlocked([&] { return contact_spots(state.pressure, state.grid, state.boundary); });
       },
       nb::arg("state"),

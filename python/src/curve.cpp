@@ -118,10 +118,13 @@ void bind_sweep(nb::module_& m) {
         options.stiffness = stiffness;
         options.stick = stick;
         options.concurrent_loads = concurrent_loads;
-        return interruptible(progress, [&](Progress told) {
-          options.contact.on_progress = std::move(told);
-          return sweep_pressures(surface.surface, material, pressures.values, options);
-        });
+        return interruptible(
+            progress,
+            [&](Progress told) {
+              options.contact.on_progress = std::move(told);
+              return sweep_pressures(surface.surface, material, pressures.values, options);
+            },
+            surface.surface.ranks);
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("pressures"), nb::kw_only(),
       nb::arg("stiffness") = true, nb::arg("stick") = false, nb::arg("concurrent_loads") = 0,
@@ -142,7 +145,8 @@ stiffness : bool
 stick : bool
     With stiffness: K_t along x by a stick solve on each contact set instead.
 concurrent_loads : int
-    Loads solved at the same time, each with 50 to 60 bytes a cell of its own; 0: as many as there are threads.
+    Loads solved at the same time, each with 50 to 60 bytes a cell of its own; 0: as many as there are threads. A surface that is spread
+    over processes has one load after the other.
 tolerance, max_iterations, boundary, precision, hardness
     As for :func:`press_to_pressure`. With a hardness this is the curve of first loading; that of unloading is the curve of the
     surface that :func:`after_first_loading` returns.

@@ -10,6 +10,7 @@
 
 #include "bindings.hpp"
 #include "interop/path.hpp"
+#include "interop/processes.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -19,14 +20,16 @@ void bind_files(nb::module_& m) {
   m.def(
       "read_surface",
       [](const std::filesystem::path& file, std::optional<double> size_x,
-         std::optional<double> size_y, std::optional<bool> periodic,
-         const std::string& height_unit) {
+         std::optional<double> size_y, std::optional<bool> periodic, const std::string& height_unit,
+         const ProcessesArgument& comm) {
+        const Communicator ranks = comm.ranks();
         return new_surface(unlocked([&] {
-          return read_surface(file, {size_x, size_y, periodic, height_unit});
+          return read_surface(file, {size_x, size_y, periodic, height_unit}, ranks);
         }));
       },
       nb::arg("file"), nb::kw_only(), nb::arg("size_x") = nb::none(),
       nb::arg("size_y") = nb::none(), nb::arg("periodic") = nb::none(), nb::arg("height_unit") = "",
+      nb::arg("comm") = nb::none(),
       R"(Reads the heights of a surface.
 
 What the file is follows from its first bytes, not from its name: HDF5, NPY, NetCDF in SurfaceTopography's layout, X3P, GWY, GSF,
@@ -42,6 +45,9 @@ periodic : bool, optional
     In place of the file's.
 height_unit : str
     Such as "nm", for files that give none; empty: metres.
+comm : mpi4py.MPI.Intracomm, optional
+    Processes over which the surface is spread, as in :func:`filtered_noise`. Of an HDF5 file each reads its rows; any other is read whole by
+    the first one.
 
 Raises
 ------
@@ -65,6 +71,7 @@ Parameters
 file : str or os.PathLike
     .h5, .hdf5, .npy (with a sidecar .json), .nc, .x3p, .gwy, .gsf (float32), .txt, .asc, .gxyzf or .xyz.
 surface : Surface
+    One that is spread over processes goes into HDF5 files only, by a call of all processes.
 overwrite : bool
     Replace an existing file. The file appears complete or not at all.
 

@@ -19,6 +19,7 @@
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/processes.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -167,14 +168,16 @@ void bind_makers(nb::module_& m) {
   m.def(
       "filtered_noise",
       [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
-         const ProgressArgument& progress) {
+         const ProcessesArgument& comm, const ProgressArgument& progress) {
         cite({"salmon2011"});
-        return new_surface(interruptible(progress, [&](const Progress& told) {
-          return filtered_noise(grid, spectrum, seed, told);
-        }));
+        const Communicator ranks = comm.ranks();
+        return new_surface(interruptible(
+            progress,
+            [&](const Progress& told) { return filtered_noise(grid, spectrum, seed, told, ranks); },
+            ranks));
       },
       nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"), nb::kw_only(),
-      nb::arg("progress") = false,
+      nb::arg("comm") = nb::none(), nb::arg("progress") = false,
       R"(A periodic Gaussian random surface with a given spectrum, by filtering white noise.
 
 .. math:: h(x) = \sum_q a(q) e^{iq\cdot x}, \qquad \langle|a(q)|^2\rangle = C(q)\,(2\pi)^2/(l_x l_y)
@@ -188,6 +191,9 @@ grid : Grid2D
 spectrum : Spectrum
 seed : int
     Any value >= 0.
+comm : mpi4py.MPI.Intracomm, optional
+    Processes that make the surface together: each makes this call and has the rows `surface.rows`, with the bits that one process gives
+    them. Needs a build with MPI.
 progress : bool or callable
     True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop.
 
@@ -196,19 +202,21 @@ Raises
 InvalidInput
     If the grid does not carry the spectrum.
 Interrupted
-    If `progress` said stop.
+    If `progress` said stop, in any of the processes.
 )");
   m.def(
       "random_phase",
       [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
-         const ProgressArgument& progress) {
+         const ProcessesArgument& comm, const ProgressArgument& progress) {
         cite({"salmon2011"});
-        return new_surface(interruptible(progress, [&](const Progress& told) {
-          return random_phase(grid, spectrum, seed, told);
-        }));
+        const Communicator ranks = comm.ranks();
+        return new_surface(interruptible(
+            progress,
+            [&](const Progress& told) { return random_phase(grid, spectrum, seed, told, ranks); },
+            ranks));
       },
       nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"), nb::kw_only(),
-      nb::arg("progress") = false,
+      nb::arg("comm") = nb::none(), nb::arg("progress") = false,
       R"(A periodic surface in which chance decides on phases only: ``|a(q)|² = C(q)·(2π)²/(lx ly)`` exactly.
 
 rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for each seed. Arguments and errors as
@@ -217,15 +225,19 @@ rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for eac
   m.def(
       "exact_rms",
       [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, const Choice<Rms>& which,
-         const ProgressArgument& progress) {
+         const ProcessesArgument& comm, const ProgressArgument& progress) {
         cite({"salmon2011"});
         const Rms chosen = which.value("which");
-        return new_surface(interruptible(progress, [&](const Progress& told) {
-          return exact_rms(grid, spectrum, seed, chosen, told);
-        }));
+        const Communicator ranks = comm.ranks();
+        return new_surface(interruptible(
+            progress,
+            [&](const Progress& told) {
+              return exact_rms(grid, spectrum, seed, chosen, told, ranks);
+            },
+            ranks));
       },
       nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"), nb::arg("which") = "height",
-      nb::kw_only(), nb::arg("progress") = false,
+      nb::kw_only(), nb::arg("comm") = nb::none(), nb::arg("progress") = false,
       "A random-phase surface scaled so that its own rms height (or slope) is that of the "
       "continuum, `spectrum.moments`.");
   m.def(

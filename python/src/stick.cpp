@@ -13,6 +13,7 @@
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/contact.hpp"
+#include "interop/processes.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -41,20 +42,24 @@ void bind_stiffness(nb::module_& m) {
       "stick_stiffness",
       [](const ContactArgument& contact, const Grid2D& grid, const Material& material,
          double tolerance, int max_iterations, const Choice<Boundary>& boundary, bool hold_lateral,
-         bool along_x_only, const ProgressArgument& progress) {
+         bool along_x_only, const ProcessesArgument& comm, const ProgressArgument& progress) {
         StickOptions options{.tolerance = tolerance,
                              .max_iterations = max_iterations,
                              .boundary = boundary.value("boundary"),
                              .hold_lateral = hold_lateral};
-        return interruptible(progress, [&](Progress told) {
-          options.on_progress = std::move(told);
-          return stick_stiffness(contact.set, grid, material, options, along_x_only);
-        });
+        const Communicator ranks = comm.ranks();
+        return interruptible(
+            progress,
+            [&](Progress told) {
+              options.on_progress = std::move(told);
+              return stick_stiffness(contact.set, grid, material, options, along_x_only, {}, ranks);
+            },
+            ranks);
       },
       nb::arg("contact"), nb::arg("grid"), nb::arg("material"), nb::kw_only(),
       nb::arg("tolerance") = 1e-6, nb::arg("max_iterations") = 1000,
       nb::arg("boundary") = "periodic", nb::arg("hold_lateral") = true,
-      nb::arg("along_x_only") = false, nb::arg("progress") = false,
+      nb::arg("along_x_only") = false, nb::arg("comm") = nb::none(), nb::arg("progress") = false,
       R"(Tangential stiffness K_t of a contact set in full stick, by linear solves with Cerruti's response.
 
 .. math:: \hat u_x = \sum_i\frac{1}{G_iq}\left[\left(1-\nu_i\frac{q_x^2}{q^2}\right)\hat\tau_x - \nu_i\frac{q_xq_y}{q^2}\hat\tau_y\right]
@@ -72,6 +77,8 @@ hold_lateral : bool
     The displacement across the motion is held at 0; False: the traction across it is 0.
 along_x_only : bool
     One direction alone costs half; yy and xy are NaN.
+comm : mpi4py.MPI.Intracomm, optional
+    The processes whose rows `contact` is, where it comes from a surface that is spread.
 
 Raises
 ------

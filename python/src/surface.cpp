@@ -62,7 +62,32 @@ True
                                           : nb::cast(view(bound.surface.heights, self));
           },
           nb::sig("def heights(self) -> numpy.typing.NDArray[numpy.float64]"),
-          "Heights (nx, ny), m: the memory of the surface, not a copy.")
+          "Heights (nx, ny), m: the memory of the surface, not a copy. Of a surface that is spread "
+          "over processes: its `rows` alone.")
+      .def_prop_ro(
+          "rows", [](const BoundSurface& self) { return range_of(self.surface.share()); },
+          nb::sig("def rows(self) -> range"),
+          "Rows ix that this process holds: all of them, unless the surface is spread over "
+          "processes.")
+      .def(
+          "gather",
+          [](nb::handle_t<BoundSurface> self, int root) {
+            const Surface& mine = nb::cast<const BoundSurface&>(nb::handle(self)).surface;
+            return gather(self, root, mine.ranks, [&] {
+              return std::make_unique<BoundSurface>(unlocked([&] {
+                return Surface{mine.grid, gathered(mine.share(), mine.heights, root), mine.periodic,
+                               mine.origin};
+              }));
+            });
+          },
+          nb::arg("root") = 0, nb::sig("def gather(self, root: int = 0) -> Surface | None"),
+          R"(The whole surface in one process, None in the others. All processes that hold rows of it make this call.
+
+Parameters
+----------
+root : int
+    The process, counted from 0. A surface that one process holds is returned as it is.
+)")
       .def(
           "__array__",
           [](nb::handle self, nb::handle dtype, nb::handle copy) {
@@ -99,7 +124,7 @@ True
       .def_prop_ro(
           "undefined_points",
           [](const BoundSurface& self) { return self.surface.undefined_points(); },
-          "Number of NaN heights.")
+          "Number of NaN heights, among the rows of this process.")
       .def("detrended", &detrended_surface, nb::arg("method") = "plane",
            R"(The surface less its trend.
 
@@ -137,6 +162,8 @@ What is filled has no summits and takes power from short waves, so count `undefi
       .def_prop_ro(
           "height_statistics",
           [](const BoundSurface& self) {
+            // A table of one process in a notebook must not wait for the others.
+            require_whole(self, "its property height_statistics");
             return unlocked([&] { return height_statistics(self.surface); });
           },
           "Moments of the heights, see :func:`height_statistics`.")
@@ -165,6 +192,7 @@ Examples
       .def(
           "to_topography",
           [](nb::handle_t<BoundSurface> self) {
+            require_whole(nb::cast<const BoundSurface&>(nb::handle(self)), "a Topography");
             return nb::module_::import_("salebra._topography").attr("to_topography")(self);
           },
           nb::sig("def to_topography(self) -> typing.Any"),
@@ -202,7 +230,8 @@ void bind_height_statistics(nb::module_& m) {
         return unlocked([&] { return height_statistics(surface.surface); });
       },
       nb::arg("surface"),
-      "Moments of the heights; undefined points take no part. Cost: two passes.");
+      "Moments of the heights; undefined points take no part. Of a surface that is spread over "
+      "processes all of them make this call. Cost: two passes.");
   m.def(
       "spectral_moments",
       [](const BoundSurface& surface) {

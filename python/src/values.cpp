@@ -64,6 +64,7 @@ void value_class(Value value, Make make) {
   bound.def(
       "__getstate__",
       [value](const Bound& self) {
+        require_whole_if_spread(self, "a pickle");
         return nb::make_tuple(std::string(version()), pickled(bytes_of(value(self))));
       },
       nb::sig("def __getstate__(self) -> tuple[str, bytes]"));

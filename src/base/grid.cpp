@@ -24,7 +24,7 @@ void Surface::require_whole(const std::string& purpose) const {
   if (ranks.alone()) return;
   throw InvalidInput("surface", "",
                      "is spread over " + std::to_string(ranks.ranks()) + " processes, and " +
-                         purpose + " needs it whole; use one process");
+                         purpose + " needs it whole; gather it or use one process");
 }
 
 void Surface::require_complete(const std::string& purpose) const {

@@ -2,6 +2,7 @@
 // Rows of a field over processes: who holds which, their way to other processes, and sums over all of them.
 #include <algorithm>
 #include <cstring>
+#include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
 
 namespace salebra {
@@ -115,6 +116,26 @@ std::vector<const void*> RowExchange::fetch(const void* rows, std::size_t row_st
   for (std::size_t k = 0; k < received_.size(); ++k)
     places[static_cast<std::size_t>(received_[k])] = room.data() + k * row_bytes;
   return places;
+}
+
+Field gathered(const Share& rows, const Field& mine, int root) {
+  const Communicator& ranks = rows.ranks();
+  require(root >= 0 && root < ranks.ranks(), "root", root,
+          "must be one of the processes, counted from 0");
+  const bool here = ranks.rank() == root;
+  Field whole;
+  collectively(ranks, [&] {
+    require(mine.rows() == rows.count(), "rows", mine.rows(), "do not match the grid");
+    whole.resize(here ? rows.rows() : 0, mine.cols());
+  });
+  std::vector<std::int64_t> sent(static_cast<std::size_t>(ranks.ranks()), 0), received = sent;
+  sent[static_cast<std::size_t>(root)] = rows.count();
+  if (here)
+    for (int rank = 0; rank < ranks.ranks(); ++rank)
+      received[static_cast<std::size_t>(rank)] = rows.end_of(rank) - rows.begin_of(rank);
+  const std::size_t row_bytes = static_cast<std::size_t>(mine.cols()) * sizeof(double);
+  ranks.exchange({row_bytes, std::move(sent), std::move(received)}, mine.data(), whole.data());
+  return whole;
 }
 
 namespace parallel {

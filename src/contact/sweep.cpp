@@ -102,23 +102,29 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
     // The highest loads take longest and go first.
 #pragma omp parallel for schedule(dynamic, 1) num_threads(concurrent) if (concurrent > 1)
   for (int back = 0; back < loads; ++back) {
+    // One process may have been told to stop where the others were not.
+    if (!surface.ranks.all_agree(!stop)) stop = true;
     if (stop) continue;
     const auto k = static_cast<std::size_t>(loads - 1 - back);
     try {
       const auto state =
           press_to_pressure(surface, material.contact_modulus, pressures[k], inner.contact);
-      if (!state.interrupted) {
-        const ForceSample sample = sample_of(state, surface, material, inner);
-        // A stiffness solve that was stopped half-way is not a load that failed.
-        if (stop && !sample.converged) continue;
-        samples[k] = sample;
-        if (options.on_state && state.converged) options.on_state(k, state);
-        const int done = ++finished;
-        if (omp_get_thread_num() == 0 && options.contact.on_progress &&
-            !options.contact.on_progress({"sweep", double(done) / loads, done, state.residual}))
-          stop = true;
-        if (!surface.ranks.all_agree(!stop)) stop = true;
+      if (state.interrupted) {
+        stop = true;
+        continue;
       }
+      const ForceSample sample = sample_of(state, surface, material, inner);
+      // A stiffness solve that was stopped half-way is not a load that failed.
+      if (!surface.ranks.all_agree(!stop || sample.converged)) {
+        stop = true;
+        continue;
+      }
+      samples[k] = sample;
+      if (options.on_state && state.converged) options.on_state(k, state);
+      const int done = ++finished;
+      if (omp_get_thread_num() == 0 && options.contact.on_progress &&
+          !options.contact.on_progress({"sweep", double(done) / loads, done, state.residual}))
+        stop = true;
     } catch (...) {
       stop = true;
 #pragma omp critical(salebra_sweep_failure)

@@ -170,6 +170,26 @@ TEST_CASE("A failure of one process is thrown on all", "[share]") {
   });
 }
 
+TEST_CASE("A field is gathered in the process that wants it", "[share]") {
+  const int ranks = GENERATE(1, 2, 3, 5), root = GENERATE(0, 1);
+  if (root >= ranks) return;
+  const Field field = Field::Random(40, 7);  // fewer blocks of 16 rows than processes
+  run_ranks(ranks, [&](const Communicator& all) {
+    const Share rows(all, field.rows());
+    const Field whole = gathered(rows, Field(field.middleRows(rows.begin(), rows.count())), root);
+    if (whole.rows() != (all.rank() == root ? 40 : 0)) throw Error("other rows");
+    if (all.rank() == root && !(whole == field).all()) throw Error("other values");
+    try {
+      gathered(rows, Field(rows.count() + (all.rank() == ranks - 1), 7), root);
+      throw Error("no failure");
+    } catch (const InvalidInput& error) {
+      if (error.field() != "rows") throw Error("another failure");
+    }
+  });
+  const Share alone(40);
+  REQUIRE_THROWS_WITH(gathered(alone, field, 1), Catch::Contains("root"));
+}
+
 TEST_CASE("Ranks that part are told so instead of waiting", "[share]") {
   REQUIRE_THROWS_WITH(run_ranks(2,
                                 [](const Communicator& all) {

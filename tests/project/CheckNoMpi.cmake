@@ -1,19 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake -D PROGRAM= [-D MPI_PROGRAM=] -P CheckNoMpi.cmake: the program needs no MPI library at run time, and MPI_PROGRAM, where it is
-# built, does: so the check would see one.
+# cmake -D PROGRAM= [-D EXTENSION=] [-D MPI_PROGRAM=] -P CheckNoMpi.cmake: the program, and Python's extension where it is built, need no
+# MPI library at run time, and MPI_PROGRAM, where it is built, does: so the check would see one.
 cmake_minimum_required(VERSION 3.25)
-function(mpi_libraries_of program out)
-  file(GET_RUNTIME_DEPENDENCIES EXECUTABLES ${program} RESOLVED_DEPENDENCIES_VAR found UNRESOLVED_DEPENDENCIES_VAR missing)
+function(mpi_libraries_of kind program out)
+  file(GET_RUNTIME_DEPENDENCIES ${kind} ${program} RESOLVED_DEPENDENCIES_VAR found UNRESOLVED_DEPENDENCIES_VAR missing)
   list(APPEND found ${missing})
   list(FILTER found INCLUDE REGEX "libmpi|libopen-|libpm[pi]x?[.]|libmpich")
   set(${out} "${found}" PARENT_SCOPE)
 endfunction()
-mpi_libraries_of(${PROGRAM} found)
+mpi_libraries_of(EXECUTABLES ${PROGRAM} found)
 if(found)
   message(SEND_ERROR "${PROGRAM} needs ${found}")
 endif()
+if(EXTENSION)
+  mpi_libraries_of(MODULES ${EXTENSION} found)
+  if(found)
+    message(SEND_ERROR "${EXTENSION} needs ${found}")
+  endif()
+endif()
 if(MPI_PROGRAM)
-  mpi_libraries_of(${MPI_PROGRAM} found)
+  mpi_libraries_of(EXECUTABLES ${MPI_PROGRAM} found)
   if(NOT found)
     message(SEND_ERROR "${MPI_PROGRAM} needs no MPI library: nothing was checked")
   endif()

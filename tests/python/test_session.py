@@ -12,13 +12,14 @@ import sys
 import textwrap
 import threading
 import time
+import types
 
 import numpy as np
 import pytest
 
 import salebra
 from conftest import generated
-from salebra import _core
+from salebra import _core, _processes
 
 
 def test_errors_are_those_that_python_users_catch() -> None:
@@ -207,6 +208,26 @@ def test_tqdm_shows_the_progress(capsys: pytest.CaptureFixture[str]) -> None:
     state = salebra.press_to_pressure(generated(512), 1e9, 1e6, progress=True)
     assert state.converged
     assert "%" in capsys.readouterr().err
+
+
+def test_a_build_without_mpi_says_what_spreads_a_surface(monkeypatch: pytest.MonkeyPatch) -> None:
+    comm = types.SimpleNamespace(py2f=int, Is_inter=bool, Get_attr=lambda key: None, allgather=lambda text: [text])
+    mpi = types.SimpleNamespace(
+        Is_initialized=lambda: True, Is_finalized=lambda: False, COMM_NULL=None, Comm=types.SimpleNamespace(Create_keyval=int)
+    )
+    monkeypatch.setitem(sys.modules, "mpi4py.MPI", mpi)
+    monkeypatch.setitem(sys.modules, "salebra._mpi", None)
+    monkeypatch.setattr(_processes, "_key", None)
+    grid, spectrum = salebra.Grid2D(64, 64, 1e-3, 1e-3), salebra.SelfAffineSpectrum(rolloff=2e-4, short_cutoff=1e-4, rms_height=1e-6)
+    with pytest.raises(salebra.InvalidInput, match="^comm: .* built without MPI; build it with -D SALEBRA_BUILD_MPI=ON") as refusal:
+        salebra.filtered_noise(grid, spectrum, 1, comm=comm)  # type: ignore[arg-type, unused-ignore]
+    assert refusal.value.field == "comm"
+    with pytest.raises(TypeError, match="comm: wanted a communicator of mpi4py, got 4"):
+        salebra.filtered_noise(grid, spectrum, 1, comm=4)  # type: ignore[arg-type, unused-ignore]
+    whole = salebra.filtered_noise(grid, spectrum, 1, comm=None)
+    assert whole.rows == range(64) and whole.gather() is whole
+    state = salebra.press_to_pressure(whole, 1e9, 1e6)
+    assert state.rows == range(64) and state.gather() is state
 
 
 def test_citations_name_what_was_used_with_doi() -> None:

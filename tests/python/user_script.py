@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +14,8 @@ import numpy.typing as npt
 import salebra
 from salebra import closed_form
 
+if TYPE_CHECKING:
+    from mpi4py import MPI
 
 STUDY = """
 [surface]
@@ -45,6 +48,15 @@ def decay_lengths(surface: salebra.Surface, material: salebra.Material, pressure
     return [salebra.fit_exponential(curve, (float(pressures[0]), float(pressures[-1]))).decay_length for curve in curves]
 
 
+def mean_gap(grid: salebra.Grid2D, spectrum: salebra.Spectrum, comm: MPI.Intracomm | None) -> float:
+    """Of a surface over the processes of a communicator, or of this one alone."""
+    surface = salebra.random_phase(grid, spectrum, 1, comm=comm)
+    rows: range = surface.rows
+    whole: salebra.Surface | None = surface.gather(root=0)
+    print(len(rows), whole is not None and whole.nx)
+    return salebra.press_to_pressure(surface, 1e9, 1e6).mean_gap
+
+
 def told(report: salebra.ProgressReport) -> bool:
     return report.fraction <= 1.0
 
@@ -57,6 +69,7 @@ def main() -> None:
     again = salebra.Surface(heights, grid.lx, grid.ly, periodic=True, origin="user")
     material = salebra.Material.of_bodies(salebra.ElasticBody(210e9, 0.3))
     pressures = np.geomspace(1e-3, 1e-1, 8) * material.contact_modulus * again.moments.rms_slope
+    print(mean_gap(grid, spectrum, None))
     lengths = decay_lengths(again, material, pressures)
 
     state = salebra.press_to_pressure(again, material.contact_modulus, float(pressures[3]), progress=told)

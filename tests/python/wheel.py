@@ -12,6 +12,8 @@ import numpy as np
 import salebra
 
 package = Path(salebra.__file__).resolve().parent
+if list(package.glob("_mpi*")):
+    sys.exit("the wheel has the module for MPI, which needs a library of the system")
 if "site-packages" not in package.parts:
     sys.exit(f"{package} is no installed package")
 

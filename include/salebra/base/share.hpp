@@ -75,6 +75,10 @@ class RowExchange {
   std::vector<Move> own_;
 };
 
+/// The whole field in the process `root`, and no rows in the others. mine: the rows of this process. Collective; what fails in one process
+/// is thrown on all. Memory of the root: the whole field in addition.
+Field gathered(const Share& rows, const Field& mine, int root = 0);
+
 namespace parallel {
 
 /// Values of the blocks of this process, as map_blocks gives them, to those of all processes, in the order of the rows. Collective.

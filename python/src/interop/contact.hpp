@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/normal/normal.hpp>
+#include <string>
 
 #include "interop/arrays.hpp"
 #include "interop/choice.hpp"
@@ -17,6 +19,14 @@ struct BoundContact : NormalContactState {
   double contact_modulus = 0;
   Boundary boundary = Boundary::periodic;
 };
+
+/// Throws InvalidInput where several processes hold the state, as Surface::require_whole.
+inline void require_whole(const BoundContact& state, const std::string& purpose) {
+  if (!state.ranks.alone())
+    throw InvalidInput("state", "",
+                       "is spread over " + std::to_string(state.ranks.ranks()) +
+                           " processes, and " + purpose + " needs it whole; gather it first");
+}
 
 /// What Python gave for the material of a normal contact: a Material, or its E* alone.
 struct MaterialArgument {

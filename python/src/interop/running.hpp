@@ -7,6 +7,8 @@
 #include <exception>
 #include <functional>
 #include <optional>
+#include <salebra/base/communicator.hpp>
+#include <salebra/base/error.hpp>
 #include <salebra/base/progress.hpp>
 #include <string>
 #include <utility>
@@ -32,7 +34,8 @@ struct ProgressArgument {
 /// Makes a Progress of the argument. A Python error in it, Ctrl-C included, stops the work and is raised by rethrow().
 class ProgressBridge {
  public:
-  explicit ProgressBridge(const ProgressArgument& argument);
+  /// Of several processes the first one shows a bar.
+  explicit ProgressBridge(const ProgressArgument& argument, const Communicator& ranks = {});
   ProgressBridge(const ProgressBridge&) = delete;
   ProgressBridge& operator=(const ProgressBridge&) = delete;
   ~ProgressBridge();
@@ -40,6 +43,7 @@ class ProgressBridge {
   /// To be called without the interpreter's lock.
   Progress progress();
   void rethrow();
+  bool failed() const { return error_.has_value(); }
   /// Nothing is left to tell: the bar is closed, at its end where the work was done.
   void finish(bool done);
 
@@ -52,16 +56,19 @@ class ProgressBridge {
   std::chrono::steady_clock::time_point last_{};
 };
 
-/// work(Progress) without the interpreter's lock.
+/// work(Progress) without the interpreter's lock. Collective over `ranks`: where a Python error stopped the work in one process, the others
+/// throw Interrupted.
 template <class Work>
-auto interruptible(const ProgressArgument& argument, Work&& work) {
-  ProgressBridge bridge(argument);
+auto interruptible(const ProgressArgument& argument, Work&& work, const Communicator& ranks = {}) {
+  ProgressBridge bridge(argument, ranks);
   std::exception_ptr failure;
   std::optional<decltype(work(Progress{}))> result;
   {
     nb::gil_scoped_release unlocked;
     try {
       result.emplace(std::forward<Work>(work)(bridge.progress()));
+      if (!ranks.all_agree(!bridge.failed()))
+        throw Interrupted("another process has stopped the work");
     } catch (...) {
       failure = std::current_exception();
     }

@@ -23,6 +23,10 @@ BoundSurface::~BoundSurface() {
   if (array.is_valid()) release_memory(surface.heights);
 }
 
+nb::object range_of(const Share& rows) {
+  return nb::borrow(reinterpret_cast<PyObject*>(&PyRange_Type))(rows.begin(), rows.end());
+}
+
 BoundSurface* new_surface(Surface surface) { return new BoundSurface(std::move(surface)); }
 
 std::string describe(std::string_view type,

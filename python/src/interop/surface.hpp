@@ -4,7 +4,10 @@
 #include <nanobind/nanobind.h>
 
 #include <initializer_list>
+#include <memory>
+#include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>
+#include <salebra/base/share.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,6 +28,32 @@ struct BoundSurface {
   BoundSurface& operator=(const BoundSurface&) = delete;
   ~BoundSurface();
 };
+
+/// Throws InvalidInput where several processes hold it.
+inline void require_whole(const BoundSurface& surface, const std::string& purpose) {
+  surface.surface.require_whole(purpose);
+}
+
+/// Of what can be spread over processes.
+template <class Bound>
+void require_whole_if_spread(const Bound& bound, const char* purpose) {
+  if constexpr (requires { require_whole(bound, purpose); }) require_whole(bound, purpose);
+}
+
+/// range(begin, end) of the rows that this process holds.
+nb::object range_of(const Share& rows);
+
+/// gather(root) of what has rows: itself where one process holds it, else what `whole` makes in that process, and None in the others.
+template <class Bound, class Whole>
+nb::object gather(nb::handle_t<Bound> self, int root, const Communicator& ranks, Whole&& whole) {
+  if (ranks.alone()) {
+    require(root == 0, "root", root, "must be one of the processes, counted from 0");
+    return nb::borrow(self);
+  }
+  std::unique_ptr<Bound> gathered = std::forward<Whole>(whole)();
+  if (ranks.rank() != root) return nb::none();
+  return nb::cast(gathered.release(), nb::rv_policy::take_ownership);
+}
 
 /// A new Python object of a surface made by the library; its heights are not copied.
 BoundSurface* new_surface(Surface surface);
@@ -49,6 +78,7 @@ void plot_method(nb::class_<Bound>& bound) {
   bound.def(
       "plot",
       [](nb::handle_t<Bound> self, nb::args arguments, nb::kwargs keywords) {
+        require_whole_if_spread(nb::cast<const Bound&>(nb::handle(self)), "a picture");
         return call_python("salebra._plots", "plot", self, arguments, keywords);
       },
       nb::sig("def plot(self, ax: matplotlib.axes.Axes | None = None, **kwargs: typing.Any) -> "
@@ -62,6 +92,7 @@ void result_methods(nb::class_<Bound>& bound, bool plots) {
   bound.def(
       "to_xarray",
       [](nb::handle_t<Bound> self) {
+        require_whole_if_spread(nb::cast<const Bound&>(nb::handle(self)), "a dataset");
         return nb::module_::import_("salebra._results").attr("to_xarray")(self);
       },
       nb::sig("def to_xarray(self) -> xarray.Dataset"),

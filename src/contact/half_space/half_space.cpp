@@ -9,6 +9,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/fft.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
@@ -53,12 +54,15 @@ std::function<double(Index, Index)> padded_symbol(
   });
   RealFft2D<double> fft(period_x, period_y);
   const Index modes_y = fft.modes_y();
-  std::vector<std::complex<double>> modes(static_cast<std::size_t>(period_x * modes_y));
-  fft.forward(values.data(), modes.data());
+  const auto modes =
+      large_array<std::complex<double>>(static_cast<std::size_t>(period_x * modes_y));
+  fft.forward(values.data(), modes.get());
   auto symbol = std::make_shared<Field>(half_x + 1, modes_y);
-  for (Index i = 0; i <= half_x; ++i)
-    for (Index j = 0; j < modes_y; ++j)
-      (*symbol)(i, j) = modes[static_cast<std::size_t>(i * modes_y + j)].real();
+  parallel::for_slabs(half_x + 1, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i)
+      for (Index j = 0; j < modes_y; ++j)
+        (*symbol)(i, j) = modes[static_cast<std::size_t>(i * modes_y + j)].real();
+  });
   return [symbol](Index i, Index j) { return (*symbol)(i, j); };
 }
 

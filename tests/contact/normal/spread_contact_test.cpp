@@ -286,6 +286,35 @@ TEST_CASE("A stop and a bad surface in one process end all of them", "[spread]")
   });
 }
 
+TEST_CASE("A sweep that one process stops ends in all of them with the same loads", "[spread]") {
+  const Surface surface = test::rough_surface({64, 64, 64, 64});
+  const Material material = Material::of_contact_modulus(1, 0.3);
+  SweepOptions options;
+  options.stick = true;
+  options.concurrent_loads = 1;
+  int calls = 0;
+  options.contact.on_progress = [&](const ProgressReport&) { return ++calls > 0; };
+  const std::vector<double> pressures{1e-3, 2e-3, 4e-3};
+  REQUIRE(sweep_pressures(surface, material, pressures, options).samples.size() == 3);
+  // Within a contact, within each of the two stiffness solves, and between two loads; the last call follows the last load.
+  for (int stop = 1; stop < calls; stop += 3) {
+    CAPTURE(stop, calls);
+    std::vector<std::size_t> loads(3);
+    run_ranks(3, [&](const Communicator& all) {
+      SweepOptions mine = options;
+      int call = 0;
+      mine.contact.on_progress = [&](const ProgressReport&) {
+        return all.rank() != 1 || ++call != stop;
+      };
+      loads[static_cast<std::size_t>(all.rank())] =
+          sweep_pressures(spread(surface, all), material, pressures, mine).samples.size();
+    });
+    CHECK(loads[0] < 3);
+    CHECK(loads[0] == loads[1]);
+    CHECK(loads[0] == loads[2]);
+  }
+}
+
 TEST_CASE("Two hundred faults, each in one process, end all of them alike", "[spread]") {
   const Surface surface = test::rough_surface({64, 64, 64, 64});
   test::Lcg chance(7);

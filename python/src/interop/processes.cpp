@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The argument `comm`: the processes of a communicator of mpi4py.
+#include "interop/processes.hpp"
+
+namespace salebra::python {
+
+Communicator ProcessesArgument::ranks() const {
+  if (comm.is_none()) return {};
+  const nb::object held = nb::module_::import_("salebra._processes").attr("communicator")(comm);
+  return *static_cast<const Communicator*>(
+      PyCapsule_GetPointer(held.ptr(), "salebra.Communicator"));
+}
+
+}  // namespace salebra::python
