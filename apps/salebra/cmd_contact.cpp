@@ -14,6 +14,7 @@
 #include <salebra/io/write_surface.hpp>
 #include <salebra/results/quantity_group.hpp>
 
+#include "contact_checkpoint.hpp"
 #include "curve_figure.hpp"
 #include "first_loading.hpp"
 #include "grid_axes.hpp"
@@ -30,7 +31,8 @@ struct ContactArguments {
   PositionOptions position;
   std::string boundary = "periodic", precision = "mixed";
   std::optional<double> tolerance, hardness;
-  std::string initial, residual;
+  std::string initial, residual, fields, field_type;
+  ContactCheckpoint checkpoint;
   bool stiffness = false;
   int max_iterations = NormalContactOptions().max_iterations;
 };
@@ -68,14 +70,18 @@ bool reaches_edge(const Surface& surface, const Field& pressure) {
   return !surface.ranks.all_agree(!reached);
 }
 
-void write_contact(const Session& session, const Grid2D& grid, const NormalContactState& state) {
+void write_contact(const ContactArguments& arguments, const Session& session, const Grid2D& grid,
+                   const NormalContactState& state) {
+  const FieldType type = arguments.field_type == "float" ? FieldType::float32 : FieldType::float64;
+  const bool has_pressure = arguments.fields != "none";
+  const bool has_gap = has_pressure && arguments.fields != "pressure";
   std::optional<ResultFile> file;
   collectively(session.ranks(), [&] {
     file.emplace(session.output(), session.provenance(), session.write_options(), session.ranks());
     QuantityGroup group(file->group("contact"));
-    write_axes(group, grid);
-    group.dataset("contact_pressure", state.pressure);
-    group.dataset("gap", state.gap);
+    if (has_pressure) write_axes(group, grid);
+    if (has_pressure) group.dataset("contact_pressure", state.pressure, "x", "y", type);
+    if (has_gap) group.dataset("gap", state.gap, "x", "y", type);
     group.attribute("pressure", state.mean_pressure);
     group.attribute("force", state.force);
     group.attribute("mean_gap", state.mean_gap);
@@ -90,6 +96,17 @@ void write_contact(const Session& session, const Grid2D& grid, const NormalConta
 /// The largest pressure of all processes.
 double max_pressure(const Communicator& ranks, const NormalContactState& state) {
   return -ranks.least_of(state.pressure.size() > 0 ? -state.pressure.maxCoeff() : 0.0);
+}
+
+/// Of the rows of this process.
+Field read_initial(const std::string& file, const Share& share) {
+  const ResultReader reader(file);
+  const std::string pressure = "contact/contact_pressure";
+  if (reader.has("contact") && !reader.has(pressure))
+    throw InvalidInput(
+        "--initial", file,
+        "has no contact pressure; name a file that was written without --fields none");
+  return reader.field(pressure, share);
 }
 
 /// Bad names are refused before the work.
@@ -122,6 +139,10 @@ void run(const ContactArguments& arguments, Session& session) {
     require_positive(*arguments.position.indentation, "--indentation");
   if (arguments.hardness) require_positive(*arguments.hardness, "--hardness");
   check_residual(arguments, session);
+  for (const auto& [given, option] : {std::pair(!arguments.fields.empty(), "--fields"),
+                                      {!arguments.field_type.empty(), "--field-type"}})
+    require_that(!given || session.has_output(), option, "given without --output; name the file");
+  arguments.checkpoint.check(session, arguments.initial);
   const double contact_modulus = arguments.material.material().contact_modulus;
   if (arguments.material.contact_modulus && !arguments.material.poisson.empty())
     session.warn(
@@ -133,23 +154,30 @@ void run(const ContactArguments& arguments, Session& session) {
          doubts_of_pressures(std::array{*arguments.position.pressure}, contact_modulus))
       session.warn(line);
   Field initial;
-  if (!arguments.initial.empty()) {
-    collectively(session.ranks(), [&] {
-      initial = ResultReader(arguments.initial).field("contact/contact_pressure", surface.share());
-    });
+  if (arguments.checkpoint.starts_anew(session, arguments.initial)) {
+    session.note(arguments.initial + " is not there yet: the contact starts anew");
+  } else if (!arguments.initial.empty()) {
+    collectively(session.ranks(),
+                 [&] { initial = read_initial(arguments.initial, surface.share()); });
     options.initial_pressure = &initial;
   }
+  arguments.checkpoint.add_to(options, session, surface.grid);
   const auto start = std::chrono::steady_clock::now();
   const NormalContactState state = solve(arguments.position, surface, contact_modulus, options);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  if (state.interrupted) throw Interrupted("contact: interrupted; nothing was written");
+  const bool kept =
+      !state.converged && arguments.checkpoint.write(session, surface.grid, state.pressure);
+  if (state.interrupted)
+    throw Interrupted(kept ? fmt::format("contact: interrupted; continue with --initial {}",
+                                         arguments.checkpoint.file)
+                           : "contact: interrupted; nothing was written");
   if (options.boundary == Boundary::free && reaches_edge(surface, state.pressure))
     session.warn(
         "the contact reaches the edge of the surface, beyond which there is nothing; press less, "
         "or take a larger piece of the surface");
 
   if (state.converged && session.has_output()) {
-    write_contact(session, surface.grid, state);
+    write_contact(arguments, session, surface.grid, state);
   }
   if (state.converged && session.has_plot()) session.plot(pressure_figure(surface.grid, state));
   std::optional<FirstLoading> first_loading;
@@ -179,7 +207,10 @@ void run(const ContactArguments& arguments, Session& session) {
     answer["normal_stiffness"] = stiffness;
     answer["normal_stiffness_per_area"] = stiffness / surface.grid.area();
   }
-  if (session.stopped()) throw Interrupted("contact: interrupted; the stiffness was not computed");
+  if (session.stopped()) {
+    arguments.checkpoint.write(session, surface.grid, state.pressure);
+    throw Interrupted("contact: interrupted; the stiffness was not computed");
+  }
   session.answer(answer);
   if (!state.converged) {
     throw NotConverged(
@@ -187,6 +218,7 @@ void run(const ContactArguments& arguments, Session& session) {
                     "allow a larger --tolerance",
                     state.residual, state.iterations));
   }
+  arguments.checkpoint.remove(session);
 }
 
 }  // namespace
@@ -220,6 +252,11 @@ void add_contact_command(Program& program) {
   command.add_option("--initial", arguments->initial,
                      "result of this command to start from, of the same grid; saves iterations and "
                      "changes no result");
+  arguments->checkpoint.add_to(command);
+  add_choice(command, "--fields", arguments->fields, {"none", "pressure", "all"},
+             "of the output: none leaves its numbers; default all");
+  add_choice(command, "--field-type", arguments->field_type, {"double", "float"},
+             "of the fields of the output; default double");
   add_choice<Precision>(command, "--precision", arguments->precision,
                         "of the iterations; residuals are in double always; default mixed");
   command.add_option("--max-iterations", arguments->max_iterations, "on the finest grid")

@@ -166,6 +166,23 @@ Dataset attached(const Scales& scales, Dataset dataset, const std::string& name)
   return dataset;
 }
 
+template <class T>
+std::string_view bytes_of(const T* values, Index count) {
+  return {reinterpret_cast<const char*>(values), static_cast<std::size_t>(count) * sizeof(T)};
+}
+
+/// As float, without a copy of all.
+void write_rounded(FilePieces& pieces, std::uint64_t place, const Field& values) {
+  constexpr Index most = 1 << 18;
+  std::vector<float> rounded;
+  for (Index first = 0; first < values.size(); first += most) {
+    const Index count = std::min(most, values.size() - first);
+    rounded.assign(values.data() + first, values.data() + first + count);
+    pieces.write(place + static_cast<std::uint64_t>(first) * sizeof(float),
+                 bytes_of(rounded.data(), count));
+  }
+}
+
 void require_free(hid_t group, const std::string& name) {
   require(!name.empty() && name.find('/') == std::string::npos, "dataset", "'" + name + "'",
           "is no name");
@@ -293,14 +310,21 @@ Dataset Output::dataset(hid_t group, const std::string& name, const T* values, s
 }
 
 Dataset Output::field(hid_t group, const std::string& name, const Field& values,
-                      const std::vector<std::string>& dimensions, const Label& label) {
-  if (ranks_.alone())
-    return dataset(group, name, values.data(), static_cast<std::size_t>(values.size()), dimensions,
-                   label);
-  fields_.push_back(&values);
+                      const std::vector<std::string>& dimensions, const Label& label,
+                      FieldType type) {
+  const bool single = type == FieldType::float32;
+  if (ranks_.alone()) {
+    const auto count = static_cast<std::size_t>(values.size());
+    if (!single) return dataset(group, name, values.data(), count, dimensions, label);
+    const std::vector<float> rounded(values.data(), values.data() + count);
+    return dataset(group, name, rounded.data(), count, dimensions, label);
+  }
+  fields_.push_back({&values, type});
   if (!ranks_.is_root()) return {};
   const Scales scales = scales_of(group, name, dimensions);
-  Dataset result = create(group, name, values.data(), scales.shape, label, true);
+  const auto first = static_cast<float>(*values.data());
+  Dataset result = single ? create(group, name, &first, scales.shape, label, true)
+                          : create(group, name, values.data(), scales.shape, label, true);
   // A file of several processes has no block before its superblock, which this would count from.
   const haddr_t place = H5Dget_offset(result);
   check(place == HADDR_UNDEF ? -1 : 0, "place " + name);
@@ -390,14 +414,14 @@ void Output::commit_spread() {
     for (std::size_t k = 0; k < spread_.size(); ++k) {
       const auto& [place, rows, columns] = spread_[k];
       const Share share(ranks_, rows);
-      const Field& mine = *fields_[k];
+      const Field& mine = *fields_[k].values;
       require(mine.rows() == share.count() && mine.cols() == columns, "field", mine.rows(),
               "rows are not those of this process");
-      const auto row = static_cast<std::uint64_t>(columns) * sizeof(double);
-      if (mine.size() > 0)
-        pieces.write(place + static_cast<std::uint64_t>(share.begin()) * row,
-                     {reinterpret_cast<const char*>(mine.data()),
-                      static_cast<std::size_t>(mine.size()) * sizeof(double)});
+      const auto begin = static_cast<std::uint64_t>(share.begin() * columns);
+      if (mine.size() > 0 && fields_[k].type == FieldType::float32)
+        write_rounded(pieces, place + begin * sizeof(float), mine);
+      else if (mine.size() > 0)
+        pieces.write(place + begin * sizeof(double), bytes_of(mine.data(), mine.size()));
     }
     pieces.finish();
   });

@@ -50,7 +50,8 @@ class Output {
                   const std::vector<std::string>& dimensions, const Label& label);
   /// A field on two scales. Over several processes it holds the rows of Share(ranks, rows of the first scale), and must stay until commit().
   Dataset field(hid_t group, const std::string& name, const Field& values,
-                const std::vector<std::string>& dimensions, const Label& label);
+                const std::vector<std::string>& dimensions, const Label& label,
+                FieldType type = FieldType::float64);
   /// A one-dimensional dataset that is a dimension scale.
   template <class T>
   void scale(hid_t group, const std::string& name, const T* values, std::size_t count,
@@ -89,10 +90,14 @@ class Output {
   Communicator ranks_;
   std::optional<AtomicFile> atomic_;  ///< of the root
   std::vector<Given> given_;
-  std::vector<Spread> spread_;        ///< of the root, until commit()
-  std::vector<const Field*> fields_;  ///< the rows of this process, for each of them
-  SparseImage image_;                 ///< of the root of several processes
-  int closed_before_ = 0;             ///< failed_closes() at the start
+  std::vector<Spread> spread_;  ///< of the root, until commit()
+  struct Rows {
+    const Field* values;
+    FieldType type;
+  };
+  std::vector<Rows> fields_;  ///< the rows of this process, for each of them
+  SparseImage image_;         ///< of the root of several processes
+  int closed_before_ = 0;     ///< failed_closes() at the start
   File file_;
   Group root_;
 };

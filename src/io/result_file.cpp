@@ -77,8 +77,8 @@ void ResultGroup::dataset(const std::string& name, std::span<const std::int16_t>
 
 void ResultGroup::dataset(const std::string& name, const Field& values, const std::string& x,
                           const std::string& y, const std::string& units,
-                          const std::string& long_name) {
-  place_->open().field(place_->group, name, values, {x, y}, {units, long_name});
+                          const std::string& long_name, FieldType type) {
+  place_->open().field(place_->group, name, values, {x, y}, {units, long_name}, type);
 }
 
 void ResultGroup::flags(const std::string& name, const std::vector<bool>& values,

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/force_curve_file.hpp>
@@ -121,6 +122,118 @@ TEST_CASE("A contact starts from an earlier one, in the precision asked for", "[
   const auto full = test.run(press + "--precision full --tolerance 1e-12").json();
   CHECK(full["residual"] < 1e-12);
   CHECK(full["fft_count"] != cold["fft_count"]);
+}
+
+TEST_CASE("A checkpoint keeps the pressure of a contact until it has converged", "[contact]") {
+  const ProgramTest test;
+  make_rough(test);
+  const std::string press = "contact rough.h5 --contact-modulus 10GPa --json --pressure 20MPa ";
+  const std::string kept = press + "--checkpoint c.h5 --checkpoint-every 0 ";
+  const auto numbers = [](const ProgramTest::Result& result) {
+    auto answer = result.json();
+    answer.erase("seconds");
+    return answer;
+  };
+  const auto plain = numbers(test.run(press));
+  CHECK(numbers(test.run(kept)) == plain);
+  CHECK(test.files() == std::set<std::string>{"rough.h5"});
+
+  // Every hour: of a contact of milliseconds its end alone.
+  const auto ended =
+      test.run(press + "--checkpoint c.h5 --checkpoint-every 1h --max-iterations 9 -o r.h5");
+  CHECK(ended.status == 1);
+  CHECK(test.files() == std::set<std::string>{"c.h5", "rough.h5"});
+  const ResultReader reader(test.folder() / "c.h5");
+  CHECK(reader.datasets("contact") == std::vector<std::string>{"contact_pressure", "x", "y"});
+  const Field pressure = reader.field("contact/contact_pressure");
+  CHECK((pressure >= 0).all());
+  CHECK(pressure.mean() == Approx(2e7).epsilon(1e-6));  // in float
+
+  check_refused(test.run(kept), "c.h5: exists; continue from it with --initial c.h5");
+  check_refused(test.run(press + "--checkpoint a.h5 --checkpoint-every=-1s"), "--checkpoint-every");
+  check_refused(test.run(press + "--checkpoint-every 1s"), "given without --checkpoint");
+  check_refused(test.run(press + "--checkpoint a.h5 -o ./a.h5"), "is the --output too");
+  check_refused(test.run(press + "--checkpoint none/a.h5"), "does not exist; create it first");
+  const auto warm = test.run(kept + "--initial c.h5").json();
+  CHECK(warm["converged"] == true);
+  CHECK(warm["iterations"] < plain["iterations"]);
+  // To the square root of the tolerance, which is that of an energy.
+  CHECK(warm["mean_gap"].get<double>() == Approx(plain["mean_gap"].get<double>()).epsilon(1e-5));
+  CHECK(test.files() == std::set<std::string>{"rough.h5"});
+
+  // One command for the first time and for every other.
+  const auto anew = test.run(kept + "--initial c.h5");
+  CHECK(numbers(anew) == plain);
+  CHECK_THAT(anew.err, Catch::Contains("c.h5 is not there yet: the contact starts anew"));
+}
+
+TEST_CASE("A checkpoint that the disk has no room for is warned of, and the last one stays",
+          "[contact]") {
+  const ProgramTest test;
+  make_rough(test);
+  const std::string press =
+      "contact rough.h5 --contact-modulus 10GPa --pressure 20MPa --quiet --checkpoint c.h5 ";
+  REQUIRE(test.run(press + "--max-iterations 3").status == 1);
+  const std::string last = test.read("c.h5");
+  const std::string loud =
+      "contact rough.h5 --contact-modulus 10GPa --pressure 20MPa --json "
+      "--initial c.h5 --checkpoint c.h5 --checkpoint-every 0 ";
+  // 8 kB, half of what 64² numbers in float take.
+  const auto full = test.run(loud + "--max-iterations 4", "ulimit -f 16;");
+  CHECK(full.status == 1);
+  CHECK_THAT(full.err, Catch::Contains("salebra: warning: --checkpoint: c.h5: cannot be written"));
+  CHECK_THAT(full.err, Catch::Contains("; the file before stays"));
+  CHECK(test.read("c.h5") == last);
+  CHECK(test.files() == std::set<std::string>{"c.h5", "rough.h5"});
+  const auto through = test.run(loud, "ulimit -f 16;");
+  CHECK(through.status == 0);
+  CHECK(through.json()["converged"] == true);
+}
+
+TEST_CASE("SIGUSR1 leaves a checkpoint, from which the contact continues", "[contact]") {
+  const ProgramTest test;
+  REQUIRE(test.run("generate --points 512 --size-x 4um --hurst 0.8 --short-cutoff 0.1um "
+                   "--rms-height 10nm --seed 3 -o rough.h5")
+              .status == 0);
+  const std::string press =
+      "contact rough.h5 --contact-modulus 10GPa --json --pressure 20MPa --precision full ";
+  // Killed when the first checkpoint appears; one after each iteration leaves time enough.
+  const auto stopped =
+      test.run(press + "--checkpoint c.h5 --checkpoint-every 0 -o r.h5",
+               "(while [ ! -e c.h5 ] && [ -e /proc/$$ ]; do sleep 0.02; done; kill -USR1 $$) &");
+  CHECK(stopped.status == 130);
+  CHECK_THAT(stopped.err, Catch::Contains("contact: interrupted; continue with --initial c.h5"));
+  CHECK(test.files() == std::set<std::string>{"c.h5", "rough.h5"});
+  CHECK(test.run(press + "--initial c.h5").status == 0);
+}
+
+TEST_CASE("The output of a contact has the fields asked for, in double or float", "[contact]") {
+  const ProgramTest test;
+  make_rough(test);
+  const std::string press = "contact rough.h5 --contact-modulus 10GPa --json --pressure 20MPa ";
+  const auto whole = test.run(press + "-o all.h5").json();
+  REQUIRE(test.run(press + "--fields pressure --field-type float -o pressure.h5").status == 0);
+  REQUIRE(test.run(press + "--fields none -o none.h5").status == 0);
+  REQUIRE(test.run(press + "--field-type float -o float.h5").status == 0);
+  const ResultReader all(test.folder() / "all.h5"), pressure(test.folder() / "pressure.h5"),
+      none(test.folder() / "none.h5"), rounded(test.folder() / "float.h5");
+  CHECK(all.datasets("contact") == std::vector<std::string>{"contact_pressure", "gap", "x", "y"});
+  CHECK(rounded.datasets("contact") == all.datasets("contact"));
+  CHECK(pressure.datasets("contact") == std::vector<std::string>{"contact_pressure", "x", "y"});
+  CHECK(none.datasets("contact").empty());
+  for (const ResultReader* file : {&pressure, &none, &rounded})
+    CHECK(file->attributes("contact") == all.attributes("contact"));
+  for (const std::string field : {"contact/contact_pressure", "contact/gap"})
+    CHECK((rounded.field(field) == all.field(field).cast<float>().cast<double>()).all());
+  CHECK(std::filesystem::file_size(test.folder() / "float.h5") <
+        0.6 * double(std::filesystem::file_size(test.folder() / "all.h5")));
+
+  for (const std::string file : {"pressure.h5", "float.h5"})
+    CHECK(test.run(press + "--initial " + file).json()["iterations"] < whole["iterations"]);
+  check_refused(test.run(press + "--initial none.h5"), "none.h5 has no contact pressure");
+  check_refused(test.run(press + "--fields none"), "--fields: given without --output");
+  check_refused(test.run("info none.h5"), "none.h5: has no dataset heights");
+  check_refused(test.run("report none.h5 -o none.html"), "none.h5: contains no study");
 }
 
 TEST_CASE("The stiffness of full contact is infinite: valid JSON without a number", "[contact]") {

@@ -86,6 +86,9 @@ std::vector<Case> all_cases() {
        "generate --profile --points 64 --size-x 1um --hurst 0.8 --rolloff 0.5um "
        "--short-cutoff 125nm --method random-phase --rms-height 10nm -o out.csv"},
       {"contact", in, "contact IN/s.h5 --pressure 5MPa -o out.h5" + material},
+      {"contact_checkpoint", in,
+       "contact IN/s.h5 --pressure 5MPa -o out.h5 --checkpoint out.state --checkpoint-every 0" +
+           material},
       {"sweep", in, sweep + " -o out.h5"},
       {"sweep_table", in, sweep + " -o out.csv"},
       {"gw",

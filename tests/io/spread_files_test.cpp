@@ -58,7 +58,7 @@ bool same_bits(const Field& a, const double* b) {
          std::memcmp(a.data(), b, static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
 }
 
-// Two fields, and what comes before, between and after them.
+// Fields, and what comes before, between and after them.
 void write_results(const std::filesystem::path& file, const Surface& surface) {
   std::optional<ResultFile> results;
   const Field tripled = 3 * surface.heights;
@@ -68,6 +68,7 @@ void write_results(const std::filesystem::path& file, const Surface& surface) {
     group.coordinate("x", positions(surface.grid.nx, 1), "m", "position");
     group.coordinate("y", positions(surface.grid.ny, 1), "m", "position");
     group.dataset("gap", surface.heights, "x", "y", "m", "gap");
+    group.dataset("rounded", tripled, "x", "y", "Pa", "pressure", FieldType::float32);
     group.labels("model", {"bem", "größe"}, "model");
     group.dataset("pressure", tripled, "x", "y", "Pa", "pressure");
     group.scalar("force", 7, "N", "force");
@@ -108,6 +109,9 @@ TEST_CASE("The file of a spread surface is byte for byte that of one process", "
                std::pair<Index, Index>(128, 65), std::pair<Index, Index>(101, 512));
   write_surface(scratch / "alone.h5", surface_of(nx, ny), provenance);
   write_results(scratch / "alone-results.h5", surface_of(nx, ny));
+  const Field expected = (3 * surface_of(nx, ny).heights).cast<float>().cast<double>();
+  CHECK(same_bits(ResultReader(scratch / "alone-results.h5").field("contact/rounded"),
+                  expected.data()));
   const int ranks = GENERATE(1, 2, 3, 4);
   run_ranks(ranks, [&, nx = nx, ny = ny](const Communicator& all) {
     const Surface surface = surface_of(nx, ny, all);

@@ -161,3 +161,33 @@ TEST_CASE("SIGUSR1 stops all processes with status 130 and leaves no file", "[mp
   CHECK_THAT(result.err, Contains("interrupted"));
   CHECK(test.files().empty());
 }
+
+TEST_CASE("SIGUSR1 leaves a checkpoint that any number of processes continues", "[mpi]") {
+  const ProgramTest test;
+  REQUIRE(run_alone(test,
+                    "generate --points 512 --size-x 4um --hurst 0.8 --short-cutoff 0.1um "
+                    "--rms-height 10nm --seed 3 -o rough.h5 --quiet")
+              .status == 0);
+  const std::string press =
+      "contact rough.h5 --contact-modulus 10GPa --json --pressure 20MPa --precision full " + quiet;
+  // Sent when the first checkpoint appears; one after each iteration leaves time enough.
+  const auto stopped = test.run(
+      "", environment +
+              fmt::format("{} --quiet -n 3 {} {} --checkpoint c.h5 --checkpoint-every 0 -o r.h5 & "
+                          "launcher=$!; while [ ! -e c.h5 ] && [ -e /proc/$launcher ]; do sleep "
+                          "0.05; done; kill -USR1 $launcher; wait $launcher; exit $?;",
+                          SALEBRA_PROGRAM, SALEBRA_MPI_PROGRAM, press));
+  CHECK(stopped.status == 130);
+  CHECK_THAT(stopped.err, Contains("contact: interrupted; continue with --initial c.h5"));
+  REQUIRE(test.files() == std::set<std::string>{"c.h5", "rough.h5"});
+  const auto numbers_of = [](const ProgramTest::Result& result) {
+    INFO(result.err);
+    REQUIRE(result.status == 0);
+    nlohmann::json answer = result.json();
+    for (const char* name : {"seconds", "ranks", "threads"}) answer.erase(name);
+    return answer.dump();
+  };
+  const std::string continued = numbers_of(run_alone(test, press + "--initial c.h5"));
+  for (const int ranks : {1, 2})
+    CHECK(numbers_of(run(test, ranks, press + "--initial c.h5")) == continued);
+}

@@ -51,7 +51,8 @@ class ResultGroup {
   /// A field on the coordinates of its x and y. In a file of several processes it holds the rows that Share gives to this one, and must
   /// stay until commit().
   void dataset(const std::string& name, const Field& values, const std::string& x,
-               const std::string& y, const std::string& units, const std::string& long_name);
+               const std::string& y, const std::string& units, const std::string& long_name,
+               FieldType type = FieldType::float64);
   /// Truth values, stored as 0 and 1, which xarray reads as bool.
   void flags(const std::string& name, const std::vector<bool>& values,
              const std::vector<std::string>& coordinates, const std::string& long_name);

@@ -28,9 +28,10 @@ class QuantityGroup {
   }
   /// A field on the coordinates of its first and its second index.
   void dataset(const std::string& name, const Field& values, const std::string& first = "x",
-               const std::string& second = "y") {
+               const std::string& second = "y", FieldType type = FieldType::float64) {
     const Quantity quantity = listed(name);
-    group_.dataset(name, values, first, second, unit(quantity), std::string(quantity.long_name));
+    group_.dataset(name, values, first, second, unit(quantity), std::string(quantity.long_name),
+                   type);
   }
   void scalar(const std::string& name, double value) {
     const Quantity quantity = listed(name);

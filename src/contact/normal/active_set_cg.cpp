@@ -333,6 +333,10 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
     if (limits.keep_going &&
         !rows_.ranks().all_agree(limits.keep_going(run.outcome.iterations, run.estimate)))
       run.outcome.interrupted = true;
+    if (limits.take_checkpoint && rows_.ranks().all_agree(limits.checkpoint_due())) {
+      unpack_pressure(run, 1);
+      limits.take_checkpoint();
+    }
     const bool stalled = run.stalls > other_thresholds.size();
     const double factor = on_ladder_ && limits.exact ? ladder_refresh_after : refresh_after;
     const bool fresh_needed =

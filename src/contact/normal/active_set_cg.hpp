@@ -206,6 +206,7 @@ class ActiveSetCg {
   void renew_punch_residual();
   std::byte* pool(std::size_t bytes);
   void collect_pressure(Run& run);
+  void unpack_pressure(const Run& run, double scale) const;
   void begin_set(Run& run, const std::vector<SetSums>& parts);
   void frame_residual();
   bool iterate(Run& run);

@@ -170,15 +170,22 @@ void ActiveSetCg<Real>::collect_pressure(Run& run) {
     sum += part;
   const bool scaled = run.load_given() && std::isinf(run.target.bound) && sum > 0;
   const double scale = scaled ? run.target.value * static_cast<double>(grid_.points()) / sum : 1;
+  unpack_pressure(run, scale);
+  if (run.load_given() && !scaled) correct_load(run.target, run.p);
+}
+
+// p of the tiles within its bounds, times a factor, in the dense array. Between two refreshes nothing reads it from there.
+template <class Real>
+void ActiveSetCg<Real>::unpack_pressure(const Run& run, double scale) const {
   for_tiles([&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
       const Tile tile = tiles_[static_cast<std::size_t>(k)];
       const Index width = std::min<Index>(tile_width, grid_.ny - tile.column);
       double* p = run.p + tile.row * grid_.ny + tile.column;
-      for (Index i = 0; i < width; ++i) p[i] = scale * p_[k * tile_width + i];
+      for (Index i = 0; i < width; ++i)
+        p[i] = scale * std::min(std::max(p_[k * tile_width + i], 0.0), run.target.bound);
     }
   });
-  if (run.load_given() && !scaled) correct_load(run.target, run.p);
 }
 
 // Number of free cells, the level, and the residual on them, after the set or g changed.

@@ -56,6 +56,10 @@ struct ActiveSetLimits {
   bool exact =
       true;  // accept on a residual in double precision; false: a start for a finer level, a few refreshes will do
   std::function<bool(int iteration, double residual)> keep_going = {};
+  // After an iteration where the root says that one is due, p holds the present pressure within its bounds while take_checkpoint() runs,
+  // which may change it.
+  std::function<bool()> checkpoint_due = {};
+  std::function<void()> take_checkpoint = {};
   // When e_c has not halved in this many iterations, CG restarts with another threshold, and at last gives way to
   // gradient_projection().
   int patience = 40;

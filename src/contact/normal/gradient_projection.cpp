@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace salebra::detail {
 namespace {
@@ -213,6 +214,11 @@ void gradient_projection(Convolution2D<double>& compliance, const Grid2D& grid, 
     if (limits.keep_going &&
         !rows.ranks().all_agree(limits.keep_going(outcome.iterations, now.residual)))
       outcome.interrupted = true;
+    if (limits.take_checkpoint && rows.ranks().all_agree(limits.checkpoint_due())) {
+      const std::vector<double> kept(p, p + rows.count() * grid.ny);
+      limits.take_checkpoint();
+      std::ranges::copy(kept, p);
+    }
     if (now.residual < limits.tolerance || ends || outcome.interrupted ||
         round % refresh_every == 0) {
       descent.refresh();

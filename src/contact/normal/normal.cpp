@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <salebra/base/error.hpp>
@@ -30,6 +31,8 @@ using detail::MultigridLevel;
 constexpr double coarse_tolerance = 1e-3;
 // Part of a full Jacobi step that the prolongation takes.
 constexpr double prediction = 0.6;
+// Saturated cells of a start that was rounded to float stay so: freed, they cost more iterations than the start saves.
+constexpr double full_from = 1 - std::numeric_limits<float>::epsilon();
 
 // What the targets need of the heights, counted downwards from the highest point.
 struct Depths {
@@ -108,6 +111,8 @@ void check_here(const Surface& surface, double contact_modulus,
           "must lie in 1e-14 … 1e-1");
   require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "must be >= 1");
   require(options.hardness > 0, "hardness", options.hardness, "must be > 0");
+  require(options.checkpoint_every >= 0, "checkpoint_every", options.checkpoint_every,
+          "must be >= 0, s");
   if (const Field* start = options.initial_pressure)
     require(start->rows() == surface.heights.rows() && start->cols() == surface.grid.ny &&
                 (*start >= 0 && *start <= std::numeric_limits<double>::max()).all(),
@@ -149,12 +154,15 @@ Solution solve_nested(const Scaled& scaled, const Share& rows, const Heights& he
       detail::multigrid_levels(scaled.grid, rows, heights, options.boundary,
                                options.initial_pressure ? 1 : std::numeric_limits<int>::max());
   Solution solution;
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_checkpoint = Clock::now();
   for (std::size_t k = levels.size(); k-- > 0;) {
     const MultigridLevel& level = levels[k];
     const Index nx = level.rows.count(), ny = level.grid.ny;
     Field pressure;
     if (options.initial_pressure) {
-      pressure = (*options.initial_pressure / scaled.pressure_unit).min(target.bound);
+      pressure = *options.initial_pressure / scaled.pressure_unit;
+      pressure = (pressure < full_from * target.bound).select(pressure, target.bound);
     } else if (k + 1 == levels.size()) {
       pressure = Field::Constant(
           nx, ny, target.kind == ContactTarget::Kind::mean_pressure ? target.value : 0.0);
@@ -177,6 +185,17 @@ Solution solve_nested(const Scaled& scaled, const Share& rows, const Heights& he
         return options.on_progress(
             {"contact", std::isfinite(share) ? share : 0.0, iteration, residual});
       };
+    if (options.on_checkpoint && k == 0) {
+      limits.checkpoint_due = [&] {
+        const std::chrono::duration<double> elapsed = Clock::now() - last_checkpoint;
+        return !rows.ranks().is_root() || elapsed.count() >= options.checkpoint_every;
+      };
+      limits.take_checkpoint = [&] {
+        solution.pressure *= scaled.pressure_unit;
+        options.on_checkpoint(solution.pressure);
+        last_checkpoint = Clock::now();
+      };
+    }
     ActiveSetCg<Real> solver(level.grid, level.rows, 1, options.boundary, level.heights,
                              rms_height);
     solution.outcome = solver.solve(target, limits, solution.pressure.data(), solution.gap.data());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
@@ -24,6 +25,10 @@ struct NormalContactOptions {
   /// Start of the iteration, of the shape of the heights, Pa, >= 0, instead of one from coarser grids. It must outlive the call.
   const Field* initial_pressure = nullptr;
   Progress on_progress = {};
+  /// Called between iterations on the finest grid with the present pressure, of the shape of the heights, Pa, from which a later call may
+  /// start. Every process calls it at the same iteration. Results keep their bits. It must throw on all processes or on none.
+  std::function<void(const Field& pressure)> on_checkpoint = {};
+  double checkpoint_every = 600;  ///< s of the root's clock, >= 0; 0: after each iteration
 };
 
 /// Result of a normal contact. Unless converged, the numbers describe the last iterate and must not be used as the answer.

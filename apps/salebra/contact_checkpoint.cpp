@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Checkpoints of a contact while it is solved, of contact_checkpoint.hpp.
+#include "contact_checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <new>
+#include <salebra/base/error.hpp>
+
+#include "grid_axes.hpp"
+#include "options.hpp"
+
+namespace salebra::cli {
+namespace {
+
+bool same_name(const std::filesystem::path& a, const std::filesystem::path& b) {
+  return a.lexically_normal() == b.lexically_normal();
+}
+
+/// An answer of the root.
+bool is_there(const Session& session, const std::string& file) {
+  return session.ranks().all_agree(!session.ranks().is_root() || std::filesystem::exists(file));
+}
+
+}  // namespace
+
+void ContactCheckpoint::add_to(Command& command) {
+  command
+      .add_option(
+          "--checkpoint", file,
+          "file that keeps the pressure while the contact is solved, for --initial; removed "
+          "once it has converged")
+      ->type_name("FILE");
+  add_quantity(command, "--checkpoint-every", every, Dimension::time,
+               "time between checkpoints; default 10 min, 0 for every iteration");
+}
+
+void ContactCheckpoint::check(const Session& session, const std::string& initial) const {
+  require_that(!every || !file.empty(), "--checkpoint-every",
+               "given without --checkpoint; name the checkpoint");
+  if (every)
+    require(*every >= 0 && std::isfinite(*every), "--checkpoint-every", *every, "must be >= 0");
+  if (file.empty()) return;
+  require(!same_name(file, session.output()), "--checkpoint", file,
+          "is the --output too; name another file");
+  collectively(session.ranks(), [&] {
+    if (!session.ranks().is_root()) return;
+    const bool replaces = session.write_options().overwrite || same_name(file, initial);
+    require_that(
+        replaces || !std::filesystem::exists(file), file,
+        "exists; continue from it with --initial " + file + ", or add --overwrite to start anew");
+    require_output(file, {.overwrite = true});
+  });
+}
+
+bool ContactCheckpoint::starts_anew(const Session& session, const std::string& initial) const {
+  return !file.empty() && same_name(file, initial) && !is_there(session, file);
+}
+
+void ContactCheckpoint::add_to(NormalContactOptions& options, Session& session,
+                               const Grid2D& grid) const {
+  if (file.empty()) return;
+  options.on_checkpoint = [this, &session, &grid](const Field& pressure) {
+    write(session, grid, pressure);
+  };
+  if (every) options.checkpoint_every = *every;
+}
+
+bool ContactCheckpoint::write(Session& session, const Grid2D& grid, const Field& pressure) const {
+  const bool empty = session.ranks().all_agree(!(pressure > 0).any());
+  if (file.empty() || empty) return false;
+  try {
+    std::optional<ResultFile> result;
+    collectively(session.ranks(), [&] {
+      result.emplace(file, session.provenance(), WriteOptions{.overwrite = true}, session.ranks());
+      QuantityGroup group(result->group("contact"));
+      write_axes(group, grid);
+      group.dataset("contact_pressure", pressure, "x", "y", FieldType::float32);
+    });
+    result->commit();
+    return true;
+  } catch (const IoError& error) {
+    session.warn(fmt::format("--checkpoint: {}; the file before stays", error.what()));
+  } catch (const std::bad_alloc&) {
+    session.warn(fmt::format(
+        "--checkpoint: {}: not enough memory to write it; the file before stays", file));
+  }
+  return false;
+}
+
+void ContactCheckpoint::remove(const Session& session) const {
+  std::error_code ignored;
+  if (!file.empty() && session.ranks().is_root()) std::filesystem::remove(file, ignored);
+}
+
+}  // namespace salebra::cli
