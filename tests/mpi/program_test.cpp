@@ -148,20 +148,6 @@ TEST_CASE("A failure of one process alone names it and ends the others", "[mpi]"
   CHECK(test.files().empty());
 }
 
-TEST_CASE("SIGUSR1 stops all processes with status 130 and leaves no file", "[mpi]") {
-  const ProgramTest test;
-  // The shell takes the program's place in run(). A grid that takes many seconds: the signal comes after one.
-  const auto result = test.run(
-      "", environment +
-              fmt::format("{} --quiet -n 2 {} generate --points 8192 --size-x 10um --hurst 0.8 "
-                          "--short-cutoff 3nm --rms-height 30nm --threads 1 -o a.h5 --quiet & "
-                          "launcher=$!; sleep 2; kill -USR1 $launcher; wait $launcher; exit $?;",
-                          SALEBRA_PROGRAM, SALEBRA_MPI_PROGRAM));
-  CHECK(result.status == 130);
-  CHECK_THAT(result.err, Contains("interrupted"));
-  CHECK(test.files().empty());
-}
-
 TEST_CASE("SIGUSR1 leaves a checkpoint that any number of processes continues", "[mpi]") {
   const ProgramTest test;
   REQUIRE(run_alone(test,
