@@ -26,7 +26,7 @@ struct NormalContactOptions {
   const Field* initial_pressure = nullptr;
   Progress on_progress = {};
   /// Called between iterations on the finest grid with the present pressure, of the shape of the heights, Pa, from which a later call may
-  /// start. Every process calls it at the same iteration. Results keep their bits. It must throw on all processes or on none.
+  /// start: by every process at the same iteration, of a sweep by several threads. Results keep their bits. It throws on all or on none.
   std::function<void(const Field& pressure)> on_checkpoint = {};
   double checkpoint_every = 600;  ///< s of the root's clock, >= 0; 0: after each iteration
 };
