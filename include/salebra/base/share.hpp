@@ -82,7 +82,7 @@ Field gathered(const Share& rows, const Field& mine, int root = 0);
 
 /// Brings the columns of a field together, whose rows are spread over processes, and hands each to the process that owns it. The columns of
 /// a block of parallel::map_blocks come in order and in one thread; blocks come from several threads at once. Value: double or its complex.
-/// columns  who owns which; whole blocks of them
+/// columns  who owns which; whole blocks of them where sums are made by blocks
 /// read     writes the numbers first … first + count − 1 of a row of this process; called from several threads at once
 /// visit    takes a column, counted over all processes, of rows.rows() numbers, which it may change: they lie on a boundary of 64 bytes
 /// throws   what read or visit throws in any process, in all of them
