@@ -236,13 +236,9 @@ void run(const GenerateArguments& arguments, Session& session) {
     answer["size_y"] = surface.grid.ly;
     answer["periodic"] = surface.periodic;
   }
-  // Spectra are of whole surfaces.
-  if (!session.ranks().alone()) {
-    answer["realised"] = Json{{"rms_height", height_statistics(surface).rms_height}};
-  } else if (surface.periodic || (surface.grid.nx >= 3 && surface.grid.ny >= 3)) {
-    // Wave by wave where the surface is periodic, by differences of its points elsewhere.
+  // Wave by wave where the surface is periodic, by differences of its points elsewhere.
+  if (surface.periodic || (surface.grid.nx >= 3 && surface.grid.ny >= 3))
     answer["realised"] = all_of(surface_moments(surface));
-  }
   if (arguments.non_gaussian()) {
     const HeightStatistics heights = height_statistics(surface);
     answer["realised"]["skewness"] = heights.skewness;

@@ -15,6 +15,7 @@
 #include <salebra/surface/self_affine_fit.hpp>
 #include <salebra/surface/spectrum.hpp>
 #include <salebra/surface/summits.hpp>
+#include <string_view>
 
 #include "options.hpp"
 #include "program.hpp"
@@ -100,14 +101,23 @@ const std::vector<std::string> spectrum_tables{"psd", "profile_psd_x", "profile_
 const std::vector<std::string> other_tables{
     "correlation", "correlation_x", "correlation_y", "scale_x", "scale_y", "bearing", "histogram"};
 
+constexpr std::string_view needs_whole =
+    "of several processes: no correlation, bearing curve, histogram, Sal, Str, Std, Sk, Spk, Svk, "
+    "Smr1, Smr2, Spd and Spc, which need the surface whole";
+
 void run(const StatisticsArguments& arguments, Session& session) {
+  for (const auto& [given, option] :
+       {std::pair(arguments.fill, "--fill"), {session.has_plot(), "--plot"}})
+    if (given) session.require_one_process(option);
+  if (!arguments.surface.given()) require_options({"SURFACE (or --recipe)"}, "statistics");
   std::vector<std::string> names = spectrum_tables;
   names.insert(names.end(), other_tables.begin(), other_tables.end());
   require_tables(session, names);
   const PsdConvention convention = *value_of<PsdConvention>(arguments.convention);
 
   const Surface surface = arguments.surface.read(session);
-  const Index undefined = surface.undefined_points();
+  const bool whole = surface.ranks.alone();
+  const Index undefined = surface.grid.points() - height_statistics(surface).defined_points;
   Json answer = {{"nx", surface.grid.nx},
                  {"ny", surface.grid.ny},
                  {"size_x", surface.grid.lx},
@@ -133,12 +143,13 @@ void run(const StatisticsArguments& arguments, Session& session) {
                            {"wavelength", limit.wavelength()}};
 
   std::vector<ResultTable> tables;
+  Surface without_holes;
   std::optional<PowerSpectrum> spectrum;
   SelfAffineFit fit;
   fit.hurst.value = fit.hurst.low = fit.hurst.high = none;
   fit.rolloff = fit.short_cutoff = {none, none, none};
   if (undefined == 0 || arguments.fill) {
-    const Surface complete = filled(surface);
+    const Surface& complete = undefined == 0 ? surface : (without_holes = filled(surface));
     const Window window = *value_of<Window>(arguments.window);
     spectrum = power_spectrum(complete, window);
     const RadialSpectrum radial = radial_spectrum(*spectrum);
@@ -162,13 +173,18 @@ void run(const StatisticsArguments& arguments, Session& session) {
   answer["hurst"] = {{"value", fit.hurst.value}, {"low", fit.hurst.low}, {"high", fit.hurst.high}};
   answer["rolloff"] = interval_json(fit.rolloff);
   answer["short_cutoff"] = interval_json(fit.short_cutoff);
-  const CorrelationMap map = correlation_map(surface);
-  tables.push_back(correlation_table("correlation", radial_correlation(map)));
-  tables.push_back(correlation_table("correlation_x", profile_correlation(map, Axis::x)));
-  tables.push_back(correlation_table("correlation_y", profile_correlation(map, Axis::y)));
+  if (whole) {
+    const CorrelationMap map = correlation_map(surface);
+    tables.push_back(correlation_table("correlation", radial_correlation(map)));
+    tables.push_back(correlation_table("correlation_x", profile_correlation(map, Axis::x)));
+    tables.push_back(correlation_table("correlation_y", profile_correlation(map, Axis::y)));
+  } else {
+    session.note(needs_whole);
+  }
   tables.push_back(scale_table("scale_x", scale_dependence(surface, Axis::x)));
   tables.push_back(scale_table("scale_y", scale_dependence(surface, Axis::y)));
-  for (ResultTable& table : height_tables(surface)) tables.push_back(std::move(table));
+  if (whole)
+    for (ResultTable& table : height_tables(surface)) tables.push_back(std::move(table));
 
   write_tables(session, "statistics", answer, tables);
   if (session.has_plot()) session.plot(surface_figure(surface, {std::move(spectrum), fit.hurst}));
@@ -190,7 +206,8 @@ void add_statistics_command(Program& program) {
       [arguments](Session& session) { run(*arguments, session); },
       "heights, power spectral density with the fitted law, distribution of heights",
       OutputCheck::any_name);
-  arguments->surface.add_to(command);
+  arguments->surface.add_to(command, false);
+  arguments->surface.add_recipe_to(command);
   add_choice<Window>(command, "--window", arguments->window,
                      "of the spectra; default none if periodic, hann if not");
   add_choice<PsdConvention>(

@@ -147,7 +147,7 @@ void declare(CLI::App& app, const Command& command) {
 }
 
 /// What several processes compute together; the rest is for one.
-constexpr std::string_view spread_commands[] = {"contact", "generate", "sweep"};
+constexpr std::string_view spread_commands[] = {"contact", "generate", "statistics", "sweep"};
 
 }  // namespace
 

@@ -75,9 +75,10 @@ void require_tables(const Session& session, const std::vector<std::string>& tabl
     require_output(beside(session.output(), table), session.write_options());
 }
 
-void write_tables(const Session& session, const std::string& group, const Json& answer,
-                  const std::vector<ResultTable>& tables) {
-  if (!session.has_output()) return;
+namespace {
+
+void write_files(const Session& session, const std::string& group, const Json& answer,
+                 const std::vector<ResultTable>& tables) {
   const std::filesystem::path file = session.output();
   switch (kind_of(file)) {
     case Kind::hdf5: {
@@ -109,6 +110,16 @@ void write_tables(const Session& session, const std::string& group, const Json& 
       break;
     }
   }
+}
+
+}  // namespace
+
+void write_tables(const Session& session, const std::string& group, const Json& answer,
+                  const std::vector<ResultTable>& tables) {
+  collectively(session.ranks(), [&] {
+    if (session.has_output() && session.ranks().is_root())
+      write_files(session, group, answer, tables);
+  });
 }
 
 Json with_tables(Json answer, const std::vector<ResultTable>& tables) {

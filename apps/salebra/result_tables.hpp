@@ -32,7 +32,7 @@ struct ResultTable {
 ///   .h5 .hdf5   a group `group` for the answer and one for each table, its first column a dimension scale
 ///   .json       the answer with an object for each table, as --json prints it
 ///   .csv        the answer as lines name,value,unit,meaning, and beside it FILE.<table>.csv for each table
-/// Throws InvalidInput for another extension, and as the writers do.
+/// Throws InvalidInput for another extension, and as the writers do. Collective: the root writes.
 void write_tables(const Session& session, const std::string& group, const Json& answer,
                   const std::vector<ResultTable>& tables);
 /// Throws what write_tables would throw at its start.

@@ -159,7 +159,8 @@ int main(int argc, char** argv) {
     const Index points = boundary == Boundary::free ? n / 2 : n;
     const Grid2D grid{points, points, static_cast<double>(points), static_cast<double>(points)};
     if (const auto ladder = detail::NearFieldLadder::make(
-            grid, Share(points), detail::normal_symbol(grid, 1, boundary), 1, boundary))
+            grid, Share(points), detail::normal_symbol(grid, 1, boundary, Share(points)), 1,
+            boundary))
       std::printf("%s: %d levels, eps %.4f, eps/(1 - eps) %.4f\n",
                   boundary == Boundary::free ? "free" : "periodic", ladder->depth(),
                   ladder->error(), ladder->error() / (1 - ladder->error()));

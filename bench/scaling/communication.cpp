@@ -58,7 +58,8 @@ void count(Index n, int ranks) {
   if (n <= largest_for_ladder) {
     const Grid2D grid{n, n, static_cast<double>(n), static_cast<double>(n)};
     auto ladder = detail::NearFieldLadder::make(
-        grid, rows, detail::normal_symbol(grid, 1, Boundary::periodic), 1, Boundary::periodic);
+        grid, rows, detail::normal_symbol(grid, 1, Boundary::periodic, rows), 1,
+        Boundary::periodic);
     ladder->list_tiles(std::vector<unsigned char>(
         static_cast<std::size_t>(rows.count() * detail::tiles_across(n)), 0));
     reset();

@@ -170,6 +170,7 @@ What is filled has no summits and takes power from short waves, so count `undefi
       .def_prop_ro(
           "moments",
           [](const BoundSurface& self) {
+            require_whole(self, "its property moments");
             return unlocked([&] { return surface_moments(self.surface); });
           },
           "Spectral moments of a periodic surface, those of finite differences of any other, see "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real field from the columns of its half-spectrum, so that no full complex array is held.
+// Real field from the columns of its half-spectrum, so that no full complex array is held, and columns of the half-spectrum of a field.
 #include <algorithm>
 #include <optional>
 #include <salebra/base/column_fft.hpp>
@@ -27,12 +27,12 @@ fftw_complex* fftw(Complex* values) { return reinterpret_cast<fftw_complex*>(val
 Index column_pitch(Index nx) { return (nx + 3) / 4 * 4; }
 
 // Plans differ in what alignment they need; every buffer here comes from FFTW's allocator, hence has the same.
-detail::FftwPlan<double> plan_column(Index nx) {
+detail::FftwPlan<double> plan_column(Index nx, int sign) {
   const auto buffer = detail::fftw_array<double, Complex>(static_cast<std::size_t>(nx));
   const int n = static_cast<int>(nx);
   return detail::plan<double>([&] {
     return Api::plan_many(1, &n, 1, fftw(buffer.get()), nullptr, 1, n, fftw(buffer.get()), nullptr,
-                          1, n, FFTW_BACKWARD, FFTW_ESTIMATE);
+                          1, n, sign, FFTW_ESTIMATE);
   });
 }
 
@@ -43,6 +43,15 @@ detail::FftwPlan<double> plan_row(Index ny) {
   return detail::plan<double>([&] {
     return Api::plan_many_c2r(1, &n, 1, fftw(modes.get()), nullptr, 1, n / 2 + 1, values.get(),
                               nullptr, 1, n, FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
+  });
+}
+
+detail::FftwPlan<double> plan_row_forward(Index ny) {
+  const auto modes = detail::fftw_array<double, Complex>(static_cast<std::size_t>(ny / 2 + 1));
+  const auto values = detail::fftw_array<double>(static_cast<std::size_t>(ny));
+  return detail::plan<double>([&] {
+    return Api::plan_r2c_1d(static_cast<int>(ny), values.get(), fftw(modes.get()),
+                            FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
   });
 }
 
@@ -100,7 +109,7 @@ class BackwardByColumns {
     field_ = uninitialised_field(rows_.count(), ny_);
     touch_pages(field_);
     if (columns_ > stored_) last_column_.resize(static_cast<std::size_t>(rows_.count()));
-    column_plan_ = plan_column(nx_);
+    column_plan_ = plan_column(nx_, FFTW_BACKWARD);
     row_plan_ = plan_row(ny_);
     if (alone_) return;
     const Index together = deal_.at_once * block;
@@ -243,6 +252,37 @@ Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColum
   collectively(rows.ranks(), [&] { transform.prepare(); });
   transform.columns(column, progress);
   return transform.rows(progress);
+}
+
+void forward_by_columns(Index nx, Index ny,
+                        const std::function<void(Index row, std::span<double> values)>& row,
+                        const SpectrumColumn& visit, const Share& rows, const Share& columns) {
+  require(rows.rows() == nx, "rows", rows.rows(), "must be nx rows in all");
+  require(columns.rows() == ny / 2 + 1, "columns", columns.rows(), "must be ny/2+1 in all");
+  const Index pitch = column_pitch(ny / 2 + 1);
+  LargeArray<Complex> modes;
+  detail::FftwPlan<double> column_plan;
+  collectively(rows.ranks(), [&] {
+    modes = large_array<Complex>(static_cast<std::size_t>(rows.count() * pitch));
+    column_plan = plan_column(nx, FFTW_FORWARD);
+    const auto row_plan = plan_row_forward(ny);
+    parallel::for_slabs(rows.count(), [&](Index begin, Index end) {
+      const auto values = large_array<double>(static_cast<std::size_t>(ny));
+      for (Index k = begin; k < end; ++k) {
+        row(k, {values.get(), static_cast<std::size_t>(ny)});
+        Api::execute_r2c(row_plan.get(), values.get(), fftw(modes.get() + k * pitch));
+      }
+    });
+  });
+  visit_columns<Complex>(
+      rows, columns,
+      [&](Index k, Index first, Index count, Complex* to) {
+        std::copy_n(modes.get() + k * pitch + first, count, to);
+      },
+      [&](Index j, std::span<Complex> column) {
+        Api::execute(column_plan.get(), fftw(column.data()), fftw(column.data()));
+        visit(j, column);
+      });
 }
 
 std::size_t column_fft_memory(Index nx, Index ny, const Share& rows) {

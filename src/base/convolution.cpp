@@ -7,6 +7,7 @@
 #include <salebra/base/parallel.hpp>
 
 #include "fftw.hpp"
+#include "spectrum_columns.hpp"
 #include "spectrum_kernels.hpp"
 
 namespace salebra {
@@ -47,7 +48,6 @@ struct Convolution2D<Real>::Passes {
   Shape shape;
   int components;
   Share rows_of_all;
-  Index modes;  // columns of the field's half-spectrum
   // The columns k = low … low + low_count of a process, then −k = high … high + high_count, without those that are their own mirror.
   struct Columns {
     Index low = 0, low_count = 0, high = 0, high_count = 0;
@@ -86,7 +86,6 @@ struct Convolution2D<Real>::Passes {
             "must be >= ny and below 2^24");
     require(components == 1 || components == 2, "components", components, "must be 1 or 2");
     require(rows.rows() == shape.nx, "rows", rows.rows(), "must be nx rows in all");
-    modes = shape.period_y / 2 + 1;
     spread_work();
     make_plans();
   }
@@ -94,18 +93,16 @@ struct Convolution2D<Real>::Passes {
   // The rows and columns of each process, and what goes from one to another.
   void spread_work() {
     const int ranks = rows_of_all.ranks().ranks(), me = rows_of_all.ranks().rank();
-    Index in_use = 0;  // processes with rows; others have no columns either
     for (int rank = 0; rank < ranks; ++rank) {
       const Index begin = rows_of_all.begin_of(rank), end = rows_of_all.end_of(rank);
       require(begin % rows_at_once == 0 || begin == shape.nx, "rows", begin,
               "must begin with a block of 16");
       const Index blocks = (end - begin + rows_at_once - 1) / rows_at_once;
       rows_of.push_back({begin / rows_at_once, blocks, column_stride(blocks, ranks), 0});
-      if (blocks > 0) ++in_use;
     }
+    const Share columns = detail::spectrum_columns(rows_of_all, shape.period_y);
     for (int rank = 0; rank < ranks; ++rank) {
-      const Index begin = std::min<Index>(rank, in_use) * modes / in_use,
-                  end = std::min<Index>(rank + 1, in_use) * modes / in_use;
+      const Index begin = columns.begin_of(rank), end = columns.end_of(rank);
       // −k of these k, but for k = 0 and k = period_y/2.
       const Index first = std::max<Index>(begin, 1),
                   last = 2 * (end - 1) == shape.period_y ? end - 1 : end;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of a field over processes: who holds which, their way to other processes, and sums over all of them.
 #include <algorithm>
+#include <complex>
 #include <cstring>
 #include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/base/share.hpp>
 
 namespace salebra {
@@ -138,12 +140,176 @@ Field gathered(const Share& rows, const Field& mine, int root) {
   return whole;
 }
 
+namespace {
+
+// The columns that each process gets together.
+struct Batches {
+  const Share& rows;
+  const Share& columns;
+  Index group, at_once, count = 0;
+
+  Batches(const Share& of_rows, const Share& of_columns)
+      : rows(of_rows),
+        columns(of_columns),
+        group(std::max<Index>(16, parallel::block_rows(columns.rows()))) {
+    const Index ranks = rows.ranks().ranks();
+    // Two buffers of so many columns, and 64 groups for the threads.
+    at_once = group * std::clamp<Index>(columns.rows() / (2 * ranks * group), 1,
+                                        rows.ranks().alone() ? 1 : 64);
+    for (int rank = 0; rank < ranks; ++rank)
+      count =
+          std::max(count, (columns.end_of(rank) - columns.begin_of(rank) + at_once - 1) / at_once);
+  }
+  Index first(int rank, Index batch) const {
+    return std::min(columns.begin_of(rank) + batch * at_once, columns.end_of(rank));
+  }
+  Index width(int rank, Index batch) const { return first(rank, batch + 1) - first(rank, batch); }
+  Index rows_of(int rank) const { return rows.end_of(rank) - rows.begin_of(rank); }
+  template <class Value>
+  Exchange exchange(Index batch) const {
+    std::vector<std::int64_t> sent, received;
+    for (int rank = 0; rank < rows.ranks().ranks(); ++rank) {
+      sent.push_back(rows.count() * width(rank, batch));
+      received.push_back(rows_of(rank) * width(rows.ranks().rank(), batch));
+    }
+    return {sizeof(Value), std::move(sent), std::move(received)};
+  }
+};
+
+// part(row over all processes, first, count, room): where the numbers of a row are. Visits the columns first … first + width − 1 of this process.
+template <class Value, class Part, class Visit>
+void visit_groups(const Batches& batches, Index first, Index width, const Part& part,
+                  const Visit& visit) {
+  const Index rows = batches.rows.rows(), in_line = 64 / static_cast<Index>(sizeof(Value)),
+              pitch = (rows + in_line - 1) / in_line * in_line, group = batches.group;
+  parallel::for_slabs((width + group - 1) / group, [&](Index begin, Index end) {
+    const auto columns = large_array<Value>(static_cast<std::size_t>(group * pitch));
+    const auto room = large_array<Value>(static_cast<std::size_t>(group));
+    for (Index k = begin; k < end; ++k) {
+      const Index place = k * group, count = std::min(group, width - place);
+      for (Index row = 0; row < rows; ++row) {
+        const Value* values = part(row, place, count, room.get());
+        for (Index j = 0; j < count; ++j)
+          columns[static_cast<std::size_t>(j * pitch + row)] = values[j];
+      }
+      for (Index j = 0; j < count; ++j)
+        visit(first + place + j,
+              std::span<Value>(columns.get() + j * pitch, static_cast<std::size_t>(rows)));
+    }
+  });
+}
+
+}  // namespace
+
+template <class Value>
+void visit_columns(const Share& rows, const Share& columns,
+                   const std::function<void(Index row, Index first, Index count, Value* to)>& read,
+                   const std::function<void(Index column, std::span<Value> values)>& visit) {
+  const Communicator& ranks = rows.ranks();
+  if (ranks.alone())
+    return visit_groups<Value>(
+        Batches(rows, columns), 0, columns.rows(),
+        [&](Index row, Index first, Index count, Value* room) {
+          read(row, first, count, room);
+          return room;
+        },
+        visit);
+  const Batches batches(rows, columns);
+  const int me = ranks.rank();
+  LargeArray<Value> sent, received;
+  for (Index batch = 0; batch < batches.count; ++batch) {
+    const Exchange plan = batches.exchange<Value>(batch);
+    collectively(ranks, [&] {
+      if (batch == 0) {  // no later batch is larger
+        sent = large_array<Value>(static_cast<std::size_t>(plan.sent_units()));
+        received = large_array<Value>(static_cast<std::size_t>(plan.received_units()));
+      }
+      parallel::for_slabs(rows.count(), [&](Index begin, Index end) {
+        for (int rank = 0; rank < ranks.ranks(); ++rank)
+          if (const Index width = batches.width(rank, batch); width > 0)
+            for (Index row = begin; row < end; ++row)
+              read(row, batches.first(rank, batch), width,
+                   sent.get() + plan.sent_place(rank) + row * width);
+      });
+    });
+    ranks.exchange(plan, sent.get(), received.get());
+    collectively(ranks, [&] {
+      // The processes' parts follow one another, hence the rows do.
+      const Index width = batches.width(me, batch);
+      visit_groups<Value>(
+          batches, batches.first(me, batch), width,
+          [&](Index row, Index first, Index, Value*) {
+            return received.get() + row * width + first;
+          },
+          visit);
+    });
+  }
+}
+
+template void visit_columns<double>(const Share&, const Share&,
+                                    const std::function<void(Index, Index, Index, double*)>&,
+                                    const std::function<void(Index, std::span<double>)>&);
+template void visit_columns<std::complex<double>>(
+    const Share&, const Share&,
+    const std::function<void(Index, Index, Index, std::complex<double>*)>&,
+    const std::function<void(Index, std::span<std::complex<double>>)>&);
+
 namespace parallel {
 
 double sum_blocks(const Share& share, const std::function<double(Index, Index)>& body, Index work) {
   double sum = 0;
   for (const double value : map_blocks<double>(share, body, work)) sum += value;
   return sum;
+}
+
+namespace {
+
+Index own_blocks(const Share& share, Index rows) {
+  const Index size = block_rows(share.rows());
+  return (rows + size - 1) / size;
+}
+
+}  // namespace
+
+std::vector<double> add_blocks(const Share& share, std::size_t count,
+                               const std::vector<double>& mine) {
+  const Communicator& ranks = share.ranks();
+  const auto blocks = static_cast<std::size_t>(own_blocks(share, share.count())),
+             blocks_of_all = static_cast<std::size_t>(block_count(share.rows()));
+  // A part of the numbers of all blocks is gathered at a time, 32 MB.
+  const std::size_t most =
+      std::max<std::size_t>(1, (std::size_t{1} << 22) / std::max<std::size_t>(blocks_of_all, 1));
+  std::vector<double> sums(count, 0.0), sent, gathered;
+  for (std::size_t first = 0; first < count; first += most) {
+    const std::size_t part = std::min(most, count - first);
+    sent.clear();
+    for (std::size_t block = 0; block < blocks; ++block) {
+      const auto from = mine.begin() + static_cast<std::ptrdiff_t>(block * count + first);
+      sent.insert(sent.end(), from, from + static_cast<std::ptrdiff_t>(part));
+    }
+    std::vector<std::size_t> bytes;
+    for (int rank = 0; rank < ranks.ranks(); ++rank)
+      bytes.push_back(
+          static_cast<std::size_t>(own_blocks(share, share.end_of(rank) - share.begin_of(rank))) *
+          part * sizeof(double));
+    gathered.resize(blocks_of_all * part);
+    ranks.gather_all(sent.data(), bytes, gathered.data());
+    for (std::size_t k = 0; k < gathered.size(); ++k) sums[first + k % part] += gathered[k];
+  }
+  return sums;
+}
+
+std::vector<double> sum_blocks(const Share& share, std::size_t count,
+                               const std::function<void(Index, Index, std::span<double>)>& body) {
+  share.ranks().broadcast(&count, sizeof count);
+  const Index size = block_rows(share.rows()), blocks = own_blocks(share, share.count());
+  std::vector<double> mine(static_cast<std::size_t>(blocks) * count, 0.0);
+  for_slabs(blocks, [&](Index begin, Index end) {
+    for (Index block = begin; block < end; ++block)
+      body(block * size, std::min(share.count(), (block + 1) * size),
+           std::span(mine).subspan(static_cast<std::size_t>(block) * count, count));
+  });
+  return add_blocks(share, count, mine);
 }
 
 }  // namespace parallel

@@ -15,6 +15,7 @@
 #include <salebra/surface/spectrum.hpp>
 
 #include "base/special_values.hpp"
+#include "neighbour_rows.hpp"
 
 namespace salebra {
 namespace {
@@ -110,40 +111,39 @@ double strongest_direction(const Surface& surface) {
 
 void set_gradients(ArealParameters& result, const Surface& surface) {
   const Grid2D& grid = surface.grid;
-  const Field& h = surface.heights;
+  const detail::NeighbourRows rows(surface);
   const double per_dx = 1 / grid.dx(), per_dy = 1 / grid.dy();
   struct Sums {
     double slope = 0, area = 0;
     Index triangles = 0;
   };
   const Index columns = surface.periodic ? grid.ny : grid.ny - 1;
-  const auto blocks = parallel::map_blocks<Sums>(
-      surface.periodic ? grid.nx : grid.nx - 1, [&](Index begin, Index end) {
-        Sums sums;
-        for (Index ix = begin; ix < end; ++ix) {
-          const Index right = (ix + 1) % grid.nx;
-          for (Index iy = 0; iy < columns; ++iy) {
-            const Index up = (iy + 1) % grid.ny;
-            const std::array along_x{(h(right, iy) - h(ix, iy)) * per_dx,
-                                     (h(right, up) - h(ix, up)) * per_dx};
-            const std::array along_y{(h(ix, up) - h(ix, iy)) * per_dy,
-                                     (h(right, up) - h(right, iy)) * per_dy};
-            if (std::isnan(along_x[0] + along_x[1])) continue;
-            for (const double x : along_x) {
-              for (const double y : along_y) {
-                const double square = x * x + y * y;
-                sums.slope += square;
-                // √(1 + s) − 1 without the loss of digits where s is small.
-                sums.area += square / (std::sqrt(1 + square) + 1);
-                ++sums.triangles;
-              }
-            }
-          }
-        }
-        return sums;
-      });
   Sums total;
-  for (const Sums& block : blocks) {
+  for (const Sums& block : parallel::map_blocks<Sums>(surface.share(), [&](Index begin, Index end) {
+         Sums sums;
+         for (Index ix = begin; ix < end; ++ix) {
+           const double *here = rows[ix], *right = rows[ix + 1];
+           if (!right) continue;
+           for (Index iy = 0; iy < columns; ++iy) {
+             const Index up = (iy + 1) % grid.ny;
+             const std::array along_x{(right[iy] - here[iy]) * per_dx,
+                                      (right[up] - here[up]) * per_dx};
+             const std::array along_y{(here[up] - here[iy]) * per_dy,
+                                      (right[up] - right[iy]) * per_dy};
+             if (std::isnan(along_x[0] + along_x[1])) continue;
+             for (const double x : along_x) {
+               for (const double y : along_y) {
+                 const double square = x * x + y * y;
+                 sums.slope += square;
+                 // √(1 + s) − 1 without the loss of digits where s is small.
+                 sums.area += square / (std::sqrt(1 + square) + 1);
+                 ++sums.triangles;
+               }
+             }
+           }
+         }
+         return sums;
+       })) {
     total.slope += block.slope;
     total.area += block.area;
     total.triangles += block.triangles;
@@ -153,10 +153,29 @@ void set_gradients(ArealParameters& result, const Surface& surface) {
   result.Sdr = total.triangles > 0 ? total.area / triangles : unknown;
 }
 
+/// Those that need the order of all heights, or ways across the whole surface.
+void set_of_whole(ArealParameters& result, const Surface& surface) {
+  const std::vector<Peak> peaks = significant_peaks(surface, pruning * result.Sz);
+  const double count = static_cast<double>(peaks.size());
+  double curvature = 0;
+  for (const Peak& peak : peaks) curvature += peak.mean_curvature;
+  result.Spd = count / surface.grid.area();
+  result.Spc = peaks.empty() ? unknown : curvature / count;
+
+  set_correlation_lengths(result, surface);
+  result.Std = strongest_direction(surface);
+
+  const CoreParameters core = core_parameters(BearingCurve(surface));
+  result.Sk = core.core_height;
+  result.Spk = core.peak_height;
+  result.Svk = core.valley_depth;
+  result.Smr1 = core.peak_fraction;
+  result.Smr2 = core.core_fraction;
+}
+
 }  // namespace
 
 ArealParameters areal_parameters(const Surface& surface) {
-  surface.require_whole("areal parameters");
   const HeightStatistics heights = height_statistics(surface);
   ArealParameters result;
   result.Sq = heights.rms_height;
@@ -165,7 +184,7 @@ ArealParameters areal_parameters(const Surface& surface) {
   result.Sp = heights.maximum - heights.mean;
   result.Sv = heights.mean - heights.minimum;
   result.Sz = heights.maximum - heights.minimum;
-  result.Sa = parallel::sum_blocks(surface.grid.nx,
+  result.Sa = parallel::sum_blocks(surface.share(),
                                    [&](Index begin, Index end) {
                                      double sum = 0;
                                      for (Index ix = begin; ix < end; ++ix)
@@ -177,23 +196,16 @@ ArealParameters areal_parameters(const Surface& surface) {
                                    }) /
               static_cast<double>(heights.defined_points);
 
-  const std::vector<Peak> peaks = significant_peaks(surface, pruning * result.Sz);
-  const double count = static_cast<double>(peaks.size());
-  double curvature = 0;
-  for (const Peak& peak : peaks) curvature += peak.mean_curvature;
-  result.Spd = count / surface.grid.area();
-  result.Spc = peaks.empty() ? unknown : curvature / count;
-
-  set_correlation_lengths(result, surface);
-  result.Std = strongest_direction(surface);
+  require(surface.grid.nx >= 3, "nx", surface.grid.nx, "must be >= 3 to have peaks");
+  require(surface.grid.ny >= 3, "ny", surface.grid.ny, "must be >= 3 to have peaks");
   set_gradients(result, surface);
-
-  const CoreParameters core = core_parameters(BearingCurve(surface));
-  result.Sk = core.core_height;
-  result.Spk = core.peak_height;
-  result.Svk = core.valley_depth;
-  result.Smr1 = core.peak_fraction;
-  result.Smr2 = core.core_fraction;
+  if (surface.ranks.alone()) {
+    set_of_whole(result, surface);
+  } else {
+    for (double* parameter : {&result.Sal, &result.Str, &result.Std, &result.Sk, &result.Spk,
+                              &result.Svk, &result.Smr1, &result.Smr2, &result.Spd, &result.Spc})
+      *parameter = unknown;
+  }
   return result;
 }
 

@@ -110,17 +110,20 @@ Correlation profile_correlation(const CorrelationMap& map, Axis axis) {
 
 Correlation radial_correlation(const CorrelationMap& map, int bins_per_octave) {
   const double longest = std::min(map.grid.lx, map.grid.ly) / 2;
-  detail::RingMeans<2> rings(std::min(map.grid.dx(), map.grid.dy()), bins_per_octave);
+  const detail::RingMeans<2> rings(std::min(map.grid.dx(), map.grid.dy()), longest,
+                                   bins_per_octave);
+  std::vector<double> sums(rings.size(), 0.0);
   for (Index row = 0; row < map.pairs.rows(); ++row) {
     for (Index column = 0; column < map.pairs.cols(); ++column) {
       const double pairs = map.pairs(row, column);
       const double distance = std::hypot(map.lag_x(row), map.lag_y(column));
       if (!(pairs > 0) || distance > longest * (1 + 1e-12)) continue;
-      rings.add(distance, pairs, {map.autocorrelation(row, column), map.structure(row, column)});
+      rings.add(distance, pairs, {map.autocorrelation(row, column), map.structure(row, column)},
+                sums);
     }
   }
   Correlation radial;
-  for (const auto& ring : rings.rings()) {
+  for (const auto& ring : rings.rings(sums)) {
     radial.distance.push_back(ring.radius);
     radial.autocorrelation.push_back(ring.mean[0]);
     radial.structure.push_back(ring.mean[1]);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Removal of the mean, of a plane or of a quadratic surface; of a straight line or of the offset of each scan line.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <salebra/base/share.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/moments.hpp>
 #include <vector>
@@ -30,23 +32,39 @@ Eigen::Vector<double, Terms> terms_at(double x, double y) {
 template <int Terms>
 void subtract_fit(Surface& surface) {
   const auto [nx, ny] = std::pair(surface.grid.nx, surface.grid.ny);
+  const Share share = surface.share();
   const double mean = height_statistics(surface).mean;
-  Eigen::Matrix<double, Terms, Terms> normal = Eigen::Matrix<double, Terms, Terms>::Zero();
-  Eigen::Vector<double, Terms> right = Eigen::Vector<double, Terms>::Zero();
-  for (Index ix = 0; ix < nx; ++ix) {
-    for (Index iy = 0; iy < ny; ++iy) {
-      const double height = surface.heights(ix, iy);
-      if (std::isnan(height)) continue;
-      const auto terms = terms_at<Terms>(centred(ix, nx), centred(iy, ny));
-      normal += terms * terms.transpose();
-      right += terms * (height - mean);
-    }
-  }
+  // The rows of the normal equations' matrix, then their right side.
+  constexpr std::size_t equations = Terms, numbers = equations * (equations + 1);
+  using Sums = std::array<double, numbers>;
+  Sums total{};
+  for (const Sums& block : parallel::map_blocks<Sums>(share, [&](Index begin, Index end) {
+         Sums sums{};
+         for (Index row = begin; row < end; ++row) {
+           for (Index iy = 0; iy < ny; ++iy) {
+             const double height = surface.heights(row, iy);
+             if (std::isnan(height)) continue;
+             const auto terms = terms_at<Terms>(centred(share.begin() + row, nx), centred(iy, ny));
+             for (std::size_t a = 0; a < equations; ++a) {
+               const double term = terms(static_cast<Index>(a));
+               for (std::size_t b = 0; b < equations; ++b)
+                 sums[a * equations + b] += term * terms(static_cast<Index>(b));
+               sums[equations * equations + a] += term * (height - mean);
+             }
+           }
+         }
+         return sums;
+       }))
+    for (std::size_t k = 0; k < numbers; ++k) total[k] += block[k];
+  const Eigen::Map<const Eigen::Matrix<double, Terms, Terms, Eigen::RowMajor>> normal(total.data());
+  const Eigen::Map<const Eigen::Vector<double, Terms>> right(total.data() + Terms * Terms);
   const Eigen::Vector<double, Terms> trend = detail::least_squares(normal, right);
-  for (Index ix = 0; ix < nx; ++ix)
-    for (Index iy = 0; iy < ny; ++iy)
-      surface.heights(ix, iy) -=
-          mean + trend.dot(terms_at<Terms>(centred(ix, nx), centred(iy, ny)));
+  parallel::for_slabs(share.count(), [&](Index begin, Index end) {
+    for (Index row = begin; row < end; ++row)
+      for (Index iy = 0; iy < ny; ++iy)
+        surface.heights(row, iy) -=
+            mean + trend.dot(terms_at<Terms>(centred(share.begin() + row, nx), centred(iy, ny)));
+  });
 }
 
 /// Of each line along x; a line with one defined point loses its height, one without any keeps none.
@@ -111,7 +129,8 @@ Detrend default_detrend(const Surface& surface) {
 }
 
 Surface detrended(Surface surface, Detrend method) {
-  if (method != Detrend::none && method != Detrend::mean) surface.require_whole("this detrending");
+  if (method == Detrend::lines || method == Detrend::median_differences)
+    surface.require_whole("detrending line by line");
   switch (method) {
     case Detrend::none:
       break;

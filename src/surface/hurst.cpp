@@ -3,10 +3,14 @@
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <salebra/base/share.hpp>
 #include <salebra/surface/spectrum.hpp>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "surface/dense_systems.hpp"
@@ -126,85 +130,143 @@ struct Mode {
   double weight = 0;  ///< independent complex amplitudes
 };
 
-std::vector<Mode> modes_within(const PowerSpectrum& spectrum, const Range& range) {
-  std::vector<Mode> modes;
-  for (Index i = 0; i < spectrum.grid.nx; ++i) {
-    for (Index j = 0; j < spectrum.psd.cols(); ++j) {
-      const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
-      if (q > 0 && q >= range.low && q <= range.high)
-        modes.push_back({std::log(q), spectrum.psd(i, j), spectrum.multiplicity(j) / 2});
-    }
+/// The modes of a range of wave numbers, each in the process that has its column.
+class ModesWithin {
+ public:
+  ModesWithin(const PowerSpectrum& spectrum, const Range& range) : columns_(spectrum.columns()) {
+    const auto within = [&](Index begin, Index end) {
+      std::vector<Mode> modes;
+      for (Index i = 0; i < spectrum.grid.nx; ++i) {
+        for (Index k = begin; k < end; ++k) {
+          const Index j = columns_.begin() + k;
+          const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
+          if (q > 0 && q >= range.low && q <= range.high)
+            modes.push_back({std::log(q), spectrum.psd(i, k), spectrum.multiplicity(j) / 2});
+        }
+      }
+      return modes;
+    };
+    blocks_ = parallel::map_blocks_of<std::vector<Mode>>(size(), columns_.count(), within);
   }
-  return modes;
-}
+
+  /// Sums of the numbers that add(sums, mode) adds to, over the modes of all processes.
+  template <std::size_t numbers, class Add>
+  std::array<double, numbers> sums(const Add& add) const {
+    std::array<double, numbers> total;
+    const std::vector<double> found =
+        sums(numbers, [&](std::span<double> of_block, const Mode& mode) { add(of_block, mode); });
+    std::copy_n(found.begin(), numbers, total.begin());
+    return total;
+  }
+  template <class Add>
+  std::vector<double> sums(std::size_t numbers, const Add& add) const {
+    return parallel::sum_blocks(columns_, numbers,
+                                [&](Index begin, Index, std::span<double> of_block) {
+                                  for (const Mode& mode : block(begin)) add(of_block, mode);
+                                });
+  }
+  /// ln q counts from another place.
+  void shift(double centre) {
+    for (auto& modes : blocks_)
+      for (Mode& mode : modes) mode.x -= centre;
+  }
+  /// The least and the greatest ln q.
+  std::pair<double, double> range() const {
+    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+    for (const auto& modes : blocks_) {
+      for (const Mode& mode : modes) {
+        least = std::min(least, mode.x);
+        greatest = std::max(greatest, mode.x);
+      }
+    }
+    return {ranks().least_of(least), -ranks().least_of(-greatest)};
+  }
+  const Communicator& ranks() const { return columns_.ranks(); }
+
+ private:
+  Index size() const { return parallel::block_rows(columns_.rows()); }
+  const std::vector<Mode>& block(Index begin) const {
+    return blocks_[static_cast<std::size_t>(begin / size())];
+  }
+
+  Share columns_;
+  std::vector<std::vector<Mode>> blocks_;
+};
 
 /// ln C = a + b·x by maximum likelihood for exponentially distributed powers: Newton's method with the expected information, which
 /// is convex and hence safe from any start.
-Eigen::Vector2d fit_power_law(const std::vector<Mode>& modes, const Eigen::Matrix2d& information) {
-  double power = 0, weight = 0;
-  for (const Mode& mode : modes) {
-    power += mode.weight * mode.power;
-    weight += mode.weight;
-  }
-  Eigen::Vector2d law(std::log(power / weight), 0);
+Eigen::Vector2d fit_power_law(const ModesWithin& modes, double mean_power,
+                              const Eigen::Matrix2d& information) {
+  Eigen::Vector2d law(std::log(mean_power), 0);
   for (int iteration = 0; iteration < 100; ++iteration) {
-    Eigen::Vector2d score = Eigen::Vector2d::Zero();
-    for (const Mode& mode : modes) {
-      const double excess = std::expm1(std::log(mode.power) - law(0) - law(1) * mode.x);
-      score += mode.weight * excess * Eigen::Vector2d(1, mode.x);
-    }
+    const auto score = modes.sums<2>([&](std::span<double> sums, const Mode& mode) {
+      const double excess =
+          mode.weight * std::expm1(std::log(mode.power) - law(0) - law(1) * mode.x);
+      sums[0] += excess;
+      sums[1] += excess * mode.x;
+    });
     // A far start overshoots; a step of more than one unit is shortened.
-    Eigen::Vector2d step = detail::least_squares(information, score);
+    Eigen::Vector2d step = detail::least_squares(information, Eigen::Vector2d(score[0], score[1]));
     step /= std::max(1.0, step.norm());
     law += step;
-    if (step.norm() < 1e-10) break;
+    // Processors of two types may not agree on the last digits of a logarithm, but on when to end they must.
+    modes.ranks().broadcast(law.data(), 2 * sizeof(double));
+    double length = step.norm();
+    modes.ranks().broadcast(&length, sizeof length);
+    if (length < 1e-10) break;
   }
   return law;
 }
 
-}  // namespace
-
-HurstEstimate estimate_hurst(const PowerSpectrum& spectrum) {
+HurstEstimate found_or_not(const PowerSpectrum& spectrum) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const HurstEstimate not_found{none, none, none, none, none, 0};
   const RadialSpectrum radial = radial_spectrum(spectrum);
   if (radial.modes.empty() || !(std::ranges::max(radial.psd) > 0)) return not_found;
-  const Range range = self_affine_range(spectrum, radial);
-  std::vector<Mode> modes = modes_within(spectrum, range);
-  if (modes.size() < 3) return not_found;
+  Range range = self_affine_range(spectrum, radial);
+  spectrum.ranks.broadcast(&range, sizeof range);
+  ModesWithin modes(spectrum, range);
+  const auto [count, weight, moment, power, all] =
+      modes.sums<5>([](std::span<double> sums, const Mode& mode) {
+        sums[0] += 1;
+        sums[1] += mode.weight;
+        sums[2] += mode.weight * mode.x;
+        sums[3] += mode.weight * mode.power;
+        sums[4] += 2 * mode.weight;
+      });
+  if (count < 3) return not_found;
 
-  double weight = 0, centre = 0;
-  for (const Mode& mode : modes) {
-    weight += mode.weight;
-    centre += mode.weight * mode.x;
-  }
-  centre /= weight;
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-  for (Mode& mode : modes) {
-    mode.x -= centre;
-    information += mode.weight * Eigen::Matrix2d{{1, mode.x}, {mode.x, mode.x * mode.x}};
-  }
-  const Eigen::Vector2d law = fit_power_law(modes, information);
+  double centre = moment / weight;
+  spectrum.ranks.broadcast(&centre, sizeof centre);
+  modes.shift(centre);
+  const auto second = modes.sums<3>([](std::span<double> sums, const Mode& mode) {
+    sums[0] += mode.weight;
+    sums[1] += mode.weight * mode.x;
+    sums[2] += mode.weight * mode.x * mode.x;
+  });
+  const Eigen::Matrix2d information{{second[0], second[1]}, {second[1], second[2]}};
+  const Eigen::Vector2d law = fit_power_law(modes, power / weight, information);
 
   // Scatter of rings of equal width in ln q about the law, in units of what exponential powers have.
-  const auto [least, greatest] = std::ranges::minmax(modes, {}, &Mode::x);
+  const auto [least, greatest] = modes.range();
   const double width = std::log(2.0) / 4;
-  const auto rings = static_cast<std::size_t>((greatest.x - least.x) / width) + 1;
-  std::vector<double> ratio(rings, 0), count(rings, 0);
-  for (const Mode& mode : modes) {
-    const auto ring = std::min(rings - 1, static_cast<std::size_t>((mode.x - least.x) / width));
-    ratio[ring] += mode.weight * (mode.power * std::exp(-law(0) - law(1) * mode.x) - 1);
-    count[ring] += mode.weight;
-  }
+  const auto rings = static_cast<std::size_t>((greatest - least) / width) + 1;
+  const auto sums =
+      modes.sums(2 * rings, [&, from = least](std::span<double> of_rings, const Mode& mode) {
+        const auto ring = std::min(rings - 1, static_cast<std::size_t>((mode.x - from) / width));
+        of_rings[2 * ring] += mode.weight * (mode.power * std::exp(-law(0) - law(1) * mode.x) - 1);
+        of_rings[2 * ring + 1] += mode.weight;
+      });
   double scatter = 0, filled = 0;
   for (std::size_t ring = 0; ring < rings; ++ring) {
-    if (count[ring] == 0) continue;
-    scatter += ratio[ring] * ratio[ring] / count[ring];
+    const double ratio = sums[2 * ring], weight_of_ring = sums[2 * ring + 1];
+    if (weight_of_ring == 0) continue;
+    scatter += ratio * ratio / weight_of_ring;
     ++filled;
   }
   const double freedom = filled - 2;
   const double value = -1 - law(1) / 2;
-  const double span = std::exp(greatest.x - least.x);
+  const double span = std::exp(greatest - least);
   if (freedom < 1 || span < least_span * (1 - 1e-9) || !(value > -0.25 && value < 1.5))
     return not_found;
   // A window makes neighbouring modes alike: rings that happen to scatter less than that are luck, not knowledge.
@@ -212,14 +274,20 @@ HurstEstimate estimate_hurst(const PowerSpectrum& spectrum) {
       std::max(scatter / freedom, spectrum.windowed ? spectrum.correlated_modes : 0);
   const double error = std::sqrt(dispersion * detail::pseudo_inverse(information)(1, 1)) / 2;
   const double half_width = gsl_cdf_tdist_Pinv(0.975, freedom) * error;
-  Index all = 0;
-  for (const Mode& mode : modes) all += static_cast<Index>(2 * mode.weight);
   return {value,
           value - half_width,
           value + half_width,
-          std::exp(least.x + centre),
-          std::exp(greatest.x + centre),
-          all};
+          std::exp(least + centre),
+          std::exp(greatest + centre),
+          static_cast<Index>(all)};
+}
+
+}  // namespace
+
+HurstEstimate estimate_hurst(const PowerSpectrum& spectrum) {
+  HurstEstimate estimate = found_or_not(spectrum);
+  spectrum.ranks.broadcast(&estimate, sizeof estimate);
+  return estimate;
 }
 
 }  // namespace salebra

@@ -12,6 +12,8 @@
 #include <salebra/surface/moments.hpp>
 #include <vector>
 
+#include "neighbour_rows.hpp"
+#include "profiles.hpp"
 #include "shape.hpp"
 #include "spectrum_lattice.hpp"
 
@@ -30,23 +32,25 @@ double sum_defined(const Surface& surface, const Term& term) {
   });
 }
 
-/// Mean square over the stencils that touch no undefined point; a NaN of any of their points makes
+/// Sum of squares over the stencils that touch no undefined point; a NaN of any of their points makes
 /// the value NaN.
-class MeanSquare {
- public:
+struct Squares {
+  double sum = 0;
+  Index count = 0;
+
   void add(double value) {
     if (std::isnan(value)) return;
-    sum_ += value * value;
-    ++count_;
+    sum += value * value;
+    ++count;
   }
-  double over(double unit) const {
-    require(count_ > 0, "heights", "no stencil", "is free of undefined points; fill or crop them");
-    return sum_ / static_cast<double>(count_) / (unit * unit);
+  void add(const Squares& other) {
+    sum += other.sum;
+    count += other.count;
   }
-
- private:
-  double sum_ = 0;
-  Index count_ = 0;
+  double mean_over(double unit) const {
+    require(count > 0, "heights", "no stencil", "is free of undefined points; fill or crop them");
+    return sum / static_cast<double>(count) / (unit * unit);
+  }
 };
 
 struct ProfileMoments {
@@ -54,28 +58,18 @@ struct ProfileMoments {
 };
 
 /// Σ q² |ĥ|² and Σ q⁴ |ĥ|² of the profiles along an axis, in the mean over all of them. By Parseval's theorem across the profiles that is
-/// the sum over the spectrum of the surface, which would take twice the memory of the heights.
+/// the sum over the spectrum of the surface, which would take as much memory as the heights.
 ProfileMoments profile_moments(const Surface& surface, Axis axis, double mean) {
   const Grid2D& grid = surface.grid;
   const bool along_x = axis == Axis::x;
-  const Index n = along_x ? grid.nx : grid.ny, profiles = along_x ? grid.ny : grid.nx;
+  const Index n = along_x ? grid.nx : grid.ny;
   const double length = along_x ? grid.lx : grid.ly;
-  // Profiles of a block are copied together, which reads columns by lines of the cache.
-  const Index size = parallel::block_rows(profiles);
-  std::vector<ProfileMoments> blocks(static_cast<std::size_t>(parallel::block_count(profiles)));
-  parallel::for_slabs(parallel::block_count(profiles), [&](Index begin, Index end) {
-    RealFft2D<double> fft(1, n);
-    std::vector<std::complex<double>> modes(static_cast<std::size_t>(fft.modes_y()));
-    Field lines(size, n);
-    for (Index block = begin; block < end; ++block) {
-      ProfileMoments& sum = blocks[static_cast<std::size_t>(block)];
-      const Index first = block * size, count = std::min(size, profiles - first);
-      if (along_x)
-        lines.topRows(count) = surface.heights.middleCols(first, count).transpose() - mean;
-      else
-        lines.topRows(count) = surface.heights.middleRows(first, count) - mean;
-      for (Index line = 0; line < count; ++line) {
-        fft.forward(lines.row(line).data(), modes.data());
+  RealFft2D<double> fft(1, n);
+  const std::vector<ProfileMoments> blocks = detail::map_profiles(
+      surface, axis, ProfileMoments{}, [&](ProfileMoments& sum, std::span<double> heights) {
+        for (double& height : heights) height -= mean;
+        std::vector<std::complex<double>> modes(static_cast<std::size_t>(fft.modes_y()));
+        fft.forward(heights.data(), modes.data());
         for (Index k = 1; k < fft.modes_y(); ++k) {
           const double q = detail::wavenumber(k, n, length);
           const double slope =
@@ -83,12 +77,11 @@ ProfileMoments profile_moments(const Surface& surface, Axis axis, double mean) {
           sum.second += slope;
           sum.fourth += q * q * slope;
         }
-      }
-    }
-  });
+      });
   const double scale = 1 / (static_cast<double>(n) * static_cast<double>(grid.points()));
   ProfileMoments total;
-  for (const ProfileMoments& block : blocks) {
+  for (const ProfileMoments& block :
+       parallel::gather_blocks(detail::profiles_of(surface, axis), blocks)) {
     total.second += block.second * scale;
     total.fourth += block.fourth * scale;
   }
@@ -136,7 +129,7 @@ HeightStatistics height_statistics(const Surface& surface) {
 }
 
 SpectralMoments spectral_moments(const Surface& surface) {
-  surface.require_complete("spectral moments");
+  collectively(surface.ranks, [&] { surface.require_complete_rows("spectral moments"); });
   require(surface.periodic, "surface", surface.origin.empty() ? "not periodic" : surface.origin,
           "is not periodic and has no spectral moments; use moments by finite differences");
   const HeightStatistics heights = height_statistics(surface);
@@ -152,41 +145,50 @@ SpectralMoments spectral_moments(const Surface& surface) {
 }
 
 SpectralMoments difference_moments(const Surface& surface) {
-  detail::require_shape(surface);
+  collectively(surface.ranks, [&] { detail::require_shape_of_rows(surface); });
   const Grid2D& grid = surface.grid;
   require(grid.nx >= 3, "nx", grid.nx, "must be >= 3 for second differences");
   require(grid.ny >= 3, "ny", grid.ny, "must be >= 3 for second differences");
-  MeanSquare slope_x, slope_y, curvature_x, curvature_y;
-  const Field& heights = surface.heights;
-  for (Index ix = 0; ix < grid.nx; ++ix) {
-    const Index right = (ix + 1) % grid.nx, left = (ix + grid.nx - 1) % grid.nx;
-    const bool has_right = surface.periodic || ix + 1 < grid.nx;
-    const bool has_left = surface.periodic || ix > 0;
-    for (Index iy = 0; iy < grid.ny; ++iy) {
-      const Index up = (iy + 1) % grid.ny, down = (iy + grid.ny - 1) % grid.ny;
-      const bool has_up = surface.periodic || iy + 1 < grid.ny;
-      const bool has_down = surface.periodic || iy > 0;
-      const double height = heights(ix, iy);
-      if (has_right && has_up) {
-        const double along_x = heights(right, iy) - height, along_y = heights(ix, up) - height;
-        if (!std::isnan(along_x + along_y)) {
-          slope_x.add(along_x);
-          slope_y.add(along_y);
-        }
-      }
-      if (has_right && has_left)
-        curvature_x.add((heights(right, iy) - height) - (height - heights(left, iy)));
-      if (has_up && has_down)
-        curvature_y.add((heights(ix, up) - height) - (height - heights(ix, down)));
-    }
+  struct Sums {
+    Squares slope_x, slope_y, curvature_x, curvature_y;
+  };
+  const detail::NeighbourRows rows(surface);
+  Sums total;
+  for (const Sums& block : parallel::map_blocks<Sums>(surface.share(), [&](Index begin, Index end) {
+         Sums sums;
+         for (Index ix = begin; ix < end; ++ix) {
+           const double *left = rows[ix - 1], *here = rows[ix], *right = rows[ix + 1];
+           for (Index iy = 0; iy < grid.ny; ++iy) {
+             const Index up = (iy + 1) % grid.ny, down = (iy + grid.ny - 1) % grid.ny;
+             const bool has_up = surface.periodic || iy + 1 < grid.ny;
+             const bool has_down = surface.periodic || iy > 0;
+             const double height = here[iy];
+             if (right && has_up) {
+               const double along_x = right[iy] - height, along_y = here[up] - height;
+               if (!std::isnan(along_x + along_y)) {
+                 sums.slope_x.add(along_x);
+                 sums.slope_y.add(along_y);
+               }
+             }
+             if (right && left) sums.curvature_x.add((right[iy] - height) - (height - left[iy]));
+             if (has_up && has_down)
+               sums.curvature_y.add((here[up] - height) - (height - here[down]));
+           }
+         }
+         return sums;
+       })) {
+    total.slope_x.add(block.slope_x);
+    total.slope_y.add(block.slope_y);
+    total.curvature_x.add(block.curvature_x);
+    total.curvature_y.add(block.curvature_y);
   }
   const double rms_height = height_statistics(surface).rms_height;
   SpectralMoments moments;
   moments.moment0 = rms_height * rms_height;
-  moments.moment2_x = slope_x.over(grid.dx());
-  moments.moment2_y = slope_y.over(grid.dy());
-  moments.moment4_x = curvature_x.over(grid.dx() * grid.dx());
-  moments.moment4_y = curvature_y.over(grid.dy() * grid.dy());
+  moments.moment2_x = total.slope_x.mean_over(grid.dx());
+  moments.moment2_y = total.slope_y.mean_over(grid.dy());
+  moments.moment4_x = total.curvature_x.mean_over(grid.dx() * grid.dx());
+  moments.moment4_y = total.curvature_y.mean_over(grid.dy() * grid.dy());
   return moments;
 }
 

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <salebra/base/error.hpp>
+#include <span>
 #include <vector>
 
 namespace salebra::detail {
 
 /// Weighted means over rings about a point, of a spectrum or a correlation. The limits of the rings are in the ratio
 /// 2^(1/rings_per_octave), the first half a ring below `innermost`, so that no radius of a square lattice lies on a limit where
-/// rounding would decide. The radius 0 is a ring of its own.
+/// rounding would decide. The radius 0 is a ring of its own. Sums are kept by the caller, who may add those of several parts.
 template <std::size_t quantities>
 class RingMeans {
  public:
@@ -20,33 +22,39 @@ class RingMeans {
     std::array<double, quantities> mean{};  ///< of each quantity
   };
 
-  RingMeans(double innermost, int rings_per_octave)
+  RingMeans(double innermost, double outermost, int rings_per_octave)
       : innermost_(innermost), rings_per_octave_(rings_per_octave) {
     require(rings_per_octave >= 1, "bins_per_octave", rings_per_octave, "must be >= 1");
+    rings_ = number_of(std::max(innermost, outermost)) + 1;
   }
 
-  void add(double radius, double weight, const std::array<double, quantities>& values) {
-    const std::size_t number = number_of(radius);
-    if (number >= sums_.size()) sums_.resize(number + 1);
-    Ring& sum = sums_[number];
-    sum.weight += weight;
-    sum.radius += weight * radius;
-    for (std::size_t k = 0; k < quantities; ++k) sum.mean[k] += weight * values[k];
+  /// Numbers that the sums of all rings are.
+  std::size_t size() const { return rings_ * stride; }
+
+  void add(double radius, double weight, const std::array<double, quantities>& values,
+           std::span<double> sums) const {
+    const auto sum = sums.subspan(std::min(number_of(radius), rings_ - 1) * stride, stride);
+    sum[0] += weight;
+    sum[1] += weight * radius;
+    for (std::size_t k = 0; k < quantities; ++k) sum[2 + k] += weight * values[k];
   }
 
   /// From the innermost on; rings of no weight are left out.
-  std::vector<Ring> rings() const {
+  std::vector<Ring> rings(const std::vector<double>& sums) const {
     std::vector<Ring> means;
-    for (Ring ring : sums_) {
+    for (std::size_t at = 0; at < sums.size(); at += stride) {
+      Ring ring{sums[at]};
       if (ring.weight == 0) continue;
-      ring.radius /= ring.weight;
-      for (double& value : ring.mean) value /= ring.weight;
+      ring.radius = sums[at + 1] / ring.weight;
+      for (std::size_t k = 0; k < quantities; ++k) ring.mean[k] = sums[at + 2 + k] / ring.weight;
       means.push_back(ring);
     }
     return means;
   }
 
  private:
+  static constexpr std::size_t stride = 2 + quantities;
+
   std::size_t number_of(double radius) const {
     if (radius == 0) return 0;
     return 1 + static_cast<std::size_t>(std::log2(radius / innermost_) * rings_per_octave_ + 0.5);
@@ -54,7 +62,7 @@ class RingMeans {
 
   double innermost_;
   int rings_per_octave_;
-  std::vector<Ring> sums_;
+  std::size_t rings_ = 0;
 };
 
 }  // namespace salebra::detail

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <salebra/base/error.hpp>
-#include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/surface/scale_dependence.hpp>
+#include <span>
+#include <vector>
 
+#include "profiles.hpp"
 #include "shape.hpp"
 
 namespace salebra {
@@ -27,54 +30,51 @@ struct Sums {
     least = std::min(least, second);
     ++curvatures;
   }
+  void add(const Sums& other) {
+    slope += other.slope;
+    curvature += other.curvature;
+    least = std::min(least, other.least);
+    slopes += other.slopes;
+    curvatures += other.curvatures;
+  }
 };
 
-/// All differences over `lag` points along an axis.
-Sums differences(const Surface& surface, Axis axis, Index lag) {
-  const Grid2D& grid = surface.grid;
-  const Field& h = surface.heights;
-  const Index n = axis == Axis::x ? grid.nx : grid.ny;
-  const auto blocks = parallel::map_blocks<Sums>(grid.nx, [&](Index begin, Index end) {
-    Sums sums;
-    for (Index ix = begin; ix < end; ++ix) {
-      for (Index iy = 0; iy < grid.ny; ++iy) {
-        const Index here = axis == Axis::x ? ix : iy;
-        const bool ahead = surface.periodic || here + lag < n;
-        const bool behind = surface.periodic || here >= lag;
-        const auto at = [&](Index place) {
-          const Index wrapped = (place + n) % n;
-          return axis == Axis::x ? h(wrapped, iy) : h(ix, wrapped);
-        };
-        if (!ahead) continue;
-        const double rise = at(here + lag) - h(ix, iy);
-        sums.add_slope(rise);
-        if (behind) sums.add_curvature(rise - (h(ix, iy) - at(here - lag)));
-      }
-    }
-    return sums;
-  });
-  Sums total;
-  for (const Sums& block : blocks) {
-    total.slope += block.slope;
-    total.curvature += block.curvature;
-    total.least = std::min(total.least, block.least);
-    total.slopes += block.slopes;
-    total.curvatures += block.curvatures;
+/// All differences of a profile over `lag` points.
+void add_differences(std::span<const double> h, bool periodic, std::size_t lag, Sums& sums) {
+  const std::size_t n = h.size();
+  for (std::size_t here = 0; here < n; ++here) {
+    const bool ahead = periodic || here + lag < n, behind = periodic || here >= lag;
+    if (!ahead) break;
+    const double rise = h[here + lag < n ? here + lag : here + lag - n] - h[here];
+    sums.add_slope(rise);
+    if (behind) sums.add_curvature(rise - (h[here] - h[here >= lag ? here - lag : here + n - lag]));
   }
-  return total;
 }
 
 }  // namespace
 
 ScaleDependence scale_dependence(const Surface& surface, Axis axis) {
-  detail::require_shape(surface);
+  collectively(surface.ranks, [&] { detail::require_shape_of_rows(surface); });
   const Index n = axis == Axis::x ? surface.grid.nx : surface.grid.ny;
   const double step = axis == Axis::x ? surface.grid.dx() : surface.grid.dy();
+  std::vector<Index> lags;
+  for (Index lag = 1; lag == 1 || 4 * lag <= n; lag += std::max<Index>(1, lag / 10))
+    lags.push_back(std::min(lag, n));
+  const auto blocks = detail::map_profiles(
+      surface, axis, std::vector<Sums>(lags.size()),
+      [&](std::vector<Sums>& sums, std::span<const double> heights) {
+        for (std::size_t k = 0; k < lags.size(); ++k)
+          add_differences(heights, surface.periodic, static_cast<std::size_t>(lags[k]), sums[k]);
+      });
   ScaleDependence result;
-  for (Index lag = 1; lag == 1 || 4 * lag <= n; lag += std::max<Index>(1, lag / 10)) {
-    const Sums sums = differences(surface, axis, std::min(lag, n));
+  std::vector<Sums> mine(blocks.size());
+  for (std::size_t k = 0; k < lags.size(); ++k) {
+    for (std::size_t block = 0; block < blocks.size(); ++block) mine[block] = blocks[block][k];
+    Sums sums;
+    for (const Sums& of_block : parallel::gather_blocks(detail::profiles_of(surface, axis), mine))
+      sums.add(of_block);
     if (sums.curvatures == 0) break;
-    const double spacing = static_cast<double>(lag) * step;
+    const double spacing = static_cast<double>(lags[k]) * step;
     result.spacing.push_back(spacing);
     result.profile_slope.push_back(std::sqrt(sums.slope / static_cast<double>(sums.slopes)) /
                                    spacing);
@@ -93,7 +93,6 @@ double ReliabilityLimit::wavelength() const {
 }
 
 ReliabilityLimit short_wavelength_limit(const Surface& surface, const ReliabilityOptions& options) {
-  surface.require_whole("a limit of reliability");
   require_positive(options.safety_factor, "safety_factor");
   ReliabilityLimit limit;
   limit.pixel = 2 * std::max(surface.grid.dx(), surface.grid.dy());

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <salebra/base/share.hpp>
 #include <salebra/surface/self_affine_fit.hpp>
+#include <span>
 #include <vector>
 
 #include "base/special_values.hpp"
@@ -28,26 +31,39 @@ struct Ring {
   double weight = 0;  ///< independent complex amplitudes
 };
 
-std::vector<Ring> fine_rings(const PowerSpectrum& spectrum, double lowest, double highest) {
-  std::vector<Ring> rings;
-  const double start = std::log(lowest);
+/// body(q, power, independent complex amplitudes) for the modes of the columns begin … end of this process but for q = 0.
+template <class Body>
+void for_modes(const PowerSpectrum& spectrum, Index begin, Index end, const Body& body) {
+  const Index first = spectrum.columns().begin();
   for (Index i = 0; i < spectrum.grid.nx; ++i) {
-    for (Index j = 0; j < spectrum.psd.cols(); ++j) {
-      const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
-      if (!(q > 0) || q < lowest || q > highest) continue;
-      const auto number = static_cast<std::size_t>((std::log(q) - start) * bins_per_unit);
-      if (number >= rings.size()) rings.resize(number + 1);
-      const double weight = spectrum.multiplicity(j) / 2;
-      rings[number].weight += weight;
-      rings[number].x += weight * std::log(q);
-      rings[number].power += weight * spectrum.psd(i, j);
+    for (Index k = begin; k < end; ++k) {
+      const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(first + k));
+      if (q > 0) body(q, spectrum.psd(i, k), spectrum.multiplicity(first + k) / 2);
     }
   }
-  std::erase_if(rings, [](const Ring& ring) { return ring.weight == 0; });
-  for (Ring& ring : rings) {
-    ring.x /= ring.weight;
-    ring.power /= ring.weight;
-  }
+}
+
+std::vector<Ring> fine_rings(const PowerSpectrum& spectrum, double lowest, double highest) {
+  const double start = std::log(lowest);
+  const auto number_of = [&](double logarithm) {
+    return static_cast<std::size_t>((logarithm - start) * bins_per_unit);
+  };
+  const std::size_t count = highest < lowest ? 0 : number_of(std::log(highest)) + 1;
+  const std::vector<double> sums = parallel::sum_blocks(
+      spectrum.columns(), 3 * count, [&](Index begin, Index end, std::span<double> of_block) {
+        for_modes(spectrum, begin, end, [&](double q, double power, double weight) {
+          if (q < lowest || q > highest) return;
+          const double logarithm = std::log(q);
+          const auto ring = of_block.subspan(3 * std::min(number_of(logarithm), count - 1), 3);
+          ring[0] += weight;
+          ring[1] += weight * logarithm;
+          ring[2] += weight * power;
+        });
+      });
+  std::vector<Ring> rings;
+  for (std::size_t at = 0; at < sums.size(); at += 3)
+    if (const double weight = sums[at]; weight > 0)
+      rings.push_back({sums[at + 1] / weight, sums[at + 2] / weight, weight});
   return rings;
 }
 
@@ -143,35 +159,42 @@ IntervalEstimate fit_rolloff(const PowerSpectrum& spectrum, const HurstEstimate&
 }
 
 IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEstimate& hurst) {
-  struct Mode {
-    double wavenumber = 0, power = 0;
-  };
-  std::vector<Mode> modes;
-  double level = 0, weight = 0;
+  const Share columns = spectrum.columns();
   const double exponent = 2 * (1 + hurst.value);
-  for (Index i = 0; i < spectrum.grid.nx; ++i) {
-    for (Index j = 0; j < spectrum.psd.cols(); ++j) {
-      const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
-      if (!(q > 0)) continue;
-      const double flat = spectrum.psd(i, j) * std::pow(q, exponent);
-      if (q >= hurst.wavenumber_min && q <= hurst.wavenumber_max) {
-        level += flat;
-        ++weight;
-      }
-      if (q > hurst.wavenumber_min) modes.push_back({q, flat});
-    }
-  }
-  level /= weight;
-  std::ranges::sort(modes, {}, &Mode::wavenumber);
+  const auto flat = [&](double q, double power) { return power * std::pow(q, exponent); };
+  const std::vector<double> sums =
+      parallel::sum_blocks(columns, 2, [&](Index begin, Index end, std::span<double> of_block) {
+        for_modes(spectrum, begin, end, [&](double q, double power, double) {
+          if (q < hurst.wavenumber_min || q > hurst.wavenumber_max) return;
+          of_block[0] += flat(q, power);
+          of_block[1] += 1;
+        });
+      });
+  const double least_power = ended * sums[0] / sums[1];
+  // The least (sign 1) or greatest (−1) wave number beyond one, of all modes or of those with power.
+  const auto extreme = [&](double sign, double from, bool with_power) {
+    double best = std::numeric_limits<double>::infinity();
+    for (const double of_block : parallel::map_blocks_of<double>(
+             parallel::block_rows(columns.rows()), columns.count(), [&](Index begin, Index end) {
+               double found = std::numeric_limits<double>::infinity();
+               for_modes(spectrum, begin, end, [&](double q, double power, double) {
+                 if (q > from && (!with_power || flat(q, power) >= least_power))
+                   found = std::min(found, sign * q);
+               });
+               return found;
+             }))
+      best = std::min(best, of_block);
+    return sign * spectrum.ranks.least_of(best);
+  };
   // A mode of the law is below a thousandth of it with a probability of a thousandth: a run of them is the end.
-  std::size_t last = modes.size();
-  while (last > 0 && modes[last - 1].power < ended * level) --last;
-  if (last == 0 || last == modes.size()) return not_found;
+  const double low = extreme(-1, hurst.wavenumber_min, true);
+  const double high = extreme(1, low, false);
+  const double last = extreme(-1, low, false);
+  if (!std::isfinite(low) || !std::isfinite(high)) return not_found;
   const Grid2D& grid = spectrum.grid;
   const double step = 2 * pi / std::min(grid.lx, grid.ly);
-  const double low = modes[last - 1].wavenumber, high = modes[last].wavenumber;
   // Modes of no power that lie beyond are all there are: with fewer than a ring of them the end may be the lattice's own.
-  if (modes.back().wavenumber < high + 4 * step) return not_found;
+  if (last < high + 4 * step) return not_found;
   const double margin = spectrum.windowed ? 2 * step : 0;
   const double middle = (low + high) / 2 - margin / 2;
   return {2 * pi / middle, 2 * pi / high, 2 * pi / (low - 2 * margin)};

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
+#include <salebra/base/column_fft.hpp>
 #include <salebra/base/fft.hpp>
 #include <salebra/base/memory.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/spectrum.hpp>
 
+#include "profiles.hpp"
 #include "ring_means.hpp"
 #include "spectrum_lattice.hpp"
 
@@ -34,22 +37,51 @@ Eigen::ArrayXd profile_weights(Window window, Index points) {
 }
 
 /// Weights of all points, normalised to ⟨w²⟩ = 1.
-Field surface_weights(Window window, const Grid2D& grid) {
-  if (window != Window::radial_hann)
-    return (profile_weights(window, grid.nx).matrix() *
-            profile_weights(window, grid.ny).matrix().transpose())
-        .array();
-  Field weights(grid.nx, grid.ny);
-  const double radius = std::min(grid.lx, grid.ly) / 2;
-  for (Index ix = 0; ix < grid.nx; ++ix) {
-    const double x = static_cast<double>(ix - grid.nx / 2) * grid.dx();
-    for (Index iy = 0; iy < grid.ny; ++iy) {
-      const double r = std::hypot(x, static_cast<double>(iy - grid.ny / 2) * grid.dy());
-      weights(ix, iy) = r > radius ? 0 : 0.5 * (1 + std::cos(pi * r / radius));
+class Weights {
+ public:
+  Weights(Window window, const Surface& surface)
+      : grid_(surface.grid), rows_(surface.share()), radial_(window == Window::radial_hann) {
+    if (!radial_) {
+      along_x_ = profile_weights(window, grid_.nx);
+      along_y_ = profile_weights(window, grid_.ny);
+      return;
     }
+    const double sum =
+        sum_rows([](const Eigen::ArrayXd& weights, Index) { return weights.square().sum(); });
+    scale_ = 1 / std::sqrt(sum / static_cast<double>(grid_.points()));
   }
-  return weights / std::sqrt(weights.square().mean());
-}
+
+  /// Of a row of this process.
+  Eigen::ArrayXd row(Index row) const {
+    const Index ix = rows_.begin() + row;
+    if (!radial_) return along_x_(ix) * along_y_;
+    const double radius = std::min(grid_.lx, grid_.ly) / 2;
+    const double x = static_cast<double>(ix - grid_.nx / 2) * grid_.dx();
+    Eigen::ArrayXd weights(grid_.ny);
+    for (Index iy = 0; iy < grid_.ny; ++iy) {
+      const double r = std::hypot(x, static_cast<double>(iy - grid_.ny / 2) * grid_.dy());
+      weights(iy) = r > radius ? 0 : scale_ * 0.5 * (1 + std::cos(pi * r / radius));
+    }
+    return weights;
+  }
+
+  /// Σ term(weights of a row, row of this process) over all rows of all processes.
+  template <class Term>
+  double sum_rows(const Term& term) const {
+    return parallel::sum_blocks(rows_, [&](Index begin, Index end) {
+      double sum = 0;
+      for (Index k = begin; k < end; ++k) sum += term(row(k), k);
+      return sum;
+    });
+  }
+
+ private:
+  Grid2D grid_;
+  Share rows_;
+  bool radial_;
+  double scale_ = 1;
+  Eigen::ArrayXd along_x_, along_y_;
+};
 
 }  // namespace
 
@@ -65,35 +97,55 @@ double PowerSpectrum::cell() const { return 4 * pi * pi / grid.area(); }
 double ProfilePsd::step() const { return 2 * pi / length; }
 
 PowerSpectrum power_spectrum(const Surface& surface, Window window) {
-  surface.require_complete("a power spectrum");
   const Grid2D& grid = surface.grid;
-  // The heights less their mean, half as many complex modes, and the density of half of them again.
-  require_memory(grid, 20 * static_cast<double>(grid.points()), "a power spectrum");
   window = chosen(window, surface);
   PowerSpectrum spectrum{grid, {}, window != Window::none};
-  Field heights = surface.heights - height_statistics(surface).mean;
+  spectrum.ranks = surface.ranks;
+  const Share columns = spectrum.columns();
+  collectively(surface.ranks, [&] {
+    surface.require_complete_rows("a power spectrum");
+    // Half as many complex modes as points, the density of half of them, and what processes send and receive.
+    require_memory(grid,
+                   (surface.ranks.alone() ? 12 : 20) * static_cast<double>(surface.heights.size()),
+                   "a power spectrum");
+    spectrum.psd.resize(grid.nx, columns.count());
+  });
+  double offset = height_statistics(surface).mean;
+  std::optional<Weights> weights;
+  const auto heights = [&](Index row) { return surface.heights.row(row).transpose() - offset; };
   if (spectrum.windowed) {
-    const Field weights = surface_weights(window, grid);
-    heights -= (weights * heights).sum() / weights.sum();
-    heights *= weights;
-    spectrum.correlated_modes = weights.square().square().mean();
+    weights.emplace(window, surface);
+    const double sum =
+        weights->sum_rows([](const Eigen::ArrayXd& of_row, Index) { return of_row.sum(); });
+    offset += weights->sum_rows([&](const Eigen::ArrayXd& of_row, Index row) {
+      return (of_row * heights(row)).sum();
+    }) / sum;
+    spectrum.correlated_modes = weights->sum_rows([](const Eigen::ArrayXd& of_row, Index) {
+      return of_row.square().square().sum();
+    }) / static_cast<double>(grid.points());
   }
-  RealFft2D<double> fft(grid.nx, grid.ny);
-  std::vector<std::complex<double>> modes(static_cast<std::size_t>(grid.nx * fft.modes_y()));
-  fft.forward(heights.data(), modes.data());
-
-  spectrum.psd.resize(grid.nx, fft.modes_y());
   const double points = static_cast<double>(grid.points());
   const double scale = 1 / (points * points * spectrum.cell());
-  for (Index k = 0; k < spectrum.psd.size(); ++k)
-    spectrum.psd.data()[k] = scale * std::norm(modes[static_cast<std::size_t>(k)]);
+  forward_by_columns(
+      grid.nx, grid.ny,
+      [&](Index row, std::span<double> values) {
+        Eigen::Map<Eigen::ArrayXd> to(values.data(), grid.ny);
+        to = heights(row);
+        if (weights) to *= weights->row(row);
+      },
+      [&](Index j, std::span<std::complex<double>> column) {
+        for (Index i = 0; i < grid.nx; ++i)
+          spectrum.psd(i, j - columns.begin()) =
+              scale * std::norm(column[static_cast<std::size_t>(i)]);
+      },
+      surface.share(), columns);
   // What rounding left of the mean.
-  spectrum.psd(0, 0) = 0;
+  if (columns.begin() == 0 && columns.count() > 0) spectrum.psd(0, 0) = 0;
   return spectrum;
 }
 
 ProfilePsd profile_psd(const Surface& surface, Axis axis, Window window) {
-  surface.require_complete("a power spectrum");
+  collectively(surface.ranks, [&] { surface.require_complete_rows("a power spectrum"); });
   const Grid2D& grid = surface.grid;
   const bool along_x = axis == Axis::x;
   const Index n = along_x ? grid.nx : grid.ny;
@@ -101,40 +153,53 @@ ProfilePsd profile_psd(const Surface& surface, Axis axis, Window window) {
   psd.profiles = along_x ? grid.ny : grid.nx;
   psd.length = along_x ? grid.lx : grid.ly;
   const Eigen::ArrayXd weights = profile_weights(chosen(window, surface), n);
+  const double sum_of_weights = weights.sum();
   RealFft2D<double> fft(1, n);
-  std::vector<std::complex<double>> modes(static_cast<std::size_t>(fft.modes_y()));
-  Eigen::ArrayXd power = Eigen::ArrayXd::Zero(fft.modes_y());
-  for (Index line = 0; line < psd.profiles; ++line) {
-    Eigen::ArrayXd heights =
-        along_x ? surface.heights.col(line).eval() : surface.heights.row(line).transpose().eval();
-    heights -= (weights * heights).sum() / weights.sum();
-    heights *= weights;
-    fft.forward(heights.data(), modes.data());
-    for (Index k = 0; k < power.size(); ++k)
-      power(k) += std::norm(modes[static_cast<std::size_t>(k)]);
-  }
+  const auto modes_of_profile = static_cast<std::size_t>(fft.modes_y());
+  std::vector<double> sums;
+  for (const auto& block :
+       detail::map_profiles(surface, axis, std::vector<double>(modes_of_profile, 0.0),
+                            [&](std::vector<double>&power, std::span<double> values) {
+                              Eigen::Map<Eigen::ArrayXd> heights(values.data(), n);
+                              heights -= (weights * heights).sum() / sum_of_weights;
+                              heights *= weights;
+                              std::vector<std::complex<double>> modes(modes_of_profile);
+                              fft.forward(heights.data(), modes.data());
+                              for (std::size_t k = 0; k < power.size(); ++k)
+                                power[k] += std::norm(modes[k]);
+                            }))
+    sums.insert(sums.end(), block.begin(), block.end());
+  const std::vector<double> power =
+      parallel::add_blocks(detail::profiles_of(surface, axis), modes_of_profile, sums);
   const double points = static_cast<double>(n);
   const double scale = 1 / (points * points * psd.step() * static_cast<double>(psd.profiles));
-  for (Index k = 1; k < power.size(); ++k) {
+  for (std::size_t k = 1; k < power.size(); ++k) {
     psd.wavenumber.push_back(static_cast<double>(k) * psd.step());
-    psd.psd.push_back(scale * power(k));
-    psd.modes.push_back(psd.profiles * static_cast<Index>(detail::multiplicity(k, n)));
+    psd.psd.push_back(scale * power[k]);
+    psd.modes.push_back(psd.profiles *
+                        static_cast<Index>(detail::multiplicity(static_cast<Index>(k), n)));
   }
   return psd;
 }
 
 RadialSpectrum radial_spectrum(const PowerSpectrum& spectrum, int bins_per_octave) {
   const Grid2D& grid = spectrum.grid;
-  detail::RingMeans<1> rings(2 * pi / std::max(grid.lx, grid.ly), bins_per_octave);
-  for (Index i = 0; i < grid.nx; ++i) {
-    for (Index j = 0; j < spectrum.psd.cols(); ++j) {
-      if (i == 0 && j == 0) continue;
-      const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
-      rings.add(q, spectrum.multiplicity(j), {spectrum.psd(i, j)});
-    }
-  }
+  const detail::RingMeans<1> rings(2 * pi / std::max(grid.lx, grid.ly),
+                                   std::hypot(pi / grid.dx(), pi / grid.dy()), bins_per_octave);
+  const Share columns = spectrum.columns();
+  const std::vector<double> sums = parallel::sum_blocks(
+      columns, rings.size(), [&](Index begin, Index end, std::span<double> of_block) {
+        for (Index i = 0; i < grid.nx; ++i) {
+          for (Index k = begin; k < end; ++k) {
+            const Index j = columns.begin() + k;
+            if (i == 0 && j == 0) continue;
+            const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
+            rings.add(q, spectrum.multiplicity(j), {spectrum.psd(i, k)}, of_block);
+          }
+        }
+      });
   RadialSpectrum radial;
-  for (const auto& ring : rings.rings()) {
+  for (const auto& ring : rings.rings(sums)) {
     radial.wavenumber.push_back(ring.radius);
     radial.psd.push_back(ring.mean[0]);
     radial.modes.push_back(static_cast<Index>(ring.weight));

@@ -7,6 +7,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/surface/summits.hpp>
 
+#include "neighbour_rows.hpp"
 #include "shape.hpp"
 
 namespace salebra {
@@ -82,44 +83,81 @@ Summit osculate(const Neighbourhood& h, double dx, double dy) {
 
 SummitList find_summits(const Surface& surface) {
   const Grid2D& grid = surface.grid;
-  detail::require_shape(surface);
+  collectively(surface.ranks, [&] { detail::require_shape_of_rows(surface); });
   require(grid.nx >= 3, "nx", grid.nx, "must be >= 3 to have summits");
   require(grid.ny >= 3, "ny", grid.ny, "must be >= 3 to have summits");
   const Index border = surface.periodic ? 0 : 1;
-  SummitList list;
-  Index searched = 0;
-  for (Index ix = border; ix < grid.nx - border; ++ix) {
-    const std::array<Index, 3> columns{(ix + grid.nx - 1) % grid.nx, ix, (ix + 1) % grid.nx};
-    for (Index iy = border; iy < grid.ny - border; ++iy) {
-      const std::array<Index, 3> rows{(iy + grid.ny - 1) % grid.ny, iy, (iy + 1) % grid.ny};
-      Neighbourhood h;
-      for (std::size_t a = 0; a < 3; ++a)
-        for (std::size_t b = 0; b < 3; ++b) h[a][b] = surface.heights(columns[a], rows[b]);
-      if (!is_defined(h)) continue;
-      ++searched;
-      if (!is_maximum(h)) continue;
-      Summit summit = osculate(h, grid.dx(), grid.dy());
-      if (!(summit.curvature1 > 0)) continue;
-      summit.x += static_cast<double>(ix) * grid.dx();
-      summit.y += static_cast<double>(iy) * grid.dy();
-      list.summits.push_back(summit);
+  const detail::NeighbourRows rows(surface);
+  const Share share = surface.share();
+  struct Found {
+    std::vector<Summit> summits;
+    Index searched = 0;
+  };
+  const auto search = [&](Index begin, Index end) {
+    Found found;
+    for (Index row = begin; row < end; ++row) {
+      const std::array<const double*, 3> lines{rows[row - 1], rows[row], rows[row + 1]};
+      if (!lines.front() || !lines.back()) continue;
+      const Index ix = share.begin() + row;
+      for (Index iy = border; iy < grid.ny - border; ++iy) {
+        const std::array<Index, 3> columns{(iy + grid.ny - 1) % grid.ny, iy, (iy + 1) % grid.ny};
+        Neighbourhood h;
+        for (std::size_t a = 0; a < 3; ++a)
+          for (std::size_t b = 0; b < 3; ++b) h[a][b] = lines[a][columns[b]];
+        if (!is_defined(h)) continue;
+        ++found.searched;
+        if (!is_maximum(h)) continue;
+        Summit summit = osculate(h, grid.dx(), grid.dy());
+        if (!(summit.curvature1 > 0)) continue;
+        summit.x += static_cast<double>(ix) * grid.dx();
+        summit.y += static_cast<double>(iy) * grid.dy();
+        found.summits.push_back(summit);
+      }
     }
+    return found;
+  };
+  SummitList list{{}, 0, surface.ranks, grid.nx};
+  std::vector<Index> searched;
+  for (const Found& found :
+       parallel::map_blocks_of<Found>(parallel::block_rows(grid.nx), share.count(), search)) {
+    list.summits.insert(list.summits.end(), found.summits.begin(), found.summits.end());
+    list.in_block.push_back(static_cast<Index>(found.summits.size()));
+    searched.push_back(found.searched);
   }
-  list.searched_area = static_cast<double>(searched) * grid.cell_area();
+  Index in_all = 0;
+  for (const Index of_block : parallel::gather_blocks(share, searched)) in_all += of_block;
+  list.searched_area = static_cast<double>(in_all) * grid.cell_area();
   return list;
 }
 
 SummitStatistics summit_statistics(const SummitList& list) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  if (list.summits.empty()) return {0, none, none, none};
-  const double count = static_cast<double>(list.summits.size());
-  double height = 0, curvature = 0, variance = 0;
-  for (const Summit& summit : list.summits) {
-    height += summit.height / count;
-    curvature += (summit.curvature1 + summit.curvature2) / (2 * count);
-  }
-  for (const Summit& summit : list.summits)
-    variance += (summit.height - height) * (summit.height - height) / count;
+  const bool of_surface = list.rows > 0;
+  const Share rows = of_surface ? Share(list.ranks, list.rows) : Share(1);
+  const std::vector<Index> in_block =
+      of_surface ? list.in_block : std::vector<Index>{static_cast<Index>(list.summits.size())};
+  // Sum of term(summit) over all processes.
+  const auto sum = [&](const auto& term) {
+    std::vector<double> blocks;
+    auto summit = list.summits.begin();
+    for (const Index count : in_block) {
+      double of_block = 0;
+      for (const auto end = summit + count; summit != end; ++summit) of_block += term(*summit);
+      blocks.push_back(of_block);
+    }
+    double total = 0;
+    for (const double of_block : parallel::gather_blocks(rows, blocks)) total += of_block;
+    return total;
+  };
+  const double count = sum([](const Summit&) { return 1.0; });
+  if (count == 0) return {0, none, none, none};
+  const double height = sum([](const Summit& summit) { return summit.height; }) / count;
+  const double curvature =
+      sum([](const Summit& summit) { return summit.curvature1 + summit.curvature2; }) / (2 * count);
+  const double variance = sum([height](const Summit& summit) {
+                            return (summit.height - height) * (summit.height - height);
+                          }) /
+                          count;
   return {count / list.searched_area, height, std::sqrt(variance), 1 / curvature};
 }
 

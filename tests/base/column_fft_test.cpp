@@ -185,3 +185,50 @@ TEST_CASE(
   CHECK(right == ranks);
   parallel::set_threads(0);
 }
+
+TEST_CASE("The columns of a spectrum are those of RealFft2D, for any number of processes",
+          "[fft][share]") {
+  const auto [nx, ny] = GENERATE(std::pair<Index, Index>{64, 64}, std::pair<Index, Index>{96, 50},
+                                 std::pair<Index, Index>{101, 64}, std::pair<Index, Index>{16, 16},
+                                 std::pair<Index, Index>{48, 2100});
+  const Field field = Field::Random(nx, ny);
+  const Index all = ny / 2 + 1;
+  using Complex = std::complex<double>;
+  using Modes = std::vector<Complex>;
+  const auto modes_of = [&, nx = nx, ny = ny](const Communicator& together, Modes& modes) {
+    const Share rows(together, nx), columns(together, all);
+    std::atomic<Index> wrong = 0;
+    forward_by_columns(
+        nx, ny,
+        [&](Index row, std::span<double> values) {
+          for (Index iy = 0; iy < ny; ++iy) values[std::size_t(iy)] = field(rows.begin() + row, iy);
+        },
+        [&](Index j, std::span<Complex> column) {
+          wrong += j < columns.begin() || j >= columns.end();
+          for (Index i = 0; i < nx; ++i) modes[std::size_t(i * all + j)] = column[std::size_t(i)];
+        },
+        rows, columns);
+    return wrong == 0;
+  };
+  Modes whole(std::size_t(nx * all)), alone(whole.size());
+  RealFft2D<double>(nx, ny).forward(field.data(), whole.data());
+  CHECK(modes_of({}, alone));
+  // Both round like eps·log n times the largest mode, which is at least √(nx·ny)/2 for random heights.
+  double largest = 0, difference = 0;
+  for (std::size_t k = 0; k < whole.size(); ++k) {
+    largest = std::max(largest, std::abs(whole[k]));
+    difference = std::max(difference, std::abs(whole[k] - alone[k]));
+  }
+  CHECK(difference < 1e-14 * largest);
+  for (const int ranks : {1, 2, 3, 4, 5, 8})
+    for (const int threads : {1, 2}) {
+      CAPTURE(nx, ny, ranks, threads);
+      parallel::set_threads(threads);
+      Modes spread(whole.size());
+      std::atomic<int> right = 0;
+      run_ranks(ranks, [&](const Communicator& together) { right += modes_of(together, spread); });
+      CHECK(right == ranks);
+      CHECK(std::memcmp(spread.data(), alone.data(), alone.size() * sizeof(Complex)) == 0);
+    }
+  parallel::set_threads(0);
+}

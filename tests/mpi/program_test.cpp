@@ -65,7 +65,7 @@ TEST_CASE("A surface that processes generate has the bits of one process", "[mpi
     CHECK(spread.json()["ranks"] == ranks);
     CHECK(spread.json()["threads"] == 1);
     CHECK(spread.json()["lattice"] == alone.json()["lattice"]);
-    CHECK(spread.json()["realised"]["rms_height"] == alone.json()["realised"]["rms_height"]);
+    CHECK(spread.json()["realised"] == alone.json()["realised"]);
     CHECK(same_heights(test, file, "alone.h5"));
   }
 }
@@ -109,6 +109,38 @@ TEST_CASE("A contact and a sweep over processes have the numbers of one process"
   CHECK(numbers_of(run(test, 2, pressed + "--initial alone.h5 " + quiet)) == started);
 }
 
+TEST_CASE("Statistics of a surface over processes have the numbers of one process", "[mpi]") {
+  const ProgramTest test;
+  REQUIRE(run_alone(test, "generate " + surface + "-o rough.h5 --quiet").status == 0);
+  const auto alone = run_alone(test, "statistics rough.h5 --json " + quiet);
+  INFO(alone.err);
+  REQUIRE(alone.status == 0);
+  nlohmann::json expected = alone.json();
+  REQUIRE(expected["psd"]["modes"].size() > 8);
+  // What needs the surface whole.
+  for (const char* table :
+       {"correlation", "correlation_x", "correlation_y", "bearing", "histogram"})
+    expected.erase(table);
+  for (const char* name : {"Sal", "Str", "Std", "Sk", "Spk", "Svk", "Smr1", "Smr2", "Spd", "Spc"})
+    expected["areal"][name] = nullptr;
+  for (const int ranks : {2, 3}) {
+    const std::string file = fmt::format("spread{}.json", ranks);
+    const auto spread = run(test, ranks, "statistics rough.h5 --threads 1 --json -o " + file);
+    INFO(spread.err);
+    REQUIRE(spread.status == 0);
+    CHECK_THAT(spread.err, Contains("of several processes: no correlation"));
+    CHECK(std::ranges::count(spread.err, '\n') <= 2);
+    nlohmann::json found = spread.json();
+    for (const char* name : {"ranks", "threads"}) found.erase(name);
+    CHECK(found == expected);
+    CHECK(nlohmann::json::parse(test.read(file)) == expected);
+  }
+  check_refused_once(run(test, 2, "statistics rough.h5 --fill " + quiet), "--fill: is computed by");
+  check_refused_once(run(test, 2, "statistics rough.h5 --detrend lines " + quiet),
+                     "detrending line by line needs it whole");
+  check_refused_once(run(test, 2, "statistics " + quiet), "SURFACE (or --recipe)");
+}
+
 TEST_CASE("More threads than the machine has cores are warned of once", "[mpi]") {
   const ProgramTest test;
   // Bound to nothing, as Open MPI 4 and 5 each call it: two processes see the same cores.
@@ -128,7 +160,7 @@ TEST_CASE("More threads than the machine has cores are warned of once", "[mpi]")
 
 TEST_CASE("Bad input is said once, with status 2, and leaves no file", "[mpi]") {
   const ProgramTest test;
-  check_refused_once(run(test, 2, "statistics none.h5"), "is computed by one process alone");
+  check_refused_once(run(test, 2, "info none.h5"), "is computed by one process alone");
   check_refused_once(run(test, 2, "generate " + surface + "-o none/a.h5 " + quiet),
                      "does not exist; create it first");
   check_refused_once(

@@ -13,24 +13,19 @@
 #include <salebra/io/write_surface.hpp>
 #include <salebra/results/cycle_fields.hpp>
 #include <salebra/study/surface_picture.hpp>
-#include <salebra/surface/areal_parameters.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/fill.hpp>
-#include <salebra/surface/moments.hpp>
 #include <salebra/surface/peaks.hpp>
 #include <salebra/surface/refine.hpp>
-#include <salebra/surface/scale_dependence.hpp>
-#include <salebra/surface/spectrum.hpp>
-#include <salebra/surface/summits.hpp>
 
 #include "ranks_in_threads.hpp"
 
 using namespace salebra;
 
 // A number of the rows of one process where that of the surface is meant is the likeliest mistake of all. What takes surfaces that are
-// spread over processes is compared with one process elsewhere (tests/contact/normal/spread_contact_test.cpp, generators/tests); everything
+// spread over processes is compared with one process elsewhere (spread_contact_test.cpp and spread_statistics_test.cpp in tests, generators/tests); everything
 // else that takes a surface must refuse them.
 TEST_CASE("What needs a surface whole refuses one that is spread over processes") {
   salebra::testing::run_ranks(2, [](const Communicator& all) {
@@ -52,21 +47,12 @@ TEST_CASE("What needs a surface whole refuses one that is spread over processes"
         {"residual_surface", [&] { residual_surface(surface, 1, state, {}); }},
         {"after_first_loading", [&] { after_first_loading(surface, 1, 0.1, {}, 0); }},
         {"picture_of", [&] { picture_of(surface, configuration); }},
-        {"detrended", [&] { detrended(surface, Detrend::plane); }},
+        {"detrended", [&] { detrended(surface, Detrend::lines); }},
         {"refined", [&] { refined(surface, 2); }},
-        {"spectral_moments", [&] { spectral_moments(surface); }},
-        {"difference_moments", [&] { difference_moments(surface); }},
-        {"surface_moments", [&] { surface_moments(surface); }},
-        {"power_spectrum", [&] { power_spectrum(surface); }},
-        {"profile_psd", [&] { profile_psd(surface, Axis::x); }},
-        {"scale_dependence", [&] { scale_dependence(surface, Axis::x); }},
-        {"short_wavelength_limit", [&] { short_wavelength_limit(surface, {}); }},
         {"BearingCurve", [&] { BearingCurve{surface}; }},
         {"correlation_map", [&] { correlation_map(surface); }},
-        {"areal_parameters", [&] { areal_parameters(surface); }},
         {"filled", [&] { filled(surface); }},
         {"significant_peaks", [&] { significant_peaks(surface, 0.1); }},
-        {"find_summits", [&] { find_summits(surface); }},
         {"composite_surface", [&] { composite_surface(surface, surface); }},
         {"crop_surface", [&] { crop_surface(surface, 0, 0, 8, 8); }}};
     for (const auto& [name, call] : calls) {

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numbers>
-#include <salebra/base/share.hpp>
 #include <salebra/base/undefined_points.hpp>
-#include <salebra/surface/detrend.hpp>
 #include <salebra/surface/moments.hpp>
 
-#include "ranks_in_threads.hpp"
 #include "test_surfaces.hpp"
 
 using namespace salebra;
@@ -113,41 +109,4 @@ TEST_CASE("Statistics refuse what they cannot measure", "[moments]") {
   surface.heights.resize(3, 4);
   CHECK_THROWS_WITH(height_statistics(surface), Catch::Contains("shape of the grid"));
   CHECK_THROWS_AS(height_statistics(Surface{}), InvalidInput);
-}
-
-TEST_CASE("Height statistics of a spread surface and its mean have the bits of one process",
-          "[moments][share]") {
-  const Grid2D grid{101, 40, 1, 1};
-  const Surface whole = sampled(grid, true, [](double x, double y) {
-    return x > 0.9 && y > 0.9 ? std::numeric_limits<double>::quiet_NaN()
-                              : std::sin(1e3 * x + y * y);
-  });
-  const HeightStatistics alone = height_statistics(whole);
-  const Surface centred = detrended(whole, Detrend::mean);
-  const auto same = [](const void* a, const void* b, std::size_t bytes) {
-    return bytes == 0 || std::memcmp(a, b, bytes) == 0;
-  };
-  salebra::testing::run_ranks(GENERATE(1, 2, 3, 8), [&](const Communicator& ranks) {
-    Surface rows = whole;
-    rows.ranks = ranks;
-    const Share share = rows.share();
-    rows.heights = whole.heights.middleRows(share.begin(), share.count()).eval();
-    const HeightStatistics together = height_statistics(rows);
-    if (together.defined_points != alone.defined_points || together.mean != alone.mean ||
-        together.rms_height != alone.rms_height || together.skewness != alone.skewness ||
-        together.kurtosis != alone.kurtosis || together.minimum != alone.minimum ||
-        together.maximum != alone.maximum)
-      throw Error("other statistics");
-    const Surface less = detrended(rows, Detrend::mean);
-    if (!same(less.heights.data(), centred.heights.data() + share.begin() * grid.ny,
-              static_cast<std::size_t>(less.heights.size()) * sizeof(double)))
-      throw Error("other heights");
-    if (ranks.alone()) return;
-    try {
-      detrended(rows, Detrend::plane);
-    } catch (const InvalidInput&) {
-      return;
-    }
-    throw Error("a plane was taken off rows");
-  });
 }

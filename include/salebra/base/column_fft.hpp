@@ -11,7 +11,7 @@
 
 namespace salebra {
 
-/// Writes column j of a half-spectrum, F(0 … nx−1, j), into the span; called from several threads at once.
+/// Writes column j of a half-spectrum, F(0 … nx−1, j), into the span, or takes it from there; called from several threads at once.
 using SpectrumColumn = std::function<void(Index j, std::span<std::complex<double>> column)>;
 
 /// The backward transform of RealFft2D for a spectrum that is made as it is needed and of which only the columns j < columns are
@@ -35,6 +35,16 @@ Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColum
 /// cost      collective; each process sends and receives 16·nx·columns/ranks bytes
 Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column,
                           const Progress& progress, const Share& rows);
+
+/// The forward transform of RealFft2D over the processes of a share of the nx rows, of a field that is read row by row:
+///     F(i, j) = Σ_ab f(a, b) exp(−2πi(ia/nx + jb/ny)),   j = 0 … ny/2.
+/// row      writes a row of this process; called from several threads at once
+/// visit    takes column j of those that this process owns by `columns`, in the order of visit_columns; same bits for every number of processes
+/// columns  who owns which of the ny/2+1 columns
+/// cost     collective; 8 bytes for each point in this process and the buffers of visit_columns; each process sends that much once
+void forward_by_columns(Index nx, Index ny,
+                        const std::function<void(Index row, std::span<double> values)>& row,
+                        const SpectrumColumn& visit, const Share& rows, const Share& columns);
 
 /// Peak memory of backward_by_columns in this process with the present number of threads, bytes, result included.
 std::size_t column_fft_memory(Index nx, Index ny, const Share& rows);

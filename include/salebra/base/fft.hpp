@@ -12,7 +12,7 @@ namespace salebra {
 ///     backward: f(a, b) = Σ_ij F(i, j) exp(+2πi(ia/nx + jb/ny)) over the full Hermitian spectrum,
 /// so that backward(forward(f)) = nx·ny·f. Fields are (nx, ny), half-spectra (nx, ny/2+1), both x first and contiguous.
 /// The result has the same bits for every thread count. Real is float or double.
-/// Planning is serialised inside (FFTW's planner is not thread-safe); one object may run in one thread at a time.
+/// Planning is serialised inside (FFTW's planner is not thread-safe); forward() of one object may run in several threads at once, backward() in one.
 template <class Real>
 class RealFft2D {
  public:

@@ -45,7 +45,7 @@ struct Surface {
 
   /// The rows that each process holds.
   Share share() const;
-  /// Number of NaN heights. Cost: one pass.
+  /// Number of NaN heights among those of this process. Cost: one pass.
   Index undefined_points() const;
   /// Throws InvalidInput where several processes hold it. `purpose` completes "is spread over 4 processes, and <purpose> needs it whole".
   void require_whole(const std::string& purpose) const;

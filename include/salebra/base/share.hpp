@@ -5,6 +5,7 @@
 #include <salebra/base/communicator.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/parallel.hpp>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -79,6 +80,19 @@ class RowExchange {
 /// is thrown on all. Memory of the root: the whole field in addition.
 Field gathered(const Share& rows, const Field& mine, int root = 0);
 
+/// Brings the columns of a field together, whose rows are spread over processes, and hands each to the process that owns it. The columns of
+/// a block of parallel::map_blocks come in order and in one thread; blocks come from several threads at once. Value: double or its complex.
+/// columns  who owns which; whole blocks of them where sums are made by blocks
+/// read     writes the numbers first … first + count − 1 of a row of this process; called from several threads at once
+/// visit    takes a column, counted over all processes, of rows.rows() numbers, which it may change: they lie on a boundary of 64 bytes
+/// throws   what read or visit throws in any process, in all of them
+/// cost     collective; each number is sent once, some columns at a time, by buffers of at most as much memory as the numbers of a process,
+///          or 32 columns for each process where that is more
+template <class Value>
+void visit_columns(const Share& rows, const Share& columns,
+                   const std::function<void(Index row, Index first, Index count, Value* to)>& read,
+                   const std::function<void(Index column, std::span<Value> values)>& visit);
+
 namespace parallel {
 
 /// Values of the blocks of this process, as map_blocks gives them, to those of all processes, in the order of the rows. Collective.
@@ -109,6 +123,14 @@ std::vector<Value> map_blocks(const Share& share, const Body& body,
 /// Sum of body(begin, end) over the blocks of all processes, added in their order.
 double sum_blocks(const Share& share, const std::function<double(Index, Index)>& body,
                   Index work = std::numeric_limits<Index>::max());
+
+/// Sums of `count` numbers over the blocks of all processes, added in their order. mine: those of each block of this process, one block
+/// after the other.
+std::vector<double> add_blocks(const Share& share, std::size_t count,
+                               const std::vector<double>& mine);
+/// The same where body(begin, end, sums) adds to the sums of a block, which are zero at first. count is that of the first process.
+std::vector<double> sum_blocks(const Share& share, std::size_t count,
+                               const std::function<void(Index, Index, std::span<double>)>& body);
 
 }  // namespace parallel
 }  // namespace salebra

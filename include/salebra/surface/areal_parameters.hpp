@@ -34,7 +34,8 @@ struct ArealParameters {
   double Spc = 0;
 };
 
-/// Throws InvalidInput as height_statistics and for fewer than 3 × 3 points.
+/// Throws InvalidInput as height_statistics and for fewer than 3 × 3 points. Of a surface that is spread over processes Sal, Str, Std, Sk to
+/// Smr2, Spd and Spc are NaN, which need it whole; collective.
 /// Cost: the correlation map, a power spectrum and two sorts.
 ArealParameters areal_parameters(const Surface& surface);
 

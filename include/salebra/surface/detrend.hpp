@@ -27,8 +27,8 @@ Detrend default_detrend(const Surface& surface);
 
 /// The surface less its trend. Undefined points stay undefined and take no part in the fit; where
 /// they, or a grid of one row, leave the trend undetermined, the smallest one that fits is
-/// subtracted. A surface that is spread over processes loses its mean or nothing. Throws InvalidInput if the heights have not the shape of
-/// the grid or no height is defined. Cost: two passes; four with median_differences.
+/// subtracted. A surface that is spread over processes is not detrended line by line. Throws InvalidInput if the heights have not the
+/// shape of the grid or no height is defined. Cost: two passes; four with median_differences.
 Surface detrended(Surface surface, Detrend method);
 
 }  // namespace salebra

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <salebra/base/grid.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/surface/axis.hpp>
 #include <vector>
 
@@ -9,13 +10,17 @@ namespace salebra {
 
 /// Two-dimensional power spectral density of a surface in the convention
 ///     C(q) = (2π)⁻² ∫⟨h(0)h(x)⟩ e^{−iq·x} d²x,   h_rms² = ∫C d²q,   q in rad/m,
-/// on the half-spectrum of wave vectors (i, j), j = 0 … ny/2; C(−q) = C(q). The mean height is left out.
+/// on the half-spectrum of wave vectors (i, j), j = 0 … ny/2; C(−q) = C(q). The mean height is left out. That of a surface which is spread
+/// over processes is spread by columns. What is made of it has the same bits for every number of processes, and is collective.
 struct PowerSpectrum {
   Grid2D grid;
-  Field psd;              ///< C, (nx, ny/2+1), m⁴
+  Field psd;              ///< C, (nx, ny/2+1) or (nx, columns().count()), m⁴
   bool windowed = false;  ///< a window made the heights fade out at the edges
   /// How many neighbouring modes count as one in a mean, since the window mixes them: ⟨w⁴⟩/⟨w²⟩²; 1 without a window.
   double correlated_modes = 1;
+  Communicator ranks = {};  ///< the processes that hold its columns
+
+  Share columns() const { return {ranks, grid.ny / 2 + 1}; }
 
   double wavenumber_x(Index i) const;  ///< q_x, rad/m; −π/dx < q_x <= π/dx
   double wavenumber_y(Index j) const;  ///< q_y >= 0, rad/m
@@ -35,7 +40,7 @@ enum class Window {
 
 /// C of a periodic surface is exact on its modes: Σ C d²q = h_rms². Under a window the weighted mean is subtracted, and C is divided
 /// by ⟨w²⟩, so that the expectation of a short-waved C is kept, and Σ C d²q = ⟨w²(h − ⟨wh⟩/⟨w⟩)²⟩/⟨w²⟩; tilt should be subtracted before.
-/// Throws InvalidInput unless the surface is complete. Cost: one FFT.
+/// Throws InvalidInput unless the surface is complete. Cost: one FFT; 12 bytes for each point, and over processes 8 more. Collective.
 PowerSpectrum power_spectrum(const Surface& surface, Window window = Window::automatic);
 
 /// Power spectral density of profiles along one axis, C₁(q) = ∫C dq_y, so that h_rms² = ∫C₁ dq over −∞ < q < ∞: mean of
@@ -52,7 +57,8 @@ struct ProfilePsd {
       const;  ///< dq = 2π/l, rad/m; ⟨h²⟩ of the profiles less their means = Σ modes·C₁·dq/profiles
 };
 
-/// radial_hann is as hann here. Throws InvalidInput unless the surface is complete. Cost: as power_spectrum.
+/// radial_hann is as hann here. Throws InvalidInput unless the surface is complete. The surface may be spread over processes. Collective.
+/// Cost: transforms of all profiles.
 ProfilePsd profile_psd(const Surface& surface, Axis axis, Window window = Window::automatic);
 
 /// C averaged over rings of wave vectors. Every bin holds at least one mode.

@@ -17,9 +17,14 @@ struct Summit {
   double mean_radius() const { return 2 / (curvature1 + curvature2); }  ///< 1/(mean curvature), m
 };
 
+/// Of a surface that is spread over processes each has the summits of its rows.
 struct SummitList {
   std::vector<Summit> summits;
-  double searched_area = 0;  ///< m²: cells whose eight neighbours exist and are defined
+  double searched_area =
+      0;  ///< m²: cells of all processes whose eight neighbours exist and are defined
+  Communicator ranks = {};
+  Index rows = 0;                    ///< of the surface; 0 where the summits are of none
+  std::vector<Index> in_block = {};  ///< summits in each block of rows of this process
 };
 
 /// Every point that is higher than its eight neighbours (of equal neighbours the last in row order
@@ -28,7 +33,7 @@ struct SummitList {
 /// the scale of the grid), the point itself and the second differences along x and y stand in for
 /// it. Points without any curvature are no summits. The neighbourhood wraps where the surface is
 /// periodic; elsewhere the border is not searched, nor are points beside undefined ones. Throws
-/// InvalidInput for fewer than 3 × 3 points. Cost: one pass.
+/// InvalidInput for fewer than 3 × 3 points. Cost: one pass. Collective.
 SummitList find_summits(const Surface& surface);
 
 /// Of an ensemble, as the Greenwood–Williamson theory uses it.
@@ -40,6 +45,7 @@ struct SummitStatistics {
       0;  ///< 1/⟨mean curvature⟩, m, which is (3/8)√(π/m4) for a Gaussian isotropic surface
 };
 
+/// Same bits for every number of threads and of processes; collective.
 SummitStatistics summit_statistics(const SummitList& list);
 
 }  // namespace salebra

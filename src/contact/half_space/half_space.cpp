@@ -10,10 +10,12 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/fft.hpp>
 #include <salebra/base/memory.hpp>
-#include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/half_space/half_space.hpp>
+#include <span>
 #include <vector>
 
+#include "base/spectrum_columns.hpp"
 #include "framed_field.hpp"
 #include "normal_symbol.hpp"
 
@@ -32,38 +34,85 @@ typename Convolution2D<Real>::Shape shape_of(const Grid2D& grid, Boundary bounda
           fast_transform_size(2 * grid.ny - 1)};
 }
 
-// Symbol of a kernel given by its value at the distance of (a, b) cells, on the period of the zero-padded convolution.
-std::function<double(Index, Index)> padded_symbol(
-    Index period_x, Index period_y, Parity parity,
-    const std::function<double(Index, Index)>& kernel) {
-  Field values(period_x, period_y);
-  // Only distances below half a period are ever used. At half a period an odd kernel must be its own negative.
-  const Index half_x = period_x / 2, half_y = period_y / 2;
-  parallel::for_slabs(half_x + 1, [&](Index begin, Index end) {
-    for (Index a = begin; a < end; ++a)
-      for (Index b = 0; b <= half_y; ++b) {
-        const bool own_mirror = 2 * a == period_x || 2 * b == period_y;
-        const double value = parity == Parity::odd && own_mirror ? 0 : kernel(a, b);
-        const double mirrored = parity == Parity::odd ? -value : value;
-        const Index am = (period_x - a) % period_x, bm = (period_y - b) % period_y;
-        values(a, b) = value;
-        values(am, b) = am == a ? value : mirrored;
-        values(a, bm) = bm == b ? value : mirrored;
-        values(am, bm) = am == a ? values(a, bm) : (bm == b ? values(am, b) : value);
-      }
-  });
-  RealFft2D<double> fft(period_x, period_y);
-  const Index modes_y = fft.modes_y();
-  const auto modes =
-      large_array<std::complex<double>>(static_cast<std::size_t>(period_x * modes_y));
-  fft.forward(values.data(), modes.get());
-  auto symbol = std::make_shared<Field>(half_x + 1, modes_y);
-  parallel::for_slabs(half_x + 1, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i)
-      for (Index j = 0; j < modes_y; ++j)
-        (*symbol)(i, j) = modes[static_cast<std::size_t>(i * modes_y + j)].real();
-  });
-  return [symbol](Index i, Index j) { return (*symbol)(i, j); };
+// Transform of a kernel that is given by its value at the distance of (a, b) cells, even or odd along both axes, on the period of the
+// zero-padded convolution. Each process has rows 0 … period_x/2 of the transform along y, which is real or imaginary; columns are made of them.
+class KernelTransform {
+ public:
+  KernelTransform(Index period_x, Index period_y, Parity parity, const Communicator& ranks,
+                  const std::function<double(Index, Index)>& kernel)
+      : period_x_(period_x), odd_(parity == Parity::odd), rows_(ranks, period_x / 2 + 1) {
+    RealFft2D<double> along_y(1, period_y);
+    collectively(ranks, [&] {
+      transformed_ = uninitialised_field(rows_.count(), along_y.modes_y());
+      parallel::for_slabs(rows_.count(), [&](Index begin, Index end) {
+        std::vector<double> line(static_cast<std::size_t>(period_y));
+        Modes modes(static_cast<std::size_t>(along_y.modes_y()));
+        for (Index row = begin; row < end; ++row) {
+          const Index a = rows_.begin() + row;
+          // Only distances below half a period are ever used. At half a period an odd kernel must be its own negative.
+          fill(line, period_y / 2 + 1, [&](Index b) {
+            return odd_ && (2 * a == period_x || 2 * b == period_y) ? 0 : kernel(a, b);
+          });
+          along_y.forward(line.data(), modes.data());
+          for (Index j = 0; j < along_y.modes_y(); ++j) {
+            const std::complex<double>& mode = modes[static_cast<std::size_t>(j)];
+            transformed_(row, j) = odd_ ? mode.imag() : mode.real();
+          }
+        }
+      });
+    });
+  }
+
+  // As NormalSymbol::columns.
+  Field columns(const Share& places, const std::function<Index(Index place)>& column_at) const {
+    RealFft2D<double> along_x(1, period_x_);
+    Field symbol;
+    collectively(places.ranks(),
+                 [&] { symbol = uninitialised_field(places.count(), along_x.modes_y()); });
+    visit_columns<double>(
+        rows_, places,
+        [&](Index row, Index first, Index count, double* to) {
+          for (Index k = 0; k < count; ++k) to[k] = transformed_(row, column_at(first + k));
+        },
+        [&](Index place, std::span<double> half) {
+          std::vector<double> line(static_cast<std::size_t>(period_x_));
+          Modes modes(static_cast<std::size_t>(along_x.modes_y()));
+          fill(line, period_x_ / 2 + 1, [&](Index a) { return half[static_cast<std::size_t>(a)]; });
+          along_x.forward(line.data(), modes.data());
+          for (Index i = 0; i < along_x.modes_y(); ++i) {
+            const std::complex<double>& mode = modes[static_cast<std::size_t>(i)];
+            symbol(place - places.begin(), i) = odd_ ? -mode.imag() : mode.real();
+          }
+        });
+    return symbol;
+  }
+
+ private:
+  using Modes = std::vector<std::complex<double>>;
+
+  // A period of a line of which value(0) … value(count − 1) are given.
+  template <class Value>
+  void fill(std::vector<double>& line, Index count, const Value& value) const {
+    const std::size_t period = line.size();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+      line[k] = value(static_cast<Index>(k));
+      if (k > 0 && 2 * k != period) line[period - k] = odd_ ? -line[k] : line[k];
+    }
+  }
+
+  Index period_x_;
+  bool odd_;
+  Share rows_;
+  Field transformed_;
+};
+
+// Symbol in the columns of this process alone.
+std::function<double(Index, Index)> symbol_of(const KernelTransform& kernel, const Share& rows,
+                                              Index period_y) {
+  const Share columns = detail::spectrum_columns(rows, period_y);
+  const auto symbol =
+      std::make_shared<Field>(kernel.columns(columns, [](Index place) { return place; }));
+  return [symbol, first = columns.begin()](Index i, Index j) { return (*symbol)(j - first, i); };
 }
 
 struct WaveVector {
@@ -120,11 +169,12 @@ CellIntegrals cell_integrals(double x, double y, double dx, double dy) {
 
 namespace detail {
 
-NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary boundary) {
+NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary boundary,
+                           const Share& rows) {
   grid.validate();
   require_positive(contact_modulus, "contact_modulus");
   const auto shape = shape_of<double>(grid, boundary);
-  NormalSymbol symbol{shape.period_x, shape.period_y, {}};
+  NormalSymbol symbol{shape.period_x, shape.period_y, {}, {}};
   if (boundary == Boundary::periodic) {
     const double x = 2 * pi / grid.lx, y = 2 * pi / grid.ly;
     symbol.value = [=](Index i, Index j) {
@@ -132,13 +182,17 @@ NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary 
       return i == 0 && j == 0 ? 0 : 2 / (contact_modulus * std::sqrt(qx * qx + qy * qy));
     };
   } else {
-    symbol.value =
-        padded_symbol(shape.period_x, shape.period_y, Parity::even, [&](Index a, Index b) {
+    const auto kernel = std::make_shared<KernelTransform>(
+        shape.period_x, shape.period_y, Parity::even, rows.ranks(), [&](Index a, Index b) {
           const double x = static_cast<double>(a) * grid.dx(),
                        y = static_cast<double>(b) * grid.dy();
           return cell_integrals(x, y, grid.dx(), grid.dy()).inverse_distance /
                  (pi * contact_modulus);
         });
+    symbol.value = symbol_of(*kernel, rows, shape.period_y);
+    symbol.columns = [kernel](const Share& places, const auto& column_at) {
+      return kernel->columns(places, column_at);
+    };
   }
   return symbol;
 }
@@ -161,8 +215,9 @@ template Convolution2D<double> normal_compliance<double>(const Grid2D&, const No
 template <class Real>
 Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus, Boundary boundary,
                                       const Communicator& ranks) {
+  const Share rows(ranks, grid.nx);
   return detail::normal_compliance<Real>(
-      grid, detail::normal_symbol(grid, contact_modulus, boundary), Share(ranks, grid.nx));
+      grid, detail::normal_symbol(grid, contact_modulus, boundary, rows), rows);
 }
 
 template <class Real>
@@ -174,7 +229,8 @@ Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& ma
           material.tangential_modulus,
           "does not give Cerruti's constants; name the bodies or Poisson's ratio");
   const auto shape = shape_of<Real>(grid, boundary);
-  Convolution2D<Real> compliance(shape, 2, Share(ranks, grid.nx));
+  const Share rows(ranks, grid.nx);
+  Convolution2D<Real> compliance(shape, 2, rows);
   if (boundary == Boundary::periodic) {
     const auto along = [=](double component, double length) {
       return length == 0 ? 0
@@ -203,12 +259,13 @@ Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& ma
     const auto set = [&](int a, int b, Parity parity, auto value) {
       compliance.set_symbol(
           a, b,
-          padded_symbol(shape.period_x, shape.period_y, parity,
-                        [&](Index i, Index j) {
-                          const double x = static_cast<double>(i) * grid.dx();
-                          const double y = static_cast<double>(j) * grid.dy();
-                          return value(cell_integrals(x, y, grid.dx(), grid.dy()));
-                        }),
+          symbol_of(KernelTransform(shape.period_x, shape.period_y, parity, ranks,
+                                    [&](Index i, Index j) {
+                                      const double x = static_cast<double>(i) * grid.dx();
+                                      const double y = static_cast<double>(j) * grid.dy();
+                                      return value(cell_integrals(x, y, grid.dx(), grid.dy()));
+                                    }),
+                    rows, shape.period_y),
           parity);
     };
     set(0, 0, Parity::even, [=](const CellIntegrals& cell) {

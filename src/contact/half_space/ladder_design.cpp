@@ -67,8 +67,22 @@ std::array<double, frame + 1> row_of(const LadderStencil& stencil, const double*
   return factors;
 }
 
+// Two columns of a symbol for each one of the coarser grid, which look the same there: column k and period_y/2 − k.
+struct FoldedSymbol {
+  Index period_x, period_y;
+  Index first;   // of this process's columns on the coarser grid
+  Field values;  // [column k, then period_y/2 − k][i]
+};
+Sample sample(const FoldedSymbol& symbol, Index i, Index j) {
+  const Index half = symbol.period_y / 2;
+  const Index place = 2 * j <= half ? 2 * j : 2 * (half - j) + 1;
+  const double value = symbol.values(place - 2 * symbol.first, i);
+  return {value, value != 0 ? 1 / std::abs(value) : 0};
+}
+
+// The columns of this process; those of the others are zero.
 template <class Fine>
-QuarterSymbol coarsened(const Fine& fine, const LadderStencil& stencil) {
+QuarterSymbol coarsened(const Fine& fine, const LadderStencil& stencil, const Share& columns) {
   QuarterSymbol coarse{fine.period_x / 2, fine.period_y / 2, {}, {}};
   const AxisWaves x(fine.period_x, stencil.radius), y(fine.period_y, stencil.radius);
   const Index rows = coarse.period_x / 2 + 1;
@@ -81,7 +95,7 @@ QuarterSymbol coarsened(const Fine& fine, const LadderStencil& stencil) {
           const std::array<Index, 2> along_x = {i, coarse.period_x - i};
           const std::array factors = {row_of(stencil, x.at(along_x[0])),
                                       row_of(stencil, x.at(along_x[1]))};
-          for (Index j = 0; j < coarse.columns(); ++j) {
+          for (Index j = columns.begin(); j < columns.end(); ++j) {
             double moved = 0, squares = 0;
             for (std::size_t a = 0; a < 2; ++a)
               for (const Index b : {j, coarse.period_y - j}) {
@@ -103,6 +117,11 @@ QuarterSymbol coarsened(const Fine& fine, const LadderStencil& stencil) {
       },
       fine.period_x * fine.period_y / 4);
   return coarse;
+}
+
+template <class Fine>
+QuarterSymbol coarsened(const Fine& fine, const LadderStencil& stencil) {
+  return coarsened(fine, stencil, Share(fine.period_y / 4 + 1));
 }
 
 // The four frequencies that look the same on the coarser grid: what a stencil changes there, with C as good as it can be.
@@ -208,7 +227,7 @@ Design begun(double dx_over_dy, Boundary boundary) {
   const auto length = static_cast<double>(cells);
   const double stretch = std::sqrt(dx_over_dy);
   const NormalSymbol exact =
-      normal_symbol({cells, cells, length * stretch, length / stretch}, 1, boundary);
+      normal_symbol({cells, cells, length * stretch, length / stretch}, 1, boundary, Share(cells));
   QuarterSymbol symbol{exact.period_x, exact.period_y, {}, {}};
   for (Index i = 0; i <= symbol.period_x / 2; ++i)
     for (Index j = 0; j <= symbol.period_y / 2; ++j) {
@@ -240,8 +259,39 @@ std::vector<LadderRung> ladder_design(double dx_over_dy, Boundary boundary, int 
   return {design.rungs.begin(), design.rungs.begin() + depth};
 }
 
-QuarterSymbol coarse_symbol(const NormalSymbol& fine, const LadderStencil& stencil) {
-  return coarsened(fine, stencil);
+QuarterSymbol coarse_symbol(const NormalSymbol& fine, const LadderStencil& stencil,
+                            const Communicator& ranks) {
+  const Share columns(ranks, fine.period_y / 4 + 1);
+  std::vector<Index> begins;
+  for (int rank = 0; rank <= ranks.ranks(); ++rank)
+    begins.push_back(2 * (rank < ranks.ranks() ? columns.begin_of(rank) : columns.rows()));
+  QuarterSymbol coarse;
+  if (fine.columns) {
+    const Index half = fine.period_y / 2;
+    const FoldedSymbol folded{fine.period_x, fine.period_y, columns.begin(),
+                              fine.columns(Share(ranks, begins), [half](Index place) {
+                                return place % 2 == 0 ? place / 2 : half - place / 2;
+                              })};
+    coarse = coarsened(folded, stencil, columns);
+  } else {
+    coarse = coarsened(fine, stencil, columns);
+  }
+  if (ranks.alone()) return coarse;
+  // The columns of each process come together, one after the other.
+  const Index rows = coarse.period_x / 2 + 1;
+  std::vector<std::size_t> bytes;
+  for (int rank = 0; rank < ranks.ranks(); ++rank)
+    bytes.push_back(
+        static_cast<std::size_t>((columns.end_of(rank) - columns.begin_of(rank)) * rows) *
+        sizeof(double));
+  Field mine(columns.count(), rows), all(columns.rows(), rows);
+  for (auto* numbers : {&coarse.value, &coarse.metric}) {
+    Eigen::Map<Field> whole(numbers->data(), rows, coarse.columns());
+    mine = whole.middleCols(columns.begin(), columns.count()).transpose();
+    ranks.gather_all(mine.data(), bytes, all.data());
+    whole = all.transpose();
+  }
+  return coarse;
 }
 QuarterSymbol coarse_symbol(const QuarterSymbol& fine, const LadderStencil& stencil) {
   return coarsened(fine, stencil);

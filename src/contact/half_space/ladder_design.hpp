@@ -45,7 +45,9 @@ struct QuarterSymbol {
 //     C(Q) = ¼ Σ_k u_k² D_k/(Σ_k u_k²)²,  u_k² = v_k²/W_k,  D_k = (g_k − T(θ_k))/W_k,  v = cos⁴(θ_x/2) cos⁴(θ_y/2)
 // over the four frequencies θ_k that look the same on the coarser grid, W_k = |g_k|. C(0) = (g(0) − T(0))/4, which takes a constant to
 // where G takes it.
-QuarterSymbol coarse_symbol(const NormalSymbol& fine, const LadderStencil& stencil);
+// Each process makes its columns and gets those of all. Collective.
+QuarterSymbol coarse_symbol(const NormalSymbol& fine, const LadderStencil& stencil,
+                            const Communicator& ranks);
 QuarterSymbol coarse_symbol(const QuarterSymbol& fine, const LadderStencil& stencil);
 
 }  // namespace salebra::detail

@@ -87,7 +87,7 @@ std::optional<NearFieldLadder> NearFieldLadder::make(const Grid2D& grid, const S
     for (double& weight : stencil.weights) weight *= scale;
     return stencil;
   };
-  QuarterSymbol left = coarse_symbol(symbol, scaled(0));
+  QuarterSymbol left = coarse_symbol(symbol, scaled(0), rows.ranks());
   Index nx = grid.nx, ny = grid.ny;
   for (int k = 0; k < depth; ++k) {
     Shift shift = {0, 0};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/half_space/half_space.hpp>
 
 namespace salebra::detail {
@@ -9,9 +11,15 @@ namespace salebra::detail {
 // free one it takes longer than the convolution that is made of it: one in float and one in double share it.
 struct NormalSymbol {
   Index period_x = 0, period_y = 0;
+  // Of a free contact in the columns of this process alone, those of a convolution of its rows.
   Convolution2D<double>::Symbol value;
+  // Of a free contact any columns, collectively: (places.count(), period_x/2 + 1), column_at(place) for each place of this process. Empty
+  // for a periodic one, which has its value in every column.
+  std::function<Field(const Share& places, const std::function<Index(Index place)>& column_at)>
+      columns;
 };
-NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary boundary);
+NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary boundary,
+                           const Share& rows);
 
 template <class Real>
 Convolution2D<Real> normal_compliance(const Grid2D& grid, const NormalSymbol& symbol,

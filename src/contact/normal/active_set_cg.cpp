@@ -45,7 +45,7 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, const Share& rows, double con
       rms_height_(rms_height),
       contact_modulus_(contact_modulus),
       cell_compliance_(salebra::cell_compliance(grid, contact_modulus)),
-      symbol_(normal_symbol(grid, contact_modulus, boundary)),
+      symbol_(normal_symbol(grid, contact_modulus, boundary, rows)),
       compliance_(normal_compliance<Real>(grid, symbol_, rows)),
       kernels_(tile_kernels<Real>()),
       tiles_per_row_(tiles_across(grid.ny)) {

@@ -2,10 +2,14 @@
 // Contact spots of a pressure field: areas, forces, perimeter, and the area corrected for it.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
+#include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -34,29 +38,35 @@ class Sets {
   std::vector<Index> parent_;
 };
 
-}  // namespace
+constexpr Index none = -1;
 
-ContactSpots contact_spots(const Field& pressure, const Grid2D& grid, Boundary boundary) {
-  grid.validate();
-  require(pressure.rows() == grid.nx && pressure.cols() == grid.ny, "pressure", pressure.rows(),
-          "rows or the number of columns differ from those of the grid");
-  const bool periodic = boundary == Boundary::periodic;
+/// Contact cells of a row that follow one another: columns begin … end − 1, of one part of the contact.
+struct Run {
+  Index begin = 0, end = 0, part = 0;
+};
 
-  // Contact cells are numbered row by row. Each row is compared with the one before it, and the first with the last at the end; an edge
-  // of the contact lies between unlike cells.
+/// What a process has found in its rows. Parts are its connected cells, in the order of their first cells.
+struct Found {
+  Index parts = 0, edges_across_x = 0, edges_across_y = 0;
+  std::vector<Run> first, last;    // of the first and of the last row
+  std::vector<Index> part_of;      // each contact cell, row by row
+  std::vector<double> loads;       // the same
+  std::vector<std::size_t> cells;  // before each block of rows, and in all
+};
+
+Found find_parts(const Field& pressure, bool periodic, Index block_rows) {
+  // Contact cells are numbered row by row. Each row is compared with the one before it; an edge of the contact lies between unlike cells.
   using Row = std::vector<Index>;  // the number of each cell, or none
-  constexpr Index none = -1;
+  Found found;
   Sets sets;
-  std::vector<double> loads;
-  Index edges_across_x = 0, edges_across_y = 0;
   const auto numbered = [&](Index ix, Row& row) {
-    for (Index iy = 0; iy < grid.ny; ++iy) {
+    for (Index iy = 0; iy < pressure.cols(); ++iy) {
       const double load = pressure(ix, iy);
       Index& number = row[static_cast<std::size_t>(iy)];
       number = none;
       if (!(load > 0)) continue;
-      number = static_cast<Index>(loads.size());
-      loads.push_back(load);
+      number = static_cast<Index>(found.loads.size());
+      found.loads.push_back(load);
       sets.add();
     }
   };
@@ -64,41 +74,174 @@ ContactSpots contact_spots(const Field& pressure, const Grid2D& grid, Boundary b
     edges += (first == none) != (second == none);
     if (first != none && second != none) sets.join(first, second);
   };
-  const auto compare_rows = [&](const Row& first, const Row& second) {
-    for (std::size_t iy = 0; iy < first.size(); ++iy)
-      compare(first[iy], second[iy], edges_across_x);
-  };
   const auto compare_within = [&](const Row& row) {
-    for (std::size_t iy = 1; iy < row.size(); ++iy) compare(row[iy - 1], row[iy], edges_across_y);
-    compare(row.back(), periodic ? row.front() : none, edges_across_y);
-    if (!periodic) compare(none, row.front(), edges_across_y);
+    Index& edges = found.edges_across_y;
+    for (std::size_t iy = 1; iy < row.size(); ++iy) compare(row[iy - 1], row[iy], edges);
+    compare(row.back(), periodic ? row.front() : none, edges);
+    if (!periodic) compare(none, row.front(), edges);
   };
-  const Row empty(static_cast<std::size_t>(grid.ny), none);
-  Row first = empty, last = empty, row = empty;
-  for (Index ix = 0; ix < grid.nx; ++ix) {
+  Row first, last, row(static_cast<std::size_t>(pressure.cols()));
+  for (Index ix = 0; ix < pressure.rows(); ++ix) {
+    if (ix % block_rows == 0) found.cells.push_back(found.loads.size());
     numbered(ix, row);
     compare_within(row);
     if (ix == 0)
-      first = row;
+      first = last = row;
     else
-      compare_rows(last, row);
+      for (std::size_t iy = 0; iy < row.size(); ++iy)
+        compare(last[iy], row[iy], found.edges_across_x);
     std::swap(last, row);
   }
-  compare_rows(last, periodic ? first : empty);
-  if (!periodic) compare_rows(empty, first);
+  found.cells.push_back(found.loads.size());
 
-  ContactSpots result;
-  const Index cells = static_cast<Index>(loads.size());
-  std::vector<Index> spot_of(loads.size(), none);
-  for (Index cell = 0; cell < cells; ++cell) {
-    Index& spot = spot_of[static_cast<std::size_t>(sets.root(cell))];
-    if (spot == none) {
-      spot = static_cast<Index>(result.spots.size());
-      result.spots.emplace_back();
+  // A root has the least number of its cells.
+  for (Index cell = 0; cell < static_cast<Index>(found.loads.size()); ++cell) {
+    const Index root = sets.root(cell);
+    found.part_of.push_back(root == cell ? found.parts++
+                                         : found.part_of[static_cast<std::size_t>(root)]);
+  }
+  const auto runs_of = [&](const Row& cells) {
+    std::vector<Run> runs;
+    for (Index iy = 0; iy < static_cast<Index>(cells.size()); ++iy) {
+      const Index cell = cells[static_cast<std::size_t>(iy)];
+      if (cell == none) continue;
+      if (runs.empty() || runs.back().end < iy)
+        runs.push_back({iy, iy, found.part_of[static_cast<std::size_t>(cell)]});
+      runs.back().end = iy + 1;
     }
-    result.spots[static_cast<std::size_t>(spot)].area += grid.cell_area();
-    result.spots[static_cast<std::size_t>(spot)].force +=
-        loads[static_cast<std::size_t>(cell)] * grid.cell_area();
+    return runs;
+  };
+  found.first = runs_of(first);
+  found.last = runs_of(last);
+  return found;
+}
+
+/// Lists of all processes, one after the other.
+template <class Item>
+std::vector<std::vector<Item>> gathered(const Communicator& ranks, const std::vector<Item>& mine) {
+  static_assert(std::is_trivially_copyable_v<Item>);
+  std::vector<std::vector<Item>> all;
+  for (const std::string& bytes : ranks.gather_all(
+           std::string(reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(Item)))) {
+    all.emplace_back(bytes.size() / sizeof(Item));
+    if (!bytes.empty()) std::memcpy(all.back().data(), bytes.data(), bytes.size());
+  }
+  return all;
+}
+
+/// Edges between two rows; join(first, second) the parts that touch across them.
+template <class Join>
+Index compare_runs(const std::vector<Run>& first, const std::vector<Run>& second,
+                   const Join& join) {
+  Index edges = 0;
+  for (const auto* runs : {&first, &second})
+    for (const Run& run : *runs) edges += run.end - run.begin;
+  for (auto a = first.begin(), b = second.begin(); a != first.end() && b != second.end();) {
+    if (const Index both = std::min(a->end, b->end) - std::max(a->begin, b->begin); both > 0) {
+      edges -= 2 * both;
+      join(a->part, b->part);
+    }
+    ++(a->end < b->end ? a : b);
+  }
+  return edges;
+}
+
+}  // namespace
+
+ContactSpots contact_spots(const Field& pressure, const Grid2D& grid, Boundary boundary,
+                           const Communicator& ranks) {
+  const Share rows(ranks, grid.nx);
+  const bool periodic = boundary == Boundary::periodic;
+  const Index block_rows = parallel::block_rows(grid.nx);
+  Found mine;
+  collectively(ranks, [&] {
+    grid.validate();
+    require(pressure.rows() == rows.count() && pressure.cols() == grid.ny, "pressure",
+            pressure.rows(), "rows or the number of columns differ from those of the grid");
+    mine = find_parts(pressure, periodic, block_rows);
+  });
+
+  // Every process joins the parts of all of them by the runs of cells at the edges of their rows.
+  struct Counts {
+    Index parts = 0, edges_across_x = 0, edges_across_y = 0;
+  };
+  const auto counts =
+      gathered<Counts>(ranks, {{mine.parts, mine.edges_across_x, mine.edges_across_y}});
+  const auto first = gathered(ranks, mine.first), last = gathered(ranks, mine.last);
+  Sets sets;
+  std::vector<Index> before{0};  // parts of the processes before each
+  Index edges_across_x = 0, edges_across_y = 0, in_use = 0;
+  for (int rank = 0; rank < ranks.ranks(); ++rank) {
+    const Counts& of_rank = counts[static_cast<std::size_t>(rank)].front();
+    for (Index part = 0; part < of_rank.parts; ++part) sets.add();
+    before.push_back(before.back() + of_rank.parts);
+    edges_across_x += of_rank.edges_across_x;
+    edges_across_y += of_rank.edges_across_y;
+    in_use += rows.end_of(rank) > rows.begin_of(rank);  // the last ones have no rows
+  }
+  const auto meet = [&](const std::vector<Run>& a, Index rank_of_a, const std::vector<Run>& b,
+                        Index rank_of_b) {
+    edges_across_x += compare_runs(a, b, [&](Index part_of_a, Index part_of_b) {
+      sets.join(before[static_cast<std::size_t>(rank_of_a)] + part_of_a,
+                before[static_cast<std::size_t>(rank_of_b)] + part_of_b);
+    });
+  };
+  for (Index rank = 1; rank < in_use; ++rank)
+    meet(last[static_cast<std::size_t>(rank - 1)], rank - 1, first[static_cast<std::size_t>(rank)],
+         rank);
+  const auto& first_row = first.front();
+  const auto& last_row = last[static_cast<std::size_t>(in_use - 1)];
+  if (periodic) {
+    meet(last_row, in_use - 1, first_row, 0);
+  } else {
+    meet(last_row, in_use - 1, {}, 0);
+    meet({}, 0, first_row, 0);
+  }
+  Index spots = 0;
+  std::vector<Index> spot_of(static_cast<std::size_t>(before.back()));  // each part
+  for (Index part = 0; part < before.back(); ++part) {
+    const Index root = sets.root(part);
+    spot_of[static_cast<std::size_t>(part)] =
+        root == part ? spots++ : spot_of[static_cast<std::size_t>(root)];
+  }
+
+  // Forces are added within each block of rows, then over the blocks.
+  struct Piece {
+    Index spot = 0, cells = 0;
+    double load = 0;
+  };
+  std::vector<Piece> pieces;
+  std::vector<std::size_t> piece_of(static_cast<std::size_t>(spots));
+  const Index mine_before = before[static_cast<std::size_t>(ranks.rank())];
+  for (std::size_t block = 0; block + 1 < mine.cells.size(); ++block) {
+    const std::size_t of_earlier_blocks = pieces.size();
+    for (std::size_t cell = mine.cells[block]; cell < mine.cells[block + 1]; ++cell) {
+      const auto spot = static_cast<std::size_t>(
+          spot_of[static_cast<std::size_t>(mine_before + mine.part_of[cell])]);
+      std::size_t& piece = piece_of[spot];
+      if (piece < of_earlier_blocks || piece >= pieces.size() ||
+          pieces[piece].spot != static_cast<Index>(spot)) {
+        piece = pieces.size();
+        pieces.push_back({static_cast<Index>(spot)});
+      }
+      ++pieces[piece].cells;
+      pieces[piece].load += mine.loads[cell];
+    }
+  }
+  ContactSpots result;
+  result.spots.resize(static_cast<std::size_t>(spots));
+  std::vector<Index> cells_of(result.spots.size(), 0);
+  Index cells = 0;
+  for (const auto& of_rank : gathered(ranks, pieces)) {
+    for (const Piece& piece : of_rank) {
+      cells += piece.cells;
+      cells_of[static_cast<std::size_t>(piece.spot)] += piece.cells;
+      result.spots[static_cast<std::size_t>(piece.spot)].force += piece.load;
+    }
+  }
+  for (std::size_t spot = 0; spot < cells_of.size(); ++spot) {
+    result.spots[spot].area = static_cast<double>(cells_of[spot]) * grid.cell_area();
+    result.spots[spot].force *= grid.cell_area();
   }
   std::ranges::stable_sort(result.spots, std::ranges::greater{}, &ContactSpot::area);
 

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
+#include <random>
 #include <salebra/base/error.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/generators/filtered_noise.hpp>
+
+#include "ranks_in_threads.hpp"
 
 using namespace salebra;
 
@@ -87,4 +93,38 @@ TEST_CASE("The corrected area of a coarse grid is that of a fine one", "[spots]"
   // the grid: the correction must remove two thirds of the error.
   CHECK(counted > 1.05 * exact);
   CHECK(std::abs(corrected - exact) < (counted - exact) / 3);
+}
+
+TEST_CASE("Spots of a pressure that is spread have the bits of one process", "[spots][share]") {
+  const Grid2D grid = GENERATE(Grid2D{64, 64, 1, 1}, Grid2D{96, 50, 1.5, 1}, Grid2D{101, 64, 1, 1},
+                               Grid2D{16, 16, 1, 1});
+  const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
+  // Few cells in contact, and so many that the largest spots wind through all rows (0.593 percolate).
+  const double part = GENERATE(0.1, 0.6, 0.65);
+  std::mt19937 engine(static_cast<unsigned>(grid.nx));
+  Field pressure(grid.nx, grid.ny);
+  for (Index k = 0; k < pressure.size(); ++k) {
+    const double chance = static_cast<double>(engine()) / static_cast<double>(std::mt19937::max());
+    pressure.data()[k] = chance < part ? 0.1 + chance : 0;
+  }
+  const ContactSpots alone = contact_spots(pressure, grid, boundary);
+  double force = 0;
+  for (const ContactSpot& spot : alone.spots) force += spot.force;
+  CHECK(force == Approx(pressure.sum() * grid.cell_area()));
+  for (const int ranks : {1, 2, 3, 4, 5, 8}) {
+    CAPTURE(grid.nx, grid.ny, part, ranks);
+    std::atomic<int> right = 0;
+    salebra::testing::run_ranks(ranks, [&](const Communicator& together) {
+      const Share rows(together, grid.nx);
+      const ContactSpots spots =
+          contact_spots(pressure.middleRows(rows.begin(), rows.count()), grid, boundary, together);
+      right += spots.spots.size() == alone.spots.size() &&
+               std::memcmp(spots.spots.data(), alone.spots.data(),
+                           spots.spots.size() * sizeof(ContactSpot)) == 0 &&
+               spots.contact_area_fraction == alone.contact_area_fraction &&
+               spots.perimeter == alone.perimeter &&
+               spots.corrected_area_fraction == alone.corrected_area_fraction;
+    });
+    CHECK(right == ranks);
+  }
 }

@@ -184,7 +184,8 @@ TEST_CASE(
     const Solved plain = solved({}, share);
     REQUIRE(plain.outcome.converged);
     Field exact(512, 512);
-    normal_compliance<double>(surface.grid, normal_symbol(surface.grid, 1, Boundary::periodic),
+    normal_compliance<double>(surface.grid,
+                              normal_symbol(surface.grid, 1, Boundary::periodic, surface.share()),
                               Share(512))
         .apply(plain.pressure.data(), exact.data());
     exact -= surface.heights - heights.zero;
@@ -254,9 +255,9 @@ TEST_CASE(
     limits.ladder_share = 0.0;
     ActiveSetCg<float> sharp(surface.grid, 1, Boundary::periodic, {}, 0);
     const double load_exact = sharp.punch_load(contact.pressure.data(), infinite, limits).load;
-    const auto ladder = NearFieldLadder::make(surface.grid, surface.share(),
-                                              normal_symbol(surface.grid, 1, Boundary::periodic), 1,
-                                              Boundary::periodic);
+    const auto ladder = NearFieldLadder::make(
+        surface.grid, surface.share(),
+        normal_symbol(surface.grid, 1, Boundary::periodic, surface.share()), 1, Boundary::periodic);
     REQUIRE(ladder);
     const double contraction = std::pow(ladder->error() / (1 - ladder->error()), 2);
     // A gain asked for that one round must reach, because what is left by the bound is below it; solved to 1e-4 within the round.

@@ -198,7 +198,7 @@ TEST_CASE("The slower method that finishes stalled contacts has the bits of one 
     p = Field::Constant(rows.count(), 64, target.value);
     g = p;
     auto compliance = normal_compliance<double>(
-        surface.grid, normal_symbol(surface.grid, 1, Boundary::periodic), rows);
+        surface.grid, normal_symbol(surface.grid, 1, Boundary::periodic, rows), rows);
     ActiveSetOutcome outcome;
     gradient_projection(compliance, surface.grid, rows, Boundary::periodic, {mine.heights.data()},
                         1, target, {.tolerance = 1e-8}, p.data(), g.data(), outcome);

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/base/grid.hpp>
+#include <salebra/base/share.hpp>
+#include <vector>
+
+namespace salebra::detail {
+
+/// The rows of a surface that this process holds, and one before and one behind them, from other processes where they are there. Collective.
+class NeighbourRows {
+ public:
+  explicit NeighbourRows(const Surface& surface) {
+    const Share share = surface.share();
+    const RowExchange exchange(
+        share,
+        [&](int rank) -> RowExchange::Window {
+          const Index begin = share.begin_of(rank), count = share.end_of(rank) - begin;
+          if (count == 0) return {};
+          return {begin - 1, count + 2};
+        },
+        surface.periodic ? RowExchange::Edge::repeat : RowExchange::Edge::none);
+    const std::size_t bytes = static_cast<std::size_t>(surface.grid.ny) * sizeof(double);
+    rows_ = exchange.fetch(surface.heights.data(), bytes, bytes, room_);
+  }
+  /// −1 … the number of rows of this process; nullptr beyond the edge of a surface that is not periodic.
+  const double* operator[](Index row) const {
+    return static_cast<const double*>(rows_[static_cast<std::size_t>(row + 1)]);
+  }
+
+ private:
+  std::vector<std::byte> room_;
+  std::vector<const void*> rows_;
+};
+
+}  // namespace salebra::detail

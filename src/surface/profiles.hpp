@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <salebra/base/memory.hpp>
+#include <salebra/base/share.hpp>
+#include <salebra/surface/axis.hpp>
+#include <span>
+#include <vector>
+
+namespace salebra::detail {
+
+/// The profiles of a surface along an axis: its columns along x, its rows along y. Each process has some of them.
+inline Share profiles_of(const Surface& surface, Axis axis) {
+  return axis == Axis::x ? Share(surface.ranks, surface.grid.ny) : surface.share();
+}
+
+/// One Value for each block of profiles of this process. add(value of its block, heights) takes every profile, whose
+/// heights it may change; those of a block come in order. Collective.
+template <class Value, class Add>
+std::vector<Value> map_profiles(const Surface& surface, Axis axis, const Value& start,
+                                const Add& add) {
+  const Share profiles = profiles_of(surface, axis);
+  const Index size = parallel::block_rows(profiles.rows()), ny = surface.grid.ny,
+              number = (profiles.count() + size - 1) / size;
+  std::vector<Value> blocks(static_cast<std::size_t>(number), start);
+  if (axis == Axis::x) {
+    visit_columns<double>(
+        surface.share(), profiles,
+        [&](Index row, Index first, Index count, double* to) {
+          std::copy_n(surface.heights.data() + row * ny + first, count, to);
+        },
+        [&](Index profile, std::span<double> heights) {
+          add(blocks[static_cast<std::size_t>((profile - profiles.begin()) / size)], heights);
+        });
+    return blocks;
+  }
+  collectively(surface.ranks, [&] {
+    parallel::for_slabs(number, [&](Index begin, Index end) {
+      const auto room = large_array<double>(static_cast<std::size_t>(ny));
+      for (Index row = begin * size; row < std::min(profiles.count(), end * size); ++row) {
+        std::copy_n(surface.heights.data() + row * ny, ny, room.get());
+        add(blocks[static_cast<std::size_t>(row / size)],
+            std::span(room.get(), static_cast<std::size_t>(ny)));
+      }
+    });
+  });
+  return blocks;
+}
+
+}  // namespace salebra::detail
