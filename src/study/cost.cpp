@@ -134,7 +134,7 @@ double felt(double load) { return std::clamp(load, 1e-3, 0.5); }
 /// Of one contact on one thread, on the machine of the constants above, with K and K_t where they are computed. Those of a study
 /// are means over its loads, which solves at 0.0165 E*h' have; the rest of a solve is the stiffness.
 double contact_seconds(const SurfaceWork& work, double load) {
-  constexpr double mean_load = 0.0165, power_of_load = 0.35, without_stiffness = 0.75;
+  constexpr double mean_load = 0.0165, power_of_load = 0.35, without_stiffness = 0.5;
   const auto cells = static_cast<double>(work.grid.points());
   const double per_cell = contact_models()[std::size_t(ContactModel::bem)].seconds_per_cell *
                               (work.normal_stiffness ? 1.0 : without_stiffness) +

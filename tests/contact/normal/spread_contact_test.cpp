@@ -285,6 +285,29 @@ TEST_CASE("A force curve of groups of processes has the bits of one process", "[
   for (const auto& of_group : loads) CHECK((of_group >= 4 / count && of_group <= most));
 }
 
+TEST_CASE("A sweep that its root stops ends in all processes, within a contact and a stiffness",
+          "[spread]") {
+  const int groups = GENERATE(1, 2);
+  // Reports of the first solve come from contacts, later ones from stiffnesses and the next loads.
+  const int last = GENERATE(0, 1, 5, 20, 40, 60, 80);
+  const Surface surface = test::rough_surface({96, 96, 96, 96});
+  const Material material = Material::of_contact_modulus(1, 0.3);
+  run_ranks(4, [&](const Communicator& all) {
+    SweepOptions options;
+    options.stick = true;
+    options.groups = Groups(all, groups);
+    int reports = 0;
+    options.contact.on_progress = [&](const ProgressReport&) {
+      return !all.is_root() || reports++ < last;
+    };
+    const ForceCurve curve = sweep_pressures(spread(surface, options.groups->own()), material,
+                                             {1e-3, 2e-3, 4e-3}, options);
+    const std::string mine = std::to_string(curve.samples.size());
+    for (const std::string& other : all.gather_all(mine))
+      if (other != mine) throw Error("another number of samples");
+  });
+}
+
 TEST_CASE("Groups of processes are at most as many as processes", "[spread]") {
   const int count = GENERATE(0, 4);
   CHECK_THROWS_WITH(run_ranks(3, [&](const Communicator& all) { Groups(all, count); }),
