@@ -183,7 +183,7 @@ double surface_memory(const SurfaceWork& work) {
            (together ? std::max(4.5 * mine, 512.0 * static_cast<double>(work.grid.nx)) : 0.0);
   const double load = felt(std::ranges::max(work.loads)), touched = std::pow(load, 0.7);
   double contact = 40 + std::min(27.0, 58 * touched);
-  if (work.normal_stiffness) contact = std::max(contact, 59 + 20 * touched + (together ? 8 : 0));
+  if (work.normal_stiffness && together) contact += 8;
   if (work.tangential_stiffness)
     contact = std::max(contact, 64 + 218 * std::pow(load, 0.6) + (together ? 8 : 0));
   // What each process makes of the whole grid: the ladder, and of an isolated surface its response.
