@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -130,6 +131,38 @@ inline void check_failure(const Communicator& ranks) {
   expect(false, "failure: not thrown everywhere");
 }
 
+// Every third process is of one group; the processes of a group talk among themselves, groups of other sizes at once.
+inline void check_split(const Communicator& ranks) {
+  const Communicator group = ranks.split(ranks.rank() % 3 == 0 ? 1 : 0);
+  int members = 0, place = 0;
+  for (int rank = 0; rank < ranks.ranks(); ++rank)
+    if ((rank % 3 == 0) == (ranks.rank() % 3 == 0)) {
+      if (rank < ranks.rank()) ++place;
+      ++members;
+    }
+  expect(group.ranks() == members && group.rank() == place, "split: another group");
+  check_broadcast(group);
+  check_gathers(group);
+  check_exchange(group);
+}
+
+inline void check_groups(const Communicator& ranks) {
+  for (int count = 1; count <= ranks.ranks(); ++count) {
+    const Groups groups(ranks, count);
+    const std::vector<std::string> places =
+        ranks.gather_all(std::string(1, static_cast<char>('a' + groups.place())));
+    const std::string mine(1, static_cast<char>('a' + groups.place()));
+    expect(std::is_sorted(places.begin(), places.end()) && places.front() == "a" &&
+               places.back()[0] == static_cast<char>('a' + count - 1),
+           "groups: not of consecutive processes");
+    const auto size = std::count(places.begin(), places.end(), mine);
+    expect(size == groups.own().ranks() && size >= ranks.ranks() / count &&
+               size <= ranks.ranks() / count + 1,
+           "groups: of another size");
+    check_gathers(groups.own());
+  }
+}
+
 inline void check_conformance(const Communicator& ranks) {
   check_broadcast(ranks);
   check_gathers(ranks);
@@ -140,6 +173,8 @@ inline void check_conformance(const Communicator& ranks) {
   check_convolution<float>(ranks, 101, 64);  // odd, and a last block that is not full
   check_convolution<double>(ranks, 16, 16);  // all but one process without rows
   check_failure(ranks);
+  check_split(ranks);
+  check_groups(ranks);
 }
 
 }  // namespace salebra::testing

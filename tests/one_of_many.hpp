@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <salebra/base/communicator.hpp>
+#include <stdexcept>
 
 namespace salebra::testing {
 
@@ -49,6 +50,9 @@ class OneOfMany : public detail::Transport {
         std::memset(static_cast<char*>(to) + static_cast<std::size_t>(received.places[rank]) * unit,
                     0, static_cast<std::size_t>(received.counts[rank]) * unit);
     }
+  }
+  std::shared_ptr<Transport> split(int) override {
+    throw std::logic_error("one of many ranks does not know the groups of the others");
   }
 
  private:

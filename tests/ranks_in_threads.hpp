@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <cstring>
@@ -83,6 +84,12 @@ class ThreadTransport : public detail::Transport {
         rank_(rank),
         ranks_(ranks),
         chance_(static_cast<unsigned>(rank)) {}
+  ThreadTransport(const ThreadTransport&) = delete;
+  ThreadTransport& operator=(const ThreadTransport&) = delete;
+  // Of a group: nobody may wait for a rank that has let go of it.
+  ~ThreadTransport() override {
+    if (of_group_) meeting_->leave();
+  }
 
   int rank() const override { return rank_; }
   int ranks() const override { return ranks_; }
@@ -134,6 +141,25 @@ class ThreadTransport : public detail::Transport {
     });
   }
 
+  std::shared_ptr<Transport> split(int group) override {
+    const std::int64_t mine = group;
+    std::vector<std::int64_t> groups(static_cast<std::size_t>(ranks_));
+    gather_all(&mine, std::vector<std::size_t>(groups.size(), sizeof mine), groups.data());
+    const auto first = static_cast<int>(std::ranges::find(groups, mine) - groups.begin());
+    const auto members = static_cast<int>(std::ranges::count(groups, mine));
+    // That of the first rank of a group is the group's.
+    const auto made = std::make_shared<Meeting>(members);
+    std::shared_ptr<Meeting> meeting;
+    meeting_->meet(rank_, {"split", &made}, [&](const auto& calls) {
+      meeting = *static_cast<const std::shared_ptr<Meeting>*>(
+          calls[static_cast<std::size_t>(first)].from);
+    });
+    const auto place = static_cast<int>(std::count(groups.begin(), groups.begin() + rank_, mine));
+    auto transport = std::make_shared<ThreadTransport>(meeting, place, members);
+    transport->of_group_ = true;
+    return transport;
+  }
+
  private:
   std::vector<std::size_t> shuffled() {
     std::vector<std::size_t> order(static_cast<std::size_t>(ranks_));
@@ -145,6 +171,7 @@ class ThreadTransport : public detail::Transport {
 
   std::shared_ptr<Meeting> meeting_;
   int rank_, ranks_;
+  bool of_group_ = false;
   std::minstd_rand chance_;
 };
 

@@ -16,6 +16,7 @@
 
 #include "contact_checkpoint.hpp"
 #include "curve_figure.hpp"
+#include "dry_run.hpp"
 #include "first_loading.hpp"
 #include "grid_axes.hpp"
 #include "options.hpp"
@@ -34,6 +35,7 @@ struct ContactArguments {
   std::string initial, residual, fields, field_type;
   ContactCheckpoint checkpoint;
   bool stiffness = false;
+  DryRunOptions dry_run;
   int max_iterations = NormalContactOptions().max_iterations;
 };
 
@@ -120,6 +122,20 @@ void check_residual(const ContactArguments& arguments, const Session& session) {
   require_output(arguments.residual, session.write_options());
 }
 
+void estimate(const ContactArguments& arguments, double contact_modulus, Session& session) {
+  const SurfaceOutline outline = arguments.surface.outline(session);
+  SurfaceWork work = planned(arguments.dry_run, outline.grid, session);
+  // Of a gap or an indentation the load is not known before: that of contact on a tenth of the cells.
+  double load = 0.05;
+  if (const auto& [gap, pressure, indentation, force] = arguments.position; pressure || force)
+    load = pressure.value_or(force.value_or(0) / outline.grid.area()) /
+           (contact_modulus * outline.rms_slope);
+  work.loads = {load};
+  work.normal_stiffness = arguments.stiffness;
+  work.boundary = *value_of<Boundary>(arguments.boundary);
+  answer_dry_run(work, outline.origin, session);
+}
+
 void run(const ContactArguments& arguments, Session& session) {
   for (const auto& [given, option] :
        {std::pair(arguments.hardness.has_value(), "--hardness"), {session.has_plot(), "--plot"}})
@@ -147,6 +163,7 @@ void run(const ContactArguments& arguments, Session& session) {
   if (arguments.material.contact_modulus && !arguments.material.poisson.empty())
     session.warn(
         "--poisson: has no effect with --contact-modulus; a contact is pressed by E* alone");
+  if (arguments.dry_run.dry_run) return estimate(arguments, contact_modulus, session);
   NormalContactOptions options = contact_options(arguments, session);
   const Surface surface = arguments.surface.read(session);
   if (arguments.position.pressure)
@@ -263,6 +280,7 @@ void add_contact_command(Program& program) {
       ->show_default();
   add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
                "of the complementarity residual; default 1e-10");
+  arguments->dry_run.add_to(command);
 }
 
 }  // namespace salebra::cli

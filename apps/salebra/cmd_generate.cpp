@@ -17,6 +17,7 @@
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/moments.hpp>
 
+#include "dry_run.hpp"
 #include "options.hpp"
 #include "plausibility.hpp"
 #include "program.hpp"
@@ -34,6 +35,7 @@ struct GenerateArguments {
   SpectrumOptions spectrum;
   ShapeOptions shape;
   bool profile = false;
+  DryRunOptions dry_run;
   std::uint64_t seed = 1;
   int max_iterations = NonGaussianOptions{}.max_iterations;
 
@@ -97,11 +99,17 @@ std::optional<HeightDistribution> distribution_of(const GenerateArguments& argum
 }
 
 void report_memory(const Grid2D& grid, std::size_t bytes, Session& session) {
-  // Processes of one machine share its memory.
-  const double needed = static_cast<double>(bytes) * session.ranks_of_node().ranks();
-  collectively(session.ranks(), [&] { require_memory(grid, needed, "a surface"); });
-  session.note(fmt::format("memory: {} needed, {} available", memory_text(needed),
-                           memory_text(static_cast<double>(available_memory()))));
+  require_memory(grid, static_cast<double>(bytes), "a surface", session.ranks());
+  const NodeMemory memory = memory_of_nodes(static_cast<double>(bytes), session.ranks());
+  session.note(fmt::format("memory: {} needed, {} available{}", memory_text(memory.needed),
+                           memory_text(memory.available),
+                           memory.nodes > 1 ? " on node " + memory.node : ""));
+}
+
+std::string method_of(const GenerateArguments& arguments) {
+  return !arguments.method.empty()  ? arguments.method
+         : arguments.non_gaussian() ? "random-phase"
+                                    : "filtered-noise";
 }
 
 /// A random surface, with what is to be said of it added to the answer.
@@ -118,9 +126,7 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
                 session);
   const Forecast expected = forecast(grid, *spectrum, session.progress());
   for (const std::string& warning : expected.warnings) session.warn(warning);
-  const std::string method = !arguments.method.empty()  ? arguments.method
-                             : arguments.non_gaussian() ? "random-phase"
-                                                        : "filtered-noise";
+  const std::string method = method_of(arguments);
   answer["seed"] = arguments.seed;
   answer["method"] = arguments.non_gaussian() ? "non-gaussian" : method;
   if (const Json lay = arguments.spectrum.anisotropy(); !lay.is_null()) answer["anisotropy"] = lay;
@@ -207,6 +213,13 @@ void require_spreadable(const GenerateArguments& arguments, const Session& sessi
     if (given) session.require_one_process(option);
 }
 
+void estimate(const GenerateArguments& arguments, const Grid2D& grid, Session& session) {
+  require(!arguments.shape.given() && !arguments.non_gaussian(), "--dry-run", "generate",
+          "is for Gaussian random surfaces; leave out --shape and distributions of heights");
+  answer_dry_run(planned(arguments.dry_run, grid, session),
+                 fmt::format("{}, seed {}", method_of(arguments), arguments.seed), session);
+}
+
 void run(const GenerateArguments& arguments, Session& session) {
   require_spreadable(arguments, session);
   require(!arguments.shape.given() || (!arguments.spectrum.given() && !arguments.profile &&
@@ -216,6 +229,7 @@ void run(const GenerateArguments& arguments, Session& session) {
   if (session.has_output()) require_surface_name(session.output());
   const Grid2D grid = grid_of(arguments);
   for (const std::string& line : doubts_of_cells(grid)) session.warn(line);
+  if (arguments.dry_run.dry_run) return estimate(arguments, grid, session);
   Json answer = {{"nx", grid.nx}, {"ny", grid.ny}, {"size_x", grid.lx}, {"size_y", grid.ly}};
   Surface surface;
   if (arguments.shape.given()) {
@@ -324,6 +338,7 @@ void add_generate_command(Program& program) {
   command.add_option("--crop-from", arguments->crop_from, "first point kept; default 0,0")
       ->type_name("X[,Y]")
       ->group(after);
+  arguments->dry_run.add_to(command);
 }
 
 }  // namespace salebra::cli

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
 #include "curve_figure.hpp"
 #include "curve_json.hpp"
+#include "dry_run.hpp"
 #include "first_loading.hpp"
 #include "options.hpp"
 #include "plausibility.hpp"
@@ -25,7 +28,32 @@ struct SweepArguments {
   bool stiffness = false, stick = false;
   std::string boundary = "periodic";
   std::optional<double> tolerance, hardness;
+  int groups = 0;  // 0: as many as memory holds
+  DryRunOptions dry_run;
 };
+
+/// Of surfaces that are generated, as many groups as memory holds; a file is read once.
+int groups_of(const SweepArguments& arguments, const SurfaceWork& work, Session& session) {
+  if (arguments.groups > 0) return arguments.groups;
+  if (arguments.surface.recipe.empty() || work.ranks == 1) return 1;
+  return groups_that_fit(work, [&](double bytes) {
+    if (!arguments.dry_run.dry_run) return memory_of_nodes(bytes, session.ranks()).suffices();
+    const double available = static_cast<double>(available_memory());
+    return available == 0 || bytes * std::ceil(double(work.ranks) / work.nodes) <= available;
+  });
+}
+
+SurfaceWork work_of(const SweepArguments& arguments, const std::vector<double>& pressures,
+                    const SurfaceOutline& outline, Session& session) {
+  SurfaceWork work = planned(arguments.dry_run, outline.grid, session);
+  const double unit = arguments.material.material().contact_modulus * outline.rms_slope;
+  for (const double pressure : pressures) work.loads.push_back(pressure / unit);
+  work.normal_stiffness = arguments.stiffness;
+  work.tangential_stiffness = arguments.stick;
+  work.boundary = *value_of<Boundary>(arguments.boundary);
+  work.groups = groups_of(arguments, work, session);
+  return work;
+}
 
 void run(const SweepArguments& arguments, Session& session) {
   for (const auto& [given, option] :
@@ -42,7 +70,6 @@ void run(const SweepArguments& arguments, Session& session) {
   options.stick = arguments.stick;
   options.contact.boundary = *value_of<Boundary>(arguments.boundary);
   if (arguments.tolerance) options.contact.tolerance = *arguments.tolerance;
-  options.contact.on_progress = session.progress();
   for (const double pressure : arguments.pressures) require_positive(pressure, "--pressures");
   std::vector<double> pressures = arguments.pressures;
   std::ranges::sort(pressures);
@@ -52,7 +79,16 @@ void run(const SweepArguments& arguments, Session& session) {
     session.warn("--poisson: has no effect without --stiffness, which K_t needs");
   for (const std::string& line : doubts_of_pressures(pressures, material.contact_modulus))
     session.warn(line);
-  Surface surface = arguments.surface.read(session);
+  if (arguments.dry_run.dry_run) {
+    const SurfaceOutline outline = arguments.surface.outline(session);
+    return answer_dry_run(work_of(arguments, pressures, outline, session), outline.origin, session);
+  }
+  int groups = std::max(1, arguments.groups);
+  if (arguments.groups == 0 && !arguments.surface.recipe.empty() && !session.ranks().alone())
+    groups = work_of(arguments, pressures, arguments.surface.outline(session), session).groups;
+  options.groups = Groups(session.ranks(), groups);
+  options.contact.on_progress = session.progress(options.groups->own());
+  Surface surface = arguments.surface.read(session, options.groups->own());
   const std::optional<FirstLoading> first_loading = load_first(
       surface, arguments.hardness, material.contact_modulus, pressures.back(), options.contact);
   const ForceCurve curve = sweep_pressures(surface, material, pressures, options);
@@ -63,6 +99,7 @@ void run(const SweepArguments& arguments, Session& session) {
   });
   if (session.has_plot()) session.plot(curve_figure(curve));
   Json answer = {{"curve", to_json(curve)}};
+  if (!session.ranks().alone()) answer["groups"] = groups;
   add_first_loading(answer, first_loading);
   session.answer(answer);
   const auto lost = std::ranges::count(curve.samples, false, &ForceSample::converged);
@@ -102,6 +139,12 @@ void add_sweep_command(Program& program) {
       "pressures up to the hardness, and the curve is that of unloading; default none");
   add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
                "of the complementarity residual; default 1e-10");
+  command
+      .add_option("--groups", arguments->groups,
+                  "of processes of salebra-mpi, each of which holds the surface and presses some "
+                  "of the loads; default: with --recipe as many as memory holds, else 1")
+      ->range(1, 1 << 20);
+  arguments->dry_run.add_to(command);
 }
 
 }  // namespace salebra::cli

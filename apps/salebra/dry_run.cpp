@@ -8,7 +8,6 @@
 #include <cmath>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/study/cost.hpp>
 #include <salebra/study/realisation.hpp>
 
 namespace salebra::cli {
@@ -21,24 +20,27 @@ std::string about(double seconds) {
   return format_duration(std::round(seconds / unit) * unit);
 }
 
+std::string in_points(const Grid2D& grid, const std::string& origin) {
+  return fmt::format("{} x {} points, {} x {} ({})", grid.nx, grid.ny,
+                     format_quantity(grid.lx, Dimension::length),
+                     format_quantity(grid.ly, Dimension::length), origin);
+}
+
 std::string describe(const PointCost& point) {
   const Grid2D& grid = point.grid;
   std::string origin = "measured";
   if (const auto* generated = std::get_if<GeneratedSurfaces>(&point.configuration.surfaces)) {
     const auto [least, greatest] = std::ranges::minmax(generated->seeds);
-    origin =
-        generated->method == GenerationMethod::filtered_noise ? "filtered noise" : "random phase";
+    origin = title_of(generated->method);
     origin += least == greatest ? fmt::format(", seed {}", least)
                                 : fmt::format(", seeds {} to {}", least, greatest);
   }
-  return fmt::format(
-      "  surfaces  {} of {} x {} points, {} x {} ({})\n  loads     {} from {} to {}, {:.2g} to "
-      "{:.2g} E*h'\n",
-      point.surfaces, grid.nx, grid.ny, format_quantity(grid.lx, Dimension::length),
-      format_quantity(grid.ly, Dimension::length), origin, point.pressures.size(),
-      format_quantity(point.pressures.front(), Dimension::pressure),
-      format_quantity(point.pressures.back(), Dimension::pressure),
-      point.pressures.front() / point.contact_scale, point.pressures.back() / point.contact_scale);
+  return fmt::format("  surfaces  {} of {}\n  loads     {} from {} to {}, {:.2g} to {:.2g} E*h'\n",
+                     point.surfaces, in_points(grid, origin), point.pressures.size(),
+                     format_quantity(point.pressures.front(), Dimension::pressure),
+                     format_quantity(point.pressures.back(), Dimension::pressure),
+                     point.pressures.front() / point.contact_scale,
+                     point.pressures.back() / point.contact_scale);
 }
 
 /// What the damping constants cost beside the sweep.
@@ -140,6 +142,69 @@ void answer_dry_run(const StudyConfiguration& configuration, std::optional<doubl
   }
   if (cost.available > 0 && cost.memory > cost.available)
     session.warn("the memory that is free does not suffice; use fewer points or fewer --threads");
+  session.answer(answer, text);
+}
+
+SurfaceWork planned(const DryRunOptions& options, const Grid2D& grid, const Session& session) {
+  SurfaceWork work{.grid = grid, .threads = parallel::threads()};
+  work.ranks = options.ranks > 0 ? options.ranks : session.ranks().ranks();
+  const int here = memory_of_nodes(0, session.ranks()).nodes;
+  work.nodes = options.nodes > 0 ? options.nodes : std::min(here, work.ranks);
+  return work;
+}
+
+void answer_dry_run(const SurfaceWork& work, const std::string& origin, Session& session) {
+  const SurfaceCost cost = estimate_cost(work);
+  const int on_a_node = (work.ranks + work.nodes - 1) / work.nodes;
+  const double of_node = cost.memory_of_process * on_a_node;
+  const auto available = static_cast<double>(available_memory());
+  std::string text = "This would run, and nothing of it has been run:\n  surface   " +
+                     in_points(work.grid, origin);
+  if (!work.loads.empty())
+    text += fmt::format("\n  contacts  {}, up to {:.2g} E*h'{}", work.loads.size(),
+                        std::ranges::max(work.loads),
+                        work.tangential_stiffness ? ", with K and K_t by a stick solve"
+                        : work.normal_stiffness   ? ", with K"
+                                                  : "");
+  text += fmt::format("\n  processes {} of {} threads on {} machine{}{}\n\n", work.ranks,
+                      work.threads, work.nodes, work.nodes > 1 ? "s" : "",
+                      work.groups > 1 ? fmt::format(", in {} groups", work.groups) : "");
+  text += fmt::format(
+      "memory    about {} on each machine, {} in each process, give or take 15 %{}\n"
+      "time      about {} on idle machines like this one, give or take a factor of two{}\n",
+      memory_text(of_node), memory_text(cost.memory_of_process),
+      available > 0 ? fmt::format("; {} are free on this one", memory_text(available)) : "",
+      about(cost.seconds),
+      cost.network_seconds > 0
+          ? fmt::format("; {:.0f} % of it between machines, if these exchange {:.3g} GB/s, a "
+                        "message in {:.2g} us",
+                        100 * cost.network_seconds / cost.seconds, SurfaceCost::bandwidth / 1e9,
+                        SurfaceCost::latency * 1e6)
+          : "");
+  const Json answer{{"dry_run", true},
+                    {"nx", work.grid.nx},
+                    {"ny", work.grid.ny},
+                    {"contacts", work.loads.size()},
+                    {"ranks", work.ranks},
+                    {"nodes", work.nodes},
+                    {"groups", work.groups},
+                    {"threads", work.threads},
+                    {"seconds", cost.seconds},
+                    {"network_seconds", cost.network_seconds},
+                    {"memory_bytes", cost.memory_of_process * work.ranks},
+                    {"memory_bytes_of_node", of_node},
+                    {"available_memory_bytes", available}};
+  const double rows = double(work.grid.nx) * work.groups / work.ranks;
+  if (rows < 64)
+    session.warn(
+        fmt::format("{:.0f} rows for each process are few; with fewer than 64 more "
+                    "processes take longer",
+                    rows));
+  if (available > 0 && of_node > available)
+    session.warn(
+        fmt::format("the memory that is free does not suffice; use {:.0f} machines like this one, "
+                    "or fewer points",
+                    std::ceil(work.nodes * of_node / available)));
   session.answer(answer, text);
 }
 

@@ -10,6 +10,7 @@
 #include <salebra/io/read_surface.hpp>
 #include <salebra/io/surface_formats.hpp>
 #include <salebra/study/realisation.hpp>
+#include <salebra/surface/moments.hpp>
 
 #include "plausibility.hpp"
 
@@ -181,23 +182,22 @@ void SurfaceOptions::add_recipe_to(Command& app) {
 
 namespace {
 
-/// Of a study's recipe.
-Surface generated(const SurfaceOptions& options, Session& session) {
+StudyConfiguration recipe_of(const SurfaceOptions& options, const Communicator& ranks) {
   require_that(
       options.file.empty() && !options.size_x && !options.size_y && options.height_unit.empty(),
       "--recipe", "given together with a file or with options of files; give one of them");
   StudyConfiguration study;
-  collectively(session.ranks(), [&] { study = read_study_configuration(options.recipe); });
+  collectively(ranks, [&] { study = read_study_configuration(options.recipe); });
   require(std::holds_alternative<GeneratedSurfaces>(study.surfaces), "--recipe", options.recipe,
           "describes no surfaces to generate; name the file of the surface as SURFACE");
-  return study_surface(study, options.seed, session.progress(), session.ranks());
+  return study;
 }
 
 }  // namespace
 
-Surface SurfaceOptions::read(Session& session) const {
+Surface SurfaceOptions::read(Session& session, const Communicator& ranks) const {
   if (!recipe.empty()) {
-    Surface made = generated(*this, session);
+    Surface made = study_surface(recipe_of(*this, ranks), seed, session.progress(ranks), ranks);
     for (const std::string& line : doubts_of_cells(made.grid)) session.warn(line);
     const Detrend trend = value_of<Detrend>(detrend).value_or(default_detrend(made));
     return detrended(std::move(made), trend);
@@ -210,11 +210,44 @@ Surface SurfaceOptions::read(Session& session) const {
   options.height_unit = height_unit;
   std::vector<std::string> remarks;
   options.remarks = &remarks;
-  Surface surface = read_surface(file, options, session.ranks());
+  Surface surface = read_surface(file, options, ranks);
   for (const auto& lines : {remarks, doubts_of_cells(surface.grid)})
     for (const std::string& line : lines) session.warn(line);
   const Detrend method = value_of<Detrend>(detrend).value_or(default_detrend(surface));
   return detrended(std::move(surface), method);
+}
+
+std::string_view title_of(GenerationMethod method) {
+  return method == GenerationMethod::filtered_noise ? "filtered noise" : "random phase";
+}
+
+SurfaceOutline SurfaceOptions::outline(Session& session) const {
+  if (!recipe.empty()) {
+    const StudyConfiguration study = recipe_of(*this, session.ranks());
+    const auto& generated = std::get<GeneratedSurfaces>(study.surfaces);
+    return {generated.grid, SelfAffineSpectrum(generated.spectrum).moments().rms_slope(),
+            fmt::format("{}, seed {}", title_of(generated.method), seed)};
+  }
+  session.require_one_process("--dry-run of a file");
+  const Surface surface = read(session);
+  surface.require_complete("a contact calculation");
+  return {surface.grid, surface_moments(surface).rms_slope(), file};
+}
+
+void DryRunOptions::add_to(Command& command) {
+  const std::string group = "Estimate";
+  command
+      .add_flag("--dry-run", dry_run,
+                "print what would run, with its memory and time, and run nothing")
+      ->group(group);
+  command
+      .add_option("--ranks", ranks,
+                  "with --dry-run: of so many processes of salebra-mpi, default those that run")
+      ->range(1, 1 << 20)
+      ->group(group);
+  command.add_option("--nodes", nodes, "with --dry-run: on so many machines")
+      ->range(1, 1 << 20)
+      ->group(group);
 }
 
 void PositionOptions::add_to(Command& app, bool with_indentation) {

@@ -9,6 +9,7 @@
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/results/words.hpp>
+#include <salebra/study/configuration.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <string>
 #include <variant>
@@ -68,6 +69,16 @@ struct MaterialOptions {
   double modulus_ratio() const;
 };
 
+/// "filtered noise" or "random phase".
+std::string_view title_of(GenerationMethod method);
+
+/// What a surface is, before it is there.
+struct SurfaceOutline {
+  Grid2D grid;
+  double rms_slope = 0;
+  std::string origin;  ///< "filtered noise, seed 3"
+};
+
 /// SURFACE with its size and detrending.
 struct SurfaceOptions {
   std::string file;
@@ -82,7 +93,19 @@ struct SurfaceOptions {
   void add_recipe_to(Command& app);
   bool given() const { return !file.empty() || !recipe.empty(); }
   /// Read or made, over the processes of the session, and, with --detrend or else as is customary for its kind, detrended. Warns of cells and sizes that are most likely a slip.
-  Surface read(Session& session) const;
+  Surface read(Session& session) const { return read(session, session.ranks()); }
+  /// The same over one group of them.
+  Surface read(Session& session, const Communicator& ranks) const;
+  /// Of a recipe at once; a file is read.
+  SurfaceOutline outline(Session& session) const;
+};
+
+/// --dry-run, and the processes that it is for.
+struct DryRunOptions {
+  bool dry_run = false;
+  int ranks = 0, nodes = 0;  ///< 0: those that run
+
+  void add_to(Command& command);
 };
 
 /// Where a contact stands. At most one is given.

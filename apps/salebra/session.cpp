@@ -105,11 +105,7 @@ void Session::warn_of_few_cores() {
     if (!found.empty()) return warn(found);
 }
 
-bool Session::stopped() const {
-  bool stop = interrupted();
-  ranks().broadcast(&stop, sizeof stop);
-  return stop;
-}
+bool Session::stopped() const { return !ranks().all_agree(!interrupted()); }
 
 WriteOptions Session::write_options() const {
   const std::string place = ranks().alone() ? place_among_tasks() : "";
@@ -151,10 +147,10 @@ void Session::plot(const Figure& figure) {
   if (has_plot() && ranks().is_root()) write_plot(options_.plot, figure, write_options());
 }
 
-Progress Session::progress() {
-  if (!ranks().is_root()) return [](const ProgressReport&) { return true; };
+Progress Session::progress(const Communicator& group) {
+  if (!group.is_root()) return [](const ProgressReport&) { return true; };
   return [this](const ProgressReport& report) {
-    bar_.draw(report);
+    if (ranks().is_root()) bar_.draw(report);
     return !interrupted();
   };
 }

@@ -46,9 +46,8 @@ class Session {
   std::filesystem::path output() const { return options_.output; }
   /// The processes that compute together, for what is spread over them.
   const Communicator& ranks() const { return launch_.ranks; }
-  const Communicator& ranks_of_node() const { return launch_.ranks_of_node; }
   void require_one_process(std::string_view what) const { cli::require_one_process(launch_, what); }
-  /// interrupted() of the root. Collective: all processes get the same answer.
+  /// interrupted() of any process. Collective: all processes get the same answer.
   bool stopped() const;
   /// Throws as the constructor does. Collective.
   void require_free_output() const;
@@ -62,7 +61,9 @@ class Session {
   Provenance provenance() const;
 
   /// For the library: draws the bar where one is wanted, and returns false after Ctrl-C, of several processes in the root alone.
-  Progress progress();
+  Progress progress() { return progress(ranks()); }
+  /// The same for work that a group of the processes does by itself, whose root heeds Ctrl-C.
+  Progress progress(const Communicator& group);
 
   /// A remark for the person at the terminal, on stderr; --quiet leaves out both, and errors only remain.
   void note(std::string_view text);

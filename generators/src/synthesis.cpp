@@ -11,10 +11,7 @@ Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t see
                  const Progress& progress, const Communicator& ranks) {
   const CarriedModes carried(grid, spectrum);
   const Share rows(ranks, grid.nx);
-  collectively(ranks, [&] {
-    require_memory(grid, double(column_fft_memory(grid.nx, grid.ny, rows)),
-                   ranks.alone() ? "a surface" : "the rows of a process");
-  });
+  require_memory(grid, double(column_fft_memory(grid.nx, grid.ny, rows)), "a surface", ranks);
   const RandomModes modes(carried, seed, chance);
   return backward_by_columns(
       grid.nx, grid.ny, carried.j_max() + 1,

@@ -138,6 +138,18 @@ void Communicator::exchange(const Exchange& plan, const void* from, void* to) co
   }
 }
 
+Communicator Communicator::split(int group) const {
+  return alone() ? *this : Communicator(transport_->split(group));
+}
+
+Groups::Groups(const Communicator& all, int count) : all_(all), own_(all), count_(count) {
+  require(count >= 1 && count <= all.ranks(), "groups", count,
+          "must lie between 1 and the number of processes");
+  if (count == 1) return;
+  place_ = static_cast<int>(std::int64_t{all.rank()} * count / all.ranks());
+  own_ = all.split(place_);
+}
+
 void collectively(const Communicator& ranks, const std::function<void()>& body) {
   if (ranks.alone()) return body();
   for (const std::string& failure : ranks.gather_all(failure_of(body)))

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Large-page allocation, uninitialised fields, and the memory that the machine has available.
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cmath>
 #include <cstdint>
 #include <new>
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
+#include <vector>
 
 #include "memory_limits.hpp"
 #if defined(__linux__)
@@ -18,6 +21,7 @@ namespace salebra {
 
 namespace {
 
+constexpr double not_asked_for = 64e6;  // bytes
 constexpr std::size_t large_page = std::size_t(2) << 20;
 
 void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
@@ -71,7 +75,6 @@ std::size_t available_memory() {
 }
 
 bool fits_into_memory(double bytes) {
-  constexpr double not_asked_for = 64e6;
   if (bytes < not_asked_for) return true;
   const double available = static_cast<double>(available_memory());
   return available == 0 || bytes <= available;
@@ -84,12 +87,45 @@ std::string memory_text(double bytes) {
   return fmt::format("{:.3g} EB", bytes / 1e18);
 }
 
-void require_memory(const Grid2D& grid, double bytes, std::string_view work) {
-  if (fits_into_memory(bytes)) return;
+bool NodeMemory::suffices() const {
+  return needed < not_asked_for || available == 0 || needed <= available;
+}
+
+NodeMemory memory_of_nodes(double bytes, const Communicator& ranks) {
+  const auto own = static_cast<double>(available_memory());
+  if (ranks.alone()) return {"", 1, bytes, own};
+  struct {
+    char node[256] = "";
+    double needed = 0, shared = 0, own = 0;
+  } mine;
+  gethostname(mine.node, sizeof mine.node - 1);
+  mine.needed = bytes;
+  mine.shared = static_cast<double>(detail::shared_memory_left("/").value_or(0));
+  mine.own = own;
+  std::vector<decltype(mine)> all(static_cast<std::size_t>(ranks.ranks()));
+  ranks.gather_all(&mine, std::vector<std::size_t>(all.size(), sizeof mine), all.data());
+  std::vector<detail::ProcessMemory> processes;
+  for (const auto& one : all) processes.push_back({one.node, one.needed, one.shared, one.own});
+  return detail::shortest_memory(processes);
+}
+
+void require_memory(const Grid2D& grid, double bytes, std::string_view work,
+                    const Communicator& ranks) {
+  if (ranks.alone() && bytes < not_asked_for) return;
+  const NodeMemory memory = memory_of_nodes(bytes, ranks);
+  if (memory.suffices()) return;
+  const std::string where =
+      memory.nodes > 1 ? fmt::format(" on node {}, one of {},", memory.node, memory.nodes) : "";
+  const std::string more =
+      ranks.alone() ? ""
+                    : fmt::format("{:.0f} nodes, or ",
+                                  std::ceil(memory.nodes * memory.needed / memory.available));
   throw InvalidInput(
       "points", fmt::format("{} x {}", grid.nx, grid.ny),
-      fmt::format("need {} of memory for {} and {} are available; use fewer points",
-                  memory_text(bytes), work, memory_text(static_cast<double>(available_memory()))));
+      fmt::format("need {} of memory for {}{} and {} are available{}; use {}fewer "
+                  "points",
+                  memory_text(memory.needed), work, where, memory_text(memory.available),
+                  where.empty() ? "" : " there", more));
 }
 
 }  // namespace salebra

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <limits>
+#include <map>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -135,14 +137,41 @@ void take_process_limits(const fs::path& proc, std::vector<std::uint64_t>& left)
 
 }  // namespace
 
-std::optional<std::uint64_t> memory_left(const fs::path& root) {
+std::optional<std::uint64_t> shared_memory_left(const fs::path& root) {
   std::vector<std::uint64_t> left;
   if (const Bytes kibibytes = value_of(root / "proc/meminfo", "MemAvailable:"))
     left.push_back(1024 * *kibibytes);
   take_groups(root, left);
+  if (left.empty()) return {};
+  return std::ranges::min(left);
+}
+
+std::optional<std::uint64_t> memory_left(const fs::path& root) {
+  std::vector<std::uint64_t> left;
+  if (const Bytes shared = shared_memory_left(root)) left.push_back(*shared);
   take_process_limits(root / "proc", left);
   if (left.empty()) return {};
   return std::ranges::min(left);
+}
+
+NodeMemory shortest_memory(const std::vector<ProcessMemory>& processes) {
+  std::map<std::string, double> needed;
+  for (const ProcessMemory& process : processes) needed[process.node] += process.needed;
+  NodeMemory shortest;
+  double most = -1;  // of what is needed over what is available
+  for (const ProcessMemory& process : processes) {
+    const double of_node = needed[process.node];
+    double available = process.shared;
+    // A process that is limited beyond the others of its machine: as if all of them were.
+    if (process.own > 0 && process.needed > 0)
+      available = std::min(available > 0 ? available : std::numeric_limits<double>::infinity(),
+                           process.own * of_node / process.needed);
+    const double part = available > 0 ? of_node / available : 0;
+    if (part <= most) continue;
+    most = part;
+    shortest = {process.node, static_cast<int>(needed.size()), of_node, available};
+  }
+  return shortest;
 }
 
 }  // namespace salebra::detail

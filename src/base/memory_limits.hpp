@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <salebra/base/memory.hpp>
+#include <string>
+#include <vector>
 
 namespace salebra::detail {
 
@@ -14,5 +17,19 @@ namespace salebra::detail {
 ///   RLIMIT_AS and RLIMIT_DATA less what the process has.
 /// Empty where none of them is known. Source: kernel documentation, admin-guide/cgroup-v1/memory and cgroup-v2; proc(5), getrlimit(2).
 std::optional<std::uint64_t> memory_left(const std::filesystem::path& root);
+
+/// The same without the limits of the process: what the processes of a machine share.
+std::optional<std::uint64_t> shared_memory_left(const std::filesystem::path& root);
+
+/// What one process says of its memory, bytes. 0: not known.
+struct ProcessMemory {
+  std::string node;   ///< name of its machine
+  double needed = 0;  ///< in addition to what it has
+  double shared = 0;  ///< available to all processes of the machine together
+  double own = 0;     ///< available to it alone
+};
+
+/// memory_of_nodes() of these processes.
+NodeMemory shortest_memory(const std::vector<ProcessMemory>& processes);
 
 }  // namespace salebra::detail

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <exception>
 #include <optional>
 #include <salebra/base/error.hpp>
@@ -13,6 +14,8 @@
 #include <salebra/contact/sweep.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 #include <salebra/surface/moments.hpp>
+#include <string>
+#include <type_traits>
 
 #include "normal/contact_memory.hpp"
 
@@ -55,11 +58,47 @@ ForceSample sample_of(const NormalContactState& state, const Surface& surface,
   return sample;
 }
 
+/// The loads of one group, from the highest, which takes longest, to the lowest: dealt to and fro, so that groups get alike times.
+std::vector<std::size_t> loads_of(const Groups& groups, std::size_t count) {
+  std::vector<std::size_t> mine;
+  for (std::size_t back = 0; back < count; ++back) {
+    const int turn = static_cast<int>(back % (2 * static_cast<std::size_t>(groups.count())));
+    if (std::min(turn, 2 * groups.count() - 1 - turn) == groups.place())
+      mine.push_back(count - 1 - back);
+  }
+  return mine;
+}
+
+using Samples = std::vector<std::optional<ForceSample>>;
+
+/// The samples of all groups, in all processes.
+void gather(const Groups& groups, Samples& samples) {
+  struct Found {
+    std::size_t load;
+    ForceSample sample;
+  };
+  static_assert(std::is_trivially_copyable_v<Found>);
+  std::string mine;
+  if (groups.own().is_root())
+    for (std::size_t load = 0; load < samples.size(); ++load)
+      if (samples[load]) {
+        const Found found{load, *samples[load]};
+        mine.append(reinterpret_cast<const char*>(&found), sizeof found);
+      }
+  for (const std::string& others : groups.all().gather_all(mine))
+    for (std::size_t at = 0; at < others.size(); at += sizeof(Found)) {
+      Found found;
+      std::memcpy(&found, others.data() + at, sizeof found);
+      samples[found.load] = found.sample;
+    }
+}
+
 }  // namespace
 
 ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                            const std::vector<double>& pressures, const SweepOptions& options) {
-  collectively(surface.ranks, [&] { surface.require_complete_rows("a contact calculation"); });
+  const Groups groups = options.groups.value_or(Groups(surface.ranks, 1));
+  collectively(groups.all(), [&] { surface.require_complete_rows("a contact calculation"); });
   require_that(!pressures.empty(), "pressures", "none given; name at least one");
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     require_positive(pressures[k], "pressures");
@@ -68,23 +107,24 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
   require(options.concurrent_loads >= 0, "concurrent_loads", options.concurrent_loads,
           "must be >= 0");
 
-  const int loads = static_cast<int>(pressures.size());
-  // Two loads of a surface that is spread would send through each other.
-  const int wanted = !surface.ranks.alone()         ? 1
+  const std::vector<std::size_t> mine = loads_of(groups, pressures.size());
+  const int loads = static_cast<int>(mine.size());
+  // Two loads of a surface that is spread would send through each other; what a group takes must not depend on its size.
+  const int wanted = !groups.all().alone()          ? 1
                      : options.concurrent_loads > 0 ? options.concurrent_loads
                                                     : parallel::threads();
-  const int concurrent = std::min({wanted, loads, parallel::threads()});
+  const int concurrent = std::max(1, std::min({wanted, loads, parallel::threads()}));
   // A stick solve follows a contact whose fields are still there.
   const double each =
-      (detail::contact_memory(surface.grid, options.contact) +
-       (options.stiffness && options.stick ? detail::stick_memory(surface.grid) : 0)) *
-      static_cast<double>(surface.heights.rows()) / static_cast<double>(surface.grid.nx);
-  collectively(surface.ranks, [&] {
-    require_memory(
-        surface.grid, concurrent * each,
-        concurrent > 1 ? "contacts on all threads (fewer `threads` need less)" : "a contact");
-  });
-  std::vector<std::optional<ForceSample>> samples(pressures.size());
+      detail::contact_memory(surface, options.contact) +
+      (options.stiffness && options.stick ? detail::stick_memory(surface.grid) : 0) *
+          static_cast<double>(surface.heights.rows()) / static_cast<double>(surface.grid.nx);
+  require_memory(surface.grid, concurrent * each,
+                 concurrent > 1       ? "contacts on all threads (fewer `threads` need less)"
+                 : groups.count() > 1 ? "contacts of all groups (fewer `groups` need less)"
+                                      : "a contact",
+                 groups.all());
+  Samples samples(pressures.size());
   std::atomic<bool> stop = false;
   std::atomic<int> finished = 0;
   std::exception_ptr failure;
@@ -99,13 +139,12 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
       return !stop.load();
     };
 
-    // The highest loads take longest and go first.
 #pragma omp parallel for schedule(dynamic, 1) num_threads(concurrent) if (concurrent > 1)
-  for (int back = 0; back < loads; ++back) {
+  for (int turn = 0; turn < loads; ++turn) {
     // One process may have been told to stop where the others were not.
     if (!surface.ranks.all_agree(!stop)) stop = true;
     if (stop) continue;
-    const auto k = static_cast<std::size_t>(loads - 1 - back);
+    const std::size_t k = mine[static_cast<std::size_t>(turn)];
     try {
       const auto state =
           press_to_pressure(surface, material.contact_modulus, pressures[k], inner.contact);
@@ -132,6 +171,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
     }
   }
   if (failure) std::rethrow_exception(failure);
+  if (groups.count() > 1) gather(groups, samples);
 
   ForceCurve curve;
   curve.model = "bem";

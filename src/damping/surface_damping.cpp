@@ -512,8 +512,7 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
     if (open.empty() || (halving > options.refinements && factor > options.most_refined)) break;
     const Surface fine = halving < 0 ? every_second(surface) : refined(surface, factor);
     const int wanted = std::min(static_cast<int>(open.size()), parallel::threads());
-    require_memory(fine.grid,
-                   wanted * detail::contact_memory(fine.grid, {.boundary = options.boundary}),
+    require_memory(fine.grid, wanted * detail::contact_memory(fine, {.boundary = options.boundary}),
                    "contacts on all threads (fewer `threads` need less)");
     std::atomic<bool> stop = false;
     std::atomic<int> finished = 0;

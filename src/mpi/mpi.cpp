@@ -113,6 +113,14 @@ class MpiTransport : public detail::Transport {
           "MPI_Alltoallv");
   }
 
+  std::shared_ptr<Transport> split(int group) override {
+    MPI_Comm part = MPI_COMM_NULL;
+    check(MPI_Comm_split(processes_, group, rank_, &part), "MPI_Comm_split");
+    auto transport = std::make_shared<MpiTransport>(part);
+    MPI_Comm_free(&part);
+    return transport;
+  }
+
  private:
   /// More bytes than MPI counts: each process sends its own to all others.
   void gather_in_turn(const void* mine, const std::vector<std::int64_t>& counts,

@@ -128,7 +128,113 @@ ShardPlan plan_of(const StudyCost& cost, std::size_t shards) {
   return plan;
 }
 
+/// The load as solves feel it: what the contact touches is taken from the measured range.
+double felt(double load) { return std::clamp(load, 1e-3, 0.5); }
+
+/// Of one contact on one thread, on the machine of the constants above, with K and K_t where they are computed. Those of a study
+/// are means over its loads, which solves at 0.0165 E*h' have; the rest of a solve is the stiffness.
+double contact_seconds(const SurfaceWork& work, double load) {
+  constexpr double mean_load = 0.0165, power_of_load = 0.35, without_stiffness = 0.5;
+  const auto cells = static_cast<double>(work.grid.points());
+  const double per_cell = contact_models()[std::size_t(ContactModel::bem)].seconds_per_cell *
+                              (work.normal_stiffness ? 1.0 : without_stiffness) +
+                          (work.tangential_stiffness ? stick_per_cell : 0);
+  const double isolated =
+      work.boundary == Boundary::free ? 2.5 : 1;  // transforms of twice the size
+  return isolated * per_cell * cells * std::pow(cells / (512.0 * 512.0), growth) *
+         std::pow(felt(load) / mean_load, power_of_load);
+}
+
+/// Of one contact, for what its group sends from machine to machine: transforms, applications of the ladder and sums, counted on one
+/// machine, times what each of them sends (docs/scaling.md).
+double network_seconds(const SurfaceWork& work, double load) {
+  const double nodes = std::ceil(double(work.nodes) / work.groups),
+               ranks = double(work.ranks) / work.groups;
+  if (nodes < 2) return 0;
+  const auto cells = static_cast<double>(work.grid.points());
+  const double side = std::sqrt(cells);
+  constexpr double pairs = 4, pairs_in_double = 2, stick_pairs = 12, coarse_levels = 1.3;
+  const double applications = 59 * std::sqrt(side / 4096) * std::pow(felt(load) / 0.02, 0.35) *
+                              (work.normal_stiffness ? 1.5 : 1.0);
+  // Bytes for each cell: 8 there and back in float; a stick solve has two components in double.
+  const double transformed =
+      8 * (pairs + 2 * pairs_in_double + (work.tangential_stiffness ? 4 * stick_pairs : 0));
+  const double transforms =
+      transformed * cells / nodes * (1 - 1 / nodes) / SurfaceCost::bandwidth +
+      (pairs + pairs_in_double + (work.tangential_stiffness ? stick_pairs : 0)) * 2 * (ranks - 1) *
+          SurfaceCost::latency;
+  const double levels = 73 * side / SurfaceCost::bandwidth + 30 * SurfaceCost::latency,
+               sums = 3 * (SurfaceCost::latency * std::log2(ranks) + 64e3 / SurfaceCost::bandwidth);
+  return coarse_levels * (transforms + applications * (levels + sums));
+}
+
 }  // namespace
+
+double surface_memory(const SurfaceWork& work) {
+  // Bytes for each cell, at loads up to half of E*h'; measured at 1024², 2048² and 4096² (docs/scaling.md).
+  constexpr double of_process = 33e6, heights = 8, whole_ladder = 1.5;
+  const auto cells = static_cast<double>(work.grid.points());
+  const int ranks = std::max(1, work.ranks / work.groups);
+  const bool together = ranks > 1;
+  const double mine = cells / ranks;
+  // Columns on their way to the rows: some at a time, at the least 16 of them.
+  if (work.loads.empty())
+    return of_process + heights * mine +
+           (together ? std::max(4.5 * mine, 512.0 * static_cast<double>(work.grid.nx)) : 0.0);
+  const double load = felt(std::ranges::max(work.loads)), touched = std::pow(load, 0.7);
+  double contact = 40 + std::min(27.0, 58 * touched);
+  if (work.normal_stiffness && together) contact += 8;
+  if (work.tangential_stiffness)
+    contact = std::max(contact, 64 + 218 * std::pow(load, 0.6) + (together ? 8 : 0));
+  // What each process makes of the whole grid: the ladder, and of an isolated surface its response.
+  double whole = together ? whole_ladder * cells : 0;
+  if (work.boundary == Boundary::free) {
+    whole = (together ? 70 : 0) * cells;
+    contact += together ? 0 : 60;
+  }
+  // A process that is alone presses a load on each thread.
+  const double at_once =
+      work.ranks > 1 ? 1 : double(std::min(work.loads.size(), std::size_t(work.threads)));
+  return of_process + (heights + at_once * contact) * mine + whole;
+}
+
+int groups_that_fit(SurfaceWork work, const std::function<bool(double bytes)>& fits) {
+  // Of as many as let the loads be done in so many rounds; the fewest of them have the most processes each.
+  const std::size_t loads = work.loads.size();
+  for (std::size_t rounds = 1; rounds < loads; ++rounds) {
+    work.groups = static_cast<int>((loads + rounds - 1) / rounds);
+    if (work.groups <= work.ranks && fits(surface_memory(work))) return work.groups;
+  }
+  return 1;
+}
+
+SurfaceCost estimate_cost(const SurfaceWork& work) {
+  require(work.nodes >= 1 && work.nodes <= work.ranks, "nodes", work.nodes,
+          "must lie between 1 and the number of processes");
+  require(work.groups >= 1 && work.groups <= work.ranks, "groups", work.groups,
+          "must lie between 1 and the number of processes");
+  SurfaceCost cost;
+  cost.memory_of_process = surface_memory(work);
+  const double speed = reference_transform / transform_seconds();
+  const double ranks = std::max(1, work.ranks / work.groups);
+  const double gain = ranks * gain_of(work.threads, 1);
+  constexpr double generation_per_cell = 5e-9;  // s, of one thread
+  // s, of the ladder, which each process makes as a whole, for a contact and for its stiffness.
+  const double set_up = ranks > 1 ? (work.normal_stiffness ? 2 : 1) * 3.7e-9 : 0;
+  const auto cells = static_cast<double>(work.grid.points());
+  // Loads are dealt to the groups; a process alone presses one on each thread.
+  const double gain_of_loads = work.ranks == 1 ? gain_of(work.threads, work.loads.size()) : gain;
+  std::vector<double> of_group(static_cast<std::size_t>(work.groups), 0.0);
+  double network = 0;
+  for (const double load : work.loads) {
+    auto least = std::ranges::min_element(of_group);
+    *least += (contact_seconds(work, load) / gain_of_loads + set_up * cells) / speed;
+    network += network_seconds(work, load) / work.groups;
+  }
+  cost.network_seconds = network;
+  cost.seconds = generation_per_cell * cells / speed / gain + std::ranges::max(of_group) + network;
+  return cost;
+}
 
 double study_memory(const StudyConfiguration& point, const Grid2D& grid, int threads,
                     std::optional<std::size_t> in_one_process) {

@@ -131,6 +131,62 @@ TEST_CASE("init for a measured surface names it from where the study file lies",
   CHECK(test.files().count("other.toml") == 0);
 }
 
+TEST_CASE("A dry run of one surface states memory and time for any number of processes",
+          "[dry-run]") {
+  const ProgramTest test;
+  // 65536² points of 200 GB: nothing of it is made.
+  test.write("large.toml",
+             std::regex_replace(small_study, std::regex("points = 64"), "points = 65536"));
+  const auto answer = [&](const std::string& command) {
+    const auto run = test.run(command + " --dry-run --json --quiet --threads 1");
+    INFO(command << ": " << run.err);
+    REQUIRE(run.status == 0);
+    return run.json();
+  };
+  const std::string pressed = " --recipe large.toml --contact-modulus 1GPa ";
+  const auto contact = answer("contact" + pressed + "--pressure 1MPa --ranks 256 --nodes 64");
+  CHECK(contact["ranks"] == 256);
+  CHECK(contact["nodes"] == 64);
+  CHECK(contact["contacts"] == 1);
+  CHECK(contact["network_seconds"] > 0);
+  CHECK(contact["seconds"] > contact["network_seconds"]);
+  CHECK(contact["memory_bytes"] > 48 * 65536.0 * 65536.0);
+  CHECK(contact["memory_bytes_of_node"].get<double>() ==
+        Approx(contact["memory_bytes"].get<double>() / 64));
+  // The position is not the load: a gap has a time too.
+  CHECK(answer("contact" + pressed + "--mean-gap 10nm")["seconds"] > 0);
+  CHECK(answer("contact" + pressed + "--pressure 1MPa --ranks 2 --stiffness")["memory_bytes"] >
+        answer("contact" + pressed + "--pressure 1MPa --ranks 2")["memory_bytes"]);
+
+  const std::string swept = "sweep" + pressed + "--poisson 0.3 --pressures 1MPa,2MPa,4MPa,8MPa ";
+  const auto sweep = answer(swept + "--ranks 256 --groups 4");
+  CHECK(sweep["groups"] == 4);
+  CHECK(sweep["contacts"] == 4);
+  CHECK(answer(swept + "--stiffness --stick")["seconds"] > answer(swept)["seconds"]);
+  // No machine of this test holds four of them.
+  CHECK(answer(swept + "--ranks 256")["groups"] == 1);
+  test.write("small.toml", small_study);
+  const std::string small =
+      std::regex_replace(swept, std::regex("large"), "small") + "--dry-run --threads 1 ";
+  const auto text = test.run(small + "--ranks 4");
+  CHECK_THAT(text.out, Contains("64 x 64 points") && Contains("seed 1") &&
+                           Contains("in 4 groups") && Contains("give or take 15 %") &&
+                           Contains("idle machines"));
+  CHECK_THAT(text.err, !Contains("rows for each process"));
+  CHECK_THAT(test.run(small + "--ranks 8 --groups 1").err, Contains("8 rows for each process"));
+
+  const auto generated = answer(
+      "generate --points 65536 --size-x 1mm --hurst 0.8 --rolloff 100um --short-cutoff 1um "
+      "--rms-height 1um --ranks 16 --nodes 16");
+  CHECK(generated["contacts"] == 0);
+  CHECK(generated["memory_bytes"] > 8 * 65536.0 * 65536.0);
+  check_refused(test.run("generate --points 64 --size-x 1mm --shape sphere --radius 1m --dry-run"),
+                "--dry-run");
+  check_refused(test.run("contact --pressure 1MPa --dry-run --ranks 2 --nodes 3" + pressed),
+                "nodes");
+  CHECK(test.files() == std::set<std::string>{"large.toml", "small.toml"});
+}
+
 TEST_CASE("A dry run tells what would run and does nothing of it", "[dry-run]") {
   const ProgramTest test;
   test.write("small.toml", small_study);

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +13,7 @@
 
 #include "base/memory_limits.hpp"
 #include "io/scratch.hpp"
+#include "ranks_in_threads.hpp"
 
 using namespace salebra;
 using detail::memory_left;
@@ -162,6 +164,59 @@ TEST_CASE("Sizes of memory have three digits and a unit", "[memory]") {
   CHECK(memory_text(1.437e9) == "1.44 GB");
   CHECK(memory_text(2.81e14) == "281 TB");
   CHECK(memory_text(3e19) == "30 EB");
+}
+
+TEST_CASE("Processes of one machine share its memory", "[memory]") {
+  using detail::shortest_memory;
+  const double gb = 1e9;
+  SECTION("which lacks what they need together") {
+    const NodeMemory memory = shortest_memory({{"c01", 3 * gb, 8 * gb, 8 * gb},
+                                               {"c02", 3 * gb, 8 * gb, 8 * gb},
+                                               {"c01", 3 * gb, 7 * gb, 7 * gb},
+                                               {"c02", 1 * gb, 8 * gb, 8 * gb}});
+    CHECK(memory.node == "c01");
+    CHECK(memory.nodes == 2);
+    CHECK(memory.needed == 6 * gb);
+    CHECK(memory.available == 7 * gb);
+    CHECK(memory.suffices());
+  }
+  SECTION("but not their own limits, each of which must hold its part") {
+    // 3 of 4 GB: as if the machine had 4/3 of what both need.
+    NodeMemory memory =
+        shortest_memory({{"c01", 3 * gb, 90 * gb, 4 * gb}, {"c01", 3 * gb, 90 * gb, 90 * gb}});
+    CHECK(memory.available == 8 * gb);
+    CHECK(memory.suffices());
+    memory = shortest_memory({{"c01", 3 * gb, 90 * gb, 2 * gb}, {"c01", 3 * gb, 90 * gb, 90 * gb}});
+    CHECK_FALSE(memory.suffices());
+  }
+  SECTION("and a machine that does not say has enough") {
+    const NodeMemory memory = shortest_memory({{"c01", 3 * gb, 0, 0}, {"c02", 1 * gb, 0, 0}});
+    CHECK(memory.available == 0);
+    CHECK(memory.suffices());
+  }
+}
+
+TEST_CASE("Two processes that each fit are refused where both do not", "[memory]") {
+  const double available = static_cast<double>(available_memory());
+  const auto require = [](const Communicator& ranks, double bytes) {
+    require_memory({10, 20, 1, 2}, bytes, "a test", ranks);
+  };
+  // Far enough from a half that other programs of the machine do not matter.
+  CHECK_NOTHROW(require({}, 0.65 * available));
+  std::atomic<int> refused = 0;
+  testing::run_ranks(2, [&](const Communicator& ranks) {
+    require(ranks, 0.2 * available);
+    // Of both, whatever each takes.
+    try {
+      require(ranks, ranks.is_root() ? 1.1 * available : 0.2 * available);
+    } catch (const InvalidInput& error) {
+      const std::string message = error.what();
+      if (message.starts_with("points: 10 x 20 need ") &&
+          message.ends_with(" are available; use 2 nodes, or fewer points"))
+        ++refused;
+    }
+  });
+  CHECK(refused == 2);
 }
 
 TEST_CASE("Work beyond a limit on this process is refused, and small work is not", "[memory]") {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // salebra-mpi as a user runs it: by the launcher, in a folder of its own. SALEBRA_PROGRAM of run_program.cpp is the launcher.
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <regex>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/io/result_file.hpp>
 #include <thread>
+#include <tuple>
 
 #include "apps/run_program.hpp"
 
@@ -38,6 +41,23 @@ bool same_heights(const ProgramTest& test, const std::string& a, const std::stri
   return first.grid == second.grid && first.periodic == second.periodic && first.origin != "" &&
          std::memcmp(first.heights.data(), second.heights.data(),
                      static_cast<std::size_t>(first.heights.size()) * sizeof(double)) == 0;
+}
+
+const std::string study =
+    "[surface]\npoints = 128\nsize_x = \"10um\"\nhurst = 0.8\nrolloff = \"5um\"\n"
+    "short_cutoff = \"0.6um\"\nrms_height = \"50nm\"\nfirst_seed = 1\nseed_count = 1\n"
+    "[material]\ncontact_modulus = \"1GPa\"\npoisson = 0.3\n"
+    "[contact]\nrelative_pressures = \"1e-3:0.1:4\"\n"
+    "[damping]\nnormal_amplitude = \"0.5nm\"\ndrag_velocity = \"1um/s\"\n"
+    "frequency = \"20kHz\"\n";
+
+// An answer without what depends on the processes and their speed.
+std::string numbers_of(const ProgramTest::Result& result) {
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+  nlohmann::json answer = result.json();
+  for (const char* name : {"seconds", "ranks", "threads", "groups"}) answer.erase(name);
+  return answer.dump();
 }
 
 // Bad input as all processes see it: one line of the root.
@@ -72,21 +92,7 @@ TEST_CASE("A surface that processes generate has the bits of one process", "[mpi
 
 TEST_CASE("A contact and a sweep over processes have the numbers of one process", "[mpi]") {
   const ProgramTest test;
-  test.write("study.toml",
-             "[surface]\npoints = 128\nsize_x = \"10um\"\nhurst = 0.8\nrolloff = \"5um\"\n"
-             "short_cutoff = \"0.6um\"\nrms_height = \"50nm\"\nfirst_seed = 1\nseed_count = 1\n"
-             "[material]\ncontact_modulus = \"1GPa\"\npoisson = 0.3\n"
-             "[contact]\nrelative_pressures = \"1e-3:0.1:4\"\n"
-             "[damping]\nnormal_amplitude = \"0.5nm\"\ndrag_velocity = \"1um/s\"\n"
-             "frequency = \"20kHz\"\n");
-  const auto numbers_of = [](const ProgramTest::Result& result) {
-    INFO(result.err);
-    REQUIRE(result.status == 0);
-    nlohmann::json answer = result.json();
-    for (const char* name : {"seconds", "ranks", "threads"}) answer.erase(name);
-    for (auto& sample : answer["curve"]["samples"]) sample.erase("seconds");
-    return answer.dump();
-  };
+  test.write("study.toml", study);
   const std::string pressed =
       "contact --recipe study.toml --seed 5 --pressure 1MPa --contact-modulus 1GPa --stiffness "
       "--json ";
@@ -139,6 +145,41 @@ TEST_CASE("Statistics of a surface over processes have the numbers of one proces
   check_refused_once(run(test, 2, "statistics rough.h5 --detrend lines " + quiet),
                      "detrending line by line needs it whole");
   check_refused_once(run(test, 2, "statistics " + quiet), "SURFACE (or --recipe)");
+}
+
+TEST_CASE("Groups of processes sweep with the numbers of one process", "[mpi]") {
+  const ProgramTest test;
+  test.write("study.toml", study);
+  const std::string swept =
+      "sweep --recipe study.toml --seed 5 --pressures 1MPa,2MPa,4MPa --contact-modulus 1GPa "
+      "--poisson 0.3 --stiffness --json ";
+  const std::string curve = numbers_of(run_alone(test, swept + quiet));
+  for (const auto& [ranks, given, groups] : {std::tuple(4, "--groups 2 ", 2), {3, "", 3}}) {
+    const auto result = run(test, ranks, swept + given + quiet);
+    CHECK(numbers_of(result) == curve);
+    CHECK(result.json()["groups"] == groups);
+  }
+  // A file, which each group reads.
+  REQUIRE(run_alone(test, "generate " + surface + "-o a.h5 --quiet").status == 0);
+  const std::string read = "sweep a.h5 --pressures 1MPa,4MPa --contact-modulus 1GPa --json ";
+  CHECK(numbers_of(run(test, 2, read + "--groups 2 " + quiet)) ==
+        numbers_of(run_alone(test, read + quiet)));
+}
+
+TEST_CASE("A dry run states the memory that processes take", "[mpi]") {
+  const ProgramTest test;
+  test.write("study.toml", std::regex_replace(study, std::regex("points = 128"), "points = 1536"));
+  const std::string pressed =
+      "contact --recipe study.toml --pressure 1MPa --contact-modulus 1GPa --tolerance 1e-3 --json ";
+  const auto plan = run(test, 2, pressed + "--dry-run " + quiet).json();
+  CHECK(plan["ranks"] == 2);
+  CHECK(plan["nodes"] == 1);
+  REQUIRE(run(test, 2, pressed + quiet).status == 0);
+  // The most that any process which ended here had; the launcher is smaller.
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const double peak = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  CHECK(plan["memory_bytes_of_node"].get<double>() / 2 == Approx(peak).epsilon(0.15));
 }
 
 TEST_CASE("More threads than the machine has cores are warned of once", "[mpi]") {

@@ -28,6 +28,8 @@ class Transport {
   };
   virtual void exchange(std::size_t unit, const void* from, const Parts& sent, void* to,
                         const Parts& received) = 0;
+  /// Those of one group, in the order that they have here.
+  virtual std::shared_ptr<Transport> split(int group) = 0;
 };
 
 }  // namespace detail
@@ -77,9 +79,28 @@ class Communicator {
   double least_of(double mine) const;
   /// from: units of this process for each other one; to: those of each other one for this. They must not overlap.
   void exchange(const Exchange& plan, const void* from, void* to) const;
+  /// The processes that name the same group, >= 0, in the order that they have here.
+  Communicator split(int group) const;
 
  private:
   std::shared_ptr<detail::Transport> transport_;
+};
+
+/// The processes of a communicator in groups of consecutive ones, whose sizes differ by one at most.
+class Groups {
+ public:
+  Groups() = default;  ///< this process alone, one group
+  /// Collective. throws InvalidInput unless there are 1 … ranks groups
+  Groups(const Communicator& all, int count);
+
+  const Communicator& all() const { return all_; }
+  const Communicator& own() const { return own_; }  ///< the group of this process
+  int count() const { return count_; }
+  int place() const { return place_; }  ///< of that group, from 0 on
+
+ private:
+  Communicator all_, own_;
+  int count_ = 1, place_ = 0;
 };
 
 /// Runs body on every process and throws the failure of the first process that failed on all of them, as InvalidInput, IoError,

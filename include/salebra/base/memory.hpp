@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
+#include <salebra/base/communicator.hpp>
 #include <salebra/base/grid.hpp>
 #include <string>
 #include <string_view>
@@ -47,9 +48,24 @@ bool fits_into_memory(double bytes);
 /// "721 MB", "1.44 GB", "281 TB": three digits.
 std::string memory_text(double bytes);
 
+/// Memory of the machine on which it is shortest, of those that the processes of a communicator run on.
+struct NodeMemory {
+  std::string node;      ///< its name
+  int nodes = 1;         ///< machines of all processes
+  double needed = 0;     ///< by the processes there together, bytes
+  double available = 0;  ///< to them, bytes; 0: not known
+
+  bool suffices() const;
+};
+
+/// bytes: what this process is about to take. The processes of a machine share its memory. Collective.
+NodeMemory memory_of_nodes(double bytes, const Communicator& ranks);
+
 /// Throws InvalidInput "points: 4096 x 4096 need 721 MB of memory for WORK and 450 MB are available; use fewer points" where bytes
 /// do not fit: asked before the work, since the system kills a process that uses memory beyond a limit instead of refusing it. bytes: the minimum that the work takes in addition to what the process
-/// has.
-void require_memory(const Grid2D& grid, double bytes, std::string_view work);
+/// has. ranks: processes that each take bytes of their own, those of a machine from the same memory; all of them throw, and name the machine and
+/// how many of its kind would do. Collective.
+void require_memory(const Grid2D& grid, double bytes, std::string_view work,
+                    const Communicator& ranks = {});
 
 }  // namespace salebra

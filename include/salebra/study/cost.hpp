@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <salebra/study/configuration.hpp>
 #include <string>
@@ -47,6 +48,41 @@ double study_memory(const StudyConfiguration& point, const Grid2D& grid, int thr
 /// throws  as parameter_combinations(), and as readers do for a measured surface, which is read
 /// cost    some milliseconds, and the reading of a measured surface
 StudyCost estimate_cost(const StudyConfiguration& configuration);
+
+/// One surface that one process, or several together, make and press.
+struct SurfaceWork {
+  Grid2D grid;
+  std::vector<double> loads;  ///< of its contacts, p/(E*h'_rms); none: it is made only
+  bool normal_stiffness = false, tangential_stiffness = false;  ///< K; K_t by stick solves
+  Boundary boundary = Boundary::periodic;
+  int ranks = 1, nodes = 1;  ///< processes, and the machines that they share evenly
+  int groups = 1;   ///< of processes, each of which holds the surface and presses some of the loads
+  int threads = 1;  ///< of each process
+};
+
+/// What that would cost on machines like this one.
+struct SurfaceCost {
+  double seconds = 0;            ///< wall time on idle machines; half to twice as long
+  double network_seconds = 0;    ///< of it for what goes from machine to machine
+  double memory_of_process = 0;  ///< peak of the one that takes most, bytes; true to 15 %
+
+  static constexpr double bandwidth =
+      12.5e9;  ///< assumed between machines, bytes/s: half of an adapter of 200 Gb/s
+  static constexpr double latency = 2e-6;  ///< assumed of a message, s
+};
+
+/// Time as estimate_cost() of a study has it, shared evenly, with the exchange between machines as docs/scaling.md models it. Memory as it was measured
+/// for one to sixteen processes. Neither has the reading and writing of files.
+/// throws InvalidInput unless there is at least one process on each machine and in each group
+/// cost   some milliseconds
+SurfaceCost estimate_cost(const SurfaceWork& work);
+
+/// SurfaceCost::memory_of_process alone.
+double surface_memory(const SurfaceWork& work);
+
+/// The most groups that are of use, whose surfaces fit into memory: exchange between processes is what does not get faster with more
+/// of them. fits: whether each process may take so many bytes. 1 where nothing does.
+int groups_that_fit(SurfaceWork work, const std::function<bool(double bytes)>& fits);
 
 /// A study divided among processes of cost.threads threads each.
 struct ShardPlan {

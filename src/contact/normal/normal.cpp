@@ -118,15 +118,12 @@ void check_here(const Surface& surface, double contact_modulus,
                 (*start >= 0 && *start <= std::numeric_limits<double>::max()).all(),
             "initial_pressure", start->size(),
             "cells must fill the grid with finite pressures >= 0");
-  require_memory(surface.grid,
-                 detail::contact_memory(surface.grid, options) *
-                     static_cast<double>(surface.heights.rows()) /
-                     static_cast<double>(surface.grid.nx),
-                 "a contact");
 }
 
 void check(const Surface& surface, double contact_modulus, const NormalContactOptions& options) {
   collectively(surface.ranks, [&] { check_here(surface, contact_modulus, options); });
+  require_memory(surface.grid, detail::contact_memory(surface, options), "a contact",
+                 surface.ranks);
 }
 
 // Heights stay in metres; pressures are counted in E*/(cell size), which makes Gp a number of order p whatever the units.

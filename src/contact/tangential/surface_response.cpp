@@ -25,8 +25,7 @@ Grid2D grid_of(const CellWindow& window, const Grid2D& grid) {
 CellWindow affordable(const CellWindow& window, const Grid2D& grid, const Share& rows) {
   const Grid2D part = grid_of(window, grid);
   const double of_all = static_cast<double>(rows.count()) / static_cast<double>(rows.rows());
-  collectively(rows.ranks(),
-               [&] { require_memory(part, stick_memory(part) * of_all, "a stick solve"); });
+  require_memory(part, stick_memory(part) * of_all, "a stick solve", rows.ranks());
   return window;
 }
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 #include <salebra/base/error.hpp>
@@ -245,6 +248,70 @@ TEST_CASE("A force curve with both stiffnesses over processes has the bits of on
       if (!same(a.tangential_stiffness, b.tangential_stiffness, 1e-5)) throw Error("another K_t");
     }
   });
+}
+
+TEST_CASE("A force curve of groups of processes has the bits of one process", "[spread]") {
+  const auto [ranks, count] = GENERATE(std::pair{2, 2}, std::pair{3, 2}, std::pair{5, 2},
+                                       std::pair{5, 5}, std::pair{8, 3}, std::pair{4, 1});
+  const Surface surface = test::rough_surface({96, 96, 96, 96});
+  const Material material = Material::of_contact_modulus(1, 0.3);
+  SweepOptions options;
+  options.stick = true;
+  // With five groups one has no load.
+  const std::vector<double> pressures{1e-3, 2e-3, 4e-3, 8e-3};
+  const ForceCurve alone = sweep_pressures(surface, material, pressures, options);
+  // How often each load was solved, and by each group at the most.
+  std::array<std::atomic<int>, 4> solved{};
+  std::vector<std::atomic<int>> loads(static_cast<std::size_t>(count));
+  run_ranks(ranks, [&](const Communicator& all) {
+    SweepOptions own = options;
+    own.groups = Groups(all, count);
+    own.on_state = [&](std::size_t k, const NormalContactState&) {
+      if (!own.groups->own().is_root()) return;
+      ++solved[k];
+      ++loads[static_cast<std::size_t>(own.groups->place())];
+    };
+    const ForceCurve together =
+        sweep_pressures(spread(surface, own.groups->own()), material, pressures, own);
+    if (!same_bits(alone.rms_height, together.rms_height)) throw Error("another rms height");
+    if (together.samples.size() != pressures.size()) throw Error("a load is missing");
+    for (std::size_t k = 0; k < pressures.size(); ++k)
+      if (std::memcmp(&alone.samples[k], &together.samples[k], offsetof(ForceSample, converged)) !=
+          0)
+        throw Error("other bits");
+  });
+  for (const auto& times : solved) CHECK(times == 1);
+  const int most = (4 + count - 1) / count;
+  for (const auto& of_group : loads) CHECK((of_group >= 4 / count && of_group <= most));
+}
+
+TEST_CASE("A sweep that its root stops ends in all processes, within a contact and a stiffness",
+          "[spread]") {
+  const int groups = GENERATE(1, 2);
+  // Reports of the first solve come from contacts, later ones from stiffnesses and the next loads.
+  const int last = GENERATE(0, 1, 5, 20, 40, 60, 80);
+  const Surface surface = test::rough_surface({96, 96, 96, 96});
+  const Material material = Material::of_contact_modulus(1, 0.3);
+  run_ranks(4, [&](const Communicator& all) {
+    SweepOptions options;
+    options.stick = true;
+    options.groups = Groups(all, groups);
+    int reports = 0;
+    options.contact.on_progress = [&](const ProgressReport&) {
+      return !all.is_root() || reports++ < last;
+    };
+    const ForceCurve curve = sweep_pressures(spread(surface, options.groups->own()), material,
+                                             {1e-3, 2e-3, 4e-3}, options);
+    const std::string mine = std::to_string(curve.samples.size());
+    for (const std::string& other : all.gather_all(mine))
+      if (other != mine) throw Error("another number of samples");
+  });
+}
+
+TEST_CASE("Groups of processes are at most as many as processes", "[spread]") {
+  const int count = GENERATE(0, 4);
+  CHECK_THROWS_WITH(run_ranks(3, [&](const Communicator& all) { Groups(all, count); }),
+                    Catch::Contains("groups") && Catch::Contains("number of processes"));
 }
 
 TEST_CASE("The stiffness of both directions over processes has the bits of one process",
