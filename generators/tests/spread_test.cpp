@@ -182,7 +182,7 @@ TEST_CASE("What one process refuses, all refuse", "[generators][share]") {
       [&](const Communicator& together) {
         filtered_noise({1 << 22, 1 << 22, 1, 1}, *spectrum, 1, {}, together);
       },
-      "for the rows of a process"));
+      "of memory for a surface"));
   CHECK(all_refuse(
       [&](const Communicator& together) {
         filtered_noise({16, 16, 1, 1}, *spectrum, 1, {}, together);

@@ -121,7 +121,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
           static_cast<double>(surface.heights.rows()) / static_cast<double>(surface.grid.nx);
   require_memory(surface.grid, concurrent * each,
                  concurrent > 1       ? "contacts on all threads (fewer `threads` need less)"
-                 : groups.count() > 1 ? "contacts of all groups (fewer `groups` need less)"
+                 : groups.count() > 1 ? "contacts of all groups (fewer groups need less)"
                                       : "a contact",
                  groups.all());
   Samples samples(pressures.size());
