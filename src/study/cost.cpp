@@ -186,11 +186,11 @@ double surface_memory(const SurfaceWork& work) {
   if (work.normal_stiffness && together) contact += 8;
   if (work.tangential_stiffness)
     contact = std::max(contact, 64 + 218 * std::pow(load, 0.6) + (together ? 8 : 0));
-  // What each process makes of the whole grid: the ladder, and of an isolated surface its response.
+  // What each process makes of the whole grid: the coarser levels of the ladder.
   double whole = together ? whole_ladder * cells : 0;
   if (work.boundary == Boundary::free) {
-    whole = (together ? 70 : 0) * cells;
-    contact += together ? 0 : 60;
+    whole = (together ? 4 : 0) * cells;
+    contact += together ? 45 : 34.5;
   }
   // A process that is alone presses a load on each thread.
   const double at_once =
