@@ -14,15 +14,11 @@
 namespace salebra::parallel {
 namespace {
 
-// Enough slabs to balance any machine of today, few enough that a slab outweighs its scheduling.
-constexpr Index largest_slab_count = 64;
+// Enough to balance threads whose slabs hold unlike shares of the contact, few enough that a slab outweighs its scheduling.
+constexpr Index slabs_per_thread = 8;
 
 // Fewer points than this are done before a second thread is awake.
 constexpr Index least_parallel_work = 20000;
-
-Index slab_begin(Index rows, Index slab) {
-  return rows * slab / std::min(rows, largest_slab_count);
-}
 
 int chosen_threads = 0;
 
@@ -53,13 +49,13 @@ void for_slabs(Index rows, const std::function<void(Index, Index)>& body, Index 
     body(0, rows);
     return;
   }
-  const Index slabs = std::min(rows, largest_slab_count);
+  const Index slabs = std::min(rows, slabs_per_thread * threads());
   std::exception_ptr failure;
   std::mutex failure_guard;
 #pragma omp parallel for schedule(dynamic) num_threads(threads())
   for (Index slab = 0; slab < slabs; ++slab) {
     try {
-      body(slab_begin(rows, slab), slab_begin(rows, slab + 1));
+      body(rows * slab / slabs, rows * (slab + 1) / slabs);
     } catch (...) {  // an exception must not leave an OpenMP region
       const std::scoped_lock lock(failure_guard);
       if (!failure) failure = std::current_exception();

@@ -7,7 +7,7 @@
 #include <salebra/base/grid.hpp>
 #include <vector>
 
-/// Loops over slabs of rows, and sums over blocks of rows. Both are fixed by the number of rows alone, and sums of blocks are added in
+/// Loops over slabs of rows, and sums over blocks of rows. Blocks are fixed by the number of rows alone, and their sums are added in
 /// their order, so that a result has the same bits for every thread count.
 namespace salebra::parallel {
 

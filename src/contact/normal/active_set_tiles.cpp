@@ -56,8 +56,9 @@ template <class Real>
 std::byte* ActiveSetCg<Real>::pool(std::size_t bytes) {
   if (bytes > pool_size_) {
     pool_.reset();  // free first, to avoid holding both
-    pool_ = large_array<std::byte>(bytes);
-    pool_size_ = bytes;
+    // With room for a contact that grows: new pages would have to be cleared, and what is never touched takes no memory.
+    pool_size_ = bytes + bytes / 2;
+    pool_ = large_array<std::byte>(pool_size_);
   }
   return pool_.get();
 }
