@@ -5,9 +5,7 @@
 //
 // LOAD is p/(E*·rms slope) on a self-affine surface: H = 0.8, roll-off at 1/8 of the side, shortest wave 8 cells, rms slope 0.1.
 // The solver's levels are run one by one as press_to_pressure() runs them. A transform takes each row from the tiles and hands
-// it back to them: this counts as part of it. What a solve takes beyond its transforms is its other pointwise passes. Traffic is what the passes must move to and
-// from memory if nothing stays in a cache between two of them, a write to a line counted twice because the line is read first.
-// The levels of the ladder are left out of it. The machine's bandwidth is that of a copy of arrays beyond every cache, counted in the same way.
+// it back to them: this counts as part of it. What a solve takes beyond its transforms and the ladder is its other pointwise passes.
 
 #include <algorithm>
 #include <array>
@@ -16,7 +14,6 @@
 #include <cstdlib>
 #include <limits>
 #include <numeric>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/generators/exact_rms.hpp>
@@ -46,28 +43,6 @@ double median_seconds(const Body& body) {
   return seconds[2];
 }
 
-// Bytes per second of a copy, its read, its write and the read of the lines written.
-double copy_bandwidth() {
-  constexpr Index size = Index(1) << 25;
-  const auto from = large_array<double>(size), to = large_array<double>(size);
-  const auto in_slabs = [&](auto body) {
-    parallel::for_slabs(size, [&](Index begin, Index end) { body(begin, end); });
-  };
-  in_slabs([&](Index begin, Index end) {
-    std::fill(from.get() + begin, from.get() + end, 1.0);
-    std::fill(to.get() + begin, to.get() + end, 0.0);
-  });
-  // Through a volatile factor, or else the compiler calls memcpy, which writes past the cache.
-  volatile double factor = 1.5;
-  const double seconds = median_seconds([&] {
-    in_slabs([&, f = factor](Index begin, Index end) {
-      for (Index k = begin; k < end; ++k)
-        to[static_cast<std::size_t>(k)] = f * from[static_cast<std::size_t>(k)];
-    });
-  });
-  return 24 * static_cast<double>(size) / seconds;
-}
-
 // Seconds of a chain of products in registers on each of the threads. What these lose beside each other, as on two
 // hardware threads of one core or on a shared machine, no program can win back.
 double register_seconds(int threads) {
@@ -85,14 +60,6 @@ double register_seconds(int threads) {
   });
 }
 
-// A pair writes, reads, writes and reads the spectrum and reads the symbol: in sizes of a cell's number 2, 1 + 1, 1 and ¼, because a
-// line is read before it is written, but by the columns that have it.
-constexpr double pair_numbers = 5.25;
-// What an iteration moves besides, on a cell of a tile in use and of one at rest, in mixed precision: directions and images within the
-// transform, preconditioner and step apart from it.
-constexpr double active_within = 16 + 16, active_apart = 24 + 52, resting_within = 8,
-                 resting_apart = 4 + 16;
-
 struct Share {
   double setup = 0, prolongation = 0, single_pairs = 0, double_pairs = 0, ladder = 0, pointwise = 0;
   double total() const {
@@ -100,7 +67,7 @@ struct Share {
   }
 };
 
-void profile(const Surface& surface, double load, double bandwidth) {
+void profile(const Surface& surface, double load) {
   const Grid2D& physical = surface.grid;
   const double cell = physical.dx(), side = static_cast<double>(physical.nx);
   const Grid2D grid{physical.nx, physical.ny, side, side};
@@ -116,7 +83,7 @@ void profile(const Surface& surface, double load, double bandwidth) {
   coarse.setup += now() - start;
   Field pressure, gap;
   detail::ActiveSetOutcome outcome;
-  double bytes_apart = 0, bytes_within = 0, pair = 0, solves = 0;
+  double pair = 0;
   for (std::size_t k = levels.size(); k-- > 0;) {
     const detail::MultigridLevel& level = levels[k];
     Share& share = k == 0 ? fine : coarse;
@@ -145,12 +112,9 @@ void profile(const Surface& surface, double load, double bandwidth) {
     share.pointwise += solve - outcome.fft_seconds - outcome.ladder_seconds;
     pair = (outcome.fft_seconds - outcome.exact_fft_seconds) /
            (outcome.fft_count - outcome.exact_fft_count);
-    solves = solve;
-    bytes_within = active_within * outcome.active_cells + resting_within * outcome.resting_cells;
-    bytes_apart = active_apart * outcome.active_cells + resting_apart * outcome.resting_cells;
   }
 
-  const double total = coarse.total() + fine.total(), cells = static_cast<double>(grid.points());
+  const double total = coarse.total() + fine.total();
   const auto line = [&](const char* name, double seconds) {
     std::printf("  %-44s %8.3f s %5.1f %%\n", name, seconds, 100 * seconds / total);
   };
@@ -164,24 +128,10 @@ void profile(const Surface& surface, double load, double bandwidth) {
   line("the ladder", fine.ladder);
   line("other pointwise passes", fine.pointwise);
   std::printf("  %-44s %8.3f s\n", "all", total);
-  const double singles = outcome.fft_count - outcome.exact_fft_count;
-  const double pair_rate = (pair_numbers * sizeof(float) * cells + bytes_within / singles) / pair;
-  const double pointwise_rate = bytes_apart / fine.pointwise;
-  std::printf("  a pair in float takes %.2f ms and moves %.1f GB/s, %.0f %% of a copy\n",
-              1e3 * pair, 1e-9 * pair_rate, 100 * pair_rate / bandwidth);
-  std::printf(
-      "  pointwise: %.1f %% of the cells in use, %.1f %% at rest; iterations alone move %.1f GB/s, "
-      "%.0f %% of a copy\n",
-      100 * outcome.active_cells / cells / outcome.iterations,
-      100 * outcome.resting_cells / cells / outcome.iterations, 1e-9 * pointwise_rate,
-      100 * pointwise_rate / bandwidth);
-  const double needed =
-      (pair_numbers * sizeof(float) * (outcome.fft_count + outcome.exact_fft_count) * cells +
-       bytes_within + bytes_apart) /
-      bandwidth;
-  std::printf(
-      "  memory traffic of the finest level at the speed of a copy: %.3f s, %.0f %% of its solve\n",
-      needed, 100 * needed / solves);
+  std::printf("  a pair in float takes %.2f ms with the passes that make and take its rows\n", 1e3 * pair);
+  const double cells = static_cast<double>(grid.points()) * outcome.iterations;
+  std::printf("  of the cells, %.1f %% are in use in an iteration, and %.1f %% at rest\n",
+              100 * outcome.active_cells / cells, 100 * outcome.resting_cells / cells);
 }
 
 }  // namespace
@@ -198,11 +148,10 @@ int main(int argc, char** argv) {
   const SelfAffineSpectrum spectrum(
       {.hurst = 0.8, .rolloff = 0.125, .short_cutoff = 8 * cell, .rms_slope = 0.1});
   const Surface surface = exact_rms({n, n, 1, 1}, spectrum, 1, Rms::slope);
-  const double bandwidth = copy_bandwidth();
-  std::printf("%ld x %ld cells, %d thread(s); a copy moves %.1f GB/s\n", static_cast<long>(n),
-              static_cast<long>(n), parallel::threads(), 1e-9 * bandwidth);
+  std::printf("%ld x %ld cells, %d thread(s)\n", static_cast<long>(n), static_cast<long>(n),
+              parallel::threads());
   if (const int threads = parallel::threads(); threads > 1)
     std::printf("a loop in registers is done %.2f times as often on all threads as on one\n",
                 threads * register_seconds(1) / register_seconds(threads));
-  for (const double load : loads) profile(surface, load, bandwidth);
+  for (const double load : loads) profile(surface, load);
 }
