@@ -31,7 +31,7 @@ Eigen::Vector<double, Terms> terms_at(double x, double y) {
 
 template <int Terms>
 void subtract_fit(Surface& surface) {
-  const auto [nx, ny] = std::pair(surface.grid.nx, surface.grid.ny);
+  const Index nx = surface.grid.nx, ny = surface.grid.ny;
   const Share share = surface.share();
   const double mean = height_statistics(surface).mean;
   // The rows of the normal equations' matrix, then their right side.
@@ -69,7 +69,7 @@ void subtract_fit(Surface& surface) {
 
 /// Of each line along x; a line with one defined point loses its height, one without any keeps none.
 void subtract_lines(Surface& surface) {
-  const auto [nx, ny] = std::pair(surface.grid.nx, surface.grid.ny);
+  const Index nx = surface.grid.nx, ny = surface.grid.ny;
   height_statistics(surface);  // refuses what has no heights
   for (Index iy = 0; iy < ny; ++iy) {
     double points = 0, sum_x = 0, sum = 0;
@@ -102,7 +102,7 @@ double median(std::vector<double>& values) {
 
 /// A line of which nothing can be compared keeps the offset of the one before.
 void subtract_offsets(Surface& surface) {
-  const auto [nx, ny] = std::pair(surface.grid.nx, surface.grid.ny);
+  const Index nx = surface.grid.nx, ny = surface.grid.ny;
   height_statistics(surface);  // refuses what has no heights
   Eigen::ArrayXd before = Eigen::ArrayXd::Constant(nx, std::numeric_limits<double>::quiet_NaN());
   std::vector<double> differences;

@@ -32,7 +32,7 @@ constexpr double coarse_tolerance = 1e-3;
 // Part of a full Jacobi step that the prolongation takes.
 constexpr double prediction = 0.6;
 // Saturated cells of a start that was rounded to float stay so: freed, they cost more iterations than the start saves.
-constexpr double full_from = 1 - std::numeric_limits<float>::epsilon();
+constexpr double full_from = 1 - double(std::numeric_limits<float>::epsilon());
 
 // What the targets need of the heights, counted downwards from the highest point.
 struct Depths {
