@@ -27,8 +27,9 @@ const std::string environment = "export " SALEBRA_MPI_ENVIRONMENT ";";
 
 // So many processes of salebra-mpi with these arguments.
 ProgramTest::Result run(const ProgramTest& test, int ranks, const std::string& arguments) {
-  return test.run(fmt::format("--quiet -n {} {} {}", ranks, SALEBRA_MPI_PROGRAM, arguments),
-                  environment);
+  return test.run(
+      fmt::format(SALEBRA_MPI_QUIET " -n {} {} {}", ranks, SALEBRA_MPI_PROGRAM, arguments),
+      environment);
 }
 
 // The same by salebra, without the launcher.
@@ -185,12 +186,12 @@ TEST_CASE("A dry run states the memory that processes take", "[mpi]") {
 TEST_CASE("More threads than the machine has cores are warned of once", "[mpi]") {
   const ProgramTest test;
   // Bound to nothing, as Open MPI 4 and 5 each call it: two processes see the same cores.
-  const auto result =
-      test.run(fmt::format("--quiet -n 2 {} generate {} --threads {} --json", SALEBRA_MPI_PROGRAM,
-                           surface, std::max(1U, std::thread::hardware_concurrency())),
-               environment +
-                   "export OMPI_MCA_hwloc_base_binding_policy=none "
-                   "PRTE_MCA_hwloc_default_binding_policy=none;");
+  const auto result = test.run(
+      fmt::format(SALEBRA_MPI_QUIET " -n 2 {} generate {} --threads {} --json", SALEBRA_MPI_PROGRAM,
+                  surface, std::max(1U, std::thread::hardware_concurrency())),
+      environment +
+          "export OMPI_MCA_hwloc_base_binding_policy=none "
+          "PRTE_MCA_hwloc_default_binding_policy=none;");
   INFO(result.err);
   CHECK(result.status == 0);
   CHECK(result.json()["ranks"] == 2);
@@ -212,10 +213,11 @@ TEST_CASE("Bad input is said once, with status 2, and leaves no file", "[mpi]") 
 
 TEST_CASE("A failure of one process alone names it and ends the others", "[mpi]") {
   const ProgramTest test;
-  const auto result = test.run(fmt::format("--quiet -n 1 {0} generate {1} {2} -o a.h5 : -n 1 {0} "
-                                           "generate {1} {2} --bad",
-                                           SALEBRA_MPI_PROGRAM, surface, quiet),
-                               environment);
+  const auto result =
+      test.run(fmt::format(SALEBRA_MPI_QUIET " -n 1 {0} generate {1} {2} -o a.h5 : -n 1 {0} "
+                                             "generate {1} {2} --bad",
+                           SALEBRA_MPI_PROGRAM, surface, quiet),
+               environment);
   CHECK(result.status == 2);
   CHECK_THAT(result.err, Contains("salebra-mpi: error: process 2 of 2: --bad"));
   CHECK(test.files().empty());
@@ -232,7 +234,8 @@ TEST_CASE("SIGUSR1 leaves a checkpoint that any number of processes continues", 
   // Sent when the first checkpoint appears; one after each iteration leaves time enough.
   const auto stopped = test.run(
       "", environment +
-              fmt::format("{} --quiet -n 3 {} {} --checkpoint c.h5 --checkpoint-every 0 -o r.h5 & "
+              fmt::format("{} " SALEBRA_MPI_QUIET
+                          " -n 3 {} {} --checkpoint c.h5 --checkpoint-every 0 -o r.h5 & "
                           "launcher=$!; while [ ! -e c.h5 ] && [ -e /proc/$launcher ]; do sleep "
                           "0.05; done; kill -USR1 $launcher; wait $launcher; exit $?;",
                           SALEBRA_PROGRAM, SALEBRA_MPI_PROGRAM, press));
