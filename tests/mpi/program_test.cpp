@@ -223,7 +223,9 @@ TEST_CASE("A failure of one process alone names it and ends the others", "[mpi]"
   CHECK(test.files().empty());
 }
 
-TEST_CASE("SIGUSR1 leaves a checkpoint that any number of processes continues", "[mpi]") {
+TEST_CASE(
+    "SIGUSR1, to one process or all, leaves a checkpoint that any number of processes continues",
+    "[mpi]") {
   const ProgramTest test;
   REQUIRE(run_alone(test,
                     "generate --points 512 --size-x 4um --hurst 0.8 --short-cutoff 0.1um "
@@ -231,17 +233,24 @@ TEST_CASE("SIGUSR1 leaves a checkpoint that any number of processes continues", 
               .status == 0);
   const std::string press =
       "contact rough.h5 --contact-modulus 10GPa --json --pressure 20MPa --precision full " + quiet;
-  // Sent when the first checkpoint appears; one after each iteration leaves time enough.
-  const auto stopped = test.run(
-      "", environment +
-              fmt::format("{} " SALEBRA_MPI_QUIET
-                          " -n 3 {} {} --checkpoint c.h5 --checkpoint-every 0 -o r.h5 & "
-                          "launcher=$!; while [ ! -e c.h5 ] && [ -e /proc/$launcher ]; do sleep "
-                          "0.05; done; kill -USR1 $launcher; wait $launcher; exit $?;",
-                          SALEBRA_PROGRAM, SALEBRA_MPI_PROGRAM, press));
-  CHECK(stopped.status == 130);
-  CHECK_THAT(stopped.err, Contains("contact: interrupted; continue with --initial c.h5"));
-  REQUIRE(test.files() == std::set<std::string>{"c.h5", "rough.h5"});
+  // To the launcher, which hands it on, and to one process alone, not the first. Sent when the first checkpoint appears; one after each
+  // iteration leaves time enough.
+  for (const std::string target : {"$launcher", "$(cat pid)"}) {
+    const auto stopped = test.run(
+        "", environment +
+                fmt::format(
+                    "rm -f c.h5 pid; press='{} {} --checkpoint c.h5 --checkpoint-every 0 -o r.h5';"
+                    "{} " SALEBRA_MPI_QUIET
+                    " -n 2 $press : -n 1 sh -c \"echo \\$\\$ > pid; exec $press\" & "
+                    "launcher=$!; while [ ! -e c.h5 ] && [ -e /proc/$launcher ]; do sleep "
+                    "0.05; done; kill -USR1 {}; wait $launcher; exit $?;",
+                    SALEBRA_MPI_PROGRAM, press, SALEBRA_PROGRAM, target));
+    INFO(target);
+    CHECK(stopped.status == 130);
+    CHECK(stopped.err ==
+          "salebra-mpi: error: contact: interrupted; continue with --initial c.h5\n");
+    REQUIRE(test.files() == std::set<std::string>{"c.h5", "pid", "rough.h5"});
+  }
   const auto numbers_of = [](const ProgramTest::Result& result) {
     INFO(result.err);
     REQUIRE(result.status == 0);
