@@ -223,10 +223,10 @@ void run(const ContactArguments& arguments, Session& session) {
     const double stiffness = normal_stiffness(state, surface.grid, contact_modulus, options);
     answer["normal_stiffness"] = stiffness;
     answer["normal_stiffness_per_area"] = stiffness / surface.grid.area();
-  }
-  if (session.stopped()) {
-    arguments.checkpoint.write(session, surface.grid, state.pressure);
-    throw Interrupted("contact: interrupted; the stiffness was not computed");
+    if (session.stopped()) {
+      arguments.checkpoint.write(session, surface.grid, state.pressure);
+      throw Interrupted("contact: interrupted; the stiffness was not computed");
+    }
   }
   session.answer(answer);
   if (!state.converged) {

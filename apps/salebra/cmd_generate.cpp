@@ -124,7 +124,8 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
                 arguments.non_gaussian() ? non_gaussian_memory(grid)
                                          : generation_memory(grid, session.ranks()),
                 session);
-  const Forecast expected = forecast(grid, *spectrum, session.progress());
+  Forecast expected;
+  collectively(session.ranks(), [&] { expected = forecast(grid, *spectrum, session.progress()); });
   for (const std::string& warning : expected.warnings) session.warn(warning);
   const std::string method = method_of(arguments);
   answer["seed"] = arguments.seed;

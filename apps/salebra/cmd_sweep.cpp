@@ -87,7 +87,7 @@ void run(const SweepArguments& arguments, Session& session) {
   if (arguments.groups == 0 && !arguments.surface.recipe.empty() && !session.ranks().alone())
     groups = work_of(arguments, pressures, arguments.surface.outline(session), session).groups;
   options.groups = Groups(session.ranks(), groups);
-  options.contact.on_progress = session.progress(options.groups->own());
+  options.contact.on_progress = session.progress();
   Surface surface = arguments.surface.read(session, options.groups->own());
   const std::optional<FirstLoading> first_loading = load_first(
       surface, arguments.hardness, material.contact_modulus, pressures.back(), options.contact);

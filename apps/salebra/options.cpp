@@ -197,7 +197,7 @@ StudyConfiguration recipe_of(const SurfaceOptions& options, const Communicator& 
 
 Surface SurfaceOptions::read(Session& session, const Communicator& ranks) const {
   if (!recipe.empty()) {
-    Surface made = study_surface(recipe_of(*this, ranks), seed, session.progress(ranks), ranks);
+    Surface made = study_surface(recipe_of(*this, ranks), seed, session.progress(), ranks);
     for (const std::string& line : doubts_of_cells(made.grid)) session.warn(line);
     const Detrend trend = value_of<Detrend>(detrend).value_or(default_detrend(made));
     return detrended(std::move(made), trend);

@@ -147,8 +147,7 @@ void Session::plot(const Figure& figure) {
   if (has_plot() && ranks().is_root()) write_plot(options_.plot, figure, write_options());
 }
 
-Progress Session::progress(const Communicator& group) {
-  if (!group.is_root()) return [](const ProgressReport&) { return true; };
+Progress Session::progress() {
   return [this](const ProgressReport& report) {
     if (ranks().is_root()) bar_.draw(report);
     return !interrupted();

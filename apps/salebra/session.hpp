@@ -60,10 +60,8 @@ class Session {
   bool overwrites() const { return options_.overwrite; }
   Provenance provenance() const;
 
-  /// For the library: draws the bar where one is wanted, and returns false after Ctrl-C, of several processes in the root alone.
-  Progress progress() { return progress(ranks()); }
-  /// The same for work that a group of the processes does by itself, whose root heeds Ctrl-C.
-  Progress progress(const Communicator& group);
+  /// For the library: draws the bar where one is wanted, and returns false after Ctrl-C of this process.
+  Progress progress();
 
   /// A remark for the person at the terminal, on stderr; --quiet leaves out both, and errors only remain.
   void note(std::string_view text);

@@ -394,11 +394,12 @@ void bind_spots(nb::module_& m) {
       "contact_spots",
       [](const BoundContact& state) {
         cite({"yastrebov2017"});
-        require_whole(state, "a list of contact spots");
-        return unlocked([&] { return contact_spots(state.pressure, state.grid, state.boundary); });
+        return unlocked(
+            [&] { return contact_spots(state.pressure, state.grid, state.boundary, state.ranks); });
       },
       nb::arg("state"),
-      "Contact spots: connected cells with p > 0; neighbours wrap for periodic boundaries.");
+      "Contact spots: connected cells with p > 0; neighbours wrap for periodic boundaries. Of a "
+      "state that is spread over processes each gets all spots.");
 }
 
 }  // namespace

@@ -89,6 +89,7 @@ void bind_asperities(nb::module_& m) {
       [](const SummitList& summits, const Material& material, double separation,
          const Oscillation& motion, const Choice<SummitShape>& shape) {
         cite({"popov2015", "greenwood_williamson1966"});
+        require_whole(summits, "the loss of its summits");
         const SummitShape chosen = shape.value("shape");
         return unlocked([&] {
           return asperity_damping(summits.summits, material, separation, motion, chosen);

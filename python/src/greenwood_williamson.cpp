@@ -185,6 +185,7 @@ shape : {"circular", "elliptical"}
              double nominal_area, double mean_plane, double rms_height,
              const Choice<SummitShape>& shape) {
             cite({"greenwood_williamson1966"});
+            require_whole(summits, "a model of its summits");
             new (self) DeterministicSummits(summits.summits, material, nominal_area, mean_plane,
                                             rms_height, shape.value("shape"));
           },
@@ -205,6 +206,7 @@ Ciavarella et al. (2006), doi:10.1016/j.jmps.2006.05.006. A state costs seconds 
              const Grid2D& grid, double mean_plane, double rms_height,
              const Choice<SummitShape>& shape, double tolerance, int max_iterations) {
             cite({"greenwood_williamson1966", "ciavarella2006"});
+            require_whole(summits, "a model of its summits");
             new (self)
                 InteractingSummits(summits.summits, material, grid, mean_plane, rms_height,
                                    shape.value("shape"), {tolerance, max_iterations, signals()});

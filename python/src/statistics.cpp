@@ -26,7 +26,7 @@ void bind_spectra(nb::module_& m) {
 
 .. math:: C(q) = (2\pi)^{-2}\int\langle h(0)h(x)\rangle e^{-iq\cdot x}\,d^2x, \qquad h_{rms}^2 = \int C\,d^2q
 
-on the half-spectrum of wave vectors (i, j), j = 0 … ny/2.
+on the half-spectrum of wave vectors (i, j), j = 0 … ny/2. Of a surface that is spread over processes each holds some of the columns j.
 )");
   view_property(power, "psd", &PowerSpectrum::psd, "C, (nx, ny/2+1), m⁴.");
   power.def_ro("grid", &PowerSpectrum::grid)
@@ -45,7 +45,8 @@ on the half-spectrum of wave vectors (i, j), j = 0 … ny/2.
           "wavenumber_y",
           [](const PowerSpectrum& self) {
             std::vector<double> q;
-            for (Index j = 0; j < self.psd.cols(); ++j) q.push_back(self.wavenumber_y(j));
+            const Index begin = self.columns().begin();
+            for (Index j = 0; j < self.psd.cols(); ++j) q.push_back(self.wavenumber_y(begin + j));
             return array_of(std::move(q));
           },
           nb::sig("def wavenumber_y(self) -> numpy.typing.NDArray[numpy.float64]"),

@@ -336,6 +336,7 @@ void bind_summits(nb::module_& m) {
       R"(Every point that is higher than its eight neighbours, with the least-squares paraboloid through the 3 × 3 points.
 
 Neighbours wrap where the surface is periodic; elsewhere the border is not searched, nor are points beside undefined ones.
+Of a surface that is spread over processes each gets the summits of its rows; :func:`summit_statistics` are those of all.
 )");
   m.def(
       "summit_statistics", [](const SummitList& summits) { return summit_statistics(summits); },

@@ -80,13 +80,17 @@ std::string own_lock(const std::string& shard) {
   return fmt::format("{}{}.{}-{}-{:x}", shard_lock, name, host(), getpid(), moment);
 }
 
-/// Locks of shards, and claims.
+/// Locks of shards, claims, and what a process that was killed while it took the lock of all has left.
 std::vector<std::filesystem::path> marks_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().filename().string().starts_with(shard_lock) ||
-        entry.path().filename().string().find(detail::claim_suffix) != std::string::npos)
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    // One that is stale is being looked at by a process that may have to put it back.
+    const bool of_all = name.starts_with("lock.") && !name.starts_with("lock.stale.");
+    if (name.starts_with(shard_lock) || of_all ||
+        name.find(detail::claim_suffix) != std::string::npos)
       files.push_back(entry.path());
+  }
   return files;
 }
 

@@ -212,6 +212,8 @@ std::optional<std::string> StudyLock::try_link() {
     held_ = true;
     return {};
   }
+  // The holder of the folder has cleaned it up.
+  if (link_error == ENOENT) return {};
   if (link_error != EEXIST) fail(file_, link_error);
 
   const std::optional<Found> found = look_at(file_, fresh, stale_after_);

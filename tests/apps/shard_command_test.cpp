@@ -131,6 +131,58 @@ TEST_CASE("Twenty of four concurrent processes are killed: all surfaces are comp
   check_same_as_whole(test);
 }
 
+// Two hosts that share the folder: processes of one cannot be seen from the other. A namespace of process numbers and one of host names
+// do that on one machine.
+TEST_CASE("Workers of two hosts share a study, and wait a minute for one that was killed",
+          "[shard]") {
+  const ProgramTest test;
+  test.write("study.toml", study_of(12));
+  const std::string elsewhere =
+      "unshare --user --map-root-user --pid --uts --mount-proc --fork --kill-child sh -c ";
+  if (test.run("--version", elsewhere + "'hostname node2' || exit 77;").status == 77) {
+    WARN("skipped: namespaces of processes and host names cannot be made here");
+    return;
+  }
+  const std::string any = std::string(SALEBRA_PROGRAM) +
+                          " study study.toml -o result.h5 --quiet --threads 1 --shard any";
+  const auto touched = [&](const std::string& extension, std::chrono::minutes ago) {
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(test.folder() / "result.h5.parts"))
+      if (entry.path().filename().string().find(extension) != std::string::npos) {
+        fs::last_write_time(entry, fs::file_time_type::clock::now() - ago);
+        ++count;
+      }
+    return count;
+  };
+  // On node2 a worker is killed while it computes its first surfaces; should it have none in hand just then, another is started.
+  const std::string claims = "ls result.h5.parts/*.claim";
+  const std::string killed =
+      elsewhere + "'hostname node2; for attempt in 1 2 3 4 5; do " + claims + " && break; " + any +
+      " & until " + claims +
+      " || ! kill -0 $!; do sleep 0.002; done; kill -9 $!; wait $!; done' > /dev/null 2>&1;";
+  const auto here =
+      test.run("study study.toml -o result.h5 --quiet --json --threads 1 --shard any", killed);
+  INFO(here.err);
+  REQUIRE(here.status == 0);
+  CHECK(here.json()["elsewhere"] == 1);
+  CHECK(parts_in(test.folder() / "result.h5.parts") == 23);
+  // Its lock, too, is believed; a clock that is five minutes ahead changes nothing.
+  REQUIRE(touched("shard.any.node2", std::chrono::minutes(-5)) >= 1);
+  CHECK(touched(".claim", std::chrono::minutes(-5)) == 1);
+  check_refused(test.run(merge), "on node2, which last touched it 0 s ago");
+  CHECK(test.run("study study.toml -o result.h5 --quiet --json --shard any").json()["elsewhere"] ==
+        1);
+  // More than a minute later two more workers, of two hosts, finish the study.
+  touched(".claim", std::chrono::minutes(5));
+  touched("shard.any", std::chrono::minutes(5));
+  const auto merged = test.run(
+      merge, elsewhere + "'hostname node3; exec " + any + "' & " + any + " > /dev/null; wait;");
+  INFO(merged.err);
+  CHECK(merged.status == 0);
+  CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5"});
+  check_same_as_whole(test);
+}
+
 TEST_CASE("A merge of too few surfaces says which shards to run, and exits with 3", "[shard]") {
   const ProgramTest test;
   test.write("study.toml", study_of(4));
@@ -187,11 +239,21 @@ TEST_CASE("Shards refuse what they cannot do", "[shard]") {
   check_refused(test.run(study + "-o result.h5 --shard 1/2 --plot a.png"), "--plot: cannot");
   check_refused(test.run(study + "--shard-seconds 1h"), "--shard-seconds: is for --dry-run");
   CHECK(test.files() == std::set<std::string>{"study.toml"});
-  // A folder that cannot be made, and a disk that is full.
+  // A folder that cannot be made, one that cannot be written to, and a disk that is full.
   test.write("result.h5.parts", "in the way");
   const auto blocked = test.run(study + "-o result.h5 --shard 1/2");
   CHECK(blocked.status == 1);
   CHECK_THAT(blocked.err, Contains("result.h5.parts: cannot be created"));
+  fs::create_directory(test.folder() / "read.h5.parts");
+  fs::permissions(test.folder() / "read.h5.parts", fs::perms::owner_read | fs::perms::owner_exec);
+  // Root is asked for permission like everybody once it has given up that capability.
+  const std::string plain = geteuid() == 0 ? "setpriv --bounding-set -dac_override " : "";
+  const auto read_only = test.run(
+      "", "exec " + plain + "'" + SALEBRA_PROGRAM + "' " + study + "-o read.h5 --shard 1/2;");
+  CHECK(read_only.status == 1);
+  CHECK_THAT(read_only.err,
+             Catch::Matches("salebra: error: read.h5.parts/.*: cannot be created "
+                            "\\(Permission denied\\); check permissions and space\n"));
   const auto full = test.run(study + "-o full.h5 --shard 1/2", "ulimit -f 8;");
   CHECK(full.status == 1);
   CHECK_THAT(full.err, Contains("run the shard again"));

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -81,6 +82,7 @@ bool fails(Kind kind) {
       (call > plan->first && !plan->for_good))
     return false;
   ++plan->failed;
+  if (plan->error == killed) kill(getpid(), SIGKILL);
   if (plan->error > 0) errno = plan->error;
   return true;
 }

@@ -180,7 +180,9 @@ std::string describe(const Fault& fault) {
   std::ostringstream text;
   text << kind_names[std::size_t(fault.kind)] << ' ' << fault.call
        << (fault.for_good ? " and all after it: " : ": ")
-       << (fault.error == short_write ? "half of it" : strerrorname_np(fault.error));
+       << (fault.error == short_write ? "half of it"
+           : fault.error == killed    ? "killed before it"
+                                      : strerrorname_np(fault.error));
   return text.str();
 }
 
@@ -356,6 +358,14 @@ class CaseRun {
     return "";
   }
 
+  /// A kill between the writing of each file and its rename.
+  std::vector<Fault> kills() const {
+    std::vector<Fault> all;
+    for (long call = 1; call <= calls_[std::size_t(Kind::rename)]; ++call)
+      all.push_back({Kind::rename, call, false, killed});
+    return all;
+  }
+
   /// At most about so many of all possible ones, evenly chosen.
   std::vector<Fault> faults(long most, bool of_memory) const {
     std::vector<Fault> all;
@@ -391,7 +401,9 @@ class CaseRun {
 
  private:
   std::string judge(const Fault& fault, const Outcome& outcome) {
-    if (outcome.status < 0) return "ended by a signal";
+    const bool is_kill = fault.error == killed;
+    if (outcome.status < 0 && !is_kill) return "ended by a signal";
+    if (outcome.status != -SIGKILL && is_kill) return "survived a kill";
     if (bench_.plan().failed == 0 && outcome.status != 0) return "failed without a fault";
     if (must_survive(fault) && outcome.status != 0) return "is to be survived";
     const Files now = files_in(bench_.folder());
@@ -399,11 +411,11 @@ class CaseRun {
       const std::string file = fs::path(name).filename().string();
       const bool temporary = file.ends_with(".part") || file.starts_with("lock.");
       // Where an allocation fails while another failure is handled, the process ends at once (docs/reliability.md).
-      if (temporary && fault.kind == Kind::memory) continue;
+      if (temporary && (fault.kind == Kind::memory || is_kill)) continue;
       if (temporary) return name + " was left";
       // What --resume, a shard and a merge go on with: they take over locks and claims of a process that is gone.
-      if (file.ends_with(".realisation") || file.ends_with(".claim") ||
-          file.starts_with("shard.") || file == "lock" || file == "out.state")
+      if (file.ends_with(".realisation") || is_claim(file) || file.starts_with("shard.") ||
+          file == "lock" || file == "out.state")
         continue;
       const auto old = before_.find(name), complete = after_.find(name);
       const bool is_old = old != before_.end() && old->second == text;
@@ -413,6 +425,7 @@ class CaseRun {
     for (const auto& [name, text] : before_)
       if (!now.contains(name) && after_.contains(name)) return name + " is gone";
     if (outcome.status == 0) return without_locks(now) == after_ ? "" : "is called done and is not";
+    if (is_kill) return torn_pair(now) + resumed();
     if (outcome.status != 1) return "has another status than 1";
     const long errors = lines_with(outcome.errors, "salebra: error: "),
                warnings = lines_with(outcome.errors, "salebra: warning: ");
@@ -439,11 +452,16 @@ class CaseRun {
                                                               : "is another result once resumed";
   }
 
-  /// A lock whose file could not be read is left, and the next process takes it over; that of a shard is left until the merge.
-  static Files without_locks(Files now) {
+  /// Finished, or not yet linked.
+  static bool is_claim(const std::string& file) { return file.find(".claim") != std::string::npos; }
+
+  /// A lock whose file could not be read is left, and the next process takes it over. That of a shard is left until the merge, and so is
+  /// a file that a shard began, which another may be writing.
+  Files without_locks(Files now) const {
     now.erase("out.h5.parts/lock");
-    std::erase_if(now, [](const auto& file) {
-      return file.first.starts_with("out.h5.parts/shard.") || file.first.ends_with(".claim");
+    std::erase_if(now, [&](const auto& file) {
+      return file.first.starts_with("out.h5.parts/shard.") || is_claim(file.first) ||
+             (case_.name == "shard" && file.first.ends_with(".part"));
     });
     return now;
   }
@@ -479,6 +497,7 @@ int run(int argc, char** argv) {
     }
     Tally tally = test.judge(test.faults(number(argv[3]), false));
     tally += test.judge(test.faults(number(argv[4]), true));
+    if (number(argv[3]) > 0) tally += test.judge(test.kills());
     std::printf("%-20s %8ld %8ld %10ld %10ld\n", one.name.c_str(), tally.faults, tally.survived,
                 tally.refused, tally.violations);
     std::fflush(stdout);

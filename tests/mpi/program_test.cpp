@@ -27,8 +27,9 @@ const std::string environment = "export " SALEBRA_MPI_ENVIRONMENT ";";
 
 // So many processes of salebra-mpi with these arguments.
 ProgramTest::Result run(const ProgramTest& test, int ranks, const std::string& arguments) {
-  return test.run(fmt::format("--quiet -n {} {} {}", ranks, SALEBRA_MPI_PROGRAM, arguments),
-                  environment);
+  return test.run(
+      fmt::format(SALEBRA_MPI_QUIET " -n {} {} {}", ranks, SALEBRA_MPI_PROGRAM, arguments),
+      environment);
 }
 
 // The same by salebra, without the launcher.
@@ -185,12 +186,12 @@ TEST_CASE("A dry run states the memory that processes take", "[mpi]") {
 TEST_CASE("More threads than the machine has cores are warned of once", "[mpi]") {
   const ProgramTest test;
   // Bound to nothing, as Open MPI 4 and 5 each call it: two processes see the same cores.
-  const auto result =
-      test.run(fmt::format("--quiet -n 2 {} generate {} --threads {} --json", SALEBRA_MPI_PROGRAM,
-                           surface, std::max(1U, std::thread::hardware_concurrency())),
-               environment +
-                   "export OMPI_MCA_hwloc_base_binding_policy=none "
-                   "PRTE_MCA_hwloc_default_binding_policy=none;");
+  const auto result = test.run(
+      fmt::format(SALEBRA_MPI_QUIET " -n 2 {} generate {} --threads {} --json", SALEBRA_MPI_PROGRAM,
+                  surface, std::max(1U, std::thread::hardware_concurrency())),
+      environment +
+          "export OMPI_MCA_hwloc_base_binding_policy=none "
+          "PRTE_MCA_hwloc_default_binding_policy=none;");
   INFO(result.err);
   CHECK(result.status == 0);
   CHECK(result.json()["ranks"] == 2);
@@ -212,16 +213,19 @@ TEST_CASE("Bad input is said once, with status 2, and leaves no file", "[mpi]") 
 
 TEST_CASE("A failure of one process alone names it and ends the others", "[mpi]") {
   const ProgramTest test;
-  const auto result = test.run(fmt::format("--quiet -n 1 {0} generate {1} {2} -o a.h5 : -n 1 {0} "
-                                           "generate {1} {2} --bad",
-                                           SALEBRA_MPI_PROGRAM, surface, quiet),
-                               environment);
+  const auto result =
+      test.run(fmt::format(SALEBRA_MPI_QUIET " -n 1 {0} generate {1} {2} -o a.h5 : -n 1 {0} "
+                                             "generate {1} {2} --bad",
+                           SALEBRA_MPI_PROGRAM, surface, quiet),
+               environment);
   CHECK(result.status == 2);
   CHECK_THAT(result.err, Contains("salebra-mpi: error: process 2 of 2: --bad"));
   CHECK(test.files().empty());
 }
 
-TEST_CASE("SIGUSR1 leaves a checkpoint that any number of processes continues", "[mpi]") {
+TEST_CASE(
+    "SIGUSR1, to one process or all, leaves a checkpoint that any number of processes continues",
+    "[mpi]") {
   const ProgramTest test;
   REQUIRE(run_alone(test,
                     "generate --points 512 --size-x 4um --hurst 0.8 --short-cutoff 0.1um "
@@ -229,16 +233,24 @@ TEST_CASE("SIGUSR1 leaves a checkpoint that any number of processes continues", 
               .status == 0);
   const std::string press =
       "contact rough.h5 --contact-modulus 10GPa --json --pressure 20MPa --precision full " + quiet;
-  // Sent when the first checkpoint appears; one after each iteration leaves time enough.
-  const auto stopped = test.run(
-      "", environment +
-              fmt::format("{} --quiet -n 3 {} {} --checkpoint c.h5 --checkpoint-every 0 -o r.h5 & "
-                          "launcher=$!; while [ ! -e c.h5 ] && [ -e /proc/$launcher ]; do sleep "
-                          "0.05; done; kill -USR1 $launcher; wait $launcher; exit $?;",
-                          SALEBRA_PROGRAM, SALEBRA_MPI_PROGRAM, press));
-  CHECK(stopped.status == 130);
-  CHECK_THAT(stopped.err, Contains("contact: interrupted; continue with --initial c.h5"));
-  REQUIRE(test.files() == std::set<std::string>{"c.h5", "rough.h5"});
+  // To the launcher, which hands it on, and to one process alone, not the first. Sent when the first checkpoint appears; one after each
+  // iteration leaves time enough.
+  for (const std::string target : {"$launcher", "$(cat pid)"}) {
+    const auto stopped = test.run(
+        "", environment +
+                fmt::format(
+                    "rm -f c.h5 pid; press='{} {} --checkpoint c.h5 --checkpoint-every 0 -o r.h5';"
+                    "{} " SALEBRA_MPI_QUIET
+                    " -n 2 $press : -n 1 sh -c \"echo \\$\\$ > pid; exec $press\" & "
+                    "launcher=$!; while [ ! -e c.h5 ] && [ -e /proc/$launcher ]; do sleep "
+                    "0.05; done; kill -USR1 {}; wait $launcher; exit $?;",
+                    SALEBRA_MPI_PROGRAM, press, SALEBRA_PROGRAM, target));
+    INFO(target);
+    CHECK(stopped.status == 130);
+    CHECK(stopped.err ==
+          "salebra-mpi: error: contact: interrupted; continue with --initial c.h5\n");
+    REQUIRE(test.files() == std::set<std::string>{"c.h5", "pid", "rough.h5"});
+  }
   const auto numbers_of = [](const ProgramTest::Result& result) {
     INFO(result.err);
     REQUIRE(result.status == 0);

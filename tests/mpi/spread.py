@@ -69,6 +69,14 @@ def test_generators() -> None:
     assert salebra.difference_moments(mine) == salebra.difference_moments(whole)
     assert salebra.spectral_moments(mine) == salebra.spectral_moments(whole)
     assert salebra.profile_psd(mine) == salebra.profile_psd(whole)
+    part, spectrum = salebra.power_spectrum(mine), salebra.power_spectrum(whole)
+    assert ALL.allreduce(len(part.wavenumber_y)) == len(spectrum.wavenumber_y)
+    columns = np.isin(spectrum.wavenumber_y, part.wavenumber_y)
+    assert np.array_equal(part.psd, spectrum.psd[:, columns])
+    assert salebra.radial_spectrum(part) == salebra.radial_spectrum(spectrum)
+    own, summits = salebra.find_summits(mine), salebra.find_summits(whole)
+    assert [x for rows in ALL.allgather(own.x.tolist()) for x in rows] == summits.x.tolist()
+    assert salebra.summit_statistics(own) == salebra.summit_statistics(summits)
 
 
 def test_gather() -> None:
@@ -80,7 +88,6 @@ def test_gather() -> None:
         if surface is not None and contact is not None:
             assert surface == whole and surface.rows == range(GRID.nx)
             assert contact == salebra.press_to_pressure(whole, MATERIAL, "1 MPa")
-            assert len(salebra.contact_spots(contact)) > 0
     assert whole.gather() is whole
     assert "root" in raised(salebra.InvalidInput, lambda: mine.gather(ALL.size))
 
@@ -96,6 +103,8 @@ def test_contacts() -> None:
             assert getattr(part, name) == getattr(one, name), name
         same(part.contact_pressure, one.contact_pressure[part.rows])
         same(part.gap, one.gap[part.rows])
+        spots = salebra.contact_spots(one)
+        assert len(spots) > 0 and salebra.contact_spots(part) == spots
     assert salebra.normal_stiffness(part) == salebra.normal_stiffness(one)
     contact = part.contact_pressure > 0
     assert salebra.stick_stiffness(contact, GRID, MATERIAL, comm=ALL) == salebra.stick_stiffness(one.contact_pressure > 0, GRID, MATERIAL)
@@ -130,13 +139,13 @@ def test_files() -> None:
 def test_refusals() -> None:
     mine = spread()
     state = salebra.press_to_pressure(mine, MATERIAL, 1e6)
+    summits, spectrum = salebra.find_summits(mine), salebra.power_spectrum(mine)
     curve = salebra.ForceCurve(1e-6, mean_gap=[2e-6, 1e-6], pressure=[1e5, 1e6], normal_stiffness=[1e5, 1e6], indentation=[1e-7, 1e-6])
     calls: list[Callable[[], Any]] = [
         lambda: salebra.BearingCurve(mine),
         lambda: salebra.after_first_loading(mine, MATERIAL, 1e6, hardness=1e8),
         lambda: salebra.boundary_element_levels(mine, MATERIAL),
         lambda: salebra.composite_surface(mine, mine),
-        lambda: salebra.contact_spots(state),
         lambda: salebra.correlation_map(mine),
         lambda: salebra.crop_surface(mine, 0, 0, 8, 8),
         lambda: salebra.detrended(mine, "lines"),
@@ -153,6 +162,14 @@ def test_refusals() -> None:
         lambda: mine.to_topography(),
         lambda: mine.to_xarray(),
         lambda: state.to_xarray(),
+        lambda: salebra.asperity_damping(summits, MATERIAL, 1e-6, MOTION),
+        lambda: salebra.DeterministicSummits(summits, MATERIAL, 1e-6),
+        lambda: salebra.InteractingSummits(summits, MATERIAL, GRID),
+        lambda: summits.plot(),
+        lambda: spectrum.plot(),
+        lambda: spectrum.to_xarray(),
+        lambda: pickle.dumps(summits),
+        lambda: pickle.dumps(spectrum),
         lambda: pickle.dumps(mine),
         lambda: pickle.dumps(state),
     ]

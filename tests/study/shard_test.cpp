@@ -272,6 +272,9 @@ TEST_CASE("A claim holds while its process lives, and for a minute on another ho
   // The merge, which no shard runs beside, has removed the claim: put it back, abandoned.
   CHECK_FALSE(fs::exists(claim));
   std::ofstream(claim) << "elsewhere boot space\n1\n2\nword\n";
+  // A clock that was five minutes ahead makes it no older.
+  fs::last_write_time(claim, fs::file_time_type::clock::now() + std::chrono::minutes(5));
+  CHECK(compute(scratch, study, "any").elsewhere == 1);
   fs::last_write_time(claim, fs::file_time_type::clock::now() - std::chrono::minutes(5));
   CHECK(compute(scratch, study, "any").computed == 1);
   CHECK_FALSE(fs::exists(claim));

@@ -3,11 +3,14 @@
 
 #include <nanobind/nanobind.h>
 
+#include <concepts>
 #include <initializer_list>
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/share.hpp>
+#include <salebra/surface/spectrum.hpp>
+#include <salebra/surface/summits.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -32,6 +35,16 @@ struct BoundSurface {
 /// Throws InvalidInput where several processes hold it.
 inline void require_whole(const BoundSurface& surface, const std::string& purpose) {
   surface.surface.require_whole(purpose);
+}
+
+/// The same of spectra and summits, of which each process holds those of its columns or rows.
+template <class Part>
+requires std::same_as<Part, PowerSpectrum> || std::same_as<Part, SummitList>
+void require_whole(const Part& part, const std::string& purpose) {
+  if (!part.ranks.alone())
+    throw InvalidInput(std::same_as<Part, SummitList> ? "summits" : "spectrum", "",
+                       "is spread over " + std::to_string(part.ranks.ranks()) + " processes, and " +
+                           purpose + " needs it whole; gather its surface first");
 }
 
 /// Of what can be spread over processes.
