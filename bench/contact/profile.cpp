@@ -128,7 +128,8 @@ void profile(const Surface& surface, double load) {
   line("the ladder", fine.ladder);
   line("other pointwise passes", fine.pointwise);
   std::printf("  %-44s %8.3f s\n", "all", total);
-  std::printf("  a pair in float takes %.2f ms with the passes that make and take its rows\n", 1e3 * pair);
+  std::printf("  a pair in float takes %.2f ms with the passes that make and take its rows\n",
+              1e3 * pair);
   const double cells = static_cast<double>(grid.points()) * outcome.iterations;
   std::printf("  of the cells, %.1f %% are in use in an iteration, and %.1f %% at rest\n",
               100 * outcome.active_cells / cells, 100 * outcome.resting_cells / cells);
