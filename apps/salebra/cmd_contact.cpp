@@ -231,9 +231,10 @@ void run(const ContactArguments& arguments, Session& session) {
   session.answer(answer);
   if (!state.converged) {
     throw NotConverged(
-        fmt::format("contact: residual {:.3g} after {} iterations did not reach the tolerance; "
-                    "allow a larger --tolerance",
-                    state.residual, state.iterations));
+        fmt::format("contact: residual {:.3g} after {} iterations did not reach the tolerance; {}",
+                    state.residual, state.iterations,
+                    state.iterations >= arguments.max_iterations ? "raise --max-iterations"
+                                                                 : "allow a larger --tolerance"));
   }
   arguments.checkpoint.remove(session);
 }

@@ -161,7 +161,7 @@ void Session::note(std::string_view text) {
 }
 
 void Session::warn(std::string_view text) {
-  if (options_.quiet || !ranks().is_root()) return;
+  if (options_.quiet || !ranks().is_root() || !warned_.emplace(text).second) return;
   bar_.clear();
   print_remark(fmt::format("{}: {} {}\n", program_name(),
                            emphasised("warning:", Emphasis::warning, STDERR_FILENO),

@@ -8,6 +8,7 @@
 #include <salebra/io/output.hpp>
 #include <salebra/io/plot.hpp>
 #include <salebra/io/provenance.hpp>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -63,7 +64,7 @@ class Session {
   /// For the library: draws the bar where one is wanted, and returns false after Ctrl-C of this process.
   Progress progress();
 
-  /// A remark for the person at the terminal, on stderr; --quiet leaves out both, and errors only remain.
+  /// A remark for the person at the terminal, on stderr; --quiet leaves out both, and errors only remain. The same warning is given once.
   void note(std::string_view text);
   void warn(std::string_view text);
 
@@ -81,6 +82,7 @@ class Session {
   CommonOptions options_;
   std::string command_line_;
   ProgressBar bar_;
+  std::set<std::string> warned_;
 };
 
 /// Surfaces are missing in a study that was to be merged: the program exits with 3.

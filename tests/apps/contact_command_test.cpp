@@ -183,6 +183,9 @@ TEST_CASE("A checkpoint that the disk has no room for is warned of, and the last
   CHECK(full.status == 1);
   CHECK_THAT(full.err, Catch::Contains("salebra: warning: --checkpoint: c.h5: cannot be written"));
   CHECK_THAT(full.err, Catch::Contains("; the file before stays"));
+  // Four checkpoints failed, and one line says so.
+  CHECK(full.err.find("warning: --checkpoint") == full.err.rfind("warning: --checkpoint"));
+  CHECK_THAT(full.err, Catch::Contains("raise --max-iterations"));
   CHECK(test.read("c.h5") == last);
   CHECK(test.files() == std::set<std::string>{"c.h5", "rough.h5"});
   const auto through = test.run(loud, "ulimit -f 16;");
