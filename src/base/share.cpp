@@ -140,6 +140,26 @@ Field gathered(const Share& rows, const Field& mine, int root) {
   return whole;
 }
 
+Field scattered(const Share& rows, Index columns, const Field& whole) {
+  const Communicator& ranks = rows.ranks();
+  std::vector<Index> begins(static_cast<std::size_t>(ranks.ranks()) + 1, rows.rows());
+  begins.front() = 0;
+  Field mine;
+  collectively(ranks, [&] {
+    if (ranks.is_root())
+      require(whole.rows() == rows.rows(), "rows", whole.rows(), "do not match the grid");
+    mine = uninitialised_field(rows.count(), columns);
+  });
+  const auto row_bytes = static_cast<std::size_t>(columns) * sizeof(double);
+  RowExchange(
+      Share(ranks, begins),
+      [&](int rank) {
+        return RowExchange::Window{rows.begin_of(rank), rows.end_of(rank) - rows.begin_of(rank)};
+      },
+      RowExchange::Edge::none)(whole.data(), row_bytes, mine.data(), row_bytes, row_bytes);
+  return mine;
+}
+
 namespace {
 
 // The columns that each process gets together.

@@ -125,7 +125,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                                       : "a contact",
                  groups.all());
   Samples samples(pressures.size());
-  std::atomic<bool> stop = false;
+  std::atomic<bool> stop = false, failed = false;
   std::atomic<int> finished = 0;
   std::exception_ptr failure;
   SweepOptions inner = options;
@@ -141,8 +141,8 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
 
 #pragma omp parallel for schedule(dynamic, 1) num_threads(concurrent) if (concurrent > 1)
   for (int turn = 0; turn < loads; ++turn) {
-    // One process may have been told to stop where the others were not.
-    if (!surface.ranks.all_agree(!stop)) stop = true;
+    // One process may have been told to stop where the others were not. One that failed calls them no more.
+    if (failed || !surface.ranks.all_agree(!stop)) stop = true;
     if (stop) continue;
     const std::size_t k = mine[static_cast<std::size_t>(turn)];
     try {
@@ -165,7 +165,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
           !options.contact.on_progress({"sweep", double(done) / loads, done, state.residual}))
         stop = true;
     } catch (...) {
-      stop = true;
+      failed = stop = true;
 #pragma omp critical(salebra_sweep_failure)
       if (!failure) failure = std::current_exception();
     }

@@ -140,12 +140,12 @@ class HalfPeriod {
 };
 
 // Of one node: the force above μF(δ_min) and its derivative by v, both times 2π.
-struct Share {
+struct PhaseShare {
   double force, damping;
 };
 
-Share share_of(const PhaseState& node, const Period& period, double slips_at, double limit_scale,
-               double velocity, double omega) {
+PhaseShare share_of(const PhaseState& node, const Period& period, double slips_at,
+                    double limit_scale, double velocity, double omega) {
   const double limit = limit_scale * node.normal_stiffness * node.sine;
   if (!(node.phase > period.sticks_from() && node.phase < period.sticks_to()))
     return {limit * 2 * (pi - node.phase), 0};
@@ -182,7 +182,7 @@ Force force_above_least(const HalfPeriod& half, const Period& period, double lim
                            : period.slips_at(node.phase);
         before = node.phase, slipped = slips;
       }
-      const Share share = share_of(node, period, slips, limit_scale, velocity, omega);
+      const PhaseShare share = share_of(node, period, slips, limit_scale, velocity, omega);
       values[j] = share.force;
       kronrod += rule_weight[j] * share.force;
       gauss += gauss_weight[j] * share.force;

@@ -11,10 +11,12 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/surface_damping.hpp>
+#include <salebra/surface/moments.hpp>
 #include <salebra/surface/refine.hpp>
 
 #include "contact/normal/contact_memory.hpp"
@@ -117,9 +119,10 @@ class Levels {
   Levels(const Surface& surface, double contact_modulus, const NormalContactOptions& options)
       : surface_(surface), contact_modulus_(contact_modulus), options_(options) {
     // Where a periodic contact is full the indentation has no meaning.
-    const double top = surface.heights.maxCoeff();
-    limit_ = options.boundary == Boundary::free ? std::numeric_limits<double>::infinity()
-                                                : (top - surface.heights).mean();
+    limit_ = std::numeric_limits<double>::infinity();
+    if (options.boundary == Boundary::free) return;
+    const HeightStatistics heights = height_statistics(surface);
+    limit_ = heights.maximum - heights.mean;
   }
 
   struct Contact {
@@ -144,8 +147,8 @@ class Levels {
       return {};
     }
     NormalContactOptions options = options_;
-    const Field start = extrapolated(indentation);
-    if (start.size() > 0) options.initial_pressure = &start;
+    const std::optional<Field> start = extrapolated(indentation);
+    if (start) options.initial_pressure = &*start;
     NormalContactState state =
         press_to_indentation(surface_, contact_modulus_, indentation, options);
     known_[indentation] = contact_of(state);
@@ -155,13 +158,15 @@ class Levels {
 
  private:
   /// Pressures are nearly linear over the short way from two contacts to a third.
-  Field extrapolated(double indentation) const {
-    if (before_.size() == 0) return last_;
+  std::optional<Field> extrapolated(double indentation) const {
+    if (!before_) return last_;
     const double share = (indentation - last_at_) / (last_at_ - before_at_);
-    return std::abs(share) > 3 ? last_ : Field((last_ + share * (last_ - before_)).max(0.0));
+    if (std::abs(share) > 3) return last_;
+    return Field((*last_ + share * (*last_ - *before_)).max(0.0));
   }
   Contact contact_of(const NormalContactState& state) const {
-    const ContactSpots spots = contact_spots(state.pressure, surface_.grid, options_.boundary);
+    const ContactSpots spots =
+        contact_spots(state.pressure, surface_.grid, options_.boundary, surface_.ranks);
     return {
         .force = state.force,
         .cells =
@@ -185,7 +190,7 @@ class Levels {
   NormalContactOptions options_;
   double limit_;
   std::map<double, Contact> known_;
-  Field last_, before_;
+  std::optional<Field> last_, before_;  // whether there are any is the same in all processes
   double last_at_ = 0, before_at_ = 0;
   bool converged_ = true;
 };
@@ -451,11 +456,27 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
 }
 
 Surface every_second(const Surface& surface) {
-  Surface coarse = surface;
+  Surface coarse{surface.grid, {}, surface.periodic, surface.origin, surface.ranks};
   coarse.grid.nx /= 2;
   coarse.grid.ny /= 2;
-  coarse.heights =
-      surface.heights(Eigen::seqN(0, coarse.grid.nx, 2), Eigen::seqN(0, coarse.grid.ny, 2));
+  // Of the rows of each process, which are not those that it has of the coarse grid.
+  const Share fine = surface.share(), rows = coarse.share();
+  std::vector<Index> begins;
+  for (int rank = 0; rank < surface.ranks.ranks(); ++rank)
+    begins.push_back((fine.begin_of(rank) + 1) / 2);
+  begins.push_back(coarse.grid.nx);
+  const Share found(surface.ranks, begins);
+  const Field mine =
+      surface.heights(Eigen::seqN(2 * found.begin() - fine.begin(), found.count(), 2),
+                      Eigen::seqN(0, coarse.grid.ny, 2));
+  coarse.heights = Field(rows.count(), coarse.grid.ny);
+  const auto row_bytes = static_cast<std::size_t>(coarse.grid.ny) * sizeof(double);
+  RowExchange(
+      found,
+      [&](int rank) {
+        return RowExchange::Window{rows.begin_of(rank), rows.end_of(rank) - rows.begin_of(rank)};
+      },
+      RowExchange::Edge::none)(mine.data(), row_bytes, coarse.heights.data(), row_bytes, row_bytes);
   return coarse;
 }
 
@@ -469,8 +490,10 @@ Eigen::ArrayXd taper(Index count) {
 }
 
 Surface windowed(Surface surface) {
-  const double mean = surface.heights.mean();
-  const Eigen::ArrayXd x = taper(surface.grid.nx), y = taper(surface.grid.ny);
+  const double mean = height_statistics(surface).mean;
+  const Share rows = surface.share();
+  const Eigen::ArrayXd x = taper(surface.grid.nx).segment(rows.begin(), rows.count()),
+                       y = taper(surface.grid.ny);
   surface.heights = mean + (surface.heights - mean) * (x.matrix() * y.matrix().transpose()).array();
   return surface;
 }
@@ -492,7 +515,8 @@ void validate(const Surface& surface, const ForceCurve& curve,
 std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Material& material,
                                             const Oscillation& motion, const ForceCurve& curve,
                                             const SurfaceDampingOptions& options) {
-  surface.require_complete("a contact calculation");
+  const Communicator& ranks = surface.ranks;
+  collectively(ranks, [&] { surface.require_complete_rows("a contact calculation"); });
   validate(surface, curve, options);
   std::vector<Load> loads;
   for (std::size_t k = 0; k < curve.samples.size(); ++k)
@@ -511,10 +535,13 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
     const Index factor = halving > 0 ? Index(1) << halving : 1;
     if (open.empty() || (halving > options.refinements && factor > options.most_refined)) break;
     const Surface fine = halving < 0 ? every_second(surface) : refined(surface, factor);
-    const int wanted = std::min(static_cast<int>(open.size()), parallel::threads());
+    // Two loads of a surface that is spread would send through each other.
+    const int wanted =
+        ranks.alone() ? std::min(static_cast<int>(open.size()), parallel::threads()) : 1;
     require_memory(fine.grid, wanted * detail::contact_memory(fine, {.boundary = options.boundary}),
-                   "contacts on all threads (fewer `threads` need less)");
-    std::atomic<bool> stop = false;
+                   wanted > 1 ? "contacts on all threads (fewer `threads` need less)" : "a contact",
+                   ranks);
+    std::atomic<bool> stop = false, failed = false;
     std::atomic<int> finished = 0;
     std::exception_ptr failure;
     const Progress progress = [&](const ProgressReport& report) {
@@ -528,18 +555,20 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
     // The highest loads take longest and go first.
 #pragma omp parallel for schedule(dynamic, 1) num_threads(wanted) if (wanted > 1)
     for (int back = 0; back < static_cast<int>(open.size()); ++back) {
+      // One process may have been told to stop where the others were not. One that failed calls them no more.
+      if (failed || !ranks.all_agree(!stop)) stop = true;
       if (stop) continue;
       try {
         open[open.size() - 1 - static_cast<std::size_t>(back)]->solve(fine, progress);
         ++finished;
       } catch (...) {
-        stop = true;
+        failed = stop = true;
 #pragma omp critical(salebra_surface_damping_failure)
         if (!failure) failure = std::current_exception();
       }
     }
     if (failure) std::rethrow_exception(failure);
-    if (stop) throw Interrupted("damping: interrupted");
+    if (!ranks.all_agree(!stop)) throw Interrupted("damping: interrupted");
   }
   std::vector<SurfaceDamping> results;
   for (const Load& load : loads) results.push_back(result_of(load, motion, options));

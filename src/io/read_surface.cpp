@@ -115,7 +115,7 @@ Surface completed(const std::filesystem::path& file, LoadedSurface loaded,
 namespace {
 
 /// The rows of each process of a surface that the root holds.
-Surface scattered(Surface surface, const Communicator& ranks) {
+Surface spread(const Surface& surface, const Communicator& ranks) {
   std::string origin = surface.origin;
   struct {
     Grid2D grid;
@@ -125,19 +125,8 @@ Surface scattered(Surface surface, const Communicator& ranks) {
   ranks.broadcast(&head, sizeof head);
   origin.resize(head.length);
   ranks.broadcast(origin.data(), origin.size());
-  std::vector<Index> begins(static_cast<std::size_t>(ranks.ranks()) + 1, head.grid.nx);
-  begins.front() = 0;
   Surface rows{head.grid, {}, head.periodic, origin, ranks};
-  const Share share = rows.share();
-  collectively(ranks, [&] { rows.heights = uninitialised_field(share.count(), head.grid.ny); });
-  const auto row_bytes = static_cast<std::size_t>(head.grid.ny) * sizeof(double);
-  RowExchange(
-      Share(ranks, begins),
-      [&](int rank) {
-        return RowExchange::Window{share.begin_of(rank), share.end_of(rank) - share.begin_of(rank)};
-      },
-      RowExchange::Edge::none)(surface.heights.data(), row_bytes, rows.heights.data(), row_bytes,
-                               row_bytes);
+  rows.heights = scattered(rows.share(), head.grid.ny, surface.heights);
   return rows;
 }
 
@@ -154,7 +143,7 @@ Surface read_surface(const std::filesystem::path& file, const ReadOptions& optio
     if (!hdf5) surface = detail::completed(file, load(file), options);
   });
   ranks.broadcast(&hdf5, sizeof hdf5);
-  if (!hdf5) return scattered(std::move(surface), ranks);
+  if (!hdf5) return spread(surface, ranks);
   collectively(ranks,
                [&] { surface = detail::completed(file, detail::read_hdf5(file, ranks), options); });
   surface.ranks = ranks;

@@ -7,6 +7,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/fft.hpp>
 #include <salebra/base/memory.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/surface/refine.hpp>
 #include <vector>
 
@@ -95,17 +96,23 @@ Field spline(const Field& heights, Index factor) {
 }  // namespace
 
 Surface refined(const Surface& surface, Index factor) {
-  surface.require_complete("refinement");
+  const Communicator& ranks = surface.ranks;
+  collectively(ranks, [&] { surface.require_complete_rows("refinement"); });
   require(factor >= 1, "factor", factor, "must be >= 1");
   const double fine_points =
       static_cast<double>(surface.grid.points()) * static_cast<double>(factor * factor);
-  require_memory(surface.grid, 24 * fine_points, "its refinement (a smaller factor needs less)");
+  require_memory(surface.grid, ranks.is_root() ? 24 * fine_points : 0,
+                 "its refinement (a smaller factor needs less)", ranks);
   if (factor == 1) return surface;
-  Surface fine = surface;
+  Surface fine{surface.grid, gathered(surface.share(), surface.heights), surface.periodic,
+               surface.origin, ranks};
   fine.grid.nx *= factor;
   fine.grid.ny *= factor;
-  fine.heights =
-      surface.periodic ? fourier(surface.heights, factor) : spline(surface.heights, factor);
+  collectively(ranks, [&] {
+    if (ranks.is_root())
+      fine.heights = fine.periodic ? fourier(fine.heights, factor) : spline(fine.heights, factor);
+  });
+  if (!ranks.alone()) fine.heights = scattered(fine.share(), fine.grid.ny, fine.heights);
   return fine;
 }
 

@@ -79,6 +79,8 @@ class RowExchange {
 /// The whole field in the process `root`, and no rows in the others. mine: the rows of this process. Collective; what fails in one process
 /// is thrown on all. Memory of the root: the whole field in addition.
 Field gathered(const Share& rows, const Field& mine, int root = 0);
+/// The inverse: the rows of each process of a field of so many columns that the first process has whole. Collective.
+Field scattered(const Share& rows, Index columns, const Field& whole);
 
 /// Brings the columns of a field together, whose rows are spread over processes, and hands each to the process that owns it. The columns of
 /// a block of parallel::map_blocks come in order and in one thread; blocks come from several threads at once. Value: double or its complex.

@@ -94,7 +94,8 @@ struct SurfaceDamping {
 ///
 /// curve   of this surface and material, by sweep_pressures(); samples that did not converge are left out (converged = false)
 /// throws  InvalidInput for a curve without loads, levels that are none of the four, relative_error outside [0, 1); Interrupted where
-///         on_progress says stop
+///         on_progress says stop. A surface may be spread over processes: the call is then collective, takes one load after the other, and all
+///         numbers have the same bits as in one process
 /// cost    for each load levels + 3 to 9 normal contacts on each grid, in parallel over loads; a halving of the cells costs five times
 ///         the grid before it
 std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Material& material,
