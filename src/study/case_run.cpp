@@ -15,7 +15,10 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
+#include <string>
 #include <thread>
+
+#include "realisation_record.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -34,10 +37,12 @@ class CaseRun {
         precision_(result.configuration) {}
 
   void go() {
-    if (run_.parts && run_.parts->count() > 0) restore();
+    restore();
     talk();
     if (run_.missing) {
       note_missing();
+    } else if (!run_.groups.all().alone()) {
+      compute_together();
     } else {
       std::atomic<std::size_t> next = 0;
       const auto do_next = [&](bool on_calling_thread) {
@@ -51,7 +56,9 @@ class CaseRun {
       const bool few = workers == 1 || seeds_.size() - finished_ < workers;
       side_by_side(few ? 0 : int(workers), do_next, [this] { talk(); });
     }
-    if (failure_) std::rethrow_exception(failure_);
+    collectively(run_.groups.all(), [this] {
+      if (failure_) std::rethrow_exception(failure_);
+    });
     // Realisations beyond a gap, or beyond the number that is enough, take no part.
     const std::size_t used = std::min(prefix_, limit_.load());
     for (std::size_t i = 0; i < used; ++i)
@@ -62,10 +69,105 @@ class CaseRun {
 
  private:
   void restore() {
+    const Communicator& all = run_.groups.all();
+    bool present = false;
+    collectively(all, [&] { present = run_.parts && run_.parts->count() > 0; });
+    if (all.all_agree(!present)) return;
     for (std::size_t i = 0; i < seeds_.size(); ++i) {
-      realisations_[i] = run_.parts->read(StudyParts::key(result_.configuration, seeds_[i]));
-      if (realisations_[i]) note(i, 0, true);
+      std::optional<Realisation> found;
+      collectively(all, [&] {
+        if (run_.parts) found = run_.parts->read(StudyParts::key(result_.configuration, seeds_[i]));
+      });
+      for (Found& one : shared({i, std::move(found)})) {
+        realisations_[i] = std::move(one.realisation);
+        note(i, 0, true);
+      }
     }
+  }
+
+  struct Found {
+    std::size_t place = 0;
+    std::optional<Realisation> realisation = {};
+  };
+
+  /// What each process has found, in all of them; without those that found nothing.
+  std::vector<Found> shared(Found mine) const {
+    const Communicator& all = run_.groups.all();
+    std::vector<Found> found;
+    if (all.alone()) {
+      if (mine.realisation) found.push_back(std::move(mine));
+      return found;
+    }
+    std::vector<std::size_t> places(std::size_t(all.ranks()));
+    all.gather_all(&mine.place, std::vector(places.size(), sizeof mine.place), places.data());
+    const std::vector<std::string> records =
+        all.gather_all(mine.realisation ? encode({{}, *mine.realisation}, 0) : "");
+    for (std::size_t rank = 0; rank < records.size(); ++rank)
+      if (!records[rank].empty())
+        found.push_back({places[rank], decode(records[rank], 0).realisation});
+    return found;
+  }
+
+  /// Each group computes a surface at a time, and waits for the others. The first process decides which: another might decide differently by
+  /// the last digit of its type of processor.
+  void compute_together() {
+    const Groups& groups = run_.groups;
+    const Communicator& all = groups.all();
+    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> turn(std::size_t(groups.count()));
+    for (;;) {
+      const auto start = Clock::now();
+      std::size_t next = 0;
+      for (std::size_t& place : turn) {
+        while (next < seeds_.size() && realisations_[next]) ++next;
+        place = next < seeds_.size() && going_on(next) ? next++ : none;
+      }
+      all.broadcast(turn.data(), turn.size() * sizeof(std::size_t));
+      if (turn.front() == none) break;
+      std::erase(turn, none);
+      Found mine;
+      if (const auto group = std::size_t(groups.place()); group < turn.size())
+        mine = {turn[group], analysed(turn[group], turn)};
+      std::vector<Found> found = shared(std::move(mine));
+      stop_ = !all.all_agree(!stop_);
+      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+      for (auto& [i, realisation] : found) {
+        collectively(all, [&, i = i, &made = *realisation] {
+          if (run_.parts)
+            run_.parts->write(StudyParts::key(result_.configuration, seeds_[i]), made);
+        });
+        realisations_[i] = std::move(realisation);
+        note(i, seconds, false);
+      }
+      talk();
+      turn.resize(std::size_t(groups.count()));
+    }
+    std::size_t limit = limit_;
+    all.broadcast(&limit, sizeof limit);
+    limit_ = limit;
+  }
+
+  /// In the first process of a group; nothing in the others, and where all of the group were stopped or failed alike. What one process alone
+  /// fails by is thrown, and ends the program.
+  std::optional<Realisation> analysed(std::size_t i, const std::vector<std::size_t>& turn) {
+    const Communicator& own = run_.groups.own();
+    try {
+      Realisation realisation = analyse_realisation(
+          result_.configuration, seeds_[i], result_.pressures,
+          [&](const ProgressReport& report) {
+            for (const std::size_t place : turn) fractions_[place] = report.fraction;
+            talk();
+            return !stop_;
+          },
+          own);
+      if (own.is_root()) return realisation;
+    } catch (const Interrupted&) {
+      stop_ = true;
+    } catch (const NotConverged&) {
+      failure_ = std::current_exception();
+      stop_ = true;
+    }
+    return {};
   }
 
   void note_missing() {

@@ -51,11 +51,12 @@ ModelResult boundary_elements(ModelWork& work) {
   sweep.stick = stick_solves(work.configuration);
   realisation.spots.resize(work.pressures.size());
   sweep.on_state = [&](std::size_t k, const NormalContactState& state) {
-    realisation.spots[k] =
-        spot_statistics(contact_spots(state.pressure, surface.grid), surface.grid);
+    realisation.spots[k] = spot_statistics(
+        contact_spots(state.pressure, surface.grid, Boundary::periodic, surface.ranks),
+        surface.grid);
     if (realisation.picture.empty()) return;
     const std::scoped_lock lock(picture_guard);
-    realisation.picture.add_contact(std::int16_t(k), state);
+    realisation.picture.add_contact(std::int16_t(k), state, surface);
   };
   return {.curve = sweep_pressures(surface, work.configuration.material, work.pressures, sweep)};
 }
@@ -101,21 +102,9 @@ ModelResult interacting_summits(ModelWork& work) {
   return {.curve = curve_at_pressures(summits, work.pressures, work.progress)};
 }
 
-/// The modes that the surface has, ring by ring.
-std::vector<RoughnessShell> shells_of(const Surface& surface) {
-  const PowerSpectrum spectrum = power_spectrum(surface);
-  const RadialSpectrum rings = radial_spectrum(spectrum, 16);
-  std::vector<RoughnessShell> shells;
-  for (std::size_t i = 0; i < rings.wavenumber.size(); ++i) {
-    const double power = double(rings.modes[i]) * rings.psd[i] * spectrum.cell();
-    if (power > 0) shells.push_back({rings.wavenumber[i], power});
-  }
-  return shells;
-}
-
 ModelResult persson_theory(ModelWork& work) {
   const Material& material = work.configuration.material;
-  const PerssonTheory theory(shells_of(work.surface), material.contact_modulus);
+  const PerssonTheory theory(work.shells, material.contact_modulus);
   ModelResult result{
       .curve = persson_curve(theory, material, work.surface.grid.area(), work.pressures),
       .asymptotic_decay_length = theory.asymptote().decay_length};
@@ -160,6 +149,17 @@ static_assert(
     "a model stands at the place of its enumerator");
 
 }  // namespace
+
+std::vector<RoughnessShell> detail::shells_of(const Surface& surface) {
+  const PowerSpectrum spectrum = power_spectrum(surface);
+  const RadialSpectrum rings = radial_spectrum(spectrum, 16);
+  std::vector<RoughnessShell> shells;
+  for (std::size_t i = 0; i < rings.wavenumber.size(); ++i) {
+    const double power = double(rings.modes[i]) * rings.psd[i] * spectrum.cell();
+    if (power > 0) shells.push_back({rings.wavenumber[i], power});
+  }
+  return shells;
+}
 
 std::span<const StudyModel> contact_models() { return registry; }
 

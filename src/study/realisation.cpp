@@ -4,14 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <salebra/base/error.hpp>
+#include <salebra/base/memory.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/study/realisation.hpp>
+#include <string>
+#include <type_traits>
 #include <utility>
 
 #include "case_run.hpp"
@@ -28,15 +33,15 @@ Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Prog
              : filtered_noise(recipe.grid, spectrum, seed, progress, ranks);
 }
 
-Surface read(const MeasuredSurface& recipe) {
+Surface read(const MeasuredSurface& recipe, const Communicator& ranks) {
   require_that(!recipe.file.empty(), "surface",
                "none is given; name a file, or describe surfaces to generate");
   ReadOptions options;
   options.size_x = recipe.size_x;
   options.size_y = recipe.size_y;
   options.height_unit = recipe.height_unit;
-  Surface surface = read_surface(recipe.file, options);
-  surface.require_complete("a study");
+  Surface surface = read_surface(recipe.file, options, ranks);
+  collectively(ranks, [&] { surface.require_complete_rows("a study"); });
   const Detrend trend = recipe.detrend.value_or(default_detrend(surface));
   return detrended(std::move(surface), trend);
 }
@@ -44,9 +49,48 @@ Surface read(const MeasuredSurface& recipe) {
 /// Root mean square of the steps between opposite edges, which a periodic continuation turns into cliffs.
 double seam_step(const Surface& surface) {
   const Field& h = surface.heights;
-  const double along_x = (h.row(0) - h.row(h.rows() - 1)).square().mean();
-  const double along_y = (h.col(0) - h.col(h.cols() - 1)).square().mean();
-  return std::sqrt((along_x + along_y) / 2);
+  const auto [nx, ny] = std::pair(surface.grid.nx, surface.grid.ny);
+  const Share rows = surface.share();
+  const auto square = [](double step) { return step * step; };
+  const double along_y = parallel::sum_blocks(rows, [&](Index begin, Index end) {
+    double sum = 0;
+    for (Index row = begin; row < end; ++row) sum += square(h(row, 0) - h(row, ny - 1));
+    return sum;
+  });
+  std::vector<std::byte> first_room, last_room;
+  const auto row = [&](Index at, std::vector<std::byte>& room) {
+    const auto bytes = static_cast<std::size_t>(ny) * sizeof(double);
+    const RowExchange to_all(
+        rows,
+        [at](int) {
+          return RowExchange::Window{at, 1};
+        },
+        RowExchange::Edge::none);
+    return static_cast<const double*>(to_all.fetch(h.data(), bytes, bytes, room).front());
+  };
+  const double *first = row(0, first_room), *last = row(nx - 1, last_room);
+  double along_x = 0;
+  for (Index iy = 0; iy < ny; ++iy) along_x += square(first[iy] - last[iy]);
+  return std::sqrt((along_x / double(ny) + along_y / double(nx)) / 2);
+}
+
+/// The summits of all processes, in the order of one process, in the first of them.
+SummitList gathered(SummitList list, const Grid2D& grid) {
+  const Communicator& ranks = list.ranks;
+  if (ranks.alone()) return list;
+  std::vector<Index> begins{0};
+  for (const std::string& count : ranks.gather_all(std::to_string(list.summits.size())))
+    begins.push_back(begins.back() + std::stoll(count));
+  static_assert(std::is_trivially_copyable_v<Summit> && sizeof(Summit) % sizeof(double) == 0);
+  constexpr Index width = sizeof(Summit) / sizeof(double);
+  require_memory(grid, ranks.is_root() ? 3.0 * double(begins.back()) * sizeof(Summit) : 0,
+                 "all summits in the first process", ranks);
+  Field mine(Index(list.summits.size()), width);
+  std::memcpy(mine.data(), list.summits.data(), list.summits.size() * sizeof(Summit));
+  const Field all = gathered(Share(ranks, begins), mine);
+  SummitList whole{std::vector<Summit>(std::size_t(all.rows())), list.searched_area};
+  std::memcpy(whole.summits.data(), all.data(), whole.summits.size() * sizeof(Summit));
+  return whole;
 }
 
 // Below, single contacts of a few cells decide; above, the law is no longer linear.
@@ -163,11 +207,12 @@ void require_converged(const ForceCurve& curve, const StudyConfiguration& config
 
 /// The surface that the models press: after the first loading, where a hardness is known.
 ResidualSurface surface_to_press(const StudyConfiguration& configuration, std::uint64_t seed,
-                                 double largest_pressure, const Progress& progress) {
+                                 double largest_pressure, const Progress& progress,
+                                 const Communicator& ranks) {
   const Progress part = [&](const ProgressReport&) {
     return !progress || progress({.stage = "realisation"});
   };
-  Surface surface = study_surface(configuration, seed, part);
+  Surface surface = study_surface(configuration, seed, part, ranks);
   if (std::isnan(configuration.known.hardness)) return {.surface = std::move(surface)};
   NormalContactOptions options;
   options.tolerance = configuration.tolerance;
@@ -265,26 +310,24 @@ Surface study_surface(const StudyConfiguration& configuration, std::uint64_t see
                       const Progress& progress, const Communicator& ranks) {
   if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces))
     return generate(*recipe, seed, progress, ranks);
-  const auto& measured = std::get<MeasuredSurface>(configuration.surfaces);
-  require(ranks.alone(), "surface", measured.file.string(),
-          "is a file, and processes share generated surfaces only; use one process");
-  return read(measured);
+  return read(std::get<MeasuredSurface>(configuration.surfaces), ranks);
 }
 
-double contact_scale(const StudyConfiguration& configuration) {
+double contact_scale(const StudyConfiguration& configuration, const Communicator& ranks) {
   double slope = 0;
   if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces)) {
     slope = SelfAffineSpectrum(recipe->spectrum).lattice_moments(recipe->grid).rms_slope();
   } else {
-    slope = surface_moments(study_surface(configuration, 0)).rms_slope();
+    slope = surface_moments(study_surface(configuration, 0, {}, ranks)).rms_slope();
   }
   return configuration.material.contact_modulus * slope;
 }
 
-std::vector<double> study_pressures(const StudyConfiguration& configuration) {
+std::vector<double> study_pressures(const StudyConfiguration& configuration,
+                                    const Communicator& ranks) {
   std::vector<double> pressures = configuration.pressures;
   if (configuration.relative_pressures) {
-    const double scale = contact_scale(configuration);
+    const double scale = contact_scale(configuration, ranks);
     for (double& pressure : pressures) pressure *= scale;
   }
   const double hardness = configuration.known.hardness;
@@ -305,8 +348,10 @@ std::vector<double> study_pressures(const StudyConfiguration& configuration) {
 }
 
 Realisation analyse_realisation(const StudyConfiguration& configuration, std::uint64_t seed,
-                                const std::vector<double>& pressures, const Progress& progress) {
-  const ResidualSurface loaded = surface_to_press(configuration, seed, pressures.back(), progress);
+                                const std::vector<double>& pressures, const Progress& progress,
+                                const Communicator& ranks) {
+  const ResidualSurface loaded =
+      surface_to_press(configuration, seed, pressures.back(), progress, ranks);
   const Surface& surface = loaded.surface;
   Realisation realisation;
   realisation.seed = seed;
@@ -317,8 +362,9 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
   if (!surface.periodic)
     realisation.seam_step = seam_step(surface) / realisation.heights.rms_height;
   realisation.moments = surface_moments(surface);
-  const SummitList summits = find_summits(surface);
+  SummitList summits = find_summits(surface);
   realisation.summits = summit_statistics(summits);
+  summits = gathered(std::move(summits), surface.grid);
   const SpectralMoments& moments = realisation.moments;
   const double scale = configuration.material.contact_modulus * moments.rms_slope();
   if (realisation.has_random_summits()) {
@@ -329,6 +375,9 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
     realisation.picture = picture_of(surface, configuration);
     realisation.picture.mapped_load = Index(pressures.size() / 2);
   }
+
+  std::vector<RoughnessShell> shells;
+  if (configuration.has(ContactModel::persson)) shells = detail::shells_of(surface);
 
   const std::vector<StudyModel> models = models_of(configuration);
   double cost = 0, spent = 0;
@@ -341,17 +390,25 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
                                         .fraction = (spent + share * report.fraction) / cost}));
       return !stopped;
     };
-    detail::ModelWork work{configuration, surface, summits, pressures, realisation, part};
-    ModelResult result = model.press(work);
-    if (stopped) throw Interrupted("study: interrupted");
+    detail::ModelWork work{configuration, surface, summits, shells, pressures, realisation, part};
+    const bool bem = model.id == ContactModel::bem;
+    ModelResult result;
+    if (bem)
+      result = model.press(work);
+    else
+      collectively(ranks, [&] {
+        if (ranks.is_root()) result = model.press(work);
+      });
+    if (!ranks.all_agree(!stopped)) throw Interrupted("study: interrupted");
     result.model = model.id;
-    if (model.id == ContactModel::bem) require_converged(result.curve, configuration);
+    if (bem) require_converged(result.curve, configuration);
     analyse(result, configuration, scale);
-    if (model.id == ContactModel::bem && configuration.levels != 0)
+    if (bem && configuration.levels != 0)
       resolve_damping(result, surface, configuration, seed, part);
     realisation.models.push_back(std::move(result));
     spent += model.seconds_per_cell;
   }
+  if (!realisation.picture.empty()) realisation.picture.gather(ranks);
   std::vector<double> corrected;
   for (const SpotStatistics& spots : realisation.spots)
     corrected.push_back(spots.corrected_area_fraction);

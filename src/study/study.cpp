@@ -70,6 +70,37 @@ void warn(StudyResult& result) {
   }
 }
 
+/// What takes a surface whole.
+void require_spreadable(const StudyConfiguration& point, const Groups& groups) {
+  if (groups.all().ranks() == groups.count()) return;
+  constexpr const char* why =
+      "needs each surface whole, and groups of several processes spread them; use as many `groups` "
+      "as processes, or one process";
+  require(std::isnan(point.known.hardness), "hardness", point.known.hardness, why);
+  require(!(point.relative_error > 0), "relative_error", point.relative_error, why);
+  require(!point.has(ContactModel::gw_interacting), "models",
+          contact_models()[std::size_t(ContactModel::gw_interacting)].name, why);
+}
+
+/// Of a surface of generated ones that one process, or those of a group, compute.
+void require_room(const StudyResult& result, const Groups& groups) {
+  if (result.grid.nx == 0) return;
+  const StudyConfiguration& point = result.configuration;
+  if (groups.all().alone())
+    return require_memory(result.grid, study_memory(point, result.grid, parallel::threads()),
+                          "the surfaces of all threads (fewer `threads` need less)");
+  require_memory(result.grid,
+                 surface_memory({.grid = result.grid,
+                                 .loads = {result.pressures.back() / result.contact_scale},
+                                 .normal_stiffness = true,
+                                 .tangential_stiffness = stick_solves(point),
+                                 .ranks = groups.all().ranks(),
+                                 .groups = groups.count()}),
+                 groups.count() > 1 ? "the surfaces of all groups (fewer groups need less)"
+                                    : "a surface of the study",
+                 groups.all());
+}
+
 constexpr double least_waves_in_cell = 16, least_cells_in_wave = 8, least_spots = 50;
 
 void flag(StudyResult& result) {
@@ -134,19 +165,20 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
     require(count > 0, "seeds", 0, "is too few; give at least one");
     report.wanted += count;
   }
-  if (run.parts && !run.missing && run.parts->count() > 0)
-    detail::require_some_of(*run.parts, points);
+  for (const StudyConfiguration& point : points) require_spreadable(point, run.groups);
+  collectively(run.groups.all(), [&] {
+    if (run.parts && !run.missing && run.parts->count() > 0)
+      detail::require_some_of(*run.parts, points);
+  });
   std::vector<StudyResult> results;
   for (const StudyConfiguration& point : points) {
     StudyResult result;
     result.configuration = point;
     if (const auto* recipe = std::get_if<GeneratedSurfaces>(&point.surfaces))
       result.grid = recipe->grid;
-    if (result.grid.nx > 0 && !run.missing)
-      require_memory(result.grid, study_memory(point, result.grid, parallel::threads()),
-                     "the surfaces of all threads (fewer `threads` need less)");
-    result.contact_scale = contact_scale(point);
-    result.pressures = study_pressures(point);
+    result.contact_scale = contact_scale(point, run.groups.own());
+    result.pressures = study_pressures(point, run.groups.own());
+    if (!run.missing) require_room(result, run.groups);
     report.point = results.size();
     detail::run_case(result, run, report);
     report.finished += detail::seeds_of(point).size();

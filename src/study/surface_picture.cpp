@@ -2,10 +2,14 @@
 // Reduced maps and spectra of one surface of a study, for the report.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/study/surface_picture.hpp>
 #include <salebra/surface/bearing.hpp>
+#include <salebra/surface/moments.hpp>
 #include <salebra/surface/spectrum.hpp>
+#include <string>
+#include <type_traits>
 
 #include "base/special_values.hpp"
 
@@ -54,7 +58,6 @@ bool wants_picture(const StudyConfiguration& configuration, std::uint64_t seed) 
 }
 
 SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& configuration) {
-  surface.require_whole("its picture");
   const Grid2D& grid = surface.grid;
   constexpr Index side = SurfacePicture::picture_side;
   SurfacePicture picture;
@@ -64,11 +67,15 @@ SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& conf
   picture.ny = (grid.ny + picture.stride - 1) / picture.stride;
   picture.step_x = double(picture.stride) * grid.dx();
   picture.step_y = double(picture.stride) * grid.dy();
-  const double mean = surface.heights.mean();
-  for (Index ix = 0; ix < grid.nx; ix += picture.stride)
-    for (Index iy = 0; iy < grid.ny; iy += picture.stride)
-      picture.heights.push_back(float(surface.heights(ix, iy) - mean));
-  picture.first_load.assign(picture.heights.size(), -1);
+  const double mean = height_statistics(surface).mean;
+  const Share rows = surface.share(), mapped = picture.rows_of(surface);
+  const Field mine = surface.heights(
+      Eigen::seqN(mapped.begin() * picture.stride - rows.begin(), mapped.count(), picture.stride),
+      Eigen::seqN(0, picture.ny, picture.stride));
+  picture.first_load.assign(static_cast<std::size_t>(mine.size()), -1);
+  const Field heights = gathered(mapped, mine);
+  for (const double height : heights.reshaped<Eigen::RowMajor>())
+    picture.heights.push_back(float(height - mean));
 
   const PowerSpectrum spectrum = power_spectrum(surface);
   const RadialSpectrum rings = radial_spectrum(spectrum, 8);
@@ -86,7 +93,9 @@ SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& conf
     if (hurst.found()) picture.law = "fitted";
   }
 
-  const HeightHistogram histogram = height_histogram(BearingCurve(surface));
+  if (!surface.ranks.is_root()) return picture;
+  const HeightHistogram histogram = height_histogram(
+      BearingCurve({{picture.nx, picture.ny, double(picture.nx), double(picture.ny)}, heights}));
   for (std::size_t i = 0; i < histogram.height.size(); ++i) {
     picture.height.push_back(histogram.height[i] - mean);
     picture.height_density.push_back(histogram.height_density[i]);
@@ -94,10 +103,21 @@ SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& conf
   return picture;
 }
 
-void SurfacePicture::add_contact(std::int16_t k, const NormalContactState& state) {
+Share SurfacePicture::rows_of(const Surface& surface) const {
+  const Share rows = surface.share();
+  std::vector<Index> begins;
+  for (int rank = 0; rank < surface.ranks.ranks(); ++rank)
+    begins.push_back((rows.begin_of(rank) + stride - 1) / stride);
+  begins.push_back(nx);
+  return {surface.ranks, begins};
+}
+
+void SurfacePicture::add_contact(std::int16_t k, const NormalContactState& state,
+                                 const Surface& surface) {
   if (k == mapped_load) contact_pressure.clear(), gap.clear();
   std::size_t point = 0;
-  for (Index ix = 0; ix < state.pressure.rows(); ix += stride) {
+  for (Index ix = rows_of(surface).begin() * stride - surface.share().begin();
+       ix < state.pressure.rows(); ix += stride) {
     for (Index iy = 0; iy < state.pressure.cols(); iy += stride, ++point) {
       std::int16_t& first = first_load[point];
       if (k == mapped_load) {
@@ -107,6 +127,22 @@ void SurfacePicture::add_contact(std::int16_t k, const NormalContactState& state
       if (state.pressure(ix, iy) > 0 && (first < 0 || k < first)) first = k;
     }
   }
+}
+
+void SurfacePicture::gather(const Communicator& ranks) {
+  const auto join = [&](auto& values) {
+    using Value = std::remove_cvref_t<decltype(values.front())>;
+    const std::string mine(reinterpret_cast<const char*>(values.data()),
+                           values.size() * sizeof(Value));
+    std::string all;
+    for (const std::string& part : ranks.gather_all(mine)) all += part;
+    if (!ranks.is_root()) return;
+    values.resize(all.size() / sizeof(Value));
+    std::memcpy(values.data(), all.data(), all.size());
+  };
+  join(first_load);
+  join(contact_pressure);
+  join(gap);
 }
 
 }  // namespace salebra

@@ -5,27 +5,23 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
-#include <salebra/contact/sweep.hpp>
 #include <salebra/contact/tangential/coupled_contact.hpp>
 #include <salebra/damping/cycle.hpp>
-#include <salebra/damping/surface_damping.hpp>
 #include <salebra/generators/composite.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <salebra/results/cycle_fields.hpp>
-#include <salebra/study/surface_picture.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/fill.hpp>
 #include <salebra/surface/peaks.hpp>
-#include <salebra/surface/refine.hpp>
 
 #include "ranks_in_threads.hpp"
 
 using namespace salebra;
 
 // A number of the rows of one process where that of the surface is meant is the likeliest mistake of all. What takes surfaces that are
-// spread over processes is compared with one process elsewhere (spread_contact_test.cpp and spread_statistics_test.cpp in tests, generators/tests); everything
+// spread over processes is compared with one process elsewhere (spread_contact_test.cpp, spread_statistics_test.cpp and spread_study_test.cpp in tests, generators/tests); everything
 // else that takes a surface must refuse them.
 TEST_CASE("What needs a surface whole refuses one that is spread over processes") {
   salebra::testing::run_ranks(2, [](const Communicator& all) {
@@ -33,12 +29,8 @@ TEST_CASE("What needs a surface whole refuses one that is spread over processes"
     surface.heights = Field::Random(surface.share().count(), 32);
     const Material material = Material::of_contact_modulus(1, 0.3);
     const NormalContactState state = press_to_pressure(surface, 1, 0.1);
-    const ForceCurve curve = sweep_pressures(surface, material, {0.1}, {.stiffness = false});
-    const StudyConfiguration configuration;
-    const Oscillation motion;
     const std::vector<std::pair<const char*, std::function<void()>>> calls{
         {"require_complete", [&] { surface.require_complete("a test"); }},
-        {"surface_damping", [&] { surface_damping(surface, material, motion, curve); }},
         {"boundary_element_levels", [&] { boundary_element_levels(surface, 1, {}); }},
         {"boundary_element_pressures", [&] { boundary_element_pressures(surface, 1, {}); }},
         {"simulate_coupled_cycle", [&] { simulate_coupled_cycle(surface, material, {}, {}, {}); }},
@@ -46,9 +38,7 @@ TEST_CASE("What needs a surface whole refuses one that is spread over processes"
         {"CoupledContact", [&] { CoupledContact(surface, material); }},
         {"residual_surface", [&] { residual_surface(surface, 1, state, {}); }},
         {"after_first_loading", [&] { after_first_loading(surface, 1, 0.1, {}, 0); }},
-        {"picture_of", [&] { picture_of(surface, configuration); }},
         {"detrended", [&] { detrended(surface, Detrend::lines); }},
-        {"refined", [&] { refined(surface, 2); }},
         {"BearingCurve", [&] { BearingCurve{surface}; }},
         {"correlation_map", [&] { correlation_map(surface); }},
         {"filled", [&] { filled(surface); }},

@@ -185,7 +185,7 @@ TEST_CASE("The surface of a seed is made by several processes to the bits of one
   std::get<GeneratedSurfaces>(study.surfaces).method =
       GENERATE(GenerationMethod::filtered_noise, GenerationMethod::random_phase);
   const Surface alone = study_surface(study, 2);
-  std::atomic<int> right = 0, refused = 0;
+  std::atomic<int> right = 0;
   salebra::testing::run_ranks(3, [&](const Communicator& together) {
     const Surface mine = study_surface(study, 2, {}, together);
     const Share rows = mine.share();
@@ -193,14 +193,6 @@ TEST_CASE("The surface of a seed is made by several processes to the bits of one
              mine.heights.rows() == rows.count() &&
              std::memcmp(mine.heights.data(), alone.heights.data() + rows.begin() * alone.grid.ny,
                          static_cast<std::size_t>(mine.heights.size()) * sizeof(double)) == 0;
-    StudyConfiguration measured = study;
-    measured.surfaces = MeasuredSurface{.file = "scan.txt"};
-    try {
-      study_surface(measured, 2, {}, together);
-    } catch (const InvalidInput& error) {
-      refused += error.field() == "surface";
-    }
   });
   CHECK(right == 3);
-  CHECK(refused == 3);
 }

@@ -263,23 +263,27 @@ SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configur
 std::vector<StudyModel> models_of(const StudyConfiguration& configuration);
 
 /// The surface of a seed, or the measured one (its plane removed, as the configuration says). Throws as generators and readers do.
-/// progress: of the generator. ranks: the processes that make the surface together, as in filtered_noise; a measured one is refused then.
+/// progress: of the generator. ranks: the processes over which the surface is spread, as in filtered_noise and read_surface; collective.
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
                       const Progress& progress = {}, const Communicator& ranks = {});
 
 /// The unit of relative pressures, E*h'_rms, Pa, without looking at chance: what the lattice has in the mean, or what was measured.
-double contact_scale(const StudyConfiguration& configuration);
+/// ranks: the processes that read it together; collective.
+double contact_scale(const StudyConfiguration& configuration, const Communicator& ranks = {});
 
 /// Pressures of the sweep in Pa. Throws InvalidInput for a window of the fit with fewer than three of them, and for
 /// a hardness below the largest.
-std::vector<double> study_pressures(const StudyConfiguration& configuration);
+std::vector<double> study_pressures(const StudyConfiguration& configuration,
+                                    const Communicator& ranks = {});
 
 /// Surface → statistics → contact models → exponential law → damping for one surface of the configuration, whose ensemble lists
 /// are empty. With a hardness the surface is first loaded to the largest pressure and by the oscillation about it, and all that
 /// follows is of the residual surface. progress: of this surface, "realisation"; a stop throws Interrupted.
 /// Throws NotConverged where fewer than four contacts of a sweep converged, or the first loading did not.
+/// ranks: the processes over which the surface is spread. The first of them gets the realisation, with the bits of one process; the others
+/// what they know of it. Collective.
 Realisation analyse_realisation(const StudyConfiguration& configuration, std::uint64_t seed,
-                                const std::vector<double>& pressures,
-                                const Progress& progress = {});
+                                const std::vector<double>& pressures, const Progress& progress = {},
+                                const Communicator& ranks = {});
 
 }  // namespace salebra

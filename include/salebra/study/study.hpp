@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <salebra/base/communicator.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/study/estimate.hpp>
@@ -101,6 +102,9 @@ struct StudyRun {
   /// Where it is given, nothing is computed: it receives the places, from 0 on over all points and seeds in their order, of the
   /// realisations that `parts` lacks, and results are those of a whole run where there are none.
   std::vector<std::size_t>* missing = nullptr;
+  /// The processes that make the run together: each group spreads one surface after the other over its processes. All make the call, each
+  /// with its own on_progress, and get the same results. on_realisation and `parts` are of the first process alone.
+  Groups groups = {};
 };
 
 /// How far one process has come with its share of a study.
@@ -126,11 +130,11 @@ ShardOutcome run_shard(const StudyConfiguration& configuration, const Shard& sha
 /// The ensembles of every point of the configuration's parameter grid, in the order of parameter_combinations(): every surface through
 /// analyse_realisation(), in parallel over surfaces. With a precision, a point ends at the first M >= min_realisations surfaces (in
 /// the order of the seeds, M a milestone) for which the 95 % intervals of l/h_rms and of κ of the boundary elements are narrower than ±precision of
-/// their means. The result has the same bits for every thread count. A point that was not begun when the run was stopped is left out.
+/// their means. The result has the same bits for every number of threads, processes and groups. A point that was not begun when the run was stopped is left out.
 /// A measured surface is treated as periodic after its plane is removed; the result carries a warning with
 /// the size of the step that this makes at the seam.
-/// throws  InvalidInput for a configuration that cannot be run, and for parts none of which belongs to it; NotConverged where fewer
-///         than four contacts of a sweep converged; IoError where a part cannot be written
+/// throws  InvalidInput for a configuration that cannot be run, as one with a hardness, a relative error or interacting summits over
+///         several processes of a group, and for parts none of which belongs to it; NotConverged where fewer than four contacts of a sweep converged; IoError where a part cannot be written
 /// cost    the BEM sweep, for each surface; interacting summits cost about as much again
 std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
                                        const StudyRun& run = {});

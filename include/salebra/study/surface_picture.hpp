@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <salebra/base/grid.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/results/describe.hpp>
 #include <salebra/study/configuration.hpp>
@@ -38,8 +39,13 @@ struct SurfacePicture {
   std::vector<double> height, height_density;  ///< histogram, m and 1/m
 
   bool empty() const { return stride == 0; }
-  /// Marks the points that carry pressure under load number k, and takes the maps of one load.
-  void add_contact(std::int16_t k, const NormalContactState& state);
+  /// Marks the points that carry pressure under load number k, and takes the maps of one load. Of a surface that is spread over processes
+  /// each has its rows of these maps.
+  void add_contact(std::int16_t k, const NormalContactState& state, const Surface& surface);
+  /// Hands them to the first process. Collective.
+  void gather(const Communicator& ranks);
+  /// Rows of the maps, in the processes that hold them.
+  Share rows_of(const Surface& surface) const;
 };
 
 template <class Visitor>
@@ -74,7 +80,8 @@ constexpr void describe(Visitor&& visit, std::type_identity<SurfacePicture>) {
 bool wants_picture(const StudyConfiguration& configuration, std::uint64_t seed);
 
 /// Without contact as yet. The law of a generated surface is what was asked for, that of any other a power law through the range in
-/// which it is self-affine. Cost: one FFT and one sort of the heights.
+/// which it is self-affine. The distribution is that of the points of the maps. A surface may be spread over processes; the first one has the
+/// picture. Collective. Cost: one FFT.
 SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& configuration);
 
 }  // namespace salebra
