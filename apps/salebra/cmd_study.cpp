@@ -152,7 +152,13 @@ std::string study_text(const StudyResult& result, const StudyPremises& premises,
 }
 
 void run(const StudyArguments& arguments, Session& session) {
-  const StudyConfiguration configuration = arguments.study();
+  for (const auto& [given, option] : {std::pair(arguments.merge, "--merge"),
+                                      {arguments.shard.has_value(), "--shard"},
+                                      {arguments.dry_run, "--dry-run"},
+                                      {session.has_plot(), "--plot"}})
+    if (given) session.require_one_process(option);
+  StudyConfiguration configuration;
+  collectively(session.ranks(), [&] { configuration = arguments.study(); });
   if (run_without_results(configuration, arguments, session)) return;
   StudyReport report(arguments, session);
   const std::vector<StudyResult> results = run_and_keep(configuration, arguments, report, session);
@@ -161,7 +167,7 @@ void run(const StudyArguments& arguments, Session& session) {
   const StudyFiles files{session.has_output() ? session.output().string() : "", report.write()};
   if (results.size() == 1 && configuration.ensemble.empty()) {
     const StudyPremises premises = premises_of(results.front());
-    session.answer(study_json(results.front(), premises, files),
+    session.answer(session.with_processes(study_json(results.front(), premises, files)),
                    study_text(results.front(), premises, files));
   } else {
     Json points = Json::array();
@@ -175,7 +181,8 @@ void run(const StudyArguments& arguments, Session& session) {
       points.push_back(std::move(point));
       text += "== " + name + " ==\n" + study_text(result, premises, {}) + "\n";
     }
-    session.answer(Json{{"points", points}, {"files", files.json()}}, text + files.text());
+    session.answer(session.with_processes({{"points", points}, {"files", files.json()}}),
+                   text + files.text());
   }
   report.require_written();
   if (std::ranges::any_of(results, &StudyResult::interrupted))
@@ -194,6 +201,8 @@ void add_study_command(Program& program) {
       [arguments](Session& session) { run(*arguments, session); },
       "force, area, stiffness and damping of all models", study_output);
   arguments->add_to(command);
+  add_groups(command, arguments->groups,
+             "holds one surface and takes the next ones of the ensemble; default 1");
 }
 
 }  // namespace salebra::cli

@@ -139,11 +139,9 @@ void add_sweep_command(Program& program) {
       "pressures up to the hardness, and the curve is that of unloading; default none");
   add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
                "of the complementarity residual; default 1e-10");
-  command
-      .add_option("--groups", arguments->groups,
-                  "of processes of salebra-mpi, each of which holds the surface and presses some "
-                  "of the loads; default: with --recipe as many as memory holds, else 1")
-      ->range(1, 1 << 20);
+  add_groups(command, arguments->groups,
+             "holds the surface and presses some of the loads; default: with --recipe as many as "
+             "memory holds, else 1");
   arguments->dry_run.add_to(command);
 }
 

@@ -234,6 +234,11 @@ SurfaceOutline SurfaceOptions::outline(Session& session) const {
   return {surface.grid, surface_moments(surface).rms_slope(), file};
 }
 
+void add_groups(Command& command, int& groups, const std::string& work) {
+  command.add_option("--groups", groups, "of processes of salebra-mpi, each of which " + work)
+      ->range(1, 1 << 20);
+}
+
 void DryRunOptions::add_to(Command& command) {
   const std::string group = "Estimate";
   command

@@ -101,6 +101,9 @@ struct SurfaceOptions {
 };
 
 /// --dry-run, and the processes that it is for.
+/// --groups of processes; 0: not given. `work` says what each of them does.
+void add_groups(Command& command, int& groups, const std::string& work);
+
 struct DryRunOptions {
   bool dry_run = false;
   int ranks = 0, nodes = 0;  ///< 0: those that run

@@ -147,7 +147,8 @@ void declare(CLI::App& app, const Command& command) {
 }
 
 /// What several processes compute together; the rest is for one.
-constexpr std::string_view spread_commands[] = {"contact", "generate", "statistics", "sweep"};
+constexpr std::string_view spread_commands[] = {"contact", "generate", "statistics", "study",
+                                                "sweep"};
 
 }  // namespace
 

@@ -179,12 +179,16 @@ void Session::answer(const Json& object, const std::string& text) {
 }
 
 void Session::answer(const Json& object) {
-  Json all = object;
-  if (launch_.by_mpi) {
-    all["ranks"] = ranks().ranks();
-    all["threads"] = parallel::threads();
-  }
+  const Json all = with_processes(object);
   answer(all, options_.json ? "" : to_text(all));
+}
+
+Json Session::with_processes(Json object) const {
+  if (launch_.by_mpi) {
+    object["ranks"] = ranks().ranks();
+    object["threads"] = parallel::threads();
+  }
+  return object;
 }
 
 }  // namespace salebra::cli

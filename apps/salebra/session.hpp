@@ -68,10 +68,12 @@ class Session {
   void note(std::string_view text);
   void warn(std::string_view text);
 
-  /// The command's answer: the object with --json, the text without. That of salebra-mpi has the numbers of processes and threads too.
+  /// The command's answer: the object with --json, the text without.
   void answer(const Json& object, const std::string& text);
-  /// The same with the object itself laid out as text.
+  /// The same with the object itself laid out as text; with_processes().
   void answer(const Json& object);
+  /// An answer of salebra-mpi has the numbers of processes and threads too.
+  Json with_processes(Json object) const;
 
  private:
   void require_result_name() const;

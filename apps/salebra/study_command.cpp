@@ -99,12 +99,15 @@ StudyReport::StudyReport(const StudyArguments& arguments, Session& session) : se
   if (arguments.no_report || !session.has_output()) return;
   lacks_assets_ = !can_report();
   if (lacks_assets_) return;
-  page_ = session.output().replace_extension(".html");
-  require(page_ != session.output(), "--output", page_.string(),
-          "is a report's name; name the results .h5, or add --no-report");
-  // A resumed study that has its result is only tidied up after.
-  if ((arguments.resume || arguments.merge) && std::filesystem::exists(session.output())) return;
-  require_report(page_, session.write_options());
+  collectively(session.ranks(), [&] {
+    if (!session.ranks().is_root()) return;
+    page_ = session.output().replace_extension(".html");
+    require(page_ != session.output(), "--output", page_.string(),
+            "is a report's name; name the results .h5, or add --no-report");
+    // A resumed study that has its result is only tidied up after.
+    if ((arguments.resume || arguments.merge) && std::filesystem::exists(session.output())) return;
+    require_report(page_, session.write_options());
+  });
 }
 
 std::string StudyReport::write() {
@@ -129,9 +132,11 @@ std::string StudyReport::write() {
 }
 
 void StudyReport::require_written() const {
-  if (!failure_.empty())
-    throw IoError(
-        fmt::format("{}; the results are complete in {}", failure_, session_.output().string()));
+  collectively(session_.ranks(), [&] {
+    if (!failure_.empty())
+      throw IoError(
+          fmt::format("{}; the results are complete in {}", failure_, session_.output().string()));
+  });
 }
 
 std::string StudyReport::complete() {
@@ -215,12 +220,14 @@ std::filesystem::path parts_folder(const Session& session) {
 /// What a run reports while it goes.
 class Reporter {
  public:
-  explicit Reporter(Session& session) : session_(session), progress_(session.progress()) {}
+  explicit Reporter(Session& session, Groups groups = {})
+      : session_(session), groups_(std::move(groups)), progress_(session.progress()) {}
 
   StudyRun run(StudyParts* parts) {
     return {.on_progress = [this](const ProgressReport& report) { return draw(report); },
             .on_realisation = [this](const RealisationReport& report) { note(report); },
-            .parts = parts};
+            .parts = parts,
+            .groups = groups_};
   }
 
  private:
@@ -246,6 +253,7 @@ class Reporter {
   }
 
   Session& session_;
+  const Groups groups_;
   const Progress progress_;
   const bool bar_ = isatty(STDERR_FILENO) != 0;
   Pace pace_;
@@ -348,8 +356,14 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
       !resume || session.has_output(), merge ? "--merge" : "--resume",
       merge ? "needs the --output of the shards" : "needs the --output of the run to continue");
   const std::filesystem::path folder = parts_folder(session);
-  if (resume && is_result_of(session.output(), configuration)) {
-    StudyParts(folder, true).discard();
+  const Communicator& ranks = session.ranks();
+  bool complete = false;
+  collectively(ranks, [&] {
+    complete = resume && ranks.is_root() && is_result_of(session.output(), configuration);
+    if (complete) StudyParts(folder, true).discard();
+  });
+  ranks.broadcast(&complete, sizeof complete);
+  if (complete) {
     const StudyFiles files{session.output().string(), page.complete()};
     session.answer(Json{{"files", files.json()}},
                    fmt::format("results: {}, complete already\n", files.results) +
@@ -359,12 +373,15 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
   }
   session.require_free_output();
   std::unique_ptr<StudyParts> parts;
-  if (merge)
-    parts = StudyParts::to_merge(folder);
-  else if (session.has_output())
-    parts = std::make_unique<StudyParts>(folder, resume);
+  collectively(ranks, [&] {
+    if (!ranks.is_root()) return;
+    if (merge)
+      parts = StudyParts::to_merge(folder);
+    else if (session.has_output())
+      parts = std::make_unique<StudyParts>(folder, resume);
+  });
 
-  Reporter reporter(session);
+  Reporter reporter(session, Groups(ranks, std::max(1, arguments.groups)));
   StudyRun run = reporter.run(parts.get());
   std::vector<std::size_t> missing;
   if (merge) run.missing = &missing;
@@ -390,12 +407,13 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
   }
   const bool interrupted = results.size() < parameter_combinations(configuration).size() ||
                            std::ranges::any_of(results, &StudyResult::interrupted);
-  if (interrupted && parts && parts->count() > 0) {
-    throw Interrupted(fmt::format(
-        "study: interrupted; {} finished surfaces are kept in {}; continue with the same command "
-        "and --resume",
-        parts->count(), parts->folder().string()));
-  }
+  collectively(ranks, [&] {
+    if (interrupted && parts && parts->count() > 0)
+      throw Interrupted(fmt::format(
+          "study: interrupted; {} finished surfaces are kept in {}; continue with the same command "
+          "and --resume",
+          parts->count(), parts->folder().string()));
+  });
   if (finished == 0) throw Interrupted("study: interrupted before the first surface was finished");
   if (configuration.relative_error > 0) {
     try {
@@ -405,13 +423,14 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
       throw;
     }
   }
-  if (parts) {
+  collectively(ranks, [&] {
+    if (!parts) return;
     write_ensembles(session.output(), results, provenance_of(*parts, session),
                     session.write_options());
     parts->discard(keys);
-  } else {
+  });
+  if (!session.has_output())
     session.note("no file was written; add --output FILE to keep the results");
-  }
   return results;
 }
 

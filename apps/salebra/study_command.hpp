@@ -32,6 +32,7 @@ struct StudyArguments {
   std::optional<Shard> shard;
   bool merge = false;
   bool no_report = false;
+  int groups = 0;  ///< of processes; 0: one
 
   void add_to(Command& command);
   /// The study file, or what a measured surface needs without one, with the options in place of what either says.
@@ -41,16 +42,16 @@ struct StudyArguments {
 /// For commands that end in run_and_keep(), which looks at the output itself.
 inline constexpr OutputCheck study_output = OutputCheck::by_command;
 
-/// The page that lies beside the results of a study.
+/// The page that lies beside the results of a study, made by the first process.
 class StudyReport {
  public:
-  /// Throws where the page cannot be put in its place, before any work. Nothing is planned where there is no output, where the
+  /// Throws where the page cannot be put in its place, before any work. Collective. Nothing is planned where there is no output, where the
   /// user wants no page, or where this build cannot make one, which write() then says.
   StudyReport(const StudyArguments& arguments, Session& session);
-  /// Writes what was planned, from the results file; its path, or empty. The results are safe by now, and their answer comes first:
+  /// Writes what was planned, from the results file; its path, or empty. Of several processes the first does so. The results are safe by now, and their answer comes first:
   /// a page that is in the way is a warning, and one that could not be written is thrown by require_written().
   std::string write();
-  /// Throws IoError where the system refused the page.
+  /// Throws IoError where the system refused the page. Collective.
   void require_written() const;
   /// The same where no page was made of these results yet, as of a study that was killed before it; otherwise the path alone.
   std::string complete();

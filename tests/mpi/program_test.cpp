@@ -167,6 +167,32 @@ TEST_CASE("Groups of processes sweep with the numbers of one process", "[mpi]") 
         numbers_of(run_alone(test, read + quiet)));
 }
 
+TEST_CASE("A study over processes has the numbers of one process", "[mpi]") {
+  const ProgramTest test;
+  std::string smaller = std::regex_replace(study, std::regex("points = 128"), "points = 64");
+  smaller = std::regex_replace(smaller, std::regex("seed_count = 1"), "seed_count = 2");
+  test.write("study.toml", smaller);
+  const auto of = [](const ProgramTest::Result& result) {
+    nlohmann::json answer = nlohmann::json::parse(numbers_of(result));
+    answer.erase("files");
+    return answer.dump();
+  };
+  const std::string job = "study study.toml --json " + quiet;
+  const std::string alone = of(run_alone(test, job + "-o alone.h5"));
+  // The first surface by two processes, the second by one.
+  const auto spread = run(test, 3, job + "-o spread.h5 --groups 2");
+  CHECK(of(spread) == alone);
+  CHECK(spread.json()["ranks"] == 3);
+  CHECK(test.read("spread.html").size() > 1000);
+  const ResultReader a(test.folder() / "alone.h5"), b(test.folder() / "spread.h5");
+  for (const char* field : {"picture/gap", "picture/contact_pressure"})
+    CHECK((a.field(field) == b.field(field)).all());
+  CHECK(test.files() ==
+        std::set<std::string>{"study.toml", "alone.h5", "alone.html", "spread.h5", "spread.html"});
+  check_refused_once(run(test, 2, "study study.toml --hardness 5GPa " + quiet),
+                     "--hardness: 5000000000 needs each surface whole");
+}
+
 TEST_CASE("A dry run states the memory that processes take", "[mpi]") {
   const ProgramTest test;
   test.write("study.toml", std::regex_replace(study, std::regex("points = 128"), "points = 1536"));
