@@ -2,7 +2,10 @@
 // Binary record of a realisation with its key and checksum.
 #include "realisation_record.hpp"
 
+#include <unistd.h>
+
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <salebra/base/error.hpp>
@@ -111,9 +114,20 @@ static_assert(describes_all<Realisation>() && describes_all<Grid2D>() &&
               describes_all<Material>() && describes_all<EqualFrequency>() &&
               describes_all<Drag>());
 
-/// Empty where there is no such file.
-std::string contents(const std::filesystem::path& file) {
-  return std::filesystem::exists(file) ? InputFile(file).content() : std::string();
+/// Of a file, a block at a time: it may be larger than the memory. 0 where there is none.
+std::uint64_t checksum_of(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return 0;
+  const InputFile input(file);
+  std::uint64_t sum = 0;
+  std::string block(std::size_t{1} << 20, '\0');
+  for (off_t at = 0;;) {
+    const ssize_t count = pread(input.descriptor(), block.data(), block.size(), at);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw IoError(file.string() + ": cannot be read; check the disk");
+    if (count == 0) return sum;
+    sum = checksum(std::string_view(block.data(), static_cast<std::size_t>(count)), sum);
+    at += count;
+  }
 }
 
 std::string header(std::uint64_t key, std::uint64_t length, std::uint64_t sum) {
@@ -124,7 +138,7 @@ std::string header(std::uint64_t key, std::uint64_t length, std::uint64_t sum) {
 
 }  // namespace
 
-std::uint64_t checksum(std::string_view bytes) {
+std::uint64_t checksum(std::string_view bytes, std::uint64_t before) {
   static const auto table = [] {
     constexpr std::uint64_t polynomial = 0xc96c5795d7870f42;  // ECMA-182, bits reversed
     std::array<std::uint64_t, 256> entries;
@@ -135,7 +149,7 @@ std::uint64_t checksum(std::string_view bytes) {
     }
     return entries;
   }();
-  std::uint64_t sum = ~std::uint64_t{0};
+  std::uint64_t sum = ~before;
   for (const char byte : bytes)
     sum = table[(sum ^ static_cast<unsigned char>(byte)) & 0xff] ^ (sum >> 8);
   return ~sum;
@@ -149,7 +163,7 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
     writer(generated->grid, generated->spectrum, generated->method);
   } else {
     const auto& measured = std::get<MeasuredSurface>(point.surfaces);
-    writer(contents(measured.file), contents(sidecar_of(measured.file)), measured.size_x,
+    writer(checksum_of(measured.file), checksum_of(sidecar_of(measured.file)), measured.size_x,
            measured.size_y, measured.detrend, measured.height_unit);
   }
   writer(point.material, point.pressures, point.relative_pressures, point.tolerance, point.stick,
