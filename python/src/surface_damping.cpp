@@ -60,10 +60,14 @@ void bind_surface_damping(nb::module_& m) {
                                       .boundary = boundary.value("boundary"),
                                       .relative_error = relative_error};
         if (seam) options.seam = seam->value("seam");
-        return interruptible(progress, [&](Progress told) {
-          options.on_progress = std::move(told);
-          return surface_damping(surface.surface, material, oscillation(motion), curve, options);
-        });
+        return interruptible(
+            progress,
+            [&](Progress told) {
+              options.on_progress = std::move(told);
+              return surface_damping(surface.surface, material, oscillation(motion), curve,
+                                     options);
+            },
+            surface.surface.ranks);
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("curve"), nb::kw_only(),
       nb::arg("hold") = "indentation", nb::arg("amplitude") = "finite",
@@ -72,7 +76,7 @@ void bind_surface_damping(nb::module_& m) {
       R"(Relaxation damping of one surface at each load of its curve, from contacts inside the oscillation, with its error.
 
 Nothing is interpolated between loads. The cells are halved once, which gives their error; relative_error > 0 halves them further
-where the error is above this part of W.
+where the error is above this part of W. A surface that is spread over processes is refined whole by the first of them.
 
 Parameters
 ----------

@@ -111,7 +111,9 @@ def test_contacts() -> None:
     again = salebra.press_to_indentation(mine, MATERIAL, 1e-6, initial_pressure=part.contact_pressure)
     assert again.iterations < part.iterations
     pressures = [3e5, 1e6]
-    assert salebra.sweep_pressures(mine, MATERIAL, pressures, stick=True) == salebra.sweep_pressures(whole, MATERIAL, pressures, stick=True)
+    curve = salebra.sweep_pressures(mine, MATERIAL, pressures, stick=True)
+    assert curve == salebra.sweep_pressures(whole, MATERIAL, pressures, stick=True)
+    assert salebra.surface_damping(mine, MATERIAL, MOTION, curve) == salebra.surface_damping(whole, MATERIAL, MOTION, curve)
 
 
 def test_files() -> None:
@@ -140,7 +142,6 @@ def test_refusals() -> None:
     mine = spread()
     state = salebra.press_to_pressure(mine, MATERIAL, 1e6)
     summits, spectrum = salebra.find_summits(mine), salebra.power_spectrum(mine)
-    curve = salebra.ForceCurve(1e-6, mean_gap=[2e-6, 1e-6], pressure=[1e5, 1e6], normal_stiffness=[1e5, 1e6], indentation=[1e-7, 1e-6])
     calls: list[Callable[[], Any]] = [
         lambda: salebra.BearingCurve(mine),
         lambda: salebra.after_first_loading(mine, MATERIAL, 1e6, hardness=1e8),
@@ -153,7 +154,6 @@ def test_refusals() -> None:
         lambda: salebra.simulate_coupled_cycle(mine, MATERIAL, MOTION, 1e-6, friction_coefficient=0.3),
         lambda: salebra.simulate_frictional_cycle(mine, MATERIAL, MOTION, 1e-6, friction_coefficient=0.3),
         lambda: salebra.simulated_joint_loss(mine, MATERIAL, 1e-6, friction_coefficient=0.3, tangential_amplitude=1e-9),
-        lambda: salebra.surface_damping(mine, MATERIAL, MOTION, curve),
         lambda: mine.filled(),
         lambda: mine.height_statistics,
         lambda: mine.moments,
