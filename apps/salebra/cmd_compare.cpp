@@ -269,7 +269,7 @@ void add_compare_command(Program& program) {
        "salebra compare data/quickstart.toml --target-precision 5% --json"},
       [arguments](Session& session) { run(*arguments, session); },
       "force over gap, area, stiffness and damping of all models, with bands", study_output);
-  arguments->study.add_to(command);
+  arguments->study.add_to(command, false);
   command
       .add_option(
           "--models", arguments->models,

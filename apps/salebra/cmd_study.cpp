@@ -151,10 +151,15 @@ std::string study_text(const StudyResult& result, const StudyPremises& premises,
   return text;
 }
 
+Json with_processes(Json answer, const StudyArguments& arguments, const Session& session) {
+  if (!session.ranks().alone()) answer["groups"] = std::max(1, arguments.groups);
+  return session.with_processes(std::move(answer));
+}
+
 void run(const StudyArguments& arguments, Session& session) {
   for (const auto& [given, option] : {std::pair(arguments.merge, "--merge"),
                                       {arguments.shard.has_value(), "--shard"},
-                                      {arguments.dry_run, "--dry-run"},
+                                      {arguments.shard_seconds.has_value(), "--shard-seconds"},
                                       {session.has_plot(), "--plot"}})
     if (given) session.require_one_process(option);
   StudyConfiguration configuration;
@@ -167,7 +172,7 @@ void run(const StudyArguments& arguments, Session& session) {
   const StudyFiles files{session.has_output() ? session.output().string() : "", report.write()};
   if (results.size() == 1 && configuration.ensemble.empty()) {
     const StudyPremises premises = premises_of(results.front());
-    session.answer(session.with_processes(study_json(results.front(), premises, files)),
+    session.answer(with_processes(study_json(results.front(), premises, files), arguments, session),
                    study_text(results.front(), premises, files));
   } else {
     Json points = Json::array();
@@ -181,8 +186,9 @@ void run(const StudyArguments& arguments, Session& session) {
       points.push_back(std::move(point));
       text += "== " + name + " ==\n" + study_text(result, premises, {}) + "\n";
     }
-    session.answer(session.with_processes({{"points", points}, {"files", files.json()}}),
-                   text + files.text());
+    session.answer(
+        with_processes({{"points", points}, {"files", files.json()}}, arguments, session),
+        text + files.text());
   }
   report.require_written();
   if (std::ranges::any_of(results, &StudyResult::interrupted))
@@ -200,9 +206,7 @@ void add_study_command(Program& program) {
        "--normal-amplitude 1nm --drag-velocity 100nm/s --frequency 20kHz"},
       [arguments](Session& session) { run(*arguments, session); },
       "force, area, stiffness and damping of all models", study_output);
-  arguments->add_to(command);
-  add_groups(command, arguments->groups,
-             "holds one surface and takes the next ones of the ensemble; default 1");
+  arguments->add_to(command, true);
 }
 
 }  // namespace salebra::cli

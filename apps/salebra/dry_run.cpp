@@ -56,6 +56,10 @@ std::string describe_levels(const StudyConfiguration& configuration, const Study
                          : "");
 }
 
+double of_node(const StudyCost& cost) {
+  return cost.memory * std::ceil(double(cost.processes.ranks) / cost.processes.nodes);
+}
+
 Json cost_json(const StudyCost& cost, const std::string& file) {
   Json points = Json::array();
   for (const PointCost& point : cost.points)
@@ -70,11 +74,22 @@ Json cost_json(const StudyCost& cost, const std::string& file) {
               {"points", points},
               {"surfaces", cost.surfaces()},
               {"contacts", cost.contacts()},
+              {"ranks", cost.processes.ranks},
+              {"nodes", cost.processes.nodes},
+              {"groups", cost.processes.groups},
               {"threads", cost.threads},
               {"seconds", cost.seconds},
-              {"memory_bytes", cost.memory},
+              {"memory_bytes", cost.memory * cost.processes.ranks},
+              {"memory_bytes_of_node", of_node(cost)},
               {"available_memory_bytes", cost.available},
               {"files", {{"results", file.empty() ? Json() : Json(file)}}}};
+}
+
+/// "64 on 16 machines, in 4 groups".
+std::string describe(const StudyProcesses& processes) {
+  return fmt::format("{} on {} machine{}{}", processes.ranks, processes.nodes,
+                     processes.nodes > 1 ? "s" : "",
+                     processes.groups > 1 ? fmt::format(", in {} groups", processes.groups) : "");
 }
 
 /// How far off the estimate of the time may be, either way.
@@ -103,9 +118,12 @@ std::string format_duration(double seconds) {
   return fmt::format("{} s", whole);
 }
 
-void answer_dry_run(const StudyConfiguration& configuration, std::optional<double> shard_seconds,
-                    Session& session) {
-  const StudyCost cost = estimate_cost(configuration);
+void answer_dry_run(const StudyConfiguration& configuration, const StudyProcesses& processes,
+                    std::optional<double> shard_seconds, Session& session) {
+  const StudyCost cost = estimate_cost(configuration, processes);
+  const bool together = processes.ranks > 1;
+  require_that(!together || !shard_seconds, "--shard-seconds",
+               "is for shards of one process each; leave out --ranks");
   const std::string file = session.has_output() ? session.output().string() : "";
   std::string text = "This would run, and nothing of it has been run:\n";
   for (const PointCost& point : cost.points) {
@@ -118,15 +136,16 @@ void answer_dry_run(const StudyConfiguration& configuration, std::optional<doubl
   for (const StudyModel& model : models_of(configuration))
     models += (models.empty() ? "" : ", ") + std::string(model.title);
   text += fmt::format(
-      "\ncontacts  {} solves, with K{}\ndamping   {}\nmodels    {}\ntime      {}about {} with {} "
-      "threads on an "
-      "idle "
-      "machine, give or take a factor of {}\nmemory    about {}{}\n",
+      "\ncontacts  {} solves, with K{}\ndamping   {}\nmodels    {}\n{}time      {}about {} with {} "
+      "threads {}, give or take a factor of {}\nmemory    about {}{}{}\n",
       cost.contacts(),
       stick_solves(configuration) ? " and K_t by a stick solve" : "; K_t = (G*/E*)K",
       describe_levels(configuration, cost), models,
+      together ? "processes " + describe(processes) + "\n" : "",
       configuration.target_precision > 0 ? "at most " : "", about(cost.seconds), cost.threads,
-      uncertainty(configuration) == 3 ? "three" : "two", memory_text(cost.memory),
+      together ? "each on idle machines like this one" : "on an idle machine",
+      uncertainty(configuration) == 3 ? "three" : "two", memory_text(of_node(cost)),
+      together ? fmt::format(" on each machine, {} in each process", memory_text(cost.memory)) : "",
       cost.available > 0 ? fmt::format(" of {} that are free", memory_text(cost.available)) : "");
   text += file.empty() ? "files     none; add --output FILE to keep the results\n"
                        : fmt::format("files     {}; while it runs, finished surfaces in {}.parts\n",
@@ -140,8 +159,9 @@ void answer_dry_run(const StudyConfiguration& configuration, std::optional<doubl
                         {"seconds", plan.seconds},
                         {"memory_bytes", plan.memory}};
   }
-  if (cost.available > 0 && cost.memory > cost.available)
-    session.warn("the memory that is free does not suffice; use fewer points or fewer --threads");
+  if (cost.available > 0 && of_node(cost) > cost.available)
+    session.warn(fmt::format("the memory that is free does not suffice; use fewer points or {}",
+                             together ? "more machines" : "fewer --threads"));
   session.answer(answer, text);
 }
 

@@ -13,8 +13,8 @@ namespace salebra::cli {
 
 /// Answers what a study would do, what it would cost and where it would write, and does nothing of it. shard_seconds: proposes shards
 /// that take no longer.
-void answer_dry_run(const StudyConfiguration& configuration, std::optional<double> shard_seconds,
-                    Session& session);
+void answer_dry_run(const StudyConfiguration& configuration, const StudyProcesses& processes,
+                    std::optional<double> shard_seconds, Session& session);
 
 /// The work of the processes that options name, or of those that run. Collective.
 SurfaceWork planned(const DryRunOptions& options, const Grid2D& grid, const Session& session);

@@ -239,12 +239,13 @@ void add_groups(Command& command, int& groups, const std::string& work) {
       ->range(1, 1 << 20);
 }
 
-void DryRunOptions::add_to(Command& command) {
+void DryRunOptions::add_to(Command& command, bool of_processes) {
   const std::string group = "Estimate";
   command
       .add_flag("--dry-run", dry_run,
                 "print what would run, with its memory and time, and run nothing")
       ->group(group);
+  if (!of_processes) return;
   command
       .add_option("--ranks", ranks,
                   "with --dry-run: of so many processes of salebra-mpi, default those that run")

@@ -108,7 +108,8 @@ struct DryRunOptions {
   bool dry_run = false;
   int ranks = 0, nodes = 0;  ///< 0: those that run
 
-  void add_to(Command& command);
+  /// of_processes: several may share the work.
+  void add_to(Command& command, bool of_processes = true);
 };
 
 /// Where a contact stands. At most one is given.

@@ -51,7 +51,7 @@ class Pace {
 
 }  // namespace
 
-void StudyArguments::add_to(Command& command) {
+void StudyArguments::add_to(Command& command, bool over_processes) {
   command
       .add_option("CONFIG", configuration,
                   "study file (TOML); options take the place of what it says")
@@ -77,8 +77,10 @@ void StudyArguments::add_to(Command& command) {
   command.add_flag("--no-stick", no_stick,
                    "K_t = (G*/E*)K in place of a stick solve on each contact: faster, exact at nu "
                    "= 0 without coupling");
-  command.add_flag("--dry-run", dry_run,
-                   "print what would run, with its time and memory, and run nothing");
+  dry_run.add_to(command, over_processes);
+  if (over_processes)
+    add_groups(command, groups,
+               "holds one surface and takes the next ones of the ensemble; default 1");
   add_quantity(command, "--shard-seconds", shard_seconds, Dimension::time,
                "with --dry-run: propose a number of shards that take no longer, such as 1h");
   command.add_flag("--resume", resume,
@@ -436,10 +438,14 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
 
 bool run_without_results(const StudyConfiguration& configuration, const StudyArguments& arguments,
                          Session& session) {
-  require_that(arguments.dry_run || !arguments.shard_seconds, "--shard-seconds",
+  require_that(arguments.dry_run.dry_run || !arguments.shard_seconds, "--shard-seconds",
                "is for --dry-run only; add it");
-  if (arguments.dry_run) {
-    answer_dry_run(configuration, arguments.shard_seconds, session);
+  if (arguments.dry_run.dry_run) {
+    if (std::holds_alternative<MeasuredSurface>(configuration.surfaces))
+      session.require_one_process("--dry-run of a file");
+    const SurfaceWork work = planned(arguments.dry_run, {}, session);
+    answer_dry_run(configuration, {work.ranks, work.nodes, std::max(1, arguments.groups)},
+                   arguments.shard_seconds, session);
     return true;
   }
   if (!arguments.shard) return false;

@@ -27,14 +27,15 @@ struct StudyArguments {
   std::string seam_error;
   bool no_stick = false;
   bool resume = false;
-  bool dry_run = false;
+  DryRunOptions dry_run;
   std::optional<double> shard_seconds;
   std::optional<Shard> shard;
   bool merge = false;
   bool no_report = false;
   int groups = 0;  ///< of processes; 0: one
 
-  void add_to(Command& command);
+  /// over_processes: those of salebra-mpi may share the work.
+  void add_to(Command& command, bool over_processes);
   /// The study file, or what a measured surface needs without one, with the options in place of what either says.
   StudyConfiguration study() const;
 };

@@ -268,16 +268,62 @@ std::size_t StudyCost::contacts() const {
   return count;
 }
 
-StudyCost estimate_cost(const StudyConfiguration& configuration) {
+SurfaceWork surface_work(const StudyConfiguration& point, const Grid2D& grid,
+                         const std::vector<double>& loads, const StudyProcesses& processes) {
+  return {.grid = grid,
+          .loads = loads,
+          .normal_stiffness = true,
+          .tangential_stiffness = stick_solves(point),
+          .ranks = processes.ranks,
+          .nodes = processes.nodes,
+          .groups = processes.groups,
+          .threads = parallel::threads()};
+}
+
+namespace {
+
+/// The surfaces of a point by several processes: the groups take one each at a time.
+void add_point(StudyCost& cost, const PointCost& own) {
+  const StudyProcesses& all = cost.processes;
+  std::vector<double> loads;
+  for (const double pressure : own.pressures) loads.push_back(pressure / own.contact_scale);
+  SurfaceWork work = surface_work(own.configuration, own.grid, loads, all);
+  cost.memory =
+      std::max(cost.memory, surface_memory(work) + static_cast<double>(own.surfaces) *
+                                                       kept_bytes(own.configuration, own.grid));
+  work.ranks = std::max(1, all.ranks / all.groups);
+  work.nodes = std::max(1, std::min(all.nodes / all.groups, work.ranks));
+  work.groups = 1;
+  // The contacts inside the oscillation take the time, and the exchange, of so many more.
+  const double sweep = contact_models()[std::size_t(ContactModel::bem)].seconds_per_cell +
+                       (work.tangential_stiffness ? stick_per_cell : 0);
+  const double more = 1 + level_per_cell * own.levels / sweep;
+  const double rounds =
+      std::ceil(static_cast<double>(own.surfaces) / static_cast<double>(all.groups));
+  cost.seconds += rounds * more * estimate_cost(work).seconds;
+}
+
+}  // namespace
+
+StudyCost estimate_cost(const StudyConfiguration& configuration, const StudyProcesses& processes) {
+  require(processes.nodes >= 1 && processes.nodes <= processes.ranks, "nodes", processes.nodes,
+          "must lie between 1 and the number of processes");
+  require(processes.groups >= 1 && processes.groups <= processes.ranks, "groups", processes.groups,
+          "must lie between 1 and the number of processes");
   StudyCost cost;
+  cost.processes = processes;
   cost.threads = parallel::threads();
   cost.available = static_cast<double>(available_memory());
   cost.memory = memory_of_program;
   const double speed = reference_transform / transform_seconds();
   for (StudyConfiguration point : parameter_combinations(configuration)) {
     PointCost own = cost_of(point, speed);
-    cost.seconds += own.seconds / gain_of(cost.threads, own.surfaces);
-    cost.memory = std::max(cost.memory, study_memory(point, own.grid, cost.threads));
+    if (processes.ranks > 1) {
+      add_point(cost, own);
+    } else {
+      cost.seconds += own.seconds / gain_of(cost.threads, own.surfaces);
+      cost.memory = std::max(cost.memory, study_memory(point, own.grid, cost.threads));
+    }
     cost.points.push_back(std::move(own));
   }
   return cost;

@@ -364,7 +364,8 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
   realisation.moments = surface_moments(surface);
   SummitList summits = find_summits(surface);
   realisation.summits = summit_statistics(summits);
-  summits = gathered(std::move(summits), surface.grid);
+  if (configuration.has(ContactModel::gw_deterministic))
+    summits = gathered(std::move(summits), surface.grid);
   const SpectralMoments& moments = realisation.moments;
   const double scale = configuration.material.contact_modulus * moments.rms_slope();
   if (realisation.has_random_summits()) {

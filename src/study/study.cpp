@@ -74,8 +74,8 @@ void warn(StudyResult& result) {
 void require_spreadable(const StudyConfiguration& point, const Groups& groups) {
   if (groups.all().ranks() == groups.count()) return;
   constexpr const char* why =
-      "needs each surface whole, and groups of several processes spread them; use as many `groups` "
-      "as processes, or one process";
+      "needs each surface whole, and groups of several processes spread them; use groups of one "
+      "process each, or one process";
   require(std::isnan(point.known.hardness), "hardness", point.known.hardness, why);
   require(!(point.relative_error > 0), "relative_error", point.relative_error, why);
   require(!point.has(ContactModel::gw_interacting), "models",
@@ -89,13 +89,10 @@ void require_room(const StudyResult& result, const Groups& groups) {
   if (groups.all().alone())
     return require_memory(result.grid, study_memory(point, result.grid, parallel::threads()),
                           "the surfaces of all threads (fewer `threads` need less)");
-  require_memory(result.grid,
-                 surface_memory({.grid = result.grid,
-                                 .loads = {result.pressures.back() / result.contact_scale},
-                                 .normal_stiffness = true,
-                                 .tangential_stiffness = stick_solves(point),
-                                 .ranks = groups.all().ranks(),
-                                 .groups = groups.count()}),
+  const SurfaceWork work =
+      surface_work(point, result.grid, {result.pressures.back() / result.contact_scale},
+                   {.ranks = groups.all().ranks(), .groups = groups.count()});
+  require_memory(result.grid, surface_memory(work),
                  groups.count() > 1 ? "the surfaces of all groups (fewer groups need less)"
                                     : "a surface of the study",
                  groups.all());

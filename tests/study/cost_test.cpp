@@ -5,6 +5,8 @@
 #include <salebra/study/cost.hpp>
 #include <tuple>
 
+#include "study_text.hpp"
+
 using namespace salebra;
 
 namespace {
@@ -106,4 +108,25 @@ TEST_CASE("More processes take less time until machines exchange more than they 
   CHECK(seconds(8, 2, 2).network_seconds == 0);
   CHECK_THROWS_AS(seconds(2, 3), InvalidInput);
   CHECK_THROWS_AS(seconds(2, 1, 3), InvalidInput);
+}
+
+TEST_CASE("A study over processes takes of each what was measured, and its groups share surfaces",
+          "[cost]") {
+  // As the row of docs/scaling.md was: one surface of 2048² points, four loads up to 0.1 E*h'.
+  StudyConfiguration study = parse_study_configuration(study_text("seed_count = 1", 4), "s.toml");
+  auto& surfaces = std::get<GeneratedSurfaces>(study.surfaces);
+  surfaces.grid = {2048, 2048, 1e-5, 1e-5};
+  surfaces.spectrum.rolloff = 1.25e-6;
+  surfaces.spectrum.short_cutoff = 40e-9;
+  study.pressures = {2e-3, 1e-2, 5e-2, 0.1};
+  for (const auto& [ranks, measured] : {std::pair(2, 324), {4, 187}}) {
+    INFO(ranks << " processes");
+    CHECK(estimate_cost(study, {.ranks = ranks}).memory == Approx(1e6 * measured).epsilon(0.15));
+  }
+  surfaces.seeds = {1, 2, 3, 4};
+  const StudyCost together = estimate_cost(study, {.ranks = 8}),
+                  apart = estimate_cost(study, {.ranks = 8, .groups = 4});
+  CHECK(apart.memory > 2 * together.memory);
+  CHECK_THROWS_AS(estimate_cost(study, {.ranks = 2, .groups = 3}), InvalidInput);
+  CHECK_THROWS_AS(estimate_cost(study, {.ranks = 2, .nodes = 3}), InvalidInput);
 }

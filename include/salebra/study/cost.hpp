@@ -24,13 +24,21 @@ struct PointCost {
   std::vector<std::string> warnings;  ///< of the generator: what the grid does to the spectrum
 };
 
-/// What a study would cost on this machine, before anything of it is computed.
+/// Processes that share a study, StudyRun::groups.
+struct StudyProcesses {
+  int ranks = 1, nodes = 1;  ///< and the machines that they share evenly
+  int groups = 1;
+};
+
+/// What a study would cost on this machine, or on several like it, before anything of it is computed.
 struct StudyCost {
   std::vector<PointCost> points;
-  int threads = 1;
+  StudyProcesses processes;
+  int threads = 1;  ///< of each process
   double seconds =
       0;  ///< wall time with these threads on an idle machine; with a precision, the most
-  double memory = 0;     ///< peak, bytes: of the surfaces that are side by side, and of the program
+  double memory =
+      0;  ///< peak of a process, bytes: of the surfaces that are side by side, and of the program
   double available = 0;  ///< memory of the machine, bytes; 0 where it does not say
 
   std::size_t surfaces() const;
@@ -45,9 +53,12 @@ double study_memory(const StudyConfiguration& point, const Grid2D& grid, int thr
 /// Counts what run_ensembles() would do, and multiplies it with what a contact costs for each cell: measured once on a server, for
 /// surfaces of 256² to 1024² points and loads up to 0.2 E*h', and scaled by how long one Fourier transform takes here. Good to a factor of
 /// two for studies, of three with interacting summits.
-/// throws  as parameter_combinations(), and as readers do for a measured surface, which is read
+/// Of several processes as estimate_cost(SurfaceWork) has it.
+/// throws  as parameter_combinations(), and as readers do for a measured surface, which is read; InvalidInput unless there is at least one
+///         process on each machine and in each group
 /// cost    some milliseconds, and the reading of a measured surface
-StudyCost estimate_cost(const StudyConfiguration& configuration);
+StudyCost estimate_cost(const StudyConfiguration& configuration,
+                        const StudyProcesses& processes = {});
 
 /// One surface that one process, or several together, make and press.
 struct SurfaceWork {
@@ -79,6 +90,10 @@ SurfaceCost estimate_cost(const SurfaceWork& work);
 
 /// SurfaceCost::memory_of_process alone.
 double surface_memory(const SurfaceWork& work);
+
+/// The contacts of one surface of a study, which each group of processes presses at all of these loads.
+SurfaceWork surface_work(const StudyConfiguration& point, const Grid2D& grid,
+                         const std::vector<double>& loads, const StudyProcesses& processes);
 
 /// The most groups that are of use, whose surfaces fit into memory: exchange between processes is what does not get faster with more
 /// of them. fits: whether each process may take so many bytes. 1 where nothing does.
