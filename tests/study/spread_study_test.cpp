@@ -79,6 +79,14 @@ TEST_CASE("A study over processes has the bits of one process", "[study][share]"
     const StudyConfiguration study = study_of("seeds = [2]");
     compare(study, bits_of(run_ensembles(study)), 3, 1);
   }
+  SECTION("with processes that have no rows") {
+    StudyConfiguration study = study_of("seeds = [1, 2]");
+    // On this grid a contact without a start begins on a coarser one.
+    auto& surfaces = std::get<GeneratedSurfaces>(study.surfaces);
+    surfaces.grid = {128, 128, 4e-6, 4e-6};
+    study.pressures = {3e-3, 0.01, 0.03, 0.1};
+    compare(study, bits_of(run_ensembles(study)), 9, 1);
+  }
   SECTION("of parameters that vary, on the curve between loads") {
     StudyConfiguration study = study_of("seeds = [1, 2]");
     study.ensemble.hurst = {0.7, 0.9};
