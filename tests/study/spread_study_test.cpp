@@ -162,25 +162,23 @@ TEST_CASE("A study over processes that is stopped continues with any number of t
   const fs::path folder = scratch.folder / "run.h5.parts";
   const StudyConfiguration study = study_of("seeds = [1, 2, 3, 4]");
   const std::string whole = bits_of(run_ensembles(study));
-  // The first process alone keeps files. The last one says stop when two surfaces are there; another group finishes its third.
+  // The first process alone keeps files. The last one says stop within the sweep after two surfaces; another group finishes its third.
   const auto run = [&](int ranks, int groups, bool resume, bool stop) {
     std::atomic<int> interrupted = 0, same = 0, computed = 0;
     run_ranks(ranks, [&](const Communicator& all) {
       std::unique_ptr<StudyParts> parts;
       if (all.is_root()) parts = std::make_unique<StudyParts>(folder, resume);
-      std::size_t finished = 0;
-      const std::vector<StudyResult> results =
-          run_ensembles(study, {.on_progress =
-                                    [&](const ProgressReport&) {
-                                      return !stop || finished < 2 || all.rank() + 1 < all.ranks();
-                                    },
-                                .on_realisation =
-                                    [&](const RealisationReport& report) {
-                                      finished = report.finished;
-                                      computed += all.is_root() && !report.restored;
-                                    },
-                                .parts = parts.get(),
-                                .groups = Groups(all, groups)});
+      const std::vector<StudyResult> results = run_ensembles(
+          study, {.on_progress =
+                      [&](const ProgressReport& report) {
+                        return !stop || report.fraction < 0.6 || all.rank() + 1 < all.ranks();
+                      },
+                  .on_realisation =
+                      [&](const RealisationReport& report) {
+                        computed += all.is_root() && !report.restored;
+                      },
+                  .parts = parts.get(),
+                  .groups = Groups(all, groups)});
       interrupted += results.front().interrupted;
       same += bits_of(results) == whole;
       if (parts && !stop) parts->discard();
@@ -189,8 +187,14 @@ TEST_CASE("A study over processes that is stopped continues with any number of t
     CHECK(same == (stop ? 0 : ranks));
     return computed.load();
   };
-  CHECK(run(3, 2, false, true) == 3);
-  CHECK(run(2, 1, true, false) == 1);
+  SECTION("one of several groups") {
+    CHECK(run(3, 2, false, true) == 3);
+    CHECK(run(2, 1, true, false) == 1);
+  }
+  SECTION("one of several processes that share a surface") {
+    CHECK(run(3, 1, false, true) == 2);
+    CHECK(run(2, 2, true, false) == 2);
+  }
 }
 
 namespace {
