@@ -142,10 +142,24 @@ struct Solution {
   ActiveSetOutcome outcome;
 };
 
+// Mean height below zero: the mean gap at first touch, but for the summit that a coarse grid may lack.
+double mean_depth_of(const MultigridLevel& level) {
+  const double sum = parallel::sum_blocks(
+      level.rows,
+      [&](Index begin, Index end) {
+        double part = 0;
+        for (Index k = begin * level.grid.ny; k < end * level.grid.ny; ++k)
+          part -= level.heights[k];
+        return part;
+      },
+      level.rows.count() * level.grid.ny);
+  return sum / static_cast<double>(level.grid.points());
+}
+
 // From the coarsest level to the finest.
 template <class Real>
 Solution solve_nested(const Scaled& scaled, const Share& rows, const Heights& heights,
-                      double rms_height, const ContactTarget& target,
+                      double rms_height, double mean_depth, const ContactTarget& target,
                       const NormalContactOptions& options) {
   auto levels =
       detail::multigrid_levels(scaled.grid, rows, heights, options.boundary,
@@ -195,7 +209,13 @@ Solution solve_nested(const Scaled& scaled, const Share& rows, const Heights& he
     }
     ActiveSetCg<Real> solver(level.grid, level.rows, 1, options.boundary, level.heights,
                              rms_height);
-    solution.outcome = solver.solve(target, limits, solution.pressure.data(), solution.gap.data());
+    ContactTarget target_here = target;
+    // The mean height of a coarse grid is another one. At the same level it may be beyond full contact, where no pressure is a solution
+    // and CG runs away: a start for the finer grid has its mean gap instead.
+    if (k > 0 && !target.load_given() && options.boundary == Boundary::periodic)
+      target_here.value += mean_depth_of(level) - mean_depth;
+    solution.outcome =
+        solver.solve(target_here, limits, solution.pressure.data(), solution.gap.data());
     if (solution.outcome.interrupted && k > 0) {
       // Nothing on the finest grid to show: an empty contact that says so.
       solution.pressure = Field::Zero(rows.count(), scaled.grid.ny);
@@ -291,10 +311,11 @@ NormalContactState press(const Surface& surface, double contact_modulus, const D
   const double displacement =
       load_given ? value / contact_modulus * std::sqrt(surface.grid.area()) : value;
   const double length = depths.rms > 0 ? depths.rms : displacement;
-  auto solution =
-      options.precision == Precision::mixed
-          ? solve_nested<float>(scaled, surface.share(), heights, length, target, options)
-          : solve_nested<double>(scaled, surface.share(), heights, length, target, options);
+  auto solution = options.precision == Precision::mixed
+                      ? solve_nested<float>(scaled, surface.share(), heights, length, depths.mean,
+                                            target, options)
+                      : solve_nested<double>(scaled, surface.share(), heights, length, depths.mean,
+                                             target, options);
   return state_of(std::move(solution), target, scaled, surface, heights, options.hardness);
 }
 

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/normal/normal.hpp>
+#include <tuple>
 
 #include "awkward_contacts.hpp"
 #include "contact/normal/active_set_cg.hpp"
@@ -73,6 +74,31 @@ TEST_CASE("Random surfaces of any exponent, cut-off and load converge, by pressu
 TEST_CASE("Punches, steps, single cells and full contact converge, by pressure and by gap",
           "[normal]") {
   for (const auto& contact : awkward_shapes(32)) check(contact);
+}
+
+TEST_CASE("A contact is found by its mean gap where coarse grids have another mean height",
+          "[normal]") {
+  // Coarse grids take the higher points alone. At the level of this plane they would be beyond full contact.
+  const auto [lowered, least, most] =
+      GENERATE(std::tuple{0.1, 0.99, 0.999}, std::tuple{1.0, 0.4, 0.6});
+  Surface surface = rough_surface({128, 128, 1, 1}, {.seed = 7});
+  const double rms = rms_height(surface), pressure = 0.15;
+  for (Index i = 0; i < 128; ++i)
+    for (Index j = 0; j < 128; ++j)
+      if (i % 2 == 1 || j % 2 == 1) surface.heights(i, j) -= lowered * rms;
+  NormalContactOptions options;
+  options.precision = GENERATE(Precision::mixed, Precision::full);
+  const auto state = press_to_pressure(surface, 1, pressure, options);
+  REQUIRE(state.converged);
+  REQUIRE(state.contact_area_fraction > least);
+  REQUIRE(state.contact_area_fraction < most);
+  // 3/4 of the cells are lowered, none of a coarse grid.
+  REQUIRE(state.mean_gap < 0.75 * lowered * rms);
+  const auto back = press_to_mean_gap(surface, 1, state.mean_gap, options);
+  CHECK(back.converged);
+  CHECK(independent_residual(back.pressure, surface, 1) < 1.1 * options.tolerance);
+  // e_c is an energy; pressures differ by its root.
+  CHECK(back.mean_pressure == Approx(pressure).epsilon(10 * std::sqrt(options.tolerance)));
 }
 
 TEST_CASE("A single point and constant heights are in full contact under any pressure",

@@ -107,6 +107,15 @@ TEST_CASE("A contact over processes has the bits of one process", "[spread]") {
         {nx, ny, static_cast<double>(nx), static_cast<double>(ny)}, {.rolloff = 1, .cutoff = 6});
     compare(surface, to_pressure(5e-3), options, ranks);
   }
+  SECTION("nearly full, by its mean gap, of a surface whose coarse grids have another mean") {
+    Surface surface = test::rough_surface({192, 192, 192, 192});
+    const double rms = test::rms_height(surface);
+    for (Index i = 1; i < 192; i += 2) surface.heights.row(i) -= 0.1 * rms;
+    const auto to_gap = [&](const Surface& pressed) {
+      return press_to_mean_gap(pressed, 1, 1e-3 * rms, options);
+    };
+    compare(surface, to_gap, options, ranks);
+  }
   SECTION("with hardness") {
     options.hardness = 0.03;
     compare(test::rough_surface({192, 192, 192, 192}), to_pressure(5e-3), options, ranks);

@@ -70,6 +70,7 @@ NormalContactState press_to_pressure(const Surface& surface, double contact_modu
 
 /// The same contact for a given mean gap ū in (0, max h − mean h): the inverse of press_to_pressure.
 /// Periodic and elastic contacts only: a free one has no mean gap, and hardness makes the gap depend on more than the approach.
+/// Cost: as press_to_pressure, but 3 to 20 times as many iterations where more than 0.99 of the cells touch.
 NormalContactState press_to_mean_gap(const Surface& surface, double contact_modulus,
                                      double mean_gap, const NormalContactOptions& options = {});
 
