@@ -49,7 +49,7 @@ Surface read(const MeasuredSurface& recipe, const Communicator& ranks) {
 /// Root mean square of the steps between opposite edges, which a periodic continuation turns into cliffs.
 double seam_step(const Surface& surface) {
   const Field& h = surface.heights;
-  const auto [nx, ny] = std::pair(surface.grid.nx, surface.grid.ny);
+  const Index nx = surface.grid.nx, ny = surface.grid.ny;
   const Share rows = surface.share();
   const auto square = [](double step) { return step * step; };
   const double along_y = parallel::sum_blocks(rows, [&](Index begin, Index end) {
