@@ -137,7 +137,7 @@ TEST_CASE("What of a study needs surfaces whole is refused before any work", "[s
   cases[2].second.models.push_back(ContactModel::gw_interacting);
   for (const auto& [field, study] : cases) {
     std::atomic<int> refused = 0;
-    const auto run = [&](const Communicator& all, int groups) {
+    const auto run = [&, &field = field, &study = study](const Communicator& all, int groups) {
       try {
         run_ensembles(study, {.on_progress = [](const ProgressReport&) -> bool {
                                 throw Interrupted("was not refused");

@@ -260,8 +260,9 @@ TEST_CASE("A force curve with both stiffnesses over processes has the bits of on
 }
 
 TEST_CASE("A force curve of groups of processes has the bits of one process", "[spread]") {
-  const auto [ranks, count] = GENERATE(std::pair{2, 2}, std::pair{3, 2}, std::pair{5, 2},
+  const std::pair of_groups = GENERATE(std::pair{2, 2}, std::pair{3, 2}, std::pair{5, 2},
                                        std::pair{5, 5}, std::pair{8, 3}, std::pair{4, 1});
+  const int ranks = of_groups.first, count = of_groups.second;
   const Surface surface = test::rough_surface({96, 96, 96, 96});
   const Material material = Material::of_contact_modulus(1, 0.3);
   SweepOptions options;
