@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <mutex>
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
@@ -128,6 +129,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
   std::atomic<bool> stop = false, failed = false;
   std::atomic<int> finished = 0;
   std::exception_ptr failure;
+  std::mutex failure_guard;
   SweepOptions inner = options;
   if (options.contact.on_progress)
     inner.contact.on_progress = [&](const ProgressReport& report) {
@@ -166,7 +168,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
         stop = true;
     } catch (...) {
       failed = stop = true;
-#pragma omp critical(salebra_sweep_failure)
+      const std::scoped_lock lock(failure_guard);
       if (!failure) failure = std::current_exception();
     }
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <exception>
 #include <map>
+#include <mutex>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
@@ -544,6 +545,7 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
     std::atomic<bool> stop = false, failed = false;
     std::atomic<int> finished = 0;
     std::exception_ptr failure;
+    std::mutex failure_guard;
     const Progress progress = [&](const ProgressReport& report) {
       // Only the calling thread may talk to its caller.
       if (options.on_progress && omp_get_thread_num() == 0 &&
@@ -563,7 +565,7 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
         ++finished;
       } catch (...) {
         failed = stop = true;
-#pragma omp critical(salebra_surface_damping_failure)
+        const std::scoped_lock lock(failure_guard);
         if (!failure) failure = std::current_exception();
       }
     }
