@@ -11,6 +11,9 @@ The names are sorted into submodules: `surfaces`, `generators`, `contact`, `mode
 scripts need.
 """
 
+import difflib as _difflib
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
 from . import _waiting as _waiting  # isort: skip  (before anything that loads the extension)
 from . import _calls as _calls
 
@@ -36,9 +39,13 @@ __version__ = version()
 
 _COMMON = (
     "Grid2D", "Surface", "Material", "ForceCurve", "SelfAffineSpectrum", "EqualFrequency", "Drag", "TabulatedLaw", "ExponentialLaw",
-    "read_surface", "write_surface", "random_phase", "filtered_noise", "press_to_pressure", "press_to_indentation",
-    "press_to_mean_gap", "sweep_pressures", "fit_exponential", "relaxation_damping", "read_study_configuration",
-    "parse_study_configuration", "run_study", "write_report", "citations", "set_threads", "version",
+    "IndenterLaw", "GreenwoodWilliamsonLaw", "ContactFacts", "StudyConfiguration", "ResultReader",
+    "read_surface", "write_surface", "random_phase", "filtered_noise", "exact_rms", "paraboloid_surface", "off_grid_center",
+    "power_spectrum", "after_first_loading", "press_to_pressure", "press_to_indentation", "press_to_mean_gap", "sweep_pressures",
+    "boundary_element_levels", "fit_exponential", "test_exponential", "window_sensitivity",
+    "surface_damping", "relaxation_damping", "damping_curve", "simulate_cycle", "simulate_frictional_cycle", "simulate_coupled_cycle",
+    "read_study_configuration", "parse_study_configuration", "run_study", "run_ensembles", "write_ensembles", "is_result_of",
+    "can_report", "write_report", "citations", "set_threads", "threads", "ProgressReport", "version",
     "Error", "InvalidInput", "IoError", "NotConverged", "Interrupted", "MissingFile", "ConvergenceWarning",
 )  # fmt: skip
 
@@ -48,3 +55,11 @@ def __dir__() -> list[str]:
         "closed_form", "contact", "damping", "files", "generators", "models", "session", "studies", "surfaces",
     )  # fmt: skip
     return sorted([*modules, *_COMMON, "__version__", "__doc__", "__name__", "__file__", "__path__"])
+
+
+if not _TYPE_CHECKING:  # where a type checker would take it for every name
+
+    def __getattr__(name: str) -> object:
+        names = [] if name.startswith("_") else [key for key in globals() if not key.startswith("_")]
+        close = _difflib.get_close_matches(name, names, 1, 0.7)
+        raise AttributeError(f"module 'salebra' has no attribute '{name}'" + (f"; did you mean {close[0]}?" if close else ""))

@@ -8,6 +8,8 @@ import inspect
 import pathlib
 import re
 
+import pytest
+
 import salebra
 from salebra import _core
 
@@ -48,6 +50,22 @@ def test_properties_have_the_unit_of_the_quantity_of_their_name() -> None:
         checked += 1
         assert unit == "1" or any(spelling in text for spelling in spellings(unit)), f"{class_name}.{name}: '{text}' is not in {unit}"
     assert checked > 200
+
+
+def test_dir_lists_what_the_documentation_uses() -> None:
+    used = set()
+    for page in ("README.md", "docs/python.md"):
+        for block in re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(encoding="utf-8"), re.DOTALL):
+            used |= set(re.findall(r"\bsalebra\.(\w+)", block))
+    assert {"surface_damping", "run_ensembles"} <= used <= set(dir(salebra))
+    assert all(hasattr(salebra, name) for name in dir(salebra))
+
+
+def test_a_misspelt_name_is_answered_with_the_nearest() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'surface_dampin'; did you mean surface_damping\\?"):
+        getattr(salebra, "surface_dampin")  # noqa: B009
+    with pytest.raises(AttributeError, match="no attribute 'qqq'$"):
+        getattr(salebra, "qqq")  # noqa: B009
 
 
 def test_messages_name_arguments_of_python() -> None:
