@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bindings of base: errors, units, grids, moments, threads, and the list of works to cite.
+#include <pthread.h>
+
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
@@ -22,6 +24,8 @@
 
 namespace salebra::python {
 namespace {
+
+bool forked = false;  // since this module was loaded
 
 std::vector<std::string>& keys_cited() {
   static std::vector<std::string> keys;
@@ -88,7 +92,16 @@ void bind_base(nb::module_& m) {
   m.def("library_versions", &library_versions,
         "\"Eigen 3.4.0, FFTW 3.3.10, …\": the libraries in use, which the last digits of a result "
         "depend on.");
-  m.def("set_threads", &parallel::set_threads, nb::arg("threads"),
+  // OpenMP's threads are not those of a forked process, which would wait for them for ever.
+  pthread_atfork(nullptr, nullptr, [] {
+    forked = true;
+    parallel::set_threads(1);
+  });
+  m.def("set_threads", [](int threads) {
+          require(!forked || threads == 1, "threads", threads,
+                  "must be 1 in a forked process; use the start method spawn for more");
+          parallel::set_threads(threads);
+        }, nb::arg("threads"),
         "Threads that loops and transforms use from now on; 0 means all that the process may run "
         "on, at most 64 or four for each processor.\n\n"
         "Results have the same bits for every number of threads.");

@@ -55,6 +55,37 @@ def test_threads_sleep_while_they_wait_unless_the_user_wants_otherwise() -> None
         assert run.stdout.split() == [str(chosen.get("OMP_WAIT_POLICY")), str(chosen.get("GOMP_SPINCOUNT"))]
 
 
+FORKS = """
+import multiprocessing
+import salebra
+
+salebra.set_threads(2)
+grid = salebra.Grid2D(256, 256, 1e-3, 1e-3)  # enough points for two threads
+spectrum = salebra.SelfAffineSpectrum(rolloff=2.5e-4, short_cutoff=1e-4, rms_height=1e-6)
+
+def area(seed):
+    return salebra.press_to_pressure(salebra.random_phase(grid, spectrum, seed), 1e9, 1e6).contact_area_fraction
+
+def refusal(threads):
+    try:
+        salebra.set_threads(threads)
+    except salebra.InvalidInput as error:
+        return str(error)
+
+alone = [area(1), area(2)]
+with multiprocessing.get_context("fork").Pool(2) as pool:
+    print(pool.map(area, [1, 2]) == alone)
+    print(pool.map(refusal, [2])[0])
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork on this system")
+def test_a_pool_that_forks_after_a_call_computes_and_gives_the_same_bits() -> None:
+    done = subprocess.run([sys.executable, "-c", FORKS], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines() == ["True", "threads: 2 must be 1 in a forked process; use the start method spawn for more"]
+
+
 def test_other_threads_run_during_a_solve() -> None:
     surface = generated(1024, rms_height=1e-6)
     counted = 0
