@@ -244,9 +244,13 @@ class _Call:
 
     def check_shape(self, name: str, value: Any, optional: bool) -> None:
         try:
-            array = np.asarray(value, dtype=float)
+            array = np.asarray(value)
+            is_complex = array.dtype.kind == "c"
+            array = array if is_complex else array.astype(float)
         except (TypeError, ValueError):
             raise self.error(f"{name}: wanted an array of numbers, got {_came(value)}") from None
+        if is_complex:
+            raise self.error(f"{name}: wanted real numbers, got {_came(value)}; take its .real")
         field = name in _FIELDS and not (name == "pressure" and "material" in self.parameters)
         if field and array.ndim != 2:
             raise self.error(f"{name}: wanted two dimensions (nx, ny), got shape {array.shape}")
@@ -345,11 +349,41 @@ def function(native: Any, name: str, module: str = "salebra", method: bool = Fal
     return call
 
 
+def _of_labelled(arguments: tuple[Any, ...], keywords: dict[str, Any]) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    """Arguments of a Surface: those of an xarray.DataArray over x and y with its order of axes, its coordinates and its units."""
+    named = {**dict(zip(("heights", "size_x", "size_y"), arguments)), **keywords}
+    heights = named.get("heights")
+    if set(getattr(heights, "dims", ())) != {"x", "y"} or not hasattr(heights, "coords") or len(arguments) > 3:
+        return arguments, keywords
+    array: Any = heights
+    for axis in array.coords.keys() & {"x", "y"}:
+        array = array.sortby(axis)
+        points = array.coords[axis]
+        steps = np.diff(points.values.astype(float))
+        if f"size_{axis}" in named or steps.size == 0:
+            continue
+        if not np.allclose(steps, steps.mean(), rtol=1e-3, atol=0):
+            raise refusal(f"heights.{axis}", "", "is not evenly spaced; interpolate the heights to a grid")
+        named[f"size_{axis}"] = (steps.size + 1) * float(steps.mean()) * _metres(points, f"size_{axis}")
+    named["heights"] = array.transpose("x", "y").values
+    if "units" in array.attrs:
+        factor = _metres(array, "heights")
+        named["heights"] = named["heights"] if factor == 1 else named["heights"] * factor
+    return (), named
+
+
+def _metres(labelled: Any, argument: str) -> float:
+    units = labelled.attrs.get("units")
+    return _number(f"1 {units}", argument) if units else 1.0
+
+
 _constructors: dict[str, Callable[..., Any]] = {}
 
 
 def construct(name: str, made: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
     """Called by the extension where an object is made."""
+    if name == "Surface":
+        arguments, keywords = _of_labelled(arguments, keywords)
     _constructors[name](made, *arguments, **keywords)
     _remember(made, name, arguments, keywords)
 

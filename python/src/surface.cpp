@@ -35,7 +35,8 @@ Parameters
 ----------
 heights : array_like
     (nx, ny). Heights in m, `heights[ix, iy]`, x first; NaN where the instrument has no value. A C-contiguous float64 array is not
-    copied: the surface looks at the same memory.
+    copied: the surface looks at the same memory. An xarray.DataArray over "x" and "y" is taken in either order, with the sizes of its
+    coordinates where none are given and the units of its attributes.
 size_x, size_y : float
     Size, m. Point (ix, iy) lies at (ix·size_x/nx, iy·size_y/ny).
 periodic : bool

@@ -165,3 +165,32 @@ def test_summits_are_columns_without_copies(surface: salebra.Surface) -> None:
     assert summits[0].height == summits.height[0]
     statistics = salebra.summit_statistics(summits)
     assert np.isclose(statistics.mean_height, summits.height.mean(), rtol=1e-12)
+
+
+def test_heights_that_are_complex_or_infinite_are_refused() -> None:
+    heights = np.zeros((8, 8))
+    with pytest.raises(TypeError, match="heights: wanted real numbers, got an array of shape .* and type complex128"):
+        salebra.Surface(heights.astype(complex), 1e-3, 1e-3)
+    with pytest.raises(TypeError, match="heights: wanted real numbers"):
+        salebra.Surface(np.ma.masked_array(heights.astype(complex)), 1e-3, 1e-3)
+    heights[2, 3] = -np.inf
+    with pytest.raises(salebra.InvalidInput, match="heights: infinity is no height; NaN is an undefined point"):
+        salebra.Surface(heights, 1e-3, 1e-3)
+    heights[2, 3] = np.nan
+    assert salebra.Surface(heights, 1e-3, 1e-3).undefined_points == 1
+
+
+def test_a_labelled_array_has_its_axes_sizes_and_units() -> None:
+    xarray = pytest.importorskip("xarray")
+    rows_are_y = np.arange(12.0).reshape(3, 4)
+    x = xarray.DataArray(1.1 * np.arange(4), dims="x", attrs={"units": "um"})
+    y = xarray.DataArray(2e-6 * np.arange(3)[::-1], dims="y")  # pictures begin at the top; without units it is m
+    labelled = xarray.DataArray(rows_are_y, dims=("y", "x"), coords={"x": x, "y": y}, attrs={"units": "nm"})
+    surface = salebra.Surface(labelled)  # type: ignore[call-arg, unused-ignore]
+    assert np.allclose(surface.heights, 1e-9 * rows_are_y[::-1].T, rtol=1e-15)
+    assert np.allclose([surface.size_x, surface.size_y], [4.4e-6, 6e-6], rtol=1e-12)
+    assert salebra.Surface(labelled, 1e-3, 2e-3).size_y == 2e-3
+    again = salebra.Surface(surface.to_xarray().heights)  # type: ignore[call-arg, unused-ignore]
+    assert np.array_equal(again.heights, surface.heights)
+    with pytest.raises(salebra.InvalidInput, match=r"heights.x: is not evenly spaced"):
+        salebra.Surface(labelled.assign_coords(x=[0.0, 1.0, 2.0, 4.0]))  # type: ignore[call-arg, unused-ignore]

@@ -125,8 +125,12 @@ bool as_array(handle source, const char* type, bool contiguous, object& array) n
     try {
       const module_ numpy = module_::import_("numpy");
       object given = borrow(source);
+      const bool masked = isinstance(source, numpy.attr("ma").attr("MaskedArray"));
+      if (!masked) given = numpy.attr("asarray")(given);
+      // asarray would drop an imaginary part.
+      if (given.attr("dtype").attr("kind").equal(str("c"))) return PyExc_TypeError;
       // asarray would take what lies under the mask for values.
-      if (isinstance(source, numpy.attr("ma").attr("MaskedArray")))
+      if (masked)
         given = std::string_view(type) == "bool"
                     ? given.attr("filled")(false)
                     : given.attr("astype")(type).attr("filled")(numpy.attr("nan"));

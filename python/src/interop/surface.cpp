@@ -2,6 +2,7 @@
 // Surface that shares the memory of a NumPy array, and texts for repr().
 #include "interop/surface.hpp"
 
+#include <limits>
 #include <salebra/base/units.hpp>
 #include <salebra/results/quantity.hpp>
 
@@ -11,6 +12,9 @@ BoundSurface::BoundSurface(const FieldArgument& heights, double size_x, double s
                            bool periodic, std::string origin) {
   surface.grid = {heights.rows(), heights.columns(), size_x, size_y};
   surface.grid.validate();
+  const Eigen::Map<const Field> given(heights.data(), heights.rows(), heights.columns());
+  require(!(given.abs() > std::numeric_limits<double>::max()).any(), "heights", "infinity",
+          "is no height; NaN is an undefined point");
   surface.periodic = periodic;
   surface.origin = std::move(origin);
   if (adopt_memory(surface.heights, heights.data(), heights.rows(), heights.columns()))
