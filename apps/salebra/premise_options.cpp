@@ -172,6 +172,8 @@ PremiseReport premises_beside_slip(const ContactLaw& law, double indentation,
   Premises premises = premises_of(law, indentation, motion, facts);
   premises.slip_of_opening_levels.verdict = premises.slip_of_closed_levels.verdict = Verdict::holds;
   premises.slip_of_opening_levels.needs = premises.slip_of_closed_levels.needs = {};
+  // What slides on does not turn back.
+  premises.slow_motion = {.verdict = Verdict::holds};
   premises.largest.clear();
   premises.regime = Regime::unknown;
   return {{premises}};

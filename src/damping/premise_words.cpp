@@ -51,6 +51,8 @@ std::span<const PremiseName> premise_names() {
                   "slip where the contact opens and closes", "M =", Dimension::dimensionless},
       PremiseName{"slip_of_closed_levels", &Premises::slip_of_closed_levels,
                   "slip where it stays closed", "excursion", Dimension::length},
+      PremiseName{"slow_motion", &Premises::slow_motion, "slow tangential motion",
+                  "X/w =", Dimension::dimensionless},
       PremiseName{"amplitude", &Premises::amplitude, "small amplitude of Eqs (12), (15) and (16)",
                   "u_z =", Dimension::length},
       PremiseName{"plasticity", &Premises::plasticity, "plasticity", "pressure over hardness",

@@ -421,6 +421,42 @@ void judge(Premise& premise, bool large_is_good = false) {
                                                       : Verdict::holds;
 }
 
+// What a turning point of a slow motion at a random phase costs, in losses of one normal cycle. A level that touches from −θ to θ
+// is let go with the stretch 2vθ/ω; with a turning point at τ between it is 2vτ/ω, and the mean of θ² − τ² over all phases of the
+// cycle is 2θ³/(3π). The sums of θ³ and θ² over the levels are by parts those below.
+double cost_of_turning(const ContactLaw& law, double mean, double amplitude) {
+  constexpr int cells = 360;
+  const double closed = law.tangential_stiffness(mean - amplitude);
+  double squares = 0, ways = 0;
+  for (int i = 0; i < cells; ++i) {
+    const double angle = pi * (i + 0.5) / cells;
+    const double opening = law.tangential_stiffness(mean + amplitude * std::cos(angle)) - closed;
+    squares += angle * angle * opening;
+    ways += angle * opening;
+  }
+  return ways > no_loss * cells * closed ? squares / (pi * ways) : 0;
+}
+
+Premise slow_motion_of(const ContactLaw& law, const JudgedMotion& motion,
+                       const ContactFacts& facts) {
+  Premise premise;
+  if (!motion.drag) {
+    premise.verdict = Verdict::holds;
+    return premise;
+  }
+  const double cost = cost_of_turning(law, motion.mean, motion.amplitude);
+  // On less than the way of one cycle the motion is not slow, however short the contacts are.
+  premise.limit_5_percent = std::max(1.0, cost / 0.05);
+  premise.limit_20_percent = std::max(1.0, cost / 0.2);
+  premise.value = facts.excursion / (2 * pi * std::abs(motion.displacement));
+  if (std::isnan(motion.displacement))
+    premise.needs = "drag_velocity";
+  else if (std::isnan(facts.excursion))
+    premise.needs = "excursion";
+  judge(premise, true);
+  return premise;
+}
+
 void check(const ContactFacts& facts) {
   for (const auto& [value, field] : {std::pair{facts.friction_coefficient, "friction_coefficient"},
                                      {facts.hardness, "hardness"},
@@ -550,6 +586,7 @@ Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
   Premises premises;
   premises.plasticity = plasticity_of(facts, law.force(motion.mean));
   premises.coupling = coupling_of(law, facts);
+  premises.slow_motion = slow_motion_of(law, motion, facts);
   Premise& opening = premises.slip_of_opening_levels;
   Premise& closed = premises.slip_of_closed_levels;
   const double stretch = facts.friction_coefficient / law.modulus_ratio();  // μ/g

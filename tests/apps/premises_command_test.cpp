@@ -18,6 +18,7 @@ namespace {
 
 const char* const premises[] = {"slip_of_opening_levels",
                                 "slip_of_closed_levels",
+                                "slow_motion",
                                 "amplitude",
                                 "plasticity",
                                 "inertia",
@@ -145,7 +146,12 @@ TEST_CASE("Broken premises stand above the table, open ones below it", "[premise
   CHECK_THAT(fast.out, Catch::Contains("\n\nwork_per_cycle"));
   CHECK_THAT(
       fast.out,
-      Catch::Contains("\n\nPremises not judged: plasticity (--hardness), inertia (--density)\n"));
+      Catch::Contains("\n\nPremises not judged: slow tangential motion (--excursion), plasticity "
+                      "(--hardness), inertia (--density)\n"));
+  // The way of one normal cycle is 50 nm.
+  CHECK_THAT(
+      test.run("damping --normal-amplitude 1nm --drag-velocity 1mm/s --excursion 10nm " + law).out,
+      Catch::StartsWith("Premises broken: slow tangential motion, X/w = 0.2 (5 % of the loss at "));
   const auto slow = test.run("damping --normal-amplitude 1nm --drag-velocity 1nm/s " + law);
   CHECK_THAT(slow.out, Catch::StartsWith("work_per_cycle"));
   CHECK_THAT(slow.out, Catch::Contains("Slip changes the loss by less than 5 % up to "));

@@ -48,6 +48,20 @@ SampledMotion there_and_back(const Drag& drag, double mean, int cycles) {
   return path;
 }
 
+/// X there and back in `cycles` normal cycles each way, with turning points `offset` steps after the least indentation.
+SampledMotion turning_at(const Drag& drag, double mean, int cycles, int steps, int offset) {
+  SampledMotion path;
+  for (int i = 0; i <= 2 * cycles * steps; ++i) {
+    const double angle = 2 * pi * i / steps;
+    path.time.push_back(angle / drag.angular_frequency);
+    path.indentation.push_back(
+        mean - drag.normal_amplitude * std::cos(2 * pi * ((i + offset) % steps) / steps));
+    path.displacement.push_back(drag.drag_velocity / drag.angular_frequency *
+                                std::min(angle, 4 * pi * cycles - angle));
+  }
+  return path;
+}
+
 }  // namespace
 
 TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or less", "[premises]") {
@@ -196,6 +210,73 @@ TEST_CASE("The excursion of a slow motion is limited by slip of the closed level
   CHECK(fast.slip_of_closed_levels.verdict == Verdict::broken);
   CHECK(fast.slip_of_closed_levels.limit_20_percent == 0);
   CHECK(fast.largest.front().excursion == 0);
+}
+
+TEST_CASE("The turning points of a slow motion cost what the simulated path misses", "[premises]") {
+  const double mean = 1e-6;
+  const ExponentialLaw shallow(1, 1e-7, ratio), deep(1, 3e-8, ratio);
+  const PowerLaw opened(1e7, 1.5, ratio), cone(1e9, 2, ratio);
+  struct Case {
+    const ContactLaw* law;
+    double amplitude;
+  };
+  for (const Case& one :
+       {Case{&shallow, 1e-8}, Case{&deep, 3e-8}, Case{&opened, 1.3e-6}, Case{&cone, 1e-7}}) {
+    CAPTURE(one.amplitude);
+    const Drag drag{one.amplitude, 1e-6, 1e5};
+    const double way = 2 * pi * drag.drag_velocity / drag.angular_frequency;
+    const double steady =
+        relaxation_damping(*one.law, AtIndentation{mean}, drag).work_per_cycle;
+    for (const int cycles : {2, 9}) {
+      const Premise slow =
+          premises_of(*one.law, mean, drag, {.excursion = cycles * way}).slow_motion;
+      CHECK(slow.value == Approx(cycles));
+      constexpr int phases = 16, steps = 320;
+      double loss = 0;
+      for (int phase = 0; phase < phases; ++phase)
+        loss += trajectory_damping(*one.law,
+                                   turning_at(drag, mean, cycles, steps,
+                                              (2 * phase + 1) * steps / (2 * phases)))
+                    .work_per_cycle /
+                phases;
+      // The straight steps lose up to 1e-3 of the whole; a mean over 16 phases is that of all to 1e-3 of the turning point's cost.
+      CHECK(1 - loss / (2 * cycles * steady) ==
+            Approx(0.05 * slow.limit_5_percent / cycles).margin(1e-3));
+      CHECK(slow.limit_20_percent == Approx(std::max(1.0, slow.limit_5_percent / 4)));
+    }
+  }
+  // Constant K_t', to the midpoint rule's second order.
+  const double exact = 2.0 / 3 * (pi * pi - 6) / (pi * pi - 4);
+  const auto judged = [&](double cycles) {
+    const Drag drag{1e-7, 1e-6, 1e5};
+    return premises_of(cone, mean, drag, {.excursion = cycles * 2 * pi * 1e-11}).slow_motion;
+  };
+  CHECK(judged(2).limit_5_percent == Approx(exact / 0.05).epsilon(1e-4));
+  CHECK(judged(9).verdict == Verdict::holds);
+  CHECK(judged(8).verdict == Verdict::doubtful);
+  CHECK(judged(2).verdict == Verdict::broken);
+  // A contact that touches for a moment loses little at a turning point, and still no way below w is slow.
+  const PowerLaw tip(1e7, 1.5, ratio);
+  const ContactFacts half{.excursion = 0.99 * 2 * pi * 1e-11};
+  const Premise brief = premises_of(tip, -9.9e-7, Drag{1e-6, 1e-6, 1e5}, half).slow_motion;
+  CHECK(brief.limit_20_percent == 1);
+  CHECK(brief.verdict == Verdict::broken);
+  // Two frequencies and case (a) follow the motion itself.
+  CHECK(premises_of(cone, mean, EqualFrequency{1e-7, 1e-9, 1}, half).slow_motion.verdict ==
+        Verdict::holds);
+  const Drag drag{1e-7, 1e-6, 1e5};
+  CHECK(premises_of(cone, mean, drag).slow_motion.needs == "excursion");
+  CHECK(premises_of(cone, mean, Drag{1e-7, ContactFacts::unknown, 1e5}, half).slow_motion.needs ==
+        "drag_velocity");
+}
+
+TEST_CASE("A sine is slow where a triangle is", "[premises]") {
+  // Excursion 2u_x, v² the mean square of the velocity: X/w = √2 ω_z/(π ω_x). The triangle asks for more, so that a sine within the
+  // limits is off by less.
+  for (const auto& [change, limit] : {std::pair{0.05, 8.79}, std::pair{0.2, 2.198}}) {
+    const double r = std::sqrt(2) / (pi * limit);
+    CHECK((pi * pi - 4) * r * r / closed_form::frequency_ratio_integral(r) - 1 < change);
+  }
 }
 
 TEST_CASE("The loss with slip is that of the simulated path", "[premises]") {

@@ -87,7 +87,7 @@ struct LargestMotion {
       ContactFacts::unknown;  ///< X of the closed levels, m; 0: no slow motion at this velocity
 };
 
-/// The six premises. With g = G*/E* of the law, levels ζ that open and close during the cycle (ζ > δ0 − u_z) and levels that stay
+/// The seven premises. With g = G*/E* of the law, levels ζ that open and close during the cycle (ζ > δ0 − u_z) and levels that stay
 /// closed, each a spring that may be stretched by (μ/g)(δ − ζ):
 struct Premises {
   /// value  M = μ u_z/(g u_x), case (b) μ u_z ω/(g v); dimensionless, the larger the better.
@@ -101,6 +101,10 @@ struct Premises {
   ///        cycle: πv/ω for v ≪ v_c, (μ/g)u_z from v_c on.
   ///        0 where X would be shorter than the way in one normal cycle: no slow motion at this velocity keeps the premise.
   Premise slip_of_closed_levels;
+  /// value  X/w, w = 2πv/ω the way of case (b) in one normal cycle; the larger the better. Other motions are not slow: no value, holds.
+  /// limits computed: a turning point at a random phase costs (1/π)∫θ²k dθ/∫θk dθ · w/X of the loss, k = K_t(δ0 + u_z cos θ) −
+  ///        K_t(δ0 − u_z), which is 0.44 w/X for constant K_t'. At least 1: below, no level needs to touch on one straight way.
+  Premise slow_motion;
   /// value  u_z, m.
   /// limits computed: u_z at which Eq. (12), (15) or (16), proportional to u_z, is 5 % off the theorem at finite amplitude, mean
   ///        indentation held. A loss at finite amplitude does not need this premise.
