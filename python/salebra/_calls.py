@@ -3,7 +3,7 @@
 warnings of what did not converge, and how objects without columns are pickled.
 
 The extension is called first and as it is. Only where it refuses its arguments does this file look at them: texts with units become
-numbers, old names become new ones, and what is left is explained.
+numbers, and what is left is explained.
 """
 
 from __future__ import annotations
@@ -54,8 +54,6 @@ _LIKE = {
     "heights": "height", "radius": "contact_radius", "length": "size_x", "amplitude": "rms_height", "tip_radius": "contact_radius",
     "duration": "seconds",
 }  # fmt: skip
-# What an argument was called in version 0.1.
-_OLD = {"contact_modulus": "material"}
 # Arrays over the grid; every other array has one dimension.
 _FIELDS = {"heights", "initial_pressure", "contact", "pressure"}
 _KINDS = {
@@ -214,17 +212,13 @@ class _Call:
             raise self.error(f"{len(self.arguments)} arguments, at most {len(places)} go by place ({', '.join(places)}){advice}")
         bound = dict(zip(places, self.arguments))
         for key, value in self.keywords.items():
-            name = key
-            if name not in self.parameters and _OLD.get(name) in self.parameters:
-                name = _OLD[name]
-                warnings.warn(f"{self.name}: {key} is called {name} now", DeprecationWarning, stacklevel=5)
-            if name not in self.parameters:
-                close = difflib.get_close_matches(name, self.parameters, 1, 0.5)
+            if key not in self.parameters:
+                close = difflib.get_close_matches(key, self.parameters, 1, 0.5)
                 advice = f"did you mean {close[0]}?" if close else f"it takes {', '.join(self.parameters)}"
                 raise self.error(f"no argument {key}; {advice}")
-            if name in bound:
-                raise self.error(f"{name} was given twice, by its place and by its name")
-            bound[name] = value
+            if key in bound:
+                raise self.error(f"{key} was given twice, by its place and by its name")
+            bound[key] = value
         for name, parameter in self.parameters.items():
             if name not in bound and parameter.default is inspect.Parameter.empty:
                 raise self.error(f"{name} is missing; give {_wanted(parameter.annotation)}")
@@ -258,10 +252,10 @@ class _Call:
             raise self.error(f"{name}: wanted one dimension, got shape {array.shape}")
 
     def again(self, native: Callable[..., Any], error: TypeError) -> Any:
-        """The call with what its texts and old names mean."""
+        """The call with what its texts mean."""
         bound = self.bind()
         checked = {name: self.checked(name, value) for name, value in bound.items()}
-        if all(checked[name] is bound[name] for name in bound) and self.keywords.keys() <= self.parameters.keys():
+        if all(checked[name] is bound[name] for name in bound):
             raise self.error(str(error).split("\n")[0]) from None
         return native(**checked)
 

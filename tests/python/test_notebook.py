@@ -287,8 +287,6 @@ def test_a_refusal_has_its_parts(surface: salebra.Surface, tmp_path: Path) -> No
 def test_one_name_for_the_material_and_the_old_one_answered(surface: salebra.Surface) -> None:
     state = salebra.press_to_pressure(surface, salebra.Material(1e9), 1e5)
     assert state == salebra.press_to_pressure(surface, 1e9, 1e5)
-    with pytest.warns(DeprecationWarning, match="contact_modulus is called material now"):
-        assert state == salebra.press_to_pressure(surface, contact_modulus=1e9, nominal_pressure=1e5)  # type: ignore[call-arg]
     for function in (salebra.press_to_pressure, salebra.sweep_pressures, salebra.boundary_element_levels, salebra.press_to_mean_gap):
         assert list(inspect.signature(function).parameters)[:2] == ["surface", "material"]
     with pytest.raises(salebra.InvalidInput, match="contact_modulus: -1"):
