@@ -296,6 +296,23 @@ def _warn(name: str, signature: inspect.Signature, result: Any) -> None:
     warnings.warn(f"{name}: {what}" + (f". Raise {remedies}" if remedies else ""), ConvergenceWarning, stacklevel=3)
 
 
+def _doubt(name: str, result: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
+    """Warns of a contact pressed by more than a tenth of E*, as the program does: as a rule a unit was forgotten."""
+    if isinstance(result, _core.NormalContactState):
+        pressure, modulus = result.mean_pressure, result.contact_modulus
+    elif isinstance(result, _core.ForceCurve):
+        materials = [value for value in (*arguments, *keywords.values()) if isinstance(value, _core.Material)]
+        if not materials or len(result) == 0:
+            return
+        pressure, modulus = float(np.max(result.pressure)), materials[0].contact_modulus
+    else:
+        return
+    if pressure > 0.1 * modulus:
+        texts = [_core.format_quantity(value, "pressure") for value in (pressure, modulus)]
+        remark = f"a nominal pressure of {texts[0]} is {pressure / modulus:.2g} times E* = {texts[1]}"
+        warnings.warn(f"{name}: {remark}; check the units, a bare number is in Pa", stacklevel=3)
+
+
 def _refused(error: TypeError) -> bool:
     return "incompatible function arguments" in str(error)
 
@@ -331,6 +348,7 @@ def function(native: Any, name: str, module: str = "salebra", method: bool = Fal
         except (_core.InvalidInput, _core.IoError) as error:
             _missing_file(error, whole, arguments, keywords)
             raise
+        _doubt(name, result, arguments, keywords)
         _warn(name, whole, result)
         _remember(result, name, arguments, keywords)
         return result
