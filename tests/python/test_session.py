@@ -336,7 +336,7 @@ def test_pictures_have_labels_with_units(surface: salebra.Surface, material: sal
 
 
 def test_a_signal_handler_of_the_user_runs_during_a_solve() -> None:
-    surface = generated(1024)
+    surface = generated(2048)  # a solve of several of the tenths of a second after which it looks for signals
     called: list[float] = []
     before = signal.signal(signal.SIGALRM, lambda number, frame: called.append(time.perf_counter()))
     start = time.perf_counter()
