@@ -176,6 +176,8 @@ StudyConfiguration StudyArguments::study() const {
     study.motion = motions.front();
   }
   if (!pressures.empty()) {
+    require(pressures.size() >= 4, "--pressures", pressures.size(),
+            "values are too few; at least 4 make a curve");
     study.pressures = pressures;
     study.relative_pressures = false;
   }

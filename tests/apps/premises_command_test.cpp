@@ -307,6 +307,9 @@ TEST_CASE("A study prints the loss with slip, and refuses a hardness below its p
   CHECK(answer["regime"] == json(std::vector<json>(loads)));
   CHECK(salebra::ResultReader(test.folder() / "slides.h5").numbers("premises/regime") ==
         std::vector<double>(loads, 2));
+  for (const std::string loads_given : {"10MPa", "10MPa,20MPa,30MPa"})
+    check_refused(test.run(study + "--pressures " + loads_given + " -o t.h5"),
+                  "values are too few; at least 4 make a curve");
   check_refused(test.run(study + "--hardness 1kPa -o t.h5"),
                 "hardness: 1000 Pa is below the largest pressure");
   CHECK(!test.files().contains("t.h5"));
