@@ -182,9 +182,19 @@ void add_exponential_law(Json& object, const OscillationOutcome& outcome, double
 
 void finish(const OscillationOutcome& outcome, const CycleOptions& cycle,
             const OscillateArguments& arguments, Session& session) {
-  const PremiseReport premises{
+  PremiseReport premises{
       {premises_of(outcome, arguments.premises.facts(arguments.material,
                                                      arguments.friction.friction_coefficient))}};
+  // The coupling that was computed, not one of other contacts.
+  if (outcome.coupled && outcome.frictional && !std::holds_alternative<Drag>(outcome.run.motion)) {
+    Premise& coupling = premises.cases.front().coupling;
+    coupling.value =
+        std::abs(outcome.coupled->work_per_cycle / outcome.frictional->work_per_cycle - 1);
+    coupling.verdict = std::isnan(coupling.value)                 ? Verdict::unknown
+                       : coupling.value > coupling.limit_20_percent ? Verdict::broken
+                       : coupling.value > coupling.limit_5_percent  ? Verdict::doubtful
+                                                                    : Verdict::holds;
+  }
   const bool friction = outcome.frictional.has_value();
   if (session.has_output()) {
     ResultFile file(session.output(), session.provenance(), session.write_options());

@@ -224,6 +224,9 @@ TEST_CASE("oscillate couples pressures and tractions by Dundurs' constant", "[os
     const auto answer = test.run(command + material).json();
     CHECK(answer["converged"] == true);
     CHECK(answer["friction"]["friction_coefficient"].is_null());
+    // The premise is judged by what was computed.
+    CHECK(answer["premises"]["coupling"]["value"].get<double>() ==
+          Approx(std::abs(answer["coupling"]["work_change"].get<double>())).margin(1e-12));
     return answer["coupling"];
   };
   const auto with = change("--poisson 0.3 --output f.h5");
