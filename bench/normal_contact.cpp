@@ -2,7 +2,8 @@
 // Time, transform pairs, residual and memory of one normal contact.
 //   normal_contact [points [load [cut-off [threads [tolerance [mixed|full [hurst [seed]]]]]]]]
 //   normal_contact 2048 0.02 8 1 1e-8
-// load: p/(E*·rms slope); cut-off: shortest wave in cells. Surface: roll-off at 1/8 of the side, rms slope 0.1.
+// load: p/(E*·rms slope); cut-off: shortest wave in cells. Surface: roll-off at 1/8 of the side,
+// rms slope 0.1.
 #include <sys/resource.h>
 
 #include <chrono>

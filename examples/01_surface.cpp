@@ -28,7 +28,8 @@ int main(int argc, char** argv) try {
   const Forecast expected = forecast(grid, spectrum);
   for (const auto& warning : expected.warnings) std::printf("note: %s\n", warning.c_str());
 
-  // 3. The surface. Random phase gives every mode its power exactly, so it must have the lattice's moments.
+  // 3. The surface. Random phase gives every mode its power exactly, so it must have the lattice's
+  //    moments.
   const Surface surface = random_phase(grid, spectrum, seed);
   const SpectralMoments realised = spectral_moments(surface);
   std::printf("%-22s %12s %12s %12s\n", "", "continuum", "lattice", "realised");

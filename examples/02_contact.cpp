@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 02_contact — one rough surface under one pressure, by boundary elements, beside the theories of its contact area.
+// 02_contact — one rough surface under one pressure, by boundary elements, beside the theories of
+// its contact area.
 // Sample runs:  02_contact        02_contact 512        02_contact 512 0.002
 #include <cstdio>
 #include <cstdlib>
@@ -16,7 +17,8 @@ int main(int argc, char** argv) try {
   const Index n = argc > 1 ? std::atoi(argv[1]) : 256;
   const double relative_pressure = argc > 2 ? std::atof(argv[2]) : 0.01;  // p/(E*h')
 
-  // 1. A periodic surface whose shortest wave spans eight cells: fewer, and the contact area comes out too large.
+  // 1. A periodic surface whose shortest wave spans eight cells: fewer, and the contact area comes
+  //    out too large.
   const Grid2D grid{n, n, 1e-3, 1e-3};
   const SelfAffineSpectrum spectrum(
       {.hurst = 0.8, .rolloff = grid.lx / 4, .short_cutoff = 8 * grid.dx(), .rms_slope = 0.1});

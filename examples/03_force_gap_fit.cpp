@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 03_force_gap_fit — force against mean gap by two models, and how well F ∝ exp(−ū/l) holds for each.
+// 03_force_gap_fit — force against mean gap by two models, and how well F ∝ exp(−ū/l) holds for
+// each.
 // Sample runs:  03_force_gap_fit        03_force_gap_fit 512        03_force_gap_fit 512 0.5 11
 #include <cmath>
 #include <cstdio>
@@ -32,7 +33,8 @@ int main(int argc, char** argv) try {
   const double full = material.contact_modulus * moments.rms_slope();
   for (int i = 0; i < 16; ++i) pressures.push_back(full * 5e-4 * std::pow(100.0, i / 15.0));
 
-  // 3. Boundary elements; Greenwood–Williamson with summits from the moments, and with the surface's own summits.
+  // 3. Boundary elements; Greenwood–Williamson with summits from the moments, and with the
+  //    surface's own summits.
   const ForceCurve by_elements = sweep_pressures(surface, material, pressures);
   SummitEnsemble ensemble = summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
   ensemble.rms_height = moments.rms_height();
@@ -43,7 +45,8 @@ int main(int argc, char** argv) try {
                                               0.0, moments.rms_height()),
                          pressures);
 
-  // 4. One line for each: decay length over rms height, its range over parts of the window, and its drift along the window.
+  // 4. One line for each: decay length over rms height, its range over parts of the window, and its
+  //    drift along the window.
   std::printf("%-26s %8s %18s %22s\n", "model", "l/h_rms", "parts of window", "closest … farthest");
   const auto report = [&](const char* name, const ForceCurve& curve) {
     const double h = moments.rms_height();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 04_damping_curve — damping constant of a rough contact against amplitude: Eq. (16) with a fitted decay length, the same
-// law at finite amplitude, and the curve itself without any law.
+// 04_damping_curve — damping constant of a rough contact against amplitude: Eq. (16) with a fitted
+// decay length, the same law at finite amplitude, and the curve itself without any law.
 // Sample runs:  04_damping_curve        04_damping_curve 512        04_damping_curve 512 0.003
 #include <cmath>
 #include <cstdio>
@@ -39,7 +39,8 @@ int main(int argc, char** argv) try {
   const ExponentialLaw exponential(force, decay_length, material.modulus_ratio());
   const TabulatedLaw tabulated(curve, material.modulus_ratio());
 
-  // 3. Drawn at 1 µm/s while it is shaken normally at 20 kHz: the damping constant P/v² over the amplitude.
+  // 3. Drawn at 1 µm/s while it is shaken normally at 20 kHz: the damping constant P/v² over the
+  //    amplitude.
   std::printf("F = %.4g N, l = %.4g nm\n", force, decay_length * 1e9);
   std::printf("%8s %16s %16s %16s (N s/m) %12s %12s\n", "u_z/l", "Eq. (16)", "exponential law",
               "curve", "(16)/law", "(16)/curve");
@@ -58,7 +59,8 @@ int main(int argc, char** argv) try {
     if (!law.converged || !measured.converged) return 1;
   }
 
-  // 4. Eq. (16) over the law is the finite amplitude alone, 1 + 0.42 u_z/l + …; over the curve it is also the price of the fit.
+  // 4. Eq. (16) over the law is the finite amplitude alone, 1 + 0.42 u_z/l + …; over the curve it
+  //    is also the price of the fit.
 } catch (const Error& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 2;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 06_mdr_oscillation — the paper's argument, spring by spring: a round indenter on its one-dimensional foundation, shaken in
-// both directions, against Eq. (12) and against the theorem for finite amplitudes.
+// 06_mdr_oscillation — the paper's argument, spring by spring: a round indenter on its
+// one-dimensional foundation, shaken in both directions, against Eq. (12) and against the theorem
+// for finite amplitudes.
 // Sample runs:  06_mdr_oscillation cone        06_mdr_oscillation paraboloid        06_mdr_oscillation paraboloid 0.9
 #include <cmath>
 #include <cstdio>
@@ -31,7 +32,8 @@ int main(int argc, char** argv) try {
                               .tangential_amplitude = 200e-9,
                               .phase = std::numbers::pi / 2};
 
-  // 3. The foundation: springs Δx apart, each with its distance z0 = g(x) − δ from first touch. Eq. (7) says how far it is
+  // 3. The foundation: springs Δx apart, each with its distance z0 = g(x) − δ from first touch. Eq.
+  //    (7) says how far it is
   // released, Eq. (8) what it loses, Eq. (9) whether it loses anything.
   const double largest = law.contact_radius(indentation + motion.normal_amplitude);
   const int springs = 100000;  // on one side
@@ -55,7 +57,8 @@ int main(int argc, char** argv) try {
               by_springs / exact.work_per_cycle);
   std::printf("Eq. (12)    %.6e J   Eq. (12)/theorem %.5f\n", small, small / exact.work_per_cycle);
 
-  // 5. For the cone F'' is constant and Eq. (12) exact at any amplitude; for the paraboloid it is the limit u_z → 0.
+  // 5. For the cone F'' is constant and Eq. (12) exact at any amplitude; for the paraboloid it is
+  //    the limit u_z → 0.
 } catch (const Error& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 2;

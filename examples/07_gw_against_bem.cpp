@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 07_gw_against_bem — Greenwood and Williamson's summits beside boundary elements on the same surface: area, gap, stiffness
-// and the damping constant, each down to the load where independent summits stop being an answer.
+// 07_gw_against_bem — Greenwood and Williamson's summits beside boundary elements on the same
+// surface: area, gap, stiffness and the damping constant, each down to the load where independent
+// summits stop being an answer.
 // Sample runs:  07_gw_against_bem        07_gw_against_bem 512        07_gw_against_bem 512 11
 #include <cmath>
 #include <cstdio>
@@ -64,7 +65,8 @@ int main(int argc, char** argv) try {
                 by_summits.damping_constant / by_elements.damping_constant);
   }
 
-  // 4. Far apart the spots do not feel each other; close together they do, and summits that stand alone are too soft.
+  // 4. Far apart the spots do not feel each other; close together they do, and summits that stand
+  //    alone are too soft.
   std::printf("K of the summits falls from %.2f to %.2f of that of the boundary elements\n", first,
               last);
 } catch (const Error& error) {

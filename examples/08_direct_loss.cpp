@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 08_direct_loss — the paper's experiment in three dimensions: a paraboloid on a grid goes through one cycle, cell by cell,
-// and loses what the theorem says.
+// 08_direct_loss — the paper's experiment in three dimensions: a paraboloid on a grid goes through
+// one cycle, cell by cell, and loses what the theorem says.
 // Sample runs:  08_direct_loss        08_direct_loss 128 64
 #include <cstdio>
 #include <cstdlib>
@@ -18,7 +18,8 @@ int main(int argc, char** argv) try {
   const Index n = argc > 1 ? std::atoi(argv[1]) : 64;
   const int steps = argc > 2 ? std::atoi(argv[2]) : 32;
 
-  // 1. An isolated paraboloid, its axis off the grid: symmetric contacts grow by many cells at a time.
+  // 1. An isolated paraboloid, its axis off the grid: symmetric contacts grow by many cells at a
+  //    time.
   const Grid2D grid{n, n, 1e-3, 1e-3};
   const double radius = 4e-3, indentation = 20e-6;  // m
   const Surface surface = paraboloid_surface(grid, radius, off_grid_center(grid));

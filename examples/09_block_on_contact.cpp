@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// 09_block_on_contact — a contact as a force element of a time integration, as in DEM and multibody programs: a block on a rough
-// contact rings in the normal and the tangential direction, and slip and relaxation damp it.
+// 09_block_on_contact — a contact as a force element of a time integration, as in DEM and multibody
+// programs: a block on a rough contact rings in the normal and the tangential direction, and slip
+// and relaxation damp it.
 // Sample runs:  09_block_on_contact        09_block_on_contact 800 200
 #include <algorithm>
 #include <cmath>
@@ -25,8 +26,8 @@ int main(int argc, char** argv) try {
   const double frequency = std::sqrt(law.normal_stiffness(0) / mass) / (2 * std::numbers::pi);
   const double dt = 1 / (frequency * steps_in_period);
 
-  // 2. The tangential contact: it remembers turning points, not steps, so that a step costs the same however long the run is.
-  //    It asks for the range of the motion beforehand.
+  // 2. The tangential contact: it remembers turning points, not steps, so that a step costs the
+  //    same however long the run is. It asks for the range of the motion beforehand.
   const double range = 60e-9;  // m
   TangentialContact contact(
       law, -range, range,
@@ -61,7 +62,8 @@ int main(int argc, char** argv) try {
                   1e9 * contact.stored_energy(), 1e9 * contact.dissipated());
   }
 
-  // 5. What was put in is there or lost. The contact's own balance is exact; what is missing is the time integration's.
+  // 5. What was put in is there or lost. The contact's own balance is exact; what is missing is the
+  //    time integration's.
   std::printf("the normal oscillation keeps %.3f of its energy\n", normal_energy() / lifted);
   std::printf("history of %d steps: at most %zu pieces\n", periods * steps_in_period, memory);
   std::printf("energy balance = %.4f\n",

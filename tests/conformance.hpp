@@ -12,14 +12,16 @@
 #include <string>
 #include <vector>
 
-// What every transport must do: the same checks for threads of a test and for MPI. Each throws Error where the transport does not.
+// What every transport must do: the same checks for threads of a test and for MPI. Each throws
+// Error where the transport does not.
 namespace salebra::testing {
 
 inline void expect(bool ok, const std::string& what) {
   if (!ok) throw Error(what);
 }
 
-// Byte k that process `rank` has to give; a number of bytes that differs between processes, and is 0 in one.
+// Byte k that process `rank` has to give; a number of bytes that differs between processes, and is
+// 0 in one.
 inline char byte_of(int rank, std::size_t k) {
   return static_cast<char>(31 * rank + 7 * static_cast<int>(k % 1009));
 }
@@ -131,7 +133,8 @@ inline void check_failure(const Communicator& ranks) {
   expect(false, "failure: not thrown everywhere");
 }
 
-// Every third process is of one group; the processes of a group talk among themselves, groups of other sizes at once.
+// Every third process is of one group; the processes of a group talk among themselves, groups of
+// other sizes at once.
 inline void check_split(const Communicator& ranks) {
   const Communicator group = ranks.split(ranks.rank() % 3 == 0 ? 1 : 0);
   int members = 0, place = 0;

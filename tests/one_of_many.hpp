@@ -7,8 +7,9 @@
 
 namespace salebra::testing {
 
-/// One rank of a communicator whose other ranks do not exist: what it would send is counted, and what it would receive is zero. Plans of
-/// any number of processes can be made and measured so, without their memory.
+/// One rank of a communicator whose other ranks do not exist: what it would send is counted, and
+/// what it would receive is zero. Plans of any number of processes can be made and measured so,
+/// without their memory.
 class OneOfMany : public detail::Transport {
  public:
   struct Count {

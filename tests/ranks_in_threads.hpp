@@ -18,14 +18,16 @@
 #include <thread>
 #include <vector>
 
-// Processes as threads of the test: the transport that holds the distributed code to its promises without MPI. Ranks that call different
-// collectives, or the same one with sizes that do not fit, fail with a message instead of waiting for ever, and so do those that wait for
-// a rank which has ended. Copies are made in a random order after random delays.
+// Processes as threads of the test: the transport that holds the distributed code to its promises
+// without MPI. Ranks that call different collectives, or the same one with sizes that do not fit,
+// fail with a message instead of waiting for ever, and so do those that wait for a rank which has
+// ended. Copies are made in a random order after random delays.
 namespace salebra::testing {
 
 class ThreadTransport;
 
-// What the ranks share: where they wait for each other, and what each has brought to the present call.
+// What the ranks share: where they wait for each other, and what each has brought to the present
+// call.
 class Meeting {
  public:
   explicit Meeting(int ranks) : calls_(static_cast<std::size_t>(ranks)) {}
@@ -38,7 +40,8 @@ class Meeting {
     std::uint64_t bytes_sent = 0;
   };
 
-  // Waits for all ranks, then has `copy` run in each with the calls of all, and waits again before they leave.
+  // Waits for all ranks, then has `copy` run in each with the calls of all, and waits again before
+  // they leave.
   void meet(int rank, const Call& call, const std::function<void(const std::vector<Call>&)>& copy) {
     calls_[static_cast<std::size_t>(rank)] = call;
     wait();
@@ -199,7 +202,8 @@ struct ReportedStop {
   int interrupted = 0;  // ranks that threw Interrupted
 };
 
-// Runs work on so many ranks, of which one listens and says stop at its report number `stop`; 0: never.
+// Runs work on so many ranks, of which one listens and says stop at its report number `stop`; 0:
+// never.
 inline ReportedStop stop_one(
     int ranks, int listener, int stop,
     const std::function<void(const Communicator&, const Progress&)>& work) {

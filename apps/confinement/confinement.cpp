@@ -35,7 +35,8 @@ struct Header {
   std::uint64_t kind, size;
 };
 constexpr std::size_t longest_refusal = 4096;
-/// How long a child may rest. It only reads a file and computes, so this is a disk that does not answer.
+/// How long a child may rest. It only reads a file and computes, so this is a disk that does not
+/// answer.
 constexpr std::chrono::seconds patience(60);
 
 /// --- The child. ---
@@ -178,7 +179,8 @@ class Child {
       if (errno == EINTR) continue;
       if (errno != EAGAIN) return false;
       pollfd readable{pipe_, POLLIN, 0};
-      // Another process may have been forked while the pipe was open, and hold its end: the child's end is asked for too.
+      // Another process may have been forked while the pipe was open, and hold its end: the child's
+      // end is asked for too.
       if (poll(&readable, 1, 200) == 0) gone = !is_there();
       rests_ = std::chrono::steady_clock::now() - last > patience;
       if (rests_) return false;
@@ -188,7 +190,8 @@ class Child {
 
   /// What it died of; 0 where it did not die of a signal, or somebody else asked the system first.
   int end() {
-    // It has closed the pipe, which it does by ending; one that got HDF5 to do otherwise is ended by the destructor.
+    // It has closed the pipe, which it does by ending; one that got HDF5 to do otherwise is ended
+    // by the destructor.
     for (int i = 0; i < 100 && is_there(); ++i) usleep(10'000);
     return WIFSIGNALED(status_) ? WTERMSIG(status_) : 0;
   }

@@ -9,12 +9,14 @@
 
 namespace salebra::cli {
 
-/// Writes an answer to --output, if that was given: an HDF5 group of that name with a scalar for each number, a dataset over
-/// `sample` for each array, a group for each object, an attribute for each text. For commands whose answer is their whole result.
+/// Writes an answer to --output, if that was given: an HDF5 group of that name with a scalar for
+/// each number, a dataset over `sample` for each array, a group for each object, an attribute for
+/// each text. For commands whose answer is their whole result.
 void write_answer(const Session& session, const std::string& group, const Json& object);
 
-/// The quantity of a member of an answer. Members of an object that is itself a quantity share it: "decay_length_by_weights" holds
-/// lengths, one of which is called "force". object: name of the object; empty: the answer.
+/// The quantity of a member of an answer. Members of an object that is itself a quantity share it:
+/// "decay_length_by_weights" holds lengths, one of which is called "force". object: name of the
+/// object; empty: the answer.
 Quantity quantity_of(const std::string& name, const std::string& object);
 
 /// The same into a file that holds more.

@@ -103,7 +103,8 @@ Json comparison_json(const StudyResult& result, const StudyPremises& premises) {
   return answer;
 }
 
-/// At most `count` of the pressures, evenly spread, and only those for which the boundary elements have a damping.
+/// At most `count` of the pressures, evenly spread, and only those for which the boundary elements
+/// have a damping.
 std::vector<std::size_t> shown_pressures(const StudyResult& result, std::size_t count) {
   const auto damping = result.damping(&DampingPoint::work_per_cycle);
   std::vector<std::size_t> known, shown;

@@ -125,7 +125,8 @@ void check_residual(const ContactArguments& arguments, const Session& session) {
 void estimate(const ContactArguments& arguments, double contact_modulus, Session& session) {
   const SurfaceOutline outline = arguments.surface.outline(session);
   SurfaceWork work = planned(arguments.dry_run, outline.grid, session);
-  // Of a gap or an indentation the load is not known before: that of contact on a tenth of the cells.
+  // Of a gap or an indentation the load is not known before: that of contact on a tenth of the
+  // cells.
   double load = 0.05;
   if (const auto& [gap, pressure, indentation, force] = arguments.position; pressure || force)
     load = pressure.value_or(force.value_or(0) / outline.grid.area()) /

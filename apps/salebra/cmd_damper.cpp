@@ -50,7 +50,8 @@ void write_map(const DamperMap& map, const std::optional<double>& falling_slope,
   file.commit();
 }
 
-// γ: a number, a row over the one quantity that varies, or rows over frequencies for each amplitude.
+// γ: a number, a row over the one quantity that varies, or rows over frequencies for each
+// amplitude.
 Json constants(const DamperMap& map) {
   Json rows = Json::array();
   for (Index i = 0; i < map.damping_constant.rows(); ++i) {
@@ -72,8 +73,9 @@ Json decay_of(const OscillatorDecay& decay) {
               {"frequency_ratio", decay.frequency_ratio}};
 }
 
-// For people, a map is a row for each pair of amplitude and frequency: in one table with the list of amplitudes and that of
-// frequencies, each amplitude would stand beside a frequency it has nothing to do with.
+// For people, a map is a row for each pair of amplitude and frequency: in one table with the list
+// of amplitudes and that of frequencies, each amplitude would stand beside a frequency it has
+// nothing to do with.
 std::string text_of(const Json& answer, const DamperMap& map) {
   Json pairs = Json::array();
   for (std::size_t i = 0; i < map.normal_amplitude.size(); ++i)

@@ -81,7 +81,8 @@ DampingResult result_of(const ContactLaw& law, const DampingCase& one,
       one.motion);
 }
 
-// Power of case (b) at the tangential motion's mean square velocity: what a slow tangential oscillation tends to.
+// Power of case (b) at the tangential motion's mean square velocity: what a slow tangential
+// oscillation tends to.
 double slow_limit_power(const ContactLaw& law, const DampingCase& one,
                         const DampingOptions& options) {
   const auto& motion = std::get<TwoFrequencies>(one.motion);
@@ -92,7 +93,8 @@ double slow_limit_power(const ContactLaw& law, const DampingCase& one,
   return result_of(law, drag, options).power;
 }
 
-// Small-amplitude form over the exact one. Without a common period the two are means, and the work is not known.
+// Small-amplitude form over the exact one. Without a common period the two are means, and the work
+// is not known.
 double small_over_exact(const DampingResult& result, const Motion& motion) {
   if (!std::isnan(result.work_per_cycle))
     return result.small_amplitude_work / result.work_per_cycle;
@@ -102,7 +104,8 @@ double small_over_exact(const DampingResult& result, const Motion& motion) {
          result.power;
 }
 
-// The normal oscillation of a case whose force is given has the amplitude that its stiffness makes of it.
+// The normal oscillation of a case whose force is given has the amplitude that its stiffness makes
+// of it.
 Premises premises_of_case(const LawOptions::Contact& contact, const DampingCase& one,
                           const DampingResult& result, const ContactFacts& facts) {
   const ContactLaw& law = *contact.law;
@@ -116,7 +119,8 @@ Premises premises_of_case(const LawOptions::Contact& contact, const DampingCase&
                     motion);
 }
 
-// Of a surface nothing is interpolated between loads: contacts inside the oscillation give W and its error. Returns the errors of γ.
+// Of a surface nothing is interpolated between loads: contacts inside the oscillation give W and
+// its error. Returns the errors of γ.
 std::vector<double> resolve_on_surface(const DampingArguments& arguments,
                                        const LawOptions::Contact& contact, const Motion& motion,
                                        const DampingOptions& options, Session& session,

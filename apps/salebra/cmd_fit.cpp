@@ -32,8 +32,9 @@ constexpr std::array weightings{std::pair{"spacing", FitWeights::spacing},
 
 std::string length_text(double value) { return format_quantity(value, Dimension::length, 3); }
 
-/// What the numbers mean for a user who does not know the test. noisy: the samples scatter independently, as those of a load cell do;
-/// the residuals of a computed curve are the misfit of the law, to which no probability belongs.
+/// What the numbers mean for a user who does not know the test. noisy: the samples scatter
+/// independently, as those of a load cell do; the residuals of a computed curve are the misfit of
+/// the law, to which no probability belongs.
 std::string in_words(const ExponentialTest& test, const WindowSensitivity& parts,
                      const LawDescription& law, bool noisy) {
   return fmt::format(

@@ -48,7 +48,8 @@ void run(const SurfaceOptions& options, Session& session) {
     spectrum = spectrum_of(surface);
     answer = describe(surface, spectrum.hurst);
   } catch (const InvalidInput& refusal) {
-    // Such as a grid of two rows, which has no curvature: the statistics do not know which file it came from.
+    // Such as a grid of two rows, which has no curvature: the statistics do not know which file it
+    // came from.
     throw InvalidInput(options.file, refusal.what());
   }
   write_answer(session, "info", answer);

@@ -138,7 +138,8 @@ struct Arguments {
   SurfaceOptions surface;
 };
 
-/// Also reads the surface: what study would refuse is refused here, and its roughness sets the amplitude.
+/// Also reads the surface: what study would refuse is refused here, and its roughness sets the
+/// amplitude.
 std::string measured(const Arguments& arguments, std::string& amplitude, Session& session) {
   const SurfaceOptions& given = arguments.surface;
   const Surface surface = given.read(session);

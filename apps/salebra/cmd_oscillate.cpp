@@ -94,7 +94,8 @@ double indentation_of(const OscillateArguments& arguments, const Body& body,
       .indentation;
 }
 
-/// First loading to the mean position with --hardness. Where it flows, the contact stands on the residual surface, at the same load.
+/// First loading to the mean position with --hardness. Where it flows, the contact stands on the
+/// residual surface, at the same load.
 void load_plastically(const OscillateArguments& arguments, OscillationCase& contact,
                       Session& session) {
   const std::optional<double>& hardness = arguments.premises.hardness;
@@ -157,7 +158,8 @@ void check(const OscillateArguments& arguments, const Session& session) {
           "cannot be combined with --relative-error, which chooses them; give one");
 }
 
-// Eq. (16), or Eq. (12) with F'' = F/l², and the exponential law at this amplitude, beside what the contact itself does.
+// Eq. (16), or Eq. (12) with F'' = F/l², and the exponential law at this amplitude, beside what the
+// contact itself does.
 void add_exponential_law(Json& object, const OscillationOutcome& outcome, double decay_length) {
   require_positive(decay_length, "--decay-length");
   const double modulus_ratio = outcome.run.material.modulus_ratio(), force = outcome.levels.force;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `salebra slider`: stick–slip of a mass on a spring over a contact that oscillates in the normal direction.
+// `salebra slider`: stick–slip of a mass on a spring over a contact that oscillates in the normal
+// direction.
 #include <fmt/format.h>
 
 #include <algorithm>

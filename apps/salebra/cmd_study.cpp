@@ -56,7 +56,8 @@ std::string verdict(const StudyResult& result, const std::string& law) {
       law, 100 * low, 100 * high);
 }
 
-/// What one surface has in place of an interval: how l varies along its curve, and with the part of the window that is fitted.
+/// What one surface has in place of an interval: how l varies along its curve, and with the part of
+/// the window that is fitted.
 std::vector<std::string> one_surface_row(const std::string& title, const std::string& length,
                                          const std::string& relative, const ModelResult& model) {
   const auto range = [](double from, double to) {

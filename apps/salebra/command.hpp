@@ -10,11 +10,13 @@
 #include <variant>
 #include <vector>
 
-/// What a command takes. Commands declare it here; program.cpp alone knows the library that parses the command line, and hands it
-/// over. Help, completion and manual pages read the same declarations.
+/// What a command takes. Commands declare it here; program.cpp alone knows the library that parses
+/// the command line, and hands it over. Help, completion and manual pages read the same
+/// declarations.
 namespace salebra::cli {
 
-/// An option, a flag or a positional argument. What is set here returns the option, so that one declaration is one expression.
+/// An option, a flag or a positional argument. What is set here returns the option, so that one
+/// declaration is one expression.
 class Option {
  public:
   /// Where a given value goes, converted; a flag is a bool. --help has no place.

@@ -9,8 +9,8 @@
 /// The pictures of contacts and of their force curves.
 namespace salebra::cli {
 
-/// Pressure over mean gap, with the fitted law and its window; what else the curve knows: area, stiffness. Throws InvalidInput for a
-/// curve without a sample that converged.
+/// Pressure over mean gap, with the fitted law and its window; what else the curve knows: area,
+/// stiffness. Throws InvalidInput for a curve without a sample that converged.
 Figure curve_figure(const ForceCurve& curve, const std::optional<ExponentialFit>& fit = {});
 
 /// Maps of pressure and gap.

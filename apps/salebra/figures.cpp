@@ -24,7 +24,8 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
   return values;
 }
 
-// Where an increasing or decreasing run of the path passes the level, as (x, index); the first after `from`.
+// Where an increasing or decreasing run of the path passes the level, as (x, index); the first
+// after `from`.
 struct Passage {
   std::size_t index = 0;
   double x = nothing;
@@ -221,7 +222,8 @@ Figure stress_figure(const IndenterLaw& law, double indentation, const Oscillati
   const std::vector<double> cycle = scaled(map.angle, 1 / (2 * pi));
   const PlotAxis radius = {.label = "r", .unit = "m"};
   const PlotAxis time = {.label = "ωt / 2π"};
-  // Both singularities would take all the colour: the scale ends where 2 % of the stressed points are beyond it.
+  // Both singularities would take all the colour: the scale ends where 2 % of the stressed points
+  // are beyond it.
   std::vector<double> sizes;
   for (Index i = 0; i < map.shear.rows(); ++i)
     for (Index j = 0; j < map.shear.cols(); ++j)
@@ -261,7 +263,8 @@ Figure stress_figure(const IndenterLaw& law, double indentation, const Oscillati
     panel.y = {.label = "τ", .unit = "Pa", .low = -3 * limit, .high = 3 * limit};
     PlotCurve curve{.color = 1};
     const double here = stress.contact_radius(angle);
-    // Cosine spacing on both sides of the least radius, where the logarithm is, and towards the edge.
+    // Cosine spacing on both sides of the least radius, where the logarithm is, and towards the
+    // edge.
     for (const auto& [from, to] : {std::pair{0.0, least}, {least, here}}) {
       for (int i = 0; i <= 300 && to > from; ++i) {
         const double r = from + (to - from) * 0.5 * (1 - std::cos(pi * (0.003 + 0.994 * i / 300)));

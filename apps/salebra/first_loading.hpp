@@ -14,8 +14,9 @@ inline constexpr const char* hardness_help =
     "up to the hardness, and the results are those of the unloading curve; a law is only judged "
     "by it";
 
-/// Puts the residual surface of the first loading in place of the surface, and returns what flowed; without a hardness nothing. contact:
-/// boundary, tolerance and progress. Throws NotConverged, Interrupted, and as after_first_loading().
+/// Puts the residual surface of the first loading in place of the surface, and returns what flowed;
+/// without a hardness nothing. contact: boundary, tolerance and progress. Throws NotConverged,
+/// Interrupted, and as after_first_loading().
 std::optional<FirstLoading> load_first(Surface& surface, const std::optional<double>& hardness,
                                        double contact_modulus, double nominal_pressure,
                                        NormalContactOptions contact, double normal_amplitude = 0);

@@ -11,7 +11,8 @@
 
 namespace salebra::cli {
 
-/// Following a path step by step: from a file, or because friction makes the loss depend on its history.
+/// Following a path step by step: from a file, or because friction makes the loss depend on its
+/// history.
 struct FollowOptions {
   std::optional<double> friction_coefficient;
   std::string trajectory;
@@ -28,14 +29,16 @@ DampingResult damping_of(const ContactLaw& law, const Position& position, const 
 /// One period, `steps` for each normal cycle. Throws InvalidInput where there is none.
 SampledMotion sampled(const Motion& motion, double mean_indentation, int steps);
 
-/// The loss along a sampled motion; power and damping constant are NaN where its frequency is not known.
+/// The loss along a sampled motion; power and damping constant are NaN where its frequency is not
+/// known.
 TrajectoryDamping follow(const ContactLaw& law, const Motion& motion, const SampledMotion& path,
                          double friction);
 
 /// Adds the JSON keys of a loss that was followed.
 void add_losses(Json& object, const TrajectoryDamping& loss);
 
-/// --trajectory: reads one period of (time, indentation, displacement), answers, writes --output and --plot.
+/// --trajectory: reads one period of (time, indentation, displacement), answers, writes --output
+/// and --plot.
 void follow_file(const FollowOptions& options, const ContactLaw& law, const ContactFacts& facts,
                  Session& session);
 

@@ -11,7 +11,8 @@
 #include "oscillation_case.hpp"
 #include "session.hpp"
 
-/// What `oscillate` adds with --friction and --coupled: the same cycle with Coulomb's law, and with Dundurs' coupling.
+/// What `oscillate` adds with --friction and --coupled: the same cycle with Coulomb's law, and with
+/// Dundurs' coupling.
 namespace salebra::cli {
 
 struct FrictionOptions {
@@ -27,14 +28,15 @@ struct FrictionOptions {
   void check() const;
   /// Before the cycles: that a coupled contact stays closed.
   void check(const Oscillation& motion, double indentation) const;
-  /// The options of the cycles: μ, periods and, with --coupled, β/(πE*) by --dundurs or the material options.
+  /// The options of the cycles: μ, periods and, with --coupled, β/(πE*) by --dundurs or the
+  /// material options.
   void apply(CycleOptions& cycle, const MaterialOptions& bodies, const Material& material) const;
   /// Names of the recorded cycles in the order of their runs, the one without slip first.
   std::vector<std::string> cycles() const;
 };
 
-/// The cycle of `outcome` once more, from first contact, with friction and, with --coupled, with coupling too. A stopped cycle comes
-/// back as it is.
+/// The cycle of `outcome` once more, from first contact, with friction and, with --coupled, with
+/// coupling too. A stopped cycle comes back as it is.
 void run_with_friction(const FrictionOptions& options, const CycleOptions& cycle,
                        CycleRecorder& recorder, OscillationOutcome& outcome);
 

@@ -5,8 +5,8 @@
 
 namespace salebra::cli {
 
-/// What the help of a command says beyond its one line: what it needs, what it computes, and where one goes from there. The same text
-/// is in its manual page.
+/// What the help of a command says beyond its one line: what it needs, what it computes, and where
+/// one goes from there. The same text is in its manual page.
 struct CommandHelp {
   std::string_view name;
   std::string_view group;  ///< heading of the list of commands under which it stands

@@ -16,9 +16,11 @@ struct IndenterOptions {
   std::optional<double> angle, radius, exponent, coefficient, flat_radius, edge_radius;
 
   void add_to(Command& app);
-  /// Throws InvalidInput naming the option that is missing, and those that the profile does not have.
+  /// Throws InvalidInput naming the option that is missing, and those that the profile does not
+  /// have.
   std::shared_ptr<const IndenterProfile> indenter() const;
-  /// What to do with several motions where a command takes one: `salebra damping` has some of the profiles as laws.
+  /// What to do with several motions where a command takes one: `salebra damping` has some of the
+  /// profiles as laws.
   std::string advice_for_ranges() const;
 };
 

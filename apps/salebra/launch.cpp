@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What precedes everything else in main(): standard streams, and the wait policy of OpenMP's threads.
+// What precedes everything else in main(): standard streams, and the wait policy of OpenMP's
+// threads.
 #include "launch.hpp"
 
 #include <fcntl.h>
@@ -12,10 +13,11 @@
 namespace salebra::cli {
 namespace {
 
-// By default OpenMP's threads spin while they wait for each other, which makes a run on a shared machine many times slower and gains
-// nothing on a quiet one. Asleep at once they are some 5 % slower than after a thousand looks, which GNU's OpenMP can be told. The
-// choice is read from the environment when the OpenMP library is loaded, before main, so the program starts itself once more with
-// it. Where that fails it continues, more slowly.
+// By default OpenMP's threads spin while they wait for each other, which makes a run on a shared
+// machine many times slower and gains nothing on a quiet one. Asleep at once they are some 5 %
+// slower than after a thousand looks, which GNU's OpenMP can be told. The choice is read from the
+// environment when the OpenMP library is loaded, before main, so the program starts itself once
+// more with it. Where that fails it continues, more slowly.
 void wait_without_spinning(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
   setenv("OMP_WAIT_POLICY", "passive", 1);
@@ -23,8 +25,9 @@ void wait_without_spinning(char** argv) {
   execv("/proc/self/exe", argv);
 }
 
-// The first file that is opened takes the number of a standard stream that is closed, and what is printed would go there. Opened the
-// wrong way round, so that reading and printing fail as on the closed descriptor.
+// The first file that is opened takes the number of a standard stream that is closed, and what is
+// printed would go there. Opened the wrong way round, so that reading and printing fail as on the
+// closed descriptor.
 void open_standard_streams() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(descriptor, F_GETFD) < 0)

@@ -8,7 +8,8 @@
 
 namespace salebra::cli {
 
-/// How the program was started: alone, or as one of several processes that compute one surface together.
+/// How the program was started: alone, or as one of several processes that compute one surface
+/// together.
 struct Launch {
   std::string name = "salebra";     ///< of the program, in messages
   bool by_mpi = false;              ///< salebra-mpi, also as one process
@@ -20,11 +21,12 @@ struct Launch {
   std::function<void(int status)> abort = [](int) {};
 };
 
-/// Throws InvalidInput where there are several processes. `what` completes "is computed by one process alone".
+/// Throws InvalidInput where there are several processes. `what` completes "is computed by one
+/// process alone".
 void require_one_process(const Launch& launch, std::string_view what);
 
-/// What precedes everything else in main(), MPI included: standard streams that are open, and threads that do not spin while they wait,
-/// for which the program starts itself once more.
+/// What precedes everything else in main(), MPI included: standard streams that are open, and
+/// threads that do not spin while they wait, for which the program starts itself once more.
 void prepare_process(char** argv);
 
 }  // namespace salebra::cli

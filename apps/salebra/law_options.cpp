@@ -95,7 +95,8 @@ std::shared_ptr<const IndenterProfile> profile_of(const LawOptions& arguments) {
                        required(arguments.exponent, "--exponent", "--law power needs it"));
 }
 
-/// Throws InvalidInput in the quantity that was typed, before it becomes the force or the indentation that the law knows.
+/// Throws InvalidInput in the quantity that was typed, before it becomes the force or the
+/// indentation that the law knows.
 void require_on_curve(const std::string& name, const std::vector<double>& values,
                       const ForceCurve& curve) {
   const PositionOption& column = position_options.at(name);
@@ -126,8 +127,9 @@ std::vector<Position> positions_on_curve(const LawOptions& arguments, const Forc
   return positions_of(name, values);
 }
 
-/// Whether the moduli that were given fit the stiffnesses of the curve. K_t/K of a curve is G*/E* to the last digits, or, where each
-/// K_t is a stick solve of its own, to some per cent and nowhere the same.
+/// Whether the moduli that were given fit the stiffnesses of the curve. K_t/K of a curve is G*/E*
+/// to the last digits, or, where each K_t is a stick solve of its own, to some per cent and nowhere
+/// the same.
 std::vector<std::string> doubts_of_moduli(const ForceCurve& curve, double modulus_ratio) {
   std::vector<double> ratios;
   for (const ForceSample& sample : curve.samples) {
@@ -144,7 +146,8 @@ std::vector<std::string> doubts_of_moduli(const ForceCurve& curve, double modulu
                   modulus_ratio, low)};
 }
 
-/// Pressures about those that are asked for, which are among them: from a sixth to six times, close enough for a smooth law.
+/// Pressures about those that are asked for, which are among them: from a sixth to six times, close
+/// enough for a smooth law.
 std::vector<double> pressures_about(std::vector<double> asked) {
   constexpr double factor = 1.35;
   std::ranges::sort(asked);

@@ -13,7 +13,8 @@ bool LawDescription::fair() const {
 }
 
 LawDescription describe_law(double decay_length, double closest, double farthest) {
-  // Where the parabola turns, l has no local value: it is infinite or below 0, and the law is far off.
+  // Where the parabola turns, l has no local value: it is infinite or below 0, and the law is far
+  // off.
   const auto off = [&](double local) {
     const double ratio = local / decay_length;
     return ratio > 0 ? ratio * ratio - 1 : std::numeric_limits<double>::infinity();

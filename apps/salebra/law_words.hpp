@@ -5,9 +5,9 @@
 
 namespace salebra::cli {
 
-/// How well F ∝ exp(−ū/l) describes a curve. Residuals of a computed curve are the misfit of the law, not scatter, so that no
-/// probability belongs to them: what counts is the local l at the two ends of the window, and F'' = F/l² there, which Eqs (12) and
-/// (16) rest on.
+/// How well F ∝ exp(−ū/l) describes a curve. Residuals of a computed curve are the misfit of the
+/// law, not scatter, so that no probability belongs to them: what counts is the local l at the two
+/// ends of the window, and F'' = F/l² there, which Eqs (12) and (16) rest on.
 struct LawDescription {
   double off_closest =
       0;  ///< (l_local/l)² − 1: how far F/l² is off the local F'', at the closest gap of the window
@@ -20,7 +20,8 @@ struct LawDescription {
 /// l of the fit, and the local l at the ends of its window, in any one unit.
 LawDescription describe_law(double decay_length, double closest, double farthest);
 
-/// One sentence: "F ~ exp(-gap/l) is a poor description of this surface: …". what: "this surface", "this curve".
+/// One sentence: "F ~ exp(-gap/l) is a poor description of this surface: …". what: "this surface",
+/// "this curve".
 std::string in_words(const LawDescription& law, const std::string& what);
 
 }  // namespace salebra::cli

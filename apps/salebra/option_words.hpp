@@ -12,7 +12,8 @@ namespace salebra::cli {
 /// The command whose options the next two speak of.
 void name_options(const Command& command);
 
-/// A message of the library as this program says it: `size_x` becomes --size-x, if the command has that option.
+/// A message of the library as this program says it: `size_x` becomes --size-x, if the command has
+/// that option.
 std::string in_options(std::string_view message);
 
 /// The same of a refusal, whose field is the option that has its name.

@@ -398,7 +398,8 @@ std::vector<Motion> MotionOptions::all_motions() const {
   check(tangential_frequency, "--tangential-frequency", two);
 
   std::vector<double> omega = frequency.angular();
-  // An equal-frequency loss per cycle does not depend on the frequency: 0 says that it is not known.
+  // An equal-frequency loss per cycle does not depend on the frequency: 0 says that it is not
+  // known.
   if (omega.empty()) omega = {0};
   for (const double value : tangential_frequency) require_positive(value, "--tangential-frequency");
   const std::size_t count = std::max<std::size_t>(1, varied().second.size());

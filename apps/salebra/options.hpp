@@ -18,8 +18,9 @@
 #include "command.hpp"
 #include "session.hpp"
 
-/// Option groups that several commands share. Each is a plain struct that must outlive the parsing; add_to() declares the
-/// options, the other functions turn what was given into the library's types and throw InvalidInput that names the option.
+/// Option groups that several commands share. Each is a plain struct that must outlive the parsing;
+/// add_to() declares the options, the other functions turn what was given into the library's types
+/// and throw InvalidInput that names the option.
 namespace salebra::cli {
 
 /// --name QUANTITY, with a unit.
@@ -47,7 +48,8 @@ Option* add_seed(Command& app, std::uint64_t& target, const std::string& help);
 double required(const std::optional<double>& value, std::string_view option,
                 std::string_view reason);
 
-/// Throws InvalidInput that names all missing options at once, if there is any; reason: "the material".
+/// Throws InvalidInput that names all missing options at once, if there is any; reason: "the
+/// material".
 void require_options(const std::vector<std::string>& missing, const std::string& reason);
 
 /// The two bodies.
@@ -92,7 +94,8 @@ struct SurfaceOptions {
   /// --recipe and --seed, in place of SURFACE.
   void add_recipe_to(Command& app);
   bool given() const { return !file.empty() || !recipe.empty(); }
-  /// Read or made, over the processes of the session, and, with --detrend or else as is customary for its kind, detrended. Warns of cells and sizes that are most likely a slip.
+  /// Read or made, over the processes of the session, and, with --detrend or else as is customary
+  /// for its kind, detrended. Warns of cells and sizes that are most likely a slip.
   Surface read(Session& session) const { return read(session, session.ranks()); }
   /// The same over one group of them.
   Surface read(Session& session, const Communicator& ranks) const;
@@ -131,7 +134,8 @@ struct FrequencyOptions {
   /// one: no list or range.
   void add_to(Command& app, const std::string& group, bool one = false);
   bool given() const { return !frequency.empty() || !angular_frequency.empty(); }
-  /// ω, rad/s, of each; empty: none was given. Throws InvalidInput where both were, and for values that are not > 0.
+  /// ω, rad/s, of each; empty: none was given. Throws InvalidInput where both were, and for values
+  /// that are not > 0.
   std::vector<double> angular() const;
 };
 
@@ -155,7 +159,8 @@ struct MotionOptions {
   MotionOptions completed_from(const Oscillation& known) const;
   /// The options that the mode lacks.
   std::vector<std::string> missing() const;
-  /// Motions of all combinations, which is one line of them: throws InvalidInput if two quantities have several values.
+  /// Motions of all combinations, which is one line of them: throws InvalidInput if two quantities
+  /// have several values.
   std::vector<Oscillation> motions() const;
   /// The same with --mode two-frequencies among them.
   std::vector<Motion> all_motions() const;

@@ -13,10 +13,12 @@
 
 #include "session.hpp"
 
-/// What `oscillate` and `figure3` share: the paper's bodies, a run by both routes, and how its result is told.
+/// What `oscillate` and `figure3` share: the paper's bodies, a run by both routes, and how its
+/// result is told.
 namespace salebra::cli {
 
-/// A surface with its boundary, and the indentation and sweep of a shape that the command line leaves open.
+/// A surface with its boundary, and the indentation and sweep of a shape that the command line
+/// leaves open.
 struct Body {
   Surface surface;
   Boundary boundary = Boundary::free;
@@ -25,7 +27,8 @@ struct Body {
 
 /// The four of Fig. 3 first.
 const std::vector<std::string>& shape_names();
-/// A shape by its name, off the grid, with a contact that fills a third of it or less at the end of the sweep.
+/// A shape by its name, off the grid, with a contact that fills a third of it or less at the end of
+/// the sweep.
 Body shape_body(const std::string& shape, const Grid2D& grid);
 
 /// One contact and its motion.
@@ -55,21 +58,24 @@ struct OscillationOutcome {
   std::optional<CycleResult> frictional, coupled;
 
   double work_per_cycle() const;
-  /// Of work_per_cycle(), J: of the steps, or of the levels where there are none; of the cells too where those were refined.
+  /// Of work_per_cycle(), J: of the steps, or of the levels where there are none; of the cells too
+  /// where those were refined.
   double error_estimate() const;
   /// What is in it: "steps" or "levels", and "cells".
   std::vector<std::string> error_contains() const;
-  /// ½K u² with the greatest stiffness of the sweep and u = u_x or v/ω: what a loss has to be compared with where there is none.
+  /// ½K u² with the greatest stiffness of the sweep and u = u_x or v/ω: what a loss has to be
+  /// compared with where there is none.
   double elastic_energy() const;
   /// The loss over a reference; empty where the reference is not larger than its own uncertainty.
   std::optional<double> over(double reference) const;
-  /// Whether F'' is below 0 by more than noise: the interpolated force bends the wrong way there, and neither it nor
-  /// Eqs (12) and (15) mean anything.
+  /// Whether F'' is below 0 by more than noise: the interpolated force bends the wrong way there,
+  /// and neither it nor Eqs (12) and (15) mean anything.
   bool bends_down() const;
   bool converged() const;
 };
 
-/// Levels first, then the steps. Throws Interrupted where the levels were; a stopped cycle comes back as it is.
+/// Levels first, then the steps. Throws Interrupted where the levels were; a stopped cycle comes
+/// back as it is.
 OscillationOutcome run_routes(OscillationCase run, const OscillationRoutes& routes);
 
 /// The steps alone.
@@ -79,15 +85,16 @@ CycleResult simulate(const OscillationCase& run, const CycleOptions& options);
 void write_cycle(QuantityGroup& group, const CycleResult& cycle, const Grid2D& grid);
 
 Json to_json(const OscillationOutcome& outcome);
-/// From the force at the contact levels; nothing but what the facts say where fewer than four of them touch.
+/// From the force at the contact levels; nothing but what the facts say where fewer than four of
+/// them touch.
 Premises premises_of(const OscillationOutcome& outcome, ContactFacts facts);
 /// Groups PREFIXcycle and PREFIXlevels.
 void write_outcome(ResultFile& file, const std::string& prefix, const OscillationOutcome& outcome);
 
 /// Fig. 3b: black always in contact, grey during a part of the cycle.
 PlotPanel contact_panel(const OscillationOutcome& outcome, const std::string& title);
-/// Fig. 3c: W(t) over Eq. (12) for equal frequencies; the energy released so far over Eq. (15) for drag. Over ½Ku² where
-/// nothing is lost.
+/// Fig. 3c: W(t) over Eq. (12) for equal frequencies; the energy released so far over Eq. (15) for
+/// drag. Over ½Ku² where nothing is lost.
 PlotPanel work_panel(const OscillationOutcome& outcome, const std::string& title);
 
 }  // namespace salebra::cli

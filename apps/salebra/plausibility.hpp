@@ -7,23 +7,25 @@
 #include <string>
 #include <vector>
 
-/// What is allowed and most likely a slip of the user's hand. Each function returns lines for Session::warn().
+/// What is allowed and most likely a slip of the user's hand. Each function returns lines for
+/// Session::warn().
 namespace salebra::cli {
 
 /// Cells ten times as long as wide.
 std::vector<std::string> doubts_of_cells(const Grid2D& grid);
 
-/// A nominal pressure above a tenth of E*, where strains of the whole surface are no longer small: as a rule a unit was forgotten.
+/// A nominal pressure above a tenth of E*, where strains of the whole surface are no longer small:
+/// as a rule a unit was forgotten.
 std::vector<std::string> doubts_of_pressures(std::span<const double> nominal_pressures,
                                              double contact_modulus);
 
-/// Slow motion, case (b), that moves on by more than a contact spot in one normal cycle: what sticks then is no longer the same spot
-/// when it opens. A radius that is not known is NaN.
+/// Slow motion, case (b), that moves on by more than a contact spot in one normal cycle: what
+/// sticks then is no longer the same spot when it opens. A radius that is not known is NaN.
 std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
                                         double spot_radius);
 
-/// A table of radii beyond 1 m, most likely in another unit, or so coarse that the indentation at this contact radius changes by more than
-/// 5 % without every other point.
+/// A table of radii beyond 1 m, most likely in another unit, or so coarse that the indentation at
+/// this contact radius changes by more than 5 % without every other point.
 std::vector<std::string> doubts_of_profile(const IndenterProfile& profile, double contact_radius);
 
 }  // namespace salebra::cli

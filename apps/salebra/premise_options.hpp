@@ -16,8 +16,8 @@ struct PremiseOptions {
 
   /// excursion_judged: offers --excursion, for commands that judge slip.
   void add_to(Command& command, bool excursion_judged = true);
-  /// Throws InvalidInput for values that are not > 0. followed: the --friction of a command that follows it, which is the same
-  /// coefficient.
+  /// Throws InvalidInput for values that are not > 0. followed: the --friction of a command that
+  /// follows it, which is the same coefficient.
   ContactFacts facts(const MaterialOptions& material,
                      const std::optional<double>& followed = {}) const;
 };
@@ -29,7 +29,8 @@ struct PremiseReport {
 
   /// Adds the keys `premises`, `largest_motion` and, unless slip is computed, `regime`.
   void add_to(Json& answer) const;
-  /// What is broken or doubtful, to stand above a table, with a blank line after it; empty if nothing is.
+  /// What is broken or doubtful, to stand above a table, with a blank line after it; empty if
+  /// nothing is.
   std::string above() const;
   /// What could not be judged, and the largest motion without slip, to stand below the table.
   std::string open_points() const;
@@ -38,7 +39,8 @@ struct PremiseReport {
   void answer(Session& session, Json object) const;
 };
 
-/// Of a case whose slip is computed, not left out: the premises of slip hold, and the others are judged.
+/// Of a case whose slip is computed, not left out: the premises of slip hold, and the others are
+/// judged.
 PremiseReport premises_beside_slip(const ContactLaw& law, double indentation,
                                    const Oscillation& motion, const ContactFacts& facts);
 

@@ -55,8 +55,8 @@ std::string help_hint(const CLI::App& app) {
              : fmt::format("see {} {} --help", program_name(), chosen.front()->get_name());
 }
 
-/// What is wrong with a command line that CLI11 refused. Reports a misspelt option before its consequences, such as the lack of
-/// the right one.
+/// What is wrong with a command line that CLI11 refused. Reports a misspelt option before its
+/// consequences, such as the lack of the right one.
 std::string describe(const CLI::App& app, const CLI::ParseError& error) {
   const auto chosen = app.get_subcommands();
   const std::vector<std::string> words = app.remaining(true);
@@ -256,7 +256,8 @@ void print_lack_of_memory() noexcept {
   print_remark("\n");
 }
 
-/// An allocation may fail where no exception can leave: in a thread of OpenMP, in a destructor, while another is thrown.
+/// An allocation may fail where no exception can leave: in a thread of OpenMP, in a destructor,
+/// while another is thrown.
 [[noreturn]] void end_without_unwinding() {
   try {
     if (std::current_exception()) throw;
@@ -268,7 +269,8 @@ void print_lack_of_memory() noexcept {
   std::abort();
 }
 
-/// Exit status of a failure, which is said by the root where all processes have failed, and else by this one, which ends the others.
+/// Exit status of a failure, which is said by the root where all processes have failed, and else by
+/// this one, which ends the others.
 int end(const Launch& launch, int status, std::string_view message) {
   if (launch.ranks.alone()) return fail(status, message);
   if (launch.all_here()) return launch.ranks.is_root() ? fail(status, message) : status;
@@ -283,12 +285,13 @@ int end(const Launch& launch, int status, std::string_view message) {
 int run_program(int argc, char** argv, const Launch& launch) {
   name_program(launch.name);
   std::set_terminate(end_without_unwinding);
-  // Past a file-size limit a write must fail like on a full disk, and so must printing to a pipe that nobody reads: neither may kill
-  // the process beside a half-written file.
+  // Past a file-size limit a write must fail like on a full disk, and so must printing to a pipe
+  // that nobody reads: neither may kill the process beside a half-written file.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   catch_interrupts();
-  // Libraries of networks do not survive a child process. Several processes trust the files that they are given.
+  // Libraries of networks do not survive a child process. Several processes trust the files that
+  // they are given.
   if (launch.ranks.alone()) confinement::install();
   prepare_for_scarce_memory();
   try {

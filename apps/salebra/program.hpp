@@ -13,8 +13,9 @@
 namespace salebra::cli {
 
 /// Parses the command line and runs the command it names.
-/// Returns the exit status: 0 done, 1 failed while running, 2 bad usage or input, 3 incomplete, 130 interrupted. Of several processes the
-/// root says what all of them failed of; a failure of some alone is said by those, with their place, and ends all processes.
+/// Returns the exit status: 0 done, 1 failed while running, 2 bad usage or input, 3 incomplete, 130
+/// interrupted. Of several processes the root says what all of them failed of; a failure of some
+/// alone is said by those, with their place, and ends all processes.
 int run_program(int argc, char** argv, const Launch& launch = {});
 
 /// All commands, each with the common options. An action runs after all options have been read.
@@ -27,7 +28,8 @@ class Program {
       : command_line_(std::move(command_line)), launch_(launch) {}
 
   /// examples: two command lines with what they do, shown at the end of --help.
-  /// picture: what Session::plot() is given, for the help of --plot; a command without pictures has no such option.
+  /// picture: what Session::plot() is given, for the help of --plot; a command without pictures has
+  /// no such option.
   Command& add_command(const std::string& name, const std::string& what,
                        const std::array<std::string, 2>& examples, Action action,
                        const std::string& picture = "", OutputCheck check = OutputCheck::results);
@@ -41,7 +43,8 @@ class Program {
   std::deque<Command> commands_;
 };
 
-// Each command defines void add_<name>_command(Program&) in cmd_<name>.cpp; the list is in CMakeLists.txt.
+// Each command defines void add_<name>_command(Program&) in cmd_<name>.cpp; the list is in
+// CMakeLists.txt.
 #define SALEBRA_COMMAND(name) void add_##name##_command(Program& program);
 #include "command_list.inc"
 #undef SALEBRA_COMMAND

@@ -9,7 +9,8 @@
 
 namespace salebra::cli {
 
-/// A column of numbers, whose meaning and, unless it says another, unit are those of the quantity of its name.
+/// A column of numbers, whose meaning and, unless it says another, unit are those of the quantity
+/// of its name.
 struct ResultColumn {
   std::string name;  ///< "structure"
   std::vector<double> values;
@@ -29,9 +30,11 @@ struct ResultTable {
 };
 
 /// An answer and tables, as --output asks for them by its extension:
-///   .h5 .hdf5   a group `group` for the answer and one for each table, its first column a dimension scale
+///   .h5 .hdf5   a group `group` for the answer and one for each table, its first column a
+///               dimension scale
 ///   .json       the answer with an object for each table, as --json prints it
-///   .csv        the answer as lines name,value,unit,meaning, and beside it FILE.<table>.csv for each table
+///   .csv        the answer as lines name,value,unit,meaning, and beside it FILE.<table>.csv for
+///               each table
 /// Throws InvalidInput for another extension, and as the writers do. Collective: the root writes.
 void write_tables(const Session& session, const std::string& group, const Json& answer,
                   const std::vector<ResultTable>& tables);

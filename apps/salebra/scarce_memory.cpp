@@ -17,7 +17,8 @@ namespace {
 
 }  // namespace
 
-// FFTW's planner ends the process where it gets no memory, by a function that the dynamic linker looks up in the program first.
+// FFTW's planner ends the process where it gets no memory, by a function that the dynamic linker
+// looks up in the program first.
 extern "C" {
 [[noreturn]] void fftw_assertion_failed(const char*, int, const char* file) {
   fail_assertion(file);
@@ -30,7 +31,8 @@ extern "C" {
 namespace salebra::cli {
 
 void prepare_for_scarce_memory() {
-  // HDF5's cleanup at exit crashes after a failed allocation, as its first call does. All files are closed by then.
+  // HDF5's cleanup at exit crashes after a failed allocation, as its first call does. All files are
+  // closed by then.
   H5dont_atexit();
   H5open();
 }

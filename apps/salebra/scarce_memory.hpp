@@ -3,7 +3,8 @@
 
 namespace salebra::cli {
 
-/// Starts the libraries that crash where their first call gets no memory. To be called before the work; 0.6 ms.
+/// Starts the libraries that crash where their first call gets no memory. To be called before the
+/// work; 0.6 ms.
 void prepare_for_scarce_memory();
 
 }  // namespace salebra::cli

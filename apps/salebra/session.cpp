@@ -27,7 +27,8 @@ namespace {
 volatile std::sig_atomic_t interrupt_seen = 0;
 extern "C" void note_interrupt(int) { interrupt_seen = 1; }
 
-/// "one of 64 tasks", as MPI's launchers and Slurm say in the environment; empty: of one. PMIX_RANK tells the place alone.
+/// "one of 64 tasks", as MPI's launchers and Slurm say in the environment; empty: of one. PMIX_RANK
+/// tells the place alone.
 std::string place_among_tasks() {
   for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
     if (const char* text = std::getenv(variable); text && std::atoi(text) > 1)

@@ -36,11 +36,12 @@ enum class OutputCheck {
   any_name     ///< a file that is not there yet; the command knows formats of its own
 };
 
-/// One run of a command: where its answer, its remarks and its progress go. Of several processes the root alone prints, draws and makes
-/// files; the others do what is collective.
+/// One run of a command: where its answer, its remarks and its progress go. Of several processes
+/// the root alone prints, draws and makes files; the others do what is collective.
 class Session {
  public:
-  /// Throws InvalidInput where the output may not be written, so that no work is done unnecessarily. Collective. launch: outlives it.
+  /// Throws InvalidInput where the output may not be written, so that no work is done
+  /// unnecessarily. Collective. launch: outlives it.
   Session(CommonOptions options, std::string command_line, OutputCheck check, const Launch& launch);
 
   bool has_output() const { return !options_.output.empty(); }
@@ -56,15 +57,18 @@ class Session {
   bool has_plot() const { return !options_.plot.empty(); }
   /// Draws what --plot asked for; nothing where it was not given.
   void plot(const Figure& figure);
-  /// For the library's writers. Throws InvalidInput in one of several tasks, which would all write the same file.
+  /// For the library's writers. Throws InvalidInput in one of several tasks, which would all write
+  /// the same file.
   WriteOptions write_options() const;
   bool overwrites() const { return options_.overwrite; }
   Provenance provenance() const;
 
-  /// For the library: draws the bar where one is wanted, and returns false after Ctrl-C of this process.
+  /// For the library: draws the bar where one is wanted, and returns false after Ctrl-C of this
+  /// process.
   Progress progress();
 
-  /// A remark for the person at the terminal, on stderr; --quiet leaves out both, and errors only remain. The same warning is given once.
+  /// A remark for the person at the terminal, on stderr; --quiet leaves out both, and errors only
+  /// remain. The same warning is given once.
   void note(std::string_view text);
   void warn(std::string_view text);
 
@@ -95,7 +99,8 @@ class Incomplete : public Error {
 
 /// True once SIGINT, SIGTERM, SIGUSR1 or SIGHUP has come.
 bool interrupted();
-/// From now on the first of these only sets interrupted(), a second one ends the process. SIGHUP stays ignored where nohup has it so.
+/// From now on the first of these only sets interrupted(), a second one ends the process. SIGHUP
+/// stays ignored where nohup has it so.
 void catch_interrupts();
 
 }  // namespace salebra::cli

@@ -17,7 +17,8 @@ struct ShapeOptions {
 
   void add_to(Command& app);
   bool given() const { return !shape.empty(); }
-  /// Throws InvalidInput that names an option that is missing, or one that the shape has no use for.
+  /// Throws InvalidInput that names an option that is missing, or one that the shape has no use
+  /// for.
   Surface surface(const Grid2D& grid) const;
 };
 

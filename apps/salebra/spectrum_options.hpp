@@ -12,7 +12,8 @@
 
 namespace salebra::cli {
 
-/// The power spectral density of a random surface: self-affine, of a correlation function, or from a table; stretched or not.
+/// The power spectral density of a random surface: self-affine, of a correlation function, or from
+/// a table; stretched or not.
 struct SpectrumOptions {
   std::optional<double> hurst, long_cutoff, rolloff, short_cutoff, rms_height, rms_slope,
       correlation_length, stretch_along, stretch_across, lay_angle;
@@ -20,7 +21,8 @@ struct SpectrumOptions {
 
   void add_to(Command& app);
   bool given() const { return hurst || !table.empty() || !correlation.empty(); }
-  /// cell: the longest period of the surface, m; no wave of a self-affine one is longer, unless a limit is given.
+  /// cell: the longest period of the surface, m; no wave of a self-affine one is longer, unless a
+  /// limit is given.
   std::shared_ptr<const Spectrum> spectrum(double cell) const;
   SelfAffineProfileSpectrum profile_spectrum(double cell) const;
   /// Peklenik's number and the lay, where the surface is stretched; else null.

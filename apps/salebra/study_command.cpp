@@ -277,7 +277,8 @@ std::string ranges_of(const std::set<std::size_t>& numbers) {
   return text;
 }
 
-/// What to run for the surfaces that are missing. Shards have the count that most of the surfaces at hand were computed with.
+/// What to run for the surfaces that are missing. Shards have the count that most of the surfaces
+/// at hand were computed with.
 std::string shards_to_run(const std::vector<std::size_t>& missing,
                           const std::vector<PartOrigin>& origins) {
   std::map<std::size_t, std::size_t> uses;
@@ -293,7 +294,8 @@ std::string shards_to_run(const std::vector<std::size_t>& missing,
                      ranges_of(numbers), count);
 }
 
-/// "3 surfaces there are of other settings or seeds, 2 of version 0.0.9"; empty where there are none.
+/// "3 surfaces there are of other settings or seeds, 2 of version 0.0.9"; empty where there are
+/// none.
 std::string strangers(const std::vector<PartOrigin>& others) {
   std::map<std::string, std::size_t> kinds;
   for (const PartOrigin& origin : others)

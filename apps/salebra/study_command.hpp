@@ -36,7 +36,8 @@ struct StudyArguments {
 
   /// over_processes: those of salebra-mpi may share the work.
   void add_to(Command& command, bool over_processes);
-  /// The study file, or what a measured surface needs without one, with the options in place of what either says.
+  /// The study file, or what a measured surface needs without one, with the options in place of
+  /// what either says.
   StudyConfiguration study() const;
 };
 
@@ -46,15 +47,18 @@ inline constexpr OutputCheck study_output = OutputCheck::by_command;
 /// The page that lies beside the results of a study, made by the first process.
 class StudyReport {
  public:
-  /// Throws where the page cannot be put in its place, before any work. Collective. Nothing is planned where there is no output, where the
-  /// user wants no page, or where this build cannot make one, which write() then says.
+  /// Throws where the page cannot be put in its place, before any work. Collective. Nothing is
+  /// planned where there is no output, where the user wants no page, or where this build cannot
+  /// make one, which write() then says.
   StudyReport(const StudyArguments& arguments, Session& session);
-  /// Writes what was planned, from the results file; its path, or empty. Of several processes the first does so. The results are safe by now, and their answer comes first:
-  /// a page that is in the way is a warning, and one that could not be written is thrown by require_written().
+  /// Writes what was planned, from the results file; its path, or empty. Of several processes the
+  /// first does so. The results are safe by now, and their answer comes first: a page that is in
+  /// the way is a warning, and one that could not be written is thrown by require_written().
   std::string write();
   /// Throws IoError where the system refused the page. Collective.
   void require_written() const;
-  /// The same where no page was made of these results yet, as of a study that was killed before it; otherwise the path alone.
+  /// The same where no page was made of these results yet, as of a study that was killed before it;
+  /// otherwise the path alone.
   std::string complete();
 
  private:
@@ -72,11 +76,13 @@ struct StudyFiles {
   std::string text() const;
 };
 
-/// Runs the ensembles with progress, keeps finished surfaces beside the session's output as it goes, and writes the result there. Without
-/// an output nothing is kept. Where a resumed study has its result already, tidies up after it, makes a page that is missing, answers so
-/// and returns nothing.
-/// With --merge nothing is computed: throws Incomplete where surfaces are missing. Otherwise returns at least one finished surface; what stopped the run before its end throws Interrupted, which says
-/// how to continue, after the surfaces that were finished have been answered where they are not kept.
+/// Runs the ensembles with progress, keeps finished surfaces beside the session's output as it
+/// goes, and writes the result there. Without an output nothing is kept. Where a resumed study has
+/// its result already, tidies up after it, makes a page that is missing, answers so and returns
+/// nothing. With --merge nothing is computed: throws Incomplete where surfaces are missing.
+/// Otherwise returns at least one finished surface; what stopped the run before its end throws
+/// Interrupted, which says how to continue, after the surfaces that were finished have been
+/// answered where they are not kept.
 std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
                                       const StudyArguments& arguments, StudyReport& page,
                                       Session& session);
@@ -99,7 +105,8 @@ Json columns_json(const MeansOf& means) {
 }
 /// The same with the numerical error.
 Json to_json(const std::vector<StatedMean>& estimates);
-/// Throws NotConverged where a relative error was requested and is not met: the loads, with what was reached.
+/// Throws NotConverged where a relative error was requested and is not met: the loads, with what
+/// was reached.
 void require_relative_error(const std::vector<StudyResult>& results);
 /// "low … high"; empty where there is no interval.
 std::string interval(const EnsembleMean& estimate, Dimension dimension, int digits = 4);
@@ -114,7 +121,8 @@ Json flags_json(const StudyResult& result);
 
 /// Adds `first_loading`, where a hardness is known.
 void add_first_loading(Json& answer, const StudyResult& result);
-/// Adds `premises`, `largest_motion` and, with a coefficient of friction, `with_slip` to an answer with a list of pressures.
+/// Adds `premises`, `largest_motion` and, with a coefficient of friction, `with_slip` to an answer
+/// with a list of pressures.
 void add_premises(Json& answer, const StudyPremises& found);
 
 }  // namespace salebra::cli

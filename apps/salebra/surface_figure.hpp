@@ -9,7 +9,8 @@
 
 namespace salebra::cli {
 
-/// A spectrum needs every point: without one there is none, and the exponent and its interval are NaN.
+/// A spectrum needs every point: without one there is none, and the exponent and its interval are
+/// NaN.
 struct SurfaceSpectrum {
   std::optional<PowerSpectrum> spectrum;
   HurstEstimate hurst;  ///< estimated from it
@@ -21,9 +22,9 @@ SurfaceSpectrum spectrum_of(const Surface& surface);
 PlotPanel map_panel(const Grid2D& grid, const Field& values, const std::string& title,
                     const PlotAxis& scale);
 
-/// A surface in three panels: the map of its heights, its radial power spectral density with the fitted law, and the
-/// distribution of its heights beside the Gaussian one of the same mean and rms height. The second panel is left out where there
-/// is no spectrum, or no power in it.
+/// A surface in three panels: the map of its heights, its radial power spectral density with the
+/// fitted law, and the distribution of its heights beside the Gaussian one of the same mean and rms
+/// height. The second panel is left out where there is no spectrum, or no power in it.
 Figure surface_figure(const Surface& surface, const SurfaceSpectrum& of);
 
 }  // namespace salebra::cli

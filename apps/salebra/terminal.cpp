@@ -53,7 +53,8 @@ std::size_t text_width() {
 
 namespace {
 
-/// Where the lines after the first of a paragraph begin: below a description that follows two blanks, else below its first word.
+/// Where the lines after the first of a paragraph begin: below a description that follows two
+/// blanks, else below its first word.
 std::size_t hanging_indent(std::string_view line, std::size_t width) {
   const std::size_t first = line.find_first_not_of(' ');
   if (line.substr(first).starts_with("salebra ")) return first + 4;

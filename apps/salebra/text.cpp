@@ -79,7 +79,8 @@ void append(std::string& text, const Json& object, const std::string& name, int 
   for (const Columns& table : tables) text += columns_to_table(table, indent);
 }
 
-/// The columns of a table in parts that fit the width of the text, each beginning with the first column.
+/// The columns of a table in parts that fit the width of the text, each beginning with the first
+/// column.
 std::vector<std::vector<std::size_t>> parts_of(const std::vector<std::size_t>& widths,
                                                std::size_t indent) {
   const std::size_t room = text_width();

@@ -12,8 +12,8 @@ namespace salebra::cli {
 /// its own, objects indented. Units and prefixes come from quantity_of.
 std::string to_text(const Json& object);
 
-/// Columns padded to their widest cell; the first row is the heading. names_first: the first column is text. A table that is wider than
-/// text_width() comes in parts, each with the first column.
+/// Columns padded to their widest cell; the first row is the heading. names_first: the first column
+/// is text. A table that is wider than text_width() comes in parts, each with the first column.
 std::string to_table(const std::vector<std::vector<std::string>>& rows, int indent = 2,
                      bool names_first = false);
 

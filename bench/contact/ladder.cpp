@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_ladder — exact transforms, ladder applications and processor time of contacts that iterate on the near-field ladder, beside those
-// that iterate with transforms.
+// contact_ladder — exact transforms, ladder applications and processor time of contacts that
+// iterate on the near-field ladder, beside those that iterate with transforms.
 //
 // usage: contact_ladder [N [SEEDS [REPEATS]]]          default: 512 1 1; one thread
 //
-// Self-affine surfaces as in contact_profile, with shortest waves of 8 and 2 cells; the free ones are N/2 points wide, so that both have the
-// same transform. Each line is the worst of the seeds: pairs of transforms of the finest grid to e_c <= 1e-8 by transforms, on the ladder
-// wherever it can be used, and as the solver chooses; the seconds of the first over those of the others (least of the repeats, which take
-// turns). `contraction` is that of the error of a punch on the contact's cells from one exact residual to the next, to be compared with
-// eps/(1 − eps), which bounds it.
+// Self-affine surfaces as in contact_profile, with shortest waves of 8 and 2 cells; the free ones
+// are N/2 points wide, so that both have the same transform. Each line is the worst of the seeds:
+// pairs of transforms of the finest grid to e_c <= 1e-8 by transforms, on the ladder wherever it
+// can be used, and as the solver chooses; the seconds of the first over those of the others (least
+// of the repeats, which take turns). `contraction` is that of the error of a punch on the contact's
+// cells from one exact residual to the next, to be compared with eps/(1 − eps), which bounds it.
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,8 @@
 // What a process has used so far, for the programs that compare.py times.
 namespace bench {
 
-// Largest resident memory. Not getrusage's: that one begins with the size of the process which started this one.
+// Largest resident memory. Not getrusage's: that one begins with the size of the process which
+// started this one.
 inline long peak_bytes() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)

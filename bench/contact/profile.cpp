@@ -3,9 +3,10 @@
 //
 // usage: contact_profile [N [THREADS [LOAD...]]]          default: 2048 1 0.005 0.02 0.1
 //
-// LOAD is p/(E*·rms slope) on a self-affine surface: H = 0.8, roll-off at 1/8 of the side, shortest wave 8 cells, rms slope 0.1.
-// The solver's levels are run one by one as press_to_pressure() runs them. A transform takes each row from the tiles and hands
-// it back to them: this counts as part of it. What a solve takes beyond its transforms and the ladder is its other pointwise passes.
+// LOAD is p/(E*·rms slope) on a self-affine surface: H = 0.8, roll-off at 1/8 of the side, shortest
+// wave 8 cells, rms slope 0.1. The solver's levels are run one by one as press_to_pressure() runs
+// them. A transform takes each row from the tiles and hands it back to them: this counts as part of
+// it. What a solve takes beyond its transforms and the ladder is its other pointwise passes.
 
 #include <algorithm>
 #include <array>
@@ -43,8 +44,8 @@ double median_seconds(const Body& body) {
   return seconds[2];
 }
 
-// Seconds of a chain of products in registers on each of the threads. What these lose beside each other, as on two
-// hardware threads of one core or on a shared machine, no program can win back.
+// Seconds of a chain of products in registers on each of the threads. What these lose beside each
+// other, as on two hardware threads of one core or on a shared machine, no program can win back.
 double register_seconds(int threads) {
   std::vector<double> results(static_cast<std::size_t>(threads));
   return median_seconds([&] {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_reference — one periodic contact by the plain Polonsky–Keer of the tests, timed as contact_solve times salebra.
+// contact_reference — one periodic contact by the plain Polonsky–Keer of the tests, timed as
+// contact_solve times salebra.
 //
 // usage: contact_reference HEIGHTS.raw N PRESSURE TOLERANCE THREADS PRESSURE_OUT.raw
-// HEIGHTS.raw: N x N float64 without a header, one period of side 1, E* = 1. THREADS is not used: the solver is serial.
+// HEIGHTS.raw: N x N float64 without a header, one period of side 1, E* = 1. THREADS is not used:
+// the solver is serial.
 
 #include <chrono>
 #include <cstdio>

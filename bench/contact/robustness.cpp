@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_robustness — every awkward contact that we could think of, by pressure and by gap or indentation, in both precisions:
-// float inner iterations to e_c <= 1e-8, double to 1e-12. Prints a table of them and the failures, and ends with status 1 if there are any.
+// contact_robustness — every awkward contact that we could think of, by pressure and by gap or
+// indentation, in both precisions: float inner iterations to e_c <= 1e-8, double to 1e-12. Prints a
+// table of them and the failures, and ends with status 1 if there are any.
 //   contact_robustness [random surfaces [points [folder of measured surfaces]]]
 // e_c is found again from the pressures by transforms that the solver does not use.
 #include <cmath>

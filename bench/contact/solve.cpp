@@ -2,8 +2,9 @@
 // contact_solve — one periodic contact by salebra, timed as peers.py times the peers.
 //
 // usage: contact_solve HEIGHTS.raw N PRESSURE TOLERANCE THREADS PRESSURE_OUT.raw
-// HEIGHTS.raw: N x N float64 without a header, one period of side 1, E* = 1. Prints one JSON object.
-// "setup" is part of "wall": levels, plans, symbols and stencils, which are made once more to be timed by themselves.
+// HEIGHTS.raw: N x N float64 without a header, one period of side 1, E* = 1. Prints one JSON
+// object. "setup" is part of "wall": levels, plans, symbols and stencils, which are made once more
+// to be timed by themselves.
 
 #include <chrono>
 #include <cstdio>

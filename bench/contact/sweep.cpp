@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_sweep — the force curve of a surface by salebra, timed: 20 loads from f = p/(E*·rms slope) = 1e-4 to 0.1, evenly in log f,
-// each with the stiffness of its contact set.
+// contact_sweep — the force curve of a surface by salebra, timed: 20 loads from f = p/(E*·rms
+// slope) = 1e-4 to 0.1, evenly in log f, each with the stiffness of its contact set.
 //
 // usage: contact_sweep HEIGHTS.raw N TOLERANCE THREADS [CONCURRENT_LOADS]
-// HEIGHTS.raw: N x N float64 without a header, one period of side 1, rms slope 0.1, E* = 1. Prints one JSON object.
+// HEIGHTS.raw: N x N float64 without a header, one period of side 1, rms slope 0.1, E* = 1. Prints
+// one JSON object.
 
 #include <chrono>
 #include <cmath>

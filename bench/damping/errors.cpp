@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stated errors of the damping of generated surfaces against what they converge to on cells of a quarter of the size.
+// Stated errors of the damping of generated surfaces against what they converge to on cells of a
+// quarter of the size.
 //   damping_errors [surfaces [points [first seed]]]
-// One line per load: Hurst exponent, cells in the shortest wave, amplitude over rms height, pressure over E*h', W, its error and the
-// parts of it (cells, scatter, levels, ratio, solver), all over W; then W converged, less W, over W; levels, window over u_z, and the
-// scatter of W converged. The last lines are the table of docs/surface_damping.md.
+// One line per load: Hurst exponent, cells in the shortest wave, amplitude over rms height,
+// pressure over E*h', W, its error and the parts of it (cells, scatter, levels, ratio, solver), all
+// over W; then W converged, less W, over W; levels, window over u_z, and the scatter of W
+// converged. The last lines are the table of docs/surface_damping.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -94,7 +96,8 @@ int main(int count, char** words) {
       return sweep_pressures(s, material, pressures, sweep);
     };
     const auto results = surface_damping(surface, material, motion, curve_of(surface));
-    // Cells enter by chance on these cells too: the mean of two grids half a cell apart scatters less than one.
+    // Cells enter by chance on these cells too: the mean of two grids half a cell apart scatters
+    // less than one.
     const Surface finest = refined(surface, 8);
     SurfaceDampingOptions many;
     many.refinements = 0;

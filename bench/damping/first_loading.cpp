@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Damping after a plastic first loading: cells halved on the residual surface, against a first loading of the halved cells.
+// Damping after a plastic first loading: cells halved on the residual surface, against a first
+// loading of the halved cells.
 //   damping_first_loading [surfaces [points]]
-// One line per load: seed, first load (raised by the oscillation about it) over the hardness, area that flowed, pressure over the
-// mean first load, γ of the residual surface with its stated error, γ of the first loading on halved cells, and their difference over
-// the root of the sum of the squares of the stated error and the other's scatter. docs/surface_damping.md quotes ranges and the last line.
+// One line per load: seed, first load (raised by the oscillation about it) over the hardness, area
+// that flowed, pressure over the mean first load, γ of the residual surface with its stated error,
+// γ of the first loading on halved cells, and their difference over the root of the sum of the
+// squares of the stated error and the other's scatter. docs/surface_damping.md quotes ranges and
+// the last line.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reference damping constants of a scan: `oscillate --boundary periodic --method levels` on finer cells, load by load.
+// Reference damping constants of a scan: `oscillate --boundary periodic --method levels` on finer
+// cells, load by load.
 //   damping_scan SURFACE FACTOR LEVELS PRESSURE... (Pa)
-// A paragraph of measured.toml's material and motion: E* = 115 GPa, nu = 0.3, 1 nm at 20 kHz. One line per load: pressure, γ and the error that
-// the levels state, N s/m, F'', γ of K_t = (G*/E*)F', cells that enter, seconds. Each contact starts from the last two, in place of coarser grids.
+// A paragraph of measured.toml's material and motion: E* = 115 GPa, nu = 0.3, 1 nm at 20 kHz. One
+// line per load: pressure, γ and the error that the levels state, N s/m, F'', γ of K_t = (G*/E*)F',
+// cells that enter, seconds. Each contact starts from the last two, in place of coarser grids.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steady sliding on a tabulated law and joints of a surface: processor time of 10⁴ states of sliding, and of a loss over 30 forces after
-// the sweep of a rough surface.
+// Steady sliding on a tabulated law and joints of a surface: processor time of 10⁴ states of
+// sliding, and of a loss over 30 forces after the sweep of a rough surface.
 // Sample runs:  damping_sliding        damping_sliding 10000 200 256
 // Arguments: states, samples of the law, cells of the surface along a side.
 #include <cmath>

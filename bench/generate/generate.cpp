@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cost of a generated surface beside that of one bare complex-to-real FFT of the same size, as one JSON object.
+// Cost of a generated surface beside that of one bare complex-to-real FFT of the same size, as one
+// JSON object.
 //   generate [points [cells [threads [repeats]]]]
-// cells: the shortest wavelength in cells. Times are medians of alternating runs, of processor time on one thread, which a busy
-// machine disturbs little, of wall time on more; `measured` is a plan that FFTW chose by trial. `two_threads_over_one` compares the
-// shortest wall times of each, since a neighbour on the second core makes any other figure its own. With repeats = 0 one
-// surface is made and nothing else: its wall time and peak memory, for grids of which the machine holds only one.
+// cells: the shortest wavelength in cells. Times are medians of alternating runs, of processor time
+// on one thread, which a busy machine disturbs little, of wall time on more; `measured` is a plan
+// that FFTW chose by trial. `two_threads_over_one` compares the shortest wall times of each, since
+// a neighbour on the second core makes any other figure its own. With repeats = 0 one surface is
+// made and nothing else: its wall time and peak memory, for grids of which the machine holds only
+// one.
 #include <fftw3.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Greatest relative error of the power of a mode of random-phase surfaces, as the Markdown table of generators/README.md. The lines
-// of modes that are their own mirror images stand apart: there a generator that forgets the Hermitian symmetry has half the power.
+// Greatest relative error of the power of a mode of random-phase surfaces, as the Markdown table of
+// generators/README.md. The lines of modes that are their own mirror images stand apart: there a
+// generator that forgets the Hermitian symmetry has half the power.
 //   mode_power [seeds]
 #include <algorithm>
 #include <array>

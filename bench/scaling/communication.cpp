@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What one of many processes sends, counted at the plans that the library makes, beside the model of docs/scaling.md.
+// What one of many processes sends, counted at the plans that the library makes, beside the model
+// of docs/scaling.md.
 //   scaling_communication [N [RANKS...]]
 #include <cstdio>
 #include <cstdlib>
@@ -18,7 +19,8 @@ using salebra::testing::OneOfMany;
 
 namespace {
 
-// The ladder's symbol is made by each process as a whole, for larger grids in half a minute and more.
+// The ladder's symbol is made by each process as a whole, for larger grids in half a minute and
+// more.
 constexpr Index largest_for_ladder = 16384;
 
 void count(Index n, int ranks) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time of a transform there and back, and of a contact, over processes:  mpirun -n R scaling_pair N THREADS REPEATS
-// One line: processes, threads of each, milliseconds of a pair (median, least), seconds of a contact (median, least).
+// One line: processes, threads of each, milliseconds of a pair (median, least), seconds of a
+// contact (median, least).
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -51,7 +52,8 @@ int main(int argc, char** argv) {
   const auto pair =
       seconds_of(ranks, repeats, [&] { compliance.apply(field.data(), result.data()); });
 
-  // Waves from a quarter of the side to 8 cells, slope 0.1; this pressure brings some 2 % of the cells into contact.
+  // Waves from a quarter of the side to 8 cells, slope 0.1; this pressure brings some 2 % of the
+  // cells into contact.
   const SelfAffineParameters parameters{.hurst = 0.8,
                                         .long_cutoff = side / 4,
                                         .rolloff = side / 4,

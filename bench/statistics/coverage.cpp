@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How often the 95 % intervals of a fitted self-affine law hold the truth, over generated Gaussian surfaces.
+// How often the 95 % intervals of a fitted self-affine law hold the truth, over generated Gaussian
+// surfaces.
 //   coverage [surfaces [points [roll-off over side [cells in the shortest wavelength]]]]
-// One line for each kind: Hurst exponent, periodic or a crop that is not; found, covered, mean and scatter over half-width.
+// One line for each kind: Hurst exponent, periodic or a crop that is not; found, covered, mean and
+// scatter over half-width.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

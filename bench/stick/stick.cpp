@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cost of stick solves, of the level quadrature and of the time-stepped cycle on a self-affine surface, one thread.
+// Cost of stick solves, of the level quadrature and of the time-stepped cycle on a self-affine
+// surface, one thread.
 // Sample runs:  stick        stick solve 256 512 1024        stick levels 512 32        stick cycle 256 64
 // CPU time is what counts where the machine is busy; wall time is printed beside it.
 #include <chrono>

@@ -34,7 +34,8 @@ double AnisotropicSpectrum::highest_wavenumber() const {
 
 SpectralMoments AnisotropicSpectrum::moments() const {
   const SpectralMoments isotropic = isotropic_->moments();
-  // With q' = (along·q₁, across·q₂), q·e = q'·v for v = (e₁/along, e₂/across), and an isotropic spectrum has ∫(q'·v)ⁿ ∝ |v|ⁿ.
+  // With q' = (along·q₁, across·q₂), q·e = q'·v for v = (e₁/along, e₂/across), and an isotropic
+  // spectrum has ∫(q'·v)ⁿ ∝ |v|ⁿ.
   const auto square = [&](double e1, double e2) {
     return std::pow(e1 / anisotropy_.along, 2) + std::pow(e2 / anisotropy_.across, 2);
   };

@@ -27,8 +27,8 @@ double mean_of(const Surface& surface, double (*term)(double height, double mean
   return sum / static_cast<double>(surface.grid.points());
 }
 
-// √Σ|q|²|a|² over the whole spectrum, as √⟨h·(−∇²h)⟩; a Nyquist mode has |q| = π/dx. A convolution is spread over processes, and takes less
-// memory than the spectrum.
+// √Σ|q|²|a|² over the whole spectrum, as √⟨h·(−∇²h)⟩; a Nyquist mode has |q| = π/dx. A convolution
+// is spread over processes, and takes less memory than the spectrum.
 double rms_slope_of(const Surface& surface, double mean) {
   const Grid2D& grid = surface.grid;
   const double step_x = 2 * std::numbers::pi / grid.lx, step_y = 2 * std::numbers::pi / grid.ly;

@@ -14,7 +14,8 @@
 namespace salebra {
 namespace {
 
-// ½√(2ΣP²)/ΣP over all modes: |a|² of a pair of conjugates and of a real mode have the variances P² and 2P².
+// ½√(2ΣP²)/ΣP over all modes: |a|² of a pair of conjugates and of a real mode have the variances P²
+// and 2P².
 double scatter_of(const Grid2D& grid, const Spectrum& spectrum, const Progress& progress) {
   const detail::CarriedModes carried(grid, spectrum);
   const auto sum_of_powers = [&](int exponent) {

@@ -14,7 +14,8 @@ namespace salebra {
 double normal_quantile(double u) {
   require(u > 0 && u < 1, "u", u, "must lie in 0 < u < 1");
   if (u > 0.5) return -normal_quantile(1 - u);
-  // Newton's method on ln Φ(x) = ln u. ln Φ is concave, hence the iterates rise to the root from any point below it, such as this.
+  // Newton's method on ln Φ(x) = ln u. ln Φ is concave, hence the iterates rise to the root from
+  // any point below it, such as this.
   double x = -std::sqrt(-2 * std::log(u));
   for (int step = 0; step < 20; ++step) {
     const double below = std::erfc(-x / std::numbers::sqrt2) / 2;
@@ -60,8 +61,8 @@ struct Shape {
   double kurtosis = 3;
 };
 
-// Moments of x(Z), Z standard normal, by the trapezoidal rule, which for such integrands converges faster than any power of its
-// step.
+// Moments of x(Z), Z standard normal, by the trapezoidal rule, which for such integrands converges
+// faster than any power of its step.
 template <class Transform>
 Shape shape_of(const Transform& x, double limit, double step) {
   double weight = 0, mean = 0;
@@ -118,7 +119,8 @@ double root_of(const Function& increasing, double low, double high) {
   return (low + high) / 2;
 }
 
-// The γ at which a curve of this δ has the skewness, which grows from 0 as γ moves away from 0 in the given direction.
+// The γ at which a curve of this δ has the skewness, which grows from 0 as γ moves away from 0 in
+// the given direction.
 template <class ShapeOf>
 double gamma_of(const ShapeOf& shape, double skewness, double delta, double direction) {
   if (skewness == 0) return 0;
@@ -138,14 +140,15 @@ std::function<double(double)> johnson_transform(double skewness, double kurtosis
           ? 1
           : root_of([&](double w) { return lognormal_shape(w).skewness - skewness; }, 1, 1e3);
   const double excess = kurtosis - lognormal_shape(w_lognormal).kurtosis;
-  // Within this of the lognormal line γ grows beyond all limits, and the curve is lognormal to as many digits.
+  // Within this of the lognormal line γ grows beyond all limits, and the curve is lognormal to as
+  // many digits.
   if (std::abs(excess) < 1e-6 * kurtosis) {
     const double scale = std::sqrt(std::log(w_lognormal));
     if (scale < 1e-6) return [](double z) { return z; };
     return [=](double z) { return std::exp(scale * z); };
   }
-  // Along the curves of one skewness, kurtosis grows away from the lognormal line with w on the side of S_U and falls with δ on that
-  // of S_B.
+  // Along the curves of one skewness, kurtosis grows away from the lognormal line with w on the
+  // side of S_U and falls with δ on that of S_B.
   if (excess > 0) {
     const auto delta_of = [](double w) { return 1 / std::sqrt(std::log(w)); };
     const double w = root_of(

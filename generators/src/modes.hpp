@@ -9,8 +9,9 @@
 
 namespace salebra::detail {
 
-/// Which modes of a grid a spectrum can fill: a half-plane 0 <= j <= j_max, the other half being conjugate, and in its column j the
-/// waves |i| <= i_max(j). The pair ±nx/2 is one mode of the grid; +nx/2 names it.
+/// Which modes of a grid a spectrum can fill: a half-plane 0 <= j <= j_max, the other half being
+/// conjugate, and in its column j the waves |i| <= i_max(j). The pair ±nx/2 is one mode of the
+/// grid; +nx/2 names it.
 class CarriedModes {
  public:
   /// Both arguments must outlive the object. Throws as Spectrum::require_carried_by.
@@ -33,12 +34,13 @@ class CarriedModes {
   const Spectrum* spectrum_;
   double step_x_, step_y_;
   double
-      highest_;  // |q|, with an allowance for rounding; the density decides about waves on the limit
+      // |q|, with an allowance for rounding; the density decides about waves on the limit
+      highest_;
   Index j_max_;
 };
 
-/// visit(qx, qy, power, pair) for the modes of column j without the zero mode, one of each pair of conjugates: the mean power of
-/// the mode, and whether it has a conjugate.
+/// visit(qx, qy, power, pair) for the modes of column j without the zero mode, one of each pair of
+/// conjugates: the mean power of the mode, and whether it has a conjugate.
 template <class Visit>
 void for_each_mode_of_column(const CarriedModes& carried, Index j, Visit visit) {
   const Index nx = carried.grid().nx, last = carried.i_max(j);

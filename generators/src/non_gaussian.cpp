@@ -20,7 +20,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Heights of the distribution in increasing order, one for each point, with zero mean and the given rms height.
+// Heights of the distribution in increasing order, one for each point, with zero mean and the given
+// rms height.
 std::vector<double> ordered_heights(const HeightDistribution& distribution, Index points,
                                     double rms_height) {
   std::vector<double> heights(static_cast<std::size_t>(points));
@@ -41,13 +42,15 @@ std::vector<double> ordered_heights(const HeightDistribution& distribution, Inde
   return heights;
 }
 
-// Gives the lowest point the lowest of the ordered heights, and so on. Equal heights keep the order of the points.
+// Gives the lowest point the lowest of the ordered heights, and so on. Equal heights keep the order
+// of the points.
 class RankMap {
  public:
   explicit RankMap(std::vector<double> ordered)
       : ordered_(std::move(ordered)), ranking_(ordered_.size()) {}
 
-  /// keep_going is asked every million comparisons, a small part of a second; where it says no, the heights stay as they are.
+  /// keep_going is asked every million comparisons, a small part of a second; where it says no, the
+  /// heights stay as they are.
   bool apply(Field& heights, const std::function<bool()>& keep_going) {
     for (std::size_t k = 0; k < ranking_.size(); ++k)
       ranking_[k] = {heights.data()[k], static_cast<Index>(k)};
@@ -131,7 +134,8 @@ class TargetAmplitudes {
 }  // namespace
 
 std::size_t non_gaussian_memory(const Grid2D& grid) {
-  // Heights, those of the iteration before, the ordered ones and their ranks (two numbers each); modes and their targets.
+  // Heights, those of the iteration before, the ordered ones and their ranks (two numbers each);
+  // modes and their targets.
   const auto points = static_cast<std::size_t>(grid.points());
   const auto modes = static_cast<std::size_t>(grid.nx * (grid.ny / 2 + 1));
   return (5 * points + 3 * modes) * sizeof(double);

@@ -19,7 +19,8 @@ inline void require_square(double rms, const char* field) {
   require(rms > 1e-140 && rms < 1e140, field, rms, "must lie in 1e-140 … 1e140; check the unit");
 }
 
-/// Moments from integral(order) = ∫|q|^order C d²q: the mean over directions of cos² is 1/2, of cos⁴ 3/8.
+/// Moments from integral(order) = ∫|q|^order C d²q: the mean over directions of cos² is 1/2, of
+/// cos⁴ 3/8.
 template <class Integral>
 SpectralMoments isotropic_moments(const Integral& integral) {
   const double moment2 = integral(2) / 2;

@@ -25,7 +25,8 @@ struct Panel {
   double simpson() const { return (to - from) / 6 * (left + 4 * middle + right); }
 };
 
-// Simpson's rule on halves until two levels agree; the difference of two levels is 15 times the error of the finer one.
+// Simpson's rule on halves until two levels agree; the difference of two levels is 15 times the
+// error of the finer one.
 template <class Function>
 double adaptive(const Function& f, const Panel& panel, double tolerance, int depth) {
   const double centre = (panel.from + panel.to) / 2;
@@ -38,8 +39,8 @@ double adaptive(const Function& f, const Panel& panel, double tolerance, int dep
          adaptive(f, upper, tolerance / 2, depth - 1);
 }
 
-// ∫ over the limits, octave by octave from above, since a spectrum changes by powers of ten. Thirty octaves down, what is left of a
-// spectrum with a finite mean square is nothing.
+// ∫ over the limits, octave by octave from above, since a spectrum changes by powers of ten. Thirty
+// octaves down, what is left of a spectrum with a finite mean square is nothing.
 template <class Function>
 double integrate(const Function& f, double lowest, double highest) {
   double sum = 0;

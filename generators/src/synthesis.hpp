@@ -8,8 +8,9 @@
 
 namespace salebra::detail {
 
-/// h(x) = Σ_q a(q) e^{iq·x} on the points of the grid with the amplitudes of RandomModes: the rows of this process. Same bits for every
-/// number of threads and processes. progress as of filtered_noise.
+/// h(x) = Σ_q a(q) e^{iq·x} on the points of the grid with the amplitudes of RandomModes: the rows
+/// of this process. Same bits for every number of threads and processes. progress as of
+/// filtered_noise.
 Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Chance chance,
                  const Progress& progress, const Communicator& ranks);
 

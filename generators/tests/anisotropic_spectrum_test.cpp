@@ -37,7 +37,8 @@ TEST_CASE("A stretched surface has the two correlation lengths along its angle",
   CHECK(anisotropy.peklenik() == 3);
   const Grid2D grid{300, 300, 1.5, 1.5};
   const Field heights = random_phase(grid, spectrum, 1).heights;
-  // Random phase has the correlation of the lattice; the zero mode missing lowers it by π·6·2·(unit/1.5)² = 0.0017.
+  // Random phase has the correlation of the lattice; the zero mode missing lowers it by
+  // π·6·2·(unit/1.5)² = 0.0017.
   for (const Index step : {1, 2, 3}) {
     const double distance = 5 * double(step) * grid.dx();
     CHECK(correlation(heights, 4 * step, 3 * step) ==
@@ -53,8 +54,8 @@ TEST_CASE("Moments of a stretched spectrum are its sums over a dense lattice",
   const AnisotropicSpectrum spectrum(gaussian(1.0, 0.02), anisotropy);
   const SpectralMoments continuum = spectrum.moments();
   const SpectralMoments lattice = spectrum.lattice_moments({256, 256, 1.0, 1.0});
-  // A Gaussian summed over a lattice as dense as this is its integral to machine precision, but for the zero mode in m0; the cut at
-  // e⁻³⁶ leaves 1e-13 in m4.
+  // A Gaussian summed over a lattice as dense as this is its integral to machine precision, but for
+  // the zero mode in m0; the cut at e⁻³⁶ leaves 1e-13 in m4.
   CHECK(lattice.moment0 == Approx(continuum.moment0).epsilon(5e-3));
   CHECK(lattice.moment2_x == Approx(continuum.moment2_x).epsilon(1e-8));
   CHECK(lattice.moment2_y == Approx(continuum.moment2_y).epsilon(1e-8));

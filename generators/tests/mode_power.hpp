@@ -6,7 +6,8 @@
 #include <salebra/base/fft.hpp>
 #include <vector>
 
-/// Fourier coefficients of a surface, h(x) = Σ a(i, j) exp(2πi(ix/lx + jy/ly)), for any integers i, j.
+/// Fourier coefficients of a surface, h(x) = Σ a(i, j) exp(2πi(ix/lx + jy/ly)), for any integers i,
+/// j.
 class FourierCoefficients {
  public:
   explicit FourierCoefficients(const salebra::Surface& surface) : grid_(surface.grid) {

@@ -63,13 +63,15 @@ TEST_CASE("The normal quantile is the inverse of the normal distribution",
 }
 
 TEST_CASE("Johnson's curves have the skewness and kurtosis asked", "[generators][non_gaussian]") {
-  // S_U, S_B with one and two humps, both sides of the lognormal line, the line itself, the normal curve, negative skewness.
+  // S_U, S_B with one and two humps, both sides of the lognormal line, the line itself, the normal
+  // curve, negative skewness.
   const Shape asked = GENERATE(Shape{0, 5}, Shape{0, 1.8}, Shape{0, 1.2}, Shape{0, 3},
                                Shape{0, 2.999}, Shape{1, 4.83}, Shape{1, 3}, Shape{-1, 4},
                                Shape{-0.8, 3.5}, Shape{0.5, 3}, Shape{0.3, 3.16029}, Shape{1.5, 8});
   CAPTURE(asked.skewness, asked.kurtosis);
   const Shape found = shape_of(quantiles(johnson_heights(asked.skewness, asked.kurtosis), 100000));
-  // 1e5 quantiles leave out tails beyond 4.4 deviations, which hold up to 1 % of the fourth moment of the heaviest curve here.
+  // 1e5 quantiles leave out tails beyond 4.4 deviations, which hold up to 1 % of the fourth moment
+  // of the heaviest curve here.
   CHECK(found.skewness == Approx(asked.skewness).epsilon(5e-3).margin(1e-6));
   CHECK(found.kurtosis == Approx(asked.kurtosis).epsilon(0.015));
 }
@@ -85,7 +87,8 @@ TEST_CASE("No distribution has less kurtosis than its skewness needs",
 }
 
 TEST_CASE("Weibull heights have the moments of their shape", "[generators][non_gaussian]") {
-  // Shape 1 is the exponential distribution (skewness 2, kurtosis 9), shape 2 Rayleigh's (0.6311, 3.2451).
+  // Shape 1 is the exponential distribution (skewness 2, kurtosis 9), shape 2 Rayleigh's (0.6311,
+  // 3.2451).
   const Shape exponential = shape_of(quantiles(weibull_heights(1), 200000));
   CHECK(exponential.skewness == Approx(2).epsilon(2e-3));
   CHECK(exponential.kurtosis == Approx(9).epsilon(1e-2));
@@ -162,7 +165,8 @@ TEST_CASE(
   CHECK(stopped.interrupted);
   CHECK(stopped.iterations == 2);
   CHECK_FALSE(stopped.converged);
-  // The surface is the one that two iterations make, at whichever report of the third the stop came.
+  // The surface is the one that two iterations make, at whichever report of the third the stop
+  // came.
   const Field two =
       non_gaussian(grid, spectrum, weibull_heights(2), 1, {.max_iterations = 2}).surface.heights;
   CHECK((stopped.surface.heights == two).all());

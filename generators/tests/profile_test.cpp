@@ -92,9 +92,9 @@ TEST_CASE("A line that does not carry its spectrum is refused", "[generators][pr
 }
 
 TEST_CASE("A profile has nothing in common with the surface of its seed", "[generators][profile]") {
-  // The waves along x of a surface are those of its mean over y. Were they drawn from the same numbers, the two would rise and fall
-  // together; of chance alone the coefficient of a dozen equal waves has a standard deviation of 1/√24 = 0.2, its mean over 8 seeds
-  // of 0.07.
+  // The waves along x of a surface are those of its mean over y. Were they drawn from the same
+  // numbers, the two would rise and fall together; of chance alone the coefficient of a dozen equal
+  // waves has a standard deviation of 1/√24 = 0.2, its mean over 8 seeds of 0.07.
   const SelfAffineParameters parameters{
       .long_cutoff = 1, .rolloff = 1.0 / 12, .short_cutoff = 1.0 / 12, .rms_height = 1};
   const Grid2D grid{64, 64, 1, 1};

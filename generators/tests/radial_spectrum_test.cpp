@@ -23,7 +23,8 @@ TEST_CASE("A self-affine spectrum given as a function makes the same surface",
       {.hurst = 0.6, .long_cutoff = 1.0, .rolloff = 0.3, .short_cutoff = 0.05, .rms_height = 1.0});
   const FunctionSpectrum spectrum([&](double q) { return reference.radial_density(q); }, 2 * pi,
                                   2 * pi / 0.05, "test");
-  // The kink at the roll-off lies inside a panel; halving it 30 times leaves no more than the tolerance.
+  // The kink at the roll-off lies inside a panel; halving it 30 times leaves no more than the
+  // tolerance.
   CHECK(spectrum.moments().moment0 == Approx(reference.moments().moment0).epsilon(1e-9));
   CHECK(spectrum.moments().moment4_x == Approx(reference.moments().moment4_x).epsilon(1e-9));
   const Grid2D grid{48, 50, 1.0, 1.0};
@@ -58,8 +59,8 @@ TEST_CASE("Gaussian correlation has its moments and its correlation", "[generato
   CHECK(moments.moment2_x == Approx(2 * rms * rms / (length * length)).epsilon(1e-10));
   CHECK(moments.moment4_x == Approx(12 * rms * rms / std::pow(length, 4)).epsilon(1e-9));
   CHECK(moments.nayak() == Approx(3).epsilon(1e-9));
-  // Random phase has the autocorrelation of the lattice exactly, here that of the plane: the cell is 50 ℓ wide. Only the zero mode
-  // is missing, a constant h²·π(ℓ/L)² = 1e-3 h².
+  // Random phase has the autocorrelation of the lattice exactly, here that of the plane: the cell
+  // is 50 ℓ wide. Only the zero mode is missing, a constant h²·π(ℓ/L)² = 1e-3 h².
   const Grid2D grid{512, 512, 1.0, 1.0};
   const Field heights = random_phase(grid, spectrum, 2).heights;
   for (const Index shift : {0, 5, 10, 30}) {

@@ -21,8 +21,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Even, odd, mixed and rectangular, with cells that are not square in the last two. The shortest wavelength is two cells of the
-// coarser axis, so that a Nyquist line carries power.
+// Even, odd, mixed and rectangular, with cells that are not square in the last two. The shortest
+// wavelength is two cells of the coarser axis, so that a Nyquist line carries power.
 struct Case {
   Grid2D grid;
   double short_cutoff;
@@ -74,7 +74,8 @@ TEST_CASE("Random phase gives every mode its target power", "[generators][random
     double total = spectrum.lattice_moments(c.grid).moment0;
     for_each_mode(c.grid, [&](Index i, Index j) {
       const double power = std::norm(a(i, j)), target = target_power(spectrum, c.grid, i, j);
-      // Rounding of two transforms, a few 1e-16 of the rms height, against amplitudes not below 1e-2 of it.
+      // Rounding of two transforms, a few 1e-16 of the rms height, against amplitudes not below
+      // 1e-2 of it.
       if (target > 0)
         CHECK(power == Approx(target).epsilon(1e-12));
       else
@@ -123,8 +124,9 @@ TEST_CASE("Filtered noise has its target power in the mean on every line of mode
     for_each_mode(c.grid, [&](Index i, Index j) {
       const double target = target_power(spectrum, c.grid, i, j);
       if (target == 0) return;
-      // Power over target is χ²₂/2 for a complex Gaussian amplitude (variance 1) and χ²₁ for a real one (variance 2). Conjugates are
-      // one number, so a pair of them adds 2 to the sum and 4 to its variance.
+      // Power over target is χ²₂/2 for a complex Gaussian amplitude (variance 1) and χ²₁ for a real
+      // one (variance 2). Conjugates are one number, so a pair of them adds 2 to the sum and 4 to
+      // its variance.
       const std::string name = line_of(c.grid, i, j);
       Line& line = lines[name];
       line.sum += std::norm(a(i, j)) / target - 1;
@@ -133,7 +135,8 @@ TEST_CASE("Filtered noise has its target power in the mean on every line of mode
   }
   for (const auto& [name, line] : lines) {
     CAPTURE(c.grid.nx, c.grid.ny, name, line.sum, line.variance);
-    // Three standard errors. Half or double the power on a line of n modes is off by √(200 n/8) of them or more, 5 for a single mode.
+    // Three standard errors. Half or double the power on a line of n modes is off by √(200 n/8) of
+    // them or more, 5 for a single mode.
     CHECK(std::abs(line.sum) < 3 * std::sqrt(line.variance));
   }
 }
@@ -146,7 +149,8 @@ TEST_CASE("Filtered noise and random phase of one seed have the same phases",
   const FourierCoefficients fixed(random_phase(grid, spectrum, 3));
   for_each_mode(grid, [&](Index i, Index j) {
     if (target_power(spectrum, grid, i, j) > 0)
-      // A small Gaussian amplitude has a large relative rounding error; 1e-11 allows amplitudes down to 1e-5.
+      // A small Gaussian amplitude has a large relative rounding error; 1e-11 allows amplitudes
+      // down to 1e-5.
       CHECK(std::abs(std::arg(noise(i, j) / fixed(i, j))) < 1e-11);
   });
 }

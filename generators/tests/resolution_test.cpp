@@ -70,7 +70,8 @@ TEST_CASE("Extending the spectrum adds short waves and leaves the long ones",
   const Field difference =
       filtered_noise(grid, wide, 4).heights - filtered_noise(grid, narrow, 4).heights;
   const double added = wide.lattice_moments(grid).moment0 - narrow.lattice_moments(grid).moment0;
-  // A Gaussian band of some 12000 modes: its mean square scatters by √(2/12000), 1.3 %, less where the power gathers in few modes.
+  // A Gaussian band of some 12000 modes: its mean square scatters by √(2/12000), 1.3 %, less where
+  // the power gathers in few modes.
   CHECK(difference.square().mean() == Approx(added).epsilon(0.1));
 }
 

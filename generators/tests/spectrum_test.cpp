@@ -14,7 +14,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// 2π∫ q^{order+1} C dq by Simpson's rule in ln q, from limit to limit so that no panel crosses a kink.
+// 2π∫ q^{order+1} C dq by Simpson's rule in ln q, from limit to limit so that no panel crosses a
+// kink.
 double radial_integral(const Spectrum& spectrum, int order, double from, double to) {
   const int panels = 2000;
   const double step = std::log(to / from) / panels;
@@ -48,7 +49,8 @@ TEST_CASE("Moments in closed form are the integrals over the spectrum", "[genera
            radial_integral(spectrum, order, q_rolloff, q_short);
   };
   const SpectralMoments moments = spectrum.moments();
-  // Simpson's rule on 2000 panels over less than five in ln q errs by (5/2000)⁴·4⁴/180, below 1e-10.
+  // Simpson's rule on 2000 panels over less than five in ln q errs by (5/2000)⁴·4⁴/180, below
+  // 1e-10.
   CHECK(moments.moment0 == Approx(integral(0)).epsilon(1e-9));
   CHECK(moments.moment2() == Approx(integral(2) / 2).epsilon(1e-9));
   CHECK(moments.moment4() == Approx(integral(4) * 3 / 8).epsilon(1e-9));
@@ -76,7 +78,8 @@ TEST_CASE("Without a long cut-off the plateau reaches down to every wave of the 
   const SelfAffineSpectrum spectrum({.rolloff = 1e-4, .short_cutoff = 1e-5, .rms_height = 1e-6});
   CHECK(spectrum.density(1e-3, 0) == spectrum.plateau());
   const Grid2D grid{256, 256, 8e-4, 8e-4};
-  // The lattice misses only the zero mode, one of the π 8² on the plateau; the edge of a disc of radius 8 makes 1 % noise.
+  // The lattice misses only the zero mode, one of the π 8² on the plateau; the edge of a disc of
+  // radius 8 makes 1 % noise.
   CHECK(spectrum.lattice_moments(grid).rms_height() == Approx(1e-6).epsilon(0.01));
 }
 
@@ -86,7 +89,8 @@ TEST_CASE("The lattice sum tends to the continuum as the cell grows", "[generato
   const double length = 64e-4;
   const Grid2D grid{768, 640, length, length};
   const SpectralMoments lattice = spectrum.lattice_moments(grid), continuum = spectrum.moments();
-  // Modes in a ring of radius 32 … 320: lattice points on its rim make an error of about 32^{2/3}/(π 32²) < 1 %.
+  // Modes in a ring of radius 32 … 320: lattice points on its rim make an error of about
+  // 32^{2/3}/(π 32²) < 1 %.
   CHECK(lattice.moment0 == Approx(continuum.moment0).epsilon(0.01));
   CHECK(lattice.moment2_x == Approx(continuum.moment2_x).epsilon(0.01));
   CHECK(lattice.moment2_y == Approx(continuum.moment2_y).epsilon(0.01));
@@ -168,7 +172,8 @@ TEST_CASE("The forecast warns where the grid makes something else of the spectru
   const Forecast of_oblong = forecast({1024, 512, 1e-3, 1e-3}, spectrum);
   REQUIRE(of_oblong.warnings.size() == 1);
   CHECK_THAT(of_oblong.warnings[0], Contains("has 5.12 cells"));
-  // With the long cut-off at the size of the cell, the continuum leaves out a disc of π modes, the lattice one.
+  // With the long cut-off at the size of the cell, the continuum leaves out a disc of π modes, the
+  // lattice one.
   const SelfAffineSpectrum few_waves(
       {.long_cutoff = 1e-4, .short_cutoff = 1e-5, .rms_height = 1e-6});
   const Forecast of_few = forecast({128, 128, 1e-4, 1e-4}, few_waves);
@@ -190,8 +195,8 @@ TEST_CASE("The forecast knows the scatter of filtered noise", "[generators][fore
     mean += ratio / seeds;
     square += ratio * ratio / seeds;
   }
-  // The mean square scatters twice as much as its root. A standard deviation from 400 samples is itself good to 1/√800, 3.5 %,
-  // more for the heavy tail of a sum of a dozen exponentials.
+  // The mean square scatters twice as much as its root. A standard deviation from 400 samples is
+  // itself good to 1/√800, 3.5 %, more for the heavy tail of a sum of a dozen exponentials.
   const double scatter = 2 * forecast(grid, spectrum).rms_height_scatter;
   CHECK(std::abs(mean - 1) < 3 * scatter / std::sqrt(seeds));
   CHECK(std::sqrt(square - mean * mean) == Approx(scatter).epsilon(0.15));

@@ -128,8 +128,9 @@ TEST_CASE("Moments of the lattice have the bits of one process", "[generators][s
 TEST_CASE("The rms slope of the modes is that of the surface", "[generators][exact_rms]") {
   const Grid2D grid = GENERATE(Grid2D{64, 64, 1, 1}, Grid2D{96, 50, 1.5, 1}, Grid2D{101, 64, 1, 1});
   const auto spectrum = spectrum_of(GENERATE(0, 1, 2), grid);
-  // exact_rms scales by the sum over the modes, scale_to_rms by transforms of the heights. The waves are at least two cells long, so that the
-  // slope of rounding errors, π·eps of the heights over a cell, is below 1e-12 of the slope.
+  // exact_rms scales by the sum over the modes, scale_to_rms by transforms of the heights. The
+  // waves are at least two cells long, so that the slope of rounding errors, π·eps of the heights
+  // over a cell, is below 1e-12 of the slope.
   const Surface by_modes = exact_rms(grid, *spectrum, 3, Rms::slope);
   const Surface by_heights =
       scale_to_rms(random_phase(grid, *spectrum, 3), Rms::slope, spectrum->moments().rms_slope());

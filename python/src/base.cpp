@@ -63,7 +63,8 @@ void bind_base(nb::module_& m) {
       "do not raise it: they return a result with converged = False.";
   interrupted.attr("__doc__") =
       "A progress function returned False where the work so far is of no use. Also a RuntimeError.";
-  // Tried before those of the classes themselves. Messages quote names and files, which must not command a terminal.
+  // Tried before those of the classes themselves. Messages quote names and files, which must not
+  // command a terminal.
   nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
     const auto raise = [](const nb::handle& kind, const Error& what) {
       PyErr_SetString(kind.ptr(), printable(what.what()).c_str());

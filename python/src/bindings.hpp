@@ -3,7 +3,8 @@
 
 #include <nanobind/nanobind.h>
 
-/// One function for each module of the library; module.cpp calls them from the lowest layer up, so that a signature can name every type.
+/// One function for each module of the library; module.cpp calls them from the lowest layer up, so
+/// that a signature can name every type.
 namespace salebra::python {
 
 void bind_base(nanobind::module_& module);

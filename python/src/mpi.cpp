@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Module salebra._mpi: the processes of an MPI communicator, for salebra._core. A module of its own, so that MPI is loaded with the first
-// surface that is spread, and a package without this file needs no MPI.
+// Module salebra._mpi: the processes of an MPI communicator, for salebra._core. A module of its
+// own, so that MPI is loaded with the first surface that is spread, and a package without this file
+// needs no MPI.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
 
@@ -20,8 +21,8 @@ constexpr bool open_mpi = true;
 constexpr bool open_mpi = false;
 #endif
 
-// Open MPI's handles are pointers, those of the others are numbers. Where another library's names came first into the process, these calls
-// reach that one.
+// Open MPI's handles are pointers, those of the others are numbers. Where another library's names
+// came first into the process, these calls reach that one.
 std::string library_version() {
   std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
   int length = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bindings of the premises behind a damping constant, of the loss with slip, of steady sliding, and of joints.
+// Bindings of the premises behind a damping constant, of the loss with slip, of steady sliding, and
+// of joints.
 #include <fmt/format.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>

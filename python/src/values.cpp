@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pickle, copies and == of every class that is a value, and the door through which salebra._calls sees constructors.
+// Pickle, copies and == of every class that is a value, and the door through which salebra._calls
+// sees constructors.
 #include <nanobind/stl/string.h>
 
 #include <memory>
@@ -57,7 +58,8 @@ std::string_view unpickled(const nb::tuple& state) {
   return {bytes.c_str(), bytes.size()};
 }
 
-/// Values of the class T of the library, which Python knows as Bound; made(T&&, Bound*) puts one there.
+/// Values of the class T of the library, which Python knows as Bound; made(T&&, Bound*) puts one
+/// there.
 template <class Bound, class Value, class Make>
 void value_class(Value value, Make make) {
   auto bound = nb::borrow<nb::class_<Bound>>(nb::type<Bound>());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real field from the columns of its half-spectrum, so that no full complex array is held, and columns of the half-spectrum of a field.
+// Real field from the columns of its half-spectrum, so that no full complex array is held, and
+// columns of the half-spectrum of a field.
 #include <algorithm>
 #include <optional>
 #include <salebra/base/column_fft.hpp>
@@ -16,7 +17,8 @@ namespace {
 using Api = detail::Fftw<double>;
 using Complex = std::complex<double>;
 
-// Columns that are copied to the rows together: 16 of them fill two cache lines of each row they touch. They are sent together too.
+// Columns that are copied to the rows together: 16 of them fill two cache lines of each row they
+// touch. They are sent together too.
 constexpr Index block = 16;
 
 constexpr const char* stage = "surface";
@@ -26,7 +28,8 @@ fftw_complex* fftw(Complex* values) { return reinterpret_cast<fftw_complex*>(val
 // An odd length of columns would break the alignment of every second one.
 Index column_pitch(Index nx) { return (nx + 3) / 4 * 4; }
 
-// Plans differ in what alignment they need; every buffer here comes from FFTW's allocator, hence has the same.
+// Plans differ in what alignment they need; every buffer here comes from FFTW's allocator, hence
+// has the same.
 detail::FftwPlan<double> plan_column(Index nx, int sign) {
   const auto buffer = detail::fftw_array<double, Complex>(static_cast<std::size_t>(nx));
   const int n = static_cast<int>(nx);
@@ -55,15 +58,16 @@ detail::FftwPlan<double> plan_row_forward(Index ny) {
   });
 }
 
-// Which groups of columns a process makes: rank, rank + ranks, rank + 2·ranks, …, the next at_once of them in each batch. A process
-// that is alone makes all in one batch.
+// Which groups of columns a process makes: rank, rank + ranks, rank + 2·ranks, …, the next at_once
+// of them in each batch. A process that is alone makes all in one batch.
 struct Deal {
   Index groups, ranks, at_once, batches;
 
   Deal(Index ny, Index columns, const Share& rows)
       : groups((columns + block - 1) / block), ranks(rows.ranks().ranks()) {
     const Index most = (groups + ranks - 1) / ranks;
-    // A batch has three buffers of 16 complex columns for each group: as many bytes as ny/ranks real columns.
+    // A batch has three buffers of 16 complex columns for each group: as many bytes as ny/ranks
+    // real columns.
     at_once = ranks == 1 ? most : std::clamp<Index>(ny / (6 * block * ranks), 1, most);
     batches = (most + at_once - 1) / at_once;
   }
@@ -73,7 +77,8 @@ struct Deal {
   Index count(Index rank, Index batch) const {
     return std::clamp<Index>((groups - rank + ranks - 1) / ranks - batch * at_once, 0, at_once);
   }
-  // Units of a batch are the columns of a group in one row, by the process, then by the group, then by the row.
+  // Units of a batch are the columns of a group in one row, by the process, then by the group, then
+  // by the row.
   Exchange exchange(const Share& rows, Index batch) const {
     const Index mine = count(rows.ranks().rank(), batch);
     std::vector<std::int64_t> sent, received;
@@ -159,7 +164,8 @@ class BackwardByColumns {
  private:
   Index columns_of(Index group) const { return std::min(block, columns_ - group * block); }
 
-  // Fills and transforms the groups of this process, and puts them where they are kept or sent from.
+  // Fills and transforms the groups of this process, and puts them where they are kept or sent
+  // from.
   void make_columns(Index batch, const SpectrumColumn& column, const std::optional<Exchange>& plan,
                     LoopProgress& loop) {
     const Index pitch = column_pitch(nx_);
@@ -185,7 +191,8 @@ class BackwardByColumns {
     });
   }
 
-  // Group number k of a batch into what is sent: the rows of each process apart, a row of the group after the other.
+  // Group number k of a batch into what is sent: the rows of each process apart, a row of the group
+  // after the other.
   void pack(Index k, Index count, const Exchange& plan, const Complex* modes, Index pitch) {
     for (int rank = 0; rank < rows_.ranks().ranks(); ++rank) {
       const Index first = rows_.begin_of(rank), number = rows_.end_of(rank) - first;
@@ -209,8 +216,8 @@ class BackwardByColumns {
     });
   }
 
-  // The modes of a row wait in the memory of the row for the transform. ny values hold ny/2 modes; where there is one more, it stands apart.
-  // mode(row of this process, column of the group)
+  // The modes of a row wait in the memory of the row for the transform. ny values hold ny/2 modes;
+  // where there is one more, it stands apart. mode(row of this process, column of the group)
   template <class Mode>
   void keep(Index group, Index begin, Index end, const Mode& mode) {
     const Index first = group * block, count = columns_of(group),

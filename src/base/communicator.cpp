@@ -18,7 +18,8 @@ std::vector<std::int64_t> places_of(const std::vector<std::int64_t>& counts) {
   return places;
 }
 
-// What a process has to say of its failure: a letter for the class, and its parts, each behind a zero byte.
+// What a process has to say of its failure: a letter for the class, and its parts, each behind a
+// zero byte.
 std::string joined(char kind, std::initializer_list<std::string> parts) {
   std::string text(1, kind);
   for (const std::string& part : parts) text += '\0' + part;

@@ -13,13 +13,16 @@
 namespace salebra {
 namespace {
 
-// Pairs of rows that are turned into columns together: eight complex numbers of a column are one or two whole cache lines.
+// Pairs of rows that are turned into columns together: eight complex numbers of a column are one or
+// two whole cache lines.
 constexpr Index pairs_at_once = 8;
-// Rows are paired within blocks of so many, and a unit of eight numbers of a column belongs to one block. A process that has whole blocks
-// of the rows therefore transforms what any other number of processes would.
+// Rows are paired within blocks of so many, and a unit of eight numbers of a column belongs to one
+// block. A process that has whole blocks of the rows therefore transforms what any other number of
+// processes would.
 constexpr Index rows_at_once = 2 * pairs_at_once;
 
-// Added to the lengths of columns and rows, so that equal places of all of them do not fall into one set of the cache.
+// Added to the lengths of columns and rows, so that equal places of all of them do not fall into
+// one set of the cache.
 constexpr Index gap = 8;
 
 std::size_t count(Index number) { return static_cast<std::size_t>(number); }
@@ -27,18 +30,21 @@ Index padded(Index length) { return (length + gap - 1) / gap * gap + gap; }
 
 }  // namespace
 
-// Rows i and i + 8 of a block of 16 are transformed as the real and the imaginary part of one complex row z, because FFTW's complex
-// transform takes no longer than its real one. The spectrum is kept column by column: a transform of contiguous numbers is about three
-// times faster than one of strided numbers, and a column with its symbol stays in the cache from the forward transform to the
-// backward one. There, columns k and −k of z give column k of the field,
+// Rows i and i + 8 of a block of 16 are transformed as the real and the imaginary part of one
+// complex row z, because FFTW's complex transform takes no longer than its real one. The spectrum
+// is kept column by column: a transform of contiguous numbers is about three times faster than one
+// of strided numbers, and a column with its symbol stays in the cache from the forward transform to
+// the backward one. There, columns k and −k of z give column k of the field,
 //     x_i = (z_i(k) + z_i(−k)*)/2,   x_{i+8} = (z_i(k) − z_i(−k)*)/2i,
-// which is all that is needed, since that of −k is its conjugate. The last block may have fewer rows, of which the second half are the
-// partners of the first; what is missing of its eight pairs is zero.
+// which is all that is needed, since that of −k is its conjugate. The last block may have fewer
+// rows, of which the second half are the partners of the first; what is missing of its eight pairs
+// is zero.
 //
-// Over several processes each holds blocks of rows and, for the pass over columns, a range of k together with all −k. The pass over rows
-// writes a column part by part, [process that has the column][component][column][its own block][pair], and an exchange brings the parts of a
-// column together as [process that has the rows][component][column][block of that process][pair]. The part of its own columns stays where
-// the pass over rows wrote it.
+// Over several processes each holds blocks of rows and, for the pass over columns, a range of k
+// together with all −k. The pass over rows writes a column part by part, [process that has the
+// column][component][column][its own block][pair], and an exchange brings the parts of a column
+// together as [process that has the rows][component][column][block of that process][pair]. The part
+// of its own columns stays where the pass over rows wrote it.
 template <class Real>
 struct Convolution2D<Real>::Passes {
   using Api = detail::Fftw<Real>;
@@ -48,7 +54,8 @@ struct Convolution2D<Real>::Passes {
   Shape shape;
   int components;
   Share rows_of_all;
-  // The columns k = low … low + low_count of a process, then −k = high … high + high_count, without those that are their own mirror.
+  // The columns k = low … low + low_count of a process, then −k = high … high + high_count, without
+  // those that are their own mirror.
   struct Columns {
     Index low = 0, low_count = 0, high = 0, high_count = 0;
     Index place = 0;  // of its part in `by_rows`
@@ -162,7 +169,8 @@ struct Convolution2D<Real>::Passes {
     Complex* part = &rows == &mine() ? by_rows + my_columns().place : by_columns + rows.place;
     return part + (component * my_columns().count() + my_columns().index(index)) * rows.stride;
   }
-  // body(first column, count of them, where their numbers of a block are to lie) for the columns of all processes.
+  // body(first column, count of them, where their numbers of a block are to lie) for the columns of
+  // all processes.
   template <class Body>
   void for_columns(int component, Index block, const Body& body) {
     const Index stride = mine().stride;
@@ -184,7 +192,8 @@ struct Convolution2D<Real>::Passes {
   }
 
   void make_plans() {
-    // FFTW_ESTIMATE chooses the same plan, hence the same bits, in every run; arrays of another alignment than these are never used.
+    // FFTW_ESTIMATE chooses the same plan, hence the same bits, in every run; arrays of another
+    // alignment than these are never used.
     const auto make = [](Index length, int sign) {
       const auto from = large_array<Complex>(count(length)),
                  to = large_array<Complex>(count(length));
@@ -272,7 +281,8 @@ struct Convolution2D<Real>::Passes {
     });
   }
 
-  // place(component, row, room) says where a row is to be, and done(component, row, values) is told when it is there.
+  // place(component, row, room) says where a row is to be, and done(component, row, values) is told
+  // when it is there.
   template <class Place, class Done>
   void rows_backward(const Place& place, const Done& done) {
     for_blocks([&](Index block, const Room& room) {
@@ -372,7 +382,8 @@ struct Convolution2D<Real>::Passes {
     });
   }
 
-  // body(pair, row, partner, whether it exists) for the pairs of a block that is not full, counted from the first row of the process.
+  // body(pair, row, partner, whether it exists) for the pairs of a block that is not full, counted
+  // from the first row of the process.
   template <class Body>
   void for_last_pairs(const Rows& rows, const Body& body) const {
     const Index whole = whole_blocks(rows);

@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <numbers>
 
-// Elementary functions that a compiler can vectorise, since the library's cannot be, and that give the same bits for every vector
-// width. Sources that include this are compiled without contraction to fused operations (src/base/CMakeLists.txt).
+// Elementary functions that a compiler can vectorise, since the library's cannot be, and that give
+// the same bits for every vector width. Sources that include this are compiled without contraction
+// to fused operations (src/base/CMakeLists.txt).
 
 // One body for each vector width, chosen when the program starts.
 #if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__)
@@ -22,14 +23,14 @@ namespace salebra::detail {
 // Adding this rounds a number below 2^51 to an integer, which then stands in the lowest bits.
 constexpr double round_by_adding = 0x1.8p52;
 
-// ln x for normal x > 0: x = 2^e m with m in [√½, √2), ln m = 2 artanh s, s = (m−1)/(m+1), |s| < 0.172. The first term left out
-// of the series is below 3e-17 of the sum.
+// ln x for normal x > 0: x = 2^e m with m in [√½, √2), ln m = 2 artanh s, s = (m−1)/(m+1), |s| <
+// 0.172. The first term left out of the series is below 3e-17 of the sum.
 SALEBRA_INLINE double natural_log(double x) {
   constexpr std::uint64_t sqrt_half = 0x3FE6A09E667F3BCDu;
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
   const std::uint64_t shifted = bits - sqrt_half;
-  // The exponent, biased to be positive, becomes a double by way of the mantissa: before AVX-512, 64-bit integers have no
-  // conversion of their own.
+  // The exponent, biased to be positive, becomes a double by way of the mantissa: before AVX-512,
+  // 64-bit integers have no conversion of their own.
   const std::uint64_t biased = ((shifted >> 52) + 2048) & 0xFFF;
   const double exponent = std::bit_cast<double>(biased | 0x4330000000000000u) - (0x1p52 + 2048.0);
   const double m = std::bit_cast<double>(bits - ((shifted >> 52) << 52));
@@ -48,7 +49,8 @@ SALEBRA_INLINE double natural_log(double x) {
   return exponent * std::numbers::ln2 + log_m;
 }
 
-// e^y for |y| < 700: y = k ln 2 + r with |r| <= ½ ln 2, and the Taylor series of e^r, whose first term left out is below 1e-17.
+// e^y for |y| < 700: y = k ln 2 + r with |r| <= ½ ln 2, and the Taylor series of e^r, whose first
+// term left out is below 1e-17.
 SALEBRA_INLINE double exponential(double y) {
   const double lifted = y * std::numbers::log2e + round_by_adding;
   const double k = lifted - round_by_adding;

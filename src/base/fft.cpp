@@ -23,8 +23,9 @@ struct RealFft2D<Real>::Plans {
     const auto modes = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny / 2 + 1);
     const auto complex = detail::fftw_array<Real, typename Api::Complex>(modes);
     const auto real = detail::fftw_array<Real>(2 * modes);
-    // FFTW_ESTIMATE does not touch the arrays and, unlike FFTW_MEASURE, chooses the same plan in every run. FFTW_UNALIGNED costs up
-    // to half of the speed, but one plan serves every array: a second, aligned one would let the bits depend on an address.
+    // FFTW_ESTIMATE does not touch the arrays and, unlike FFTW_MEASURE, chooses the same plan in
+    // every run. FFTW_UNALIGNED costs up to half of the speed, but one plan serves every array: a
+    // second, aligned one would let the bits depend on an address.
     const unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
     forward = detail::plan<Real>([&] {
       return Api::plan_r2c_2d(static_cast<int>(nx), static_cast<int>(ny), real.get(), complex.get(),

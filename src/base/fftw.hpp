@@ -13,7 +13,8 @@
 
 namespace salebra::detail {
 
-// FFTW's planner, and only its planner, is shared state: one lock around making and destroying plans.
+// FFTW's planner, and only its planner, is shared state: one lock around making and destroying
+// plans.
 std::mutex& fftw_planner_mutex();
 
 // The two precisions of FFTW behind one set of names.
@@ -72,8 +73,8 @@ template <class Real>
 using FftwPlan =
     std::unique_ptr<std::remove_pointer_t<typename Fftw<Real>::Plan>, DestroyPlan<Real>>;
 
-// Whether a plan was begun and not ended: a program that turns FFTW's lack of memory into an exception leaves the planner's tables
-// half-way.
+// Whether a plan was begun and not ended: a program that turns FFTW's lack of memory into an
+// exception leaves the planner's tables half-way.
 template <class Real>
 inline bool planner_is_broken = false;
 
@@ -97,7 +98,8 @@ struct ReleaseFftw {
   void operator()(void* memory) const { Fftw<Real>::release(memory); }
 };
 
-// Memory aligned as FFTW's SIMD code wants it; not initialised, so that the thread that writes a page first also owns it.
+// Memory aligned as FFTW's SIMD code wants it; not initialised, so that the thread that writes a
+// page first also owns it.
 template <class Real, class Element = Real>
 using FftwArray = std::unique_ptr<Element[], ReleaseFftw<Real>>;
 

@@ -76,13 +76,15 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::ranges::find(words, word) != words.end();
 }
 
-/// Where the memory controller is mounted, and which of the hierarchy's folders is mounted there: a container sees its own alone.
+/// Where the memory controller is mounted, and which of the hierarchy's folders is mounted there: a
+/// container sees its own alone.
 struct Mount {
   const Dialect* dialect;
   std::string root, point;
 };
 
-// proc_pid_mountinfo(5): number, parent, device, root, mount point, options, optional fields, "-", type, source, options of the type.
+// proc_pid_mountinfo(5): number, parent, device, root, mount point, options, optional fields, "-",
+// type, source, options of the type.
 std::vector<Mount> memory_mounts(const fs::path& proc) {
   std::vector<Mount> mounts;
   std::ifstream stream(proc / "self/mountinfo");
@@ -99,7 +101,8 @@ std::vector<Mount> memory_mounts(const fs::path& proc) {
   return mounts;
 }
 
-/// The group of this process, as /proc/self/cgroup has it: "4:memory:/path" in version 1, "0::/path" in version 2.
+/// The group of this process, as /proc/self/cgroup has it: "4:memory:/path" in version 1,
+/// "0::/path" in version 2.
 std::string group_of(const fs::path& proc, const Dialect& dialect) {
   std::ifstream stream(proc / "self/cgroup");
   for (std::string line; std::getline(stream, line);) {
@@ -116,7 +119,8 @@ std::string group_of(const fs::path& proc, const Dialect& dialect) {
 void take_groups(const fs::path& root, std::vector<std::uint64_t>& left) {
   for (const Mount& mount : memory_mounts(root / "proc")) {
     fs::path group = group_of(root / "proc", *mount.dialect);
-    // Of a group that is not below what is mounted, as a container may see its own, the mounted folder is all that there is.
+    // Of a group that is not below what is mounted, as a container may see its own, the mounted
+    // folder is all that there is.
     const fs::path below = group.lexically_relative(mount.root);
     group = below.empty() || *below.begin() == ".." ? fs::path() : below;
     const fs::path point = root / fs::path(mount.point).relative_path();

@@ -12,10 +12,11 @@ namespace salebra::detail {
 
 /// available_memory() of the machine whose files lie under root, "/" for this one: the minimum of
 ///   MemAvailable of /proc/meminfo;
-///   for each memory cgroup from that of the process up to the root of its mount, v1 and v2: its limit (memory.max and memory.high;
-///   memory.limit_in_bytes) less what its processes use, of which the file cache can be had back;
-///   RLIMIT_AS and RLIMIT_DATA less what the process has.
-/// Empty where none of them is known. Source: kernel documentation, admin-guide/cgroup-v1/memory and cgroup-v2; proc(5), getrlimit(2).
+///   for each memory cgroup from that of the process up to the root of its mount, v1 and v2: its
+///   limit (memory.max and memory.high; memory.limit_in_bytes) less what its processes use, of
+///   which the file cache can be had back; RLIMIT_AS and RLIMIT_DATA less what the process has.
+/// Empty where none of them is known. Source: kernel documentation, admin-guide/cgroup-v1/memory
+/// and cgroup-v2; proc(5), getrlimit(2).
 std::optional<std::uint64_t> memory_left(const std::filesystem::path& root);
 
 /// The same without the limits of the process: what the processes of a machine share.

@@ -14,7 +14,8 @@
 namespace salebra::parallel {
 namespace {
 
-// Enough to balance threads whose slabs hold unlike shares of the contact, few enough that a slab outweighs its scheduling.
+// Enough to balance threads whose slabs hold unlike shares of the contact, few enough that a slab
+// outweighs its scheduling.
 constexpr Index slabs_per_thread = 8;
 
 // Fewer points than this are done before a second thread is awake.

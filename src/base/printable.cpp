@@ -8,7 +8,8 @@
 namespace salebra {
 namespace {
 
-/// Bytes of the UTF-8 character that the text begins with; 0 where it begins with none, or with a control character.
+/// Bytes of the UTF-8 character that the text begins with; 0 where it begins with none, or with a
+/// control character.
 std::size_t character_length(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text.front());
   if (lead < 0x80) return lead >= ' ' && lead != 0x7f;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of a field over processes: who holds which, their way to other processes, and sums over all of them.
+// Rows of a field over processes: who holds which, their way to other processes, and sums over all
+// of them.
 #include <algorithm>
 #include <complex>
 #include <cstring>
@@ -196,7 +197,8 @@ struct Batches {
   }
 };
 
-// part(row over all processes, first, count, room): where the numbers of a row are. Visits the columns first … first + width − 1 of this process.
+// part(row over all processes, first, count, room): where the numbers of a row are. Visits the
+// columns first … first + width − 1 of this process.
 template <class Value, class Part, class Visit>
 void visit_groups(const Batches& batches, Index first, Index width, const Part& part,
                   const Visit& visit) {

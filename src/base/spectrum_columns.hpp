@@ -8,8 +8,8 @@
 
 namespace salebra::detail {
 
-/// The columns 0 … period_y/2 of a symbol that each process of a Convolution2D has, whose fields are spread by `rows`. Processes without rows
-/// have no columns either.
+/// The columns 0 … period_y/2 of a symbol that each process of a Convolution2D has, whose fields
+/// are spread by `rows`. Processes without rows have no columns either.
 inline Share spectrum_columns(const Share& rows, Index period_y) {
   const Index columns = period_y / 2 + 1;
   Index in_use = 0;

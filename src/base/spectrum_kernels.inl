@@ -8,7 +8,8 @@ namespace salebra::detail::SALEBRA_SIMD {
 
 using Size = std::ptrdiff_t;
 
-// Columns are so far apart that the prefetcher does not predict them: prefetch this many columns ahead.
+// Columns are so far apart that the prefetcher does not predict them: prefetch this many columns
+// ahead.
 inline constexpr Size ahead = 32;
 
 template <class Real>
@@ -67,8 +68,9 @@ void to_rows(const Real* columns, Size column_stride, Size count, Real* rows, Si
   }
 }
 
-// A register of complex numbers. A block of eight is one cache line in float, and the halves of a block of sixteen are read and written
-// together; plain loops over eight numbers at a time are slower.
+// A register of complex numbers. A block of eight is one cache line in float, and the halves of a
+// block of sixteen are read and written together; plain loops over eight numbers at a time are
+// slower.
 template <class Real>
 struct Register {
 #if defined(__AVX512F__)

@@ -25,7 +25,8 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-/// Options and keys of a study file that had another name in version 0.1. Options have "--" and dashes.
+/// Options and keys of a study file that had another name in version 0.1. Options have "--" and
+/// dashes.
 constexpr std::pair<std::string_view, std::string_view> renamed[]{
     {"coupling", "dundurs"},
     {"curvature", "force_curvature"},

@@ -133,7 +133,8 @@ std::string_view trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// factor · 10^exponent in SI units. The two are kept apart because 10 divided by 1e6 is exactly 1e-5, 10 times 1e-6 is not.
+/// factor · 10^exponent in SI units. The two are kept apart because 10 divided by 1e6 is exactly
+/// 1e-5, 10 times 1e-6 is not.
 struct Scale {
   double factor = 1;
   int exponent = 0;

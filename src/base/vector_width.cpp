@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The vector instruction set that passes use: the widest of this processor, or a narrower one that the environment names.
+// The vector instruction set that passes use: the widest of this processor, or a narrower one that
+// the environment names.
 #include "vector_width.hpp"
 
 #include <cstdlib>

@@ -18,7 +18,8 @@ std::string arithmetic() {
 #else
   const char* compiler = "GCC " __VERSION__;
 #endif
-  // FFTW takes the widest vectors of the processor that it was built for; Debian builds it for SSE2 and AVX.
+  // FFTW takes the widest vectors of the processor that it was built for; Debian builds it for SSE2
+  // and AVX.
 #if defined(__x86_64__)
   const char* transforms = __builtin_cpu_supports("avx") ? "avx" : "sse2";
 #else

@@ -60,8 +60,8 @@ Integral integrate(const std::function<double(double)>& f, std::span<const doubl
                                           absolute_tolerance, relative_tolerance, most_intervals,
                                           workspace.get(), &result.value, &result.error);
   if (guarded.failure) std::rethrow_exception(guarded.failure);
-  // Round-off ends the refinement with a status of its own when the tolerance is nearly reached; the estimate
-  // decides.
+  // Round-off ends the refinement with a status of its own when the tolerance is nearly reached;
+  // the estimate decides.
   const double goal = std::max(absolute_tolerance, relative_tolerance * std::abs(result.value));
   result.converged =
       std::isfinite(result.value) && (status == GSL_SUCCESS || result.error <= 10 * goal);
@@ -69,7 +69,8 @@ Integral integrate(const std::function<double(double)>& f, std::span<const doubl
 }
 
 double find_root(const std::function<double(double)>& f, double low, double high) {
-  // The zero lies between `best` and `bound`; `last` is the point before `best`, for the interpolation.
+  // The zero lies between `best` and `bound`; `last` is the point before `best`, for the
+  // interpolation.
   double best = high, bound = low, last = low;
   double f_best = f(best), f_bound = f(bound), f_last = f_bound;
   if (f_bound == 0) return bound;

@@ -52,14 +52,16 @@ ForceSample sample_of(const NormalContactState& state, const Surface& surface,
       sample.tangential_stiffness = stiffness.xx;
       sample.converged = sample.converged && stiffness.converged;
     } else if (std::isfinite(material.tangential_modulus)) {
-      // Exact for one circular contact and for ν = 0; about 1 % off for rough ones at ν = 0.3 (docs/theory.md, section 7).
+      // Exact for one circular contact and for ν = 0; about 1 % off for rough ones at ν = 0.3
+      // (docs/theory.md, section 7).
       sample.tangential_stiffness = material.modulus_ratio() * sample.normal_stiffness;
     }
   }
   return sample;
 }
 
-/// The loads of one group, from the highest, which takes longest, to the lowest: dealt to and fro, so that groups get alike times.
+/// The loads of one group, from the highest, which takes longest, to the lowest: dealt to and fro,
+/// so that groups get alike times.
 std::vector<std::size_t> loads_of(const Groups& groups, std::size_t count) {
   std::vector<std::size_t> mine;
   for (std::size_t back = 0; back < count; ++back) {
@@ -110,7 +112,8 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
 
   const std::vector<std::size_t> mine = loads_of(groups, pressures.size());
   const int loads = static_cast<int>(mine.size());
-  // Two loads of a surface that is spread would send through each other; what a group takes must not depend on its size.
+  // Two loads of a surface that is spread would send through each other; what a group takes must
+  // not depend on its size.
   const int wanted = !groups.all().alone()          ? 1
                      : options.concurrent_loads > 0 ? options.concurrent_loads
                                                     : parallel::threads();
@@ -143,7 +146,8 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
 
 #pragma omp parallel for schedule(dynamic, 1) num_threads(concurrent) if (concurrent > 1)
   for (int turn = 0; turn < loads; ++turn) {
-    // One process may have been told to stop where the others were not. One that failed calls them no more.
+    // One process may have been told to stop where the others were not. One that failed calls them
+    // no more.
     if (failed || !surface.ranks.all_agree(!stop)) stop = true;
     if (stop) continue;
     const std::size_t k = mine[static_cast<std::size_t>(turn)];

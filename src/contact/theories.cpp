@@ -18,8 +18,8 @@ using std::numbers::pi;
 
 const double root_pi = std::sqrt(pi);
 
-/// ∫_x^∞ erf²(t) exp(−t²) t^{−power} dt for power 1 and 2. The integrand is entire and falls within a few units, so that one
-/// Gauss–Legendre rule gives it to 1e-13.
+/// ∫_x^∞ erf²(t) exp(−t²) t^{−power} dt for power 1 and 2. The integrand is entire and falls within
+/// a few units, so that one Gauss–Legendre rule gives it to 1e-13.
 struct ErfSquareIntegrals {
   double power1, power2;
 };
@@ -151,7 +151,8 @@ double PerssonTheory::contact_area_fraction(double pressure) const {
 double PerssonTheory::pressure(double target) const {
   require_positive(target, "mean_gap");
   const Asymptote limit = asymptote();
-  // ln p against ū is smooth, bends down from the asymptote, and ends at complete contact, where p is some times E*h'.
+  // ln p against ū is smooth, bends down from the asymptote, and ends at complete contact, where p
+  // is some times E*h'.
   const auto excess = [&](double log_ratio) {
     return mean_gap(contact_modulus_ * std::exp(log_ratio)) - target;
   };
@@ -163,7 +164,8 @@ double PerssonTheory::pressure(double target) const {
 }
 
 PerssonTheory::Asymptote PerssonTheory::asymptote() const {
-  // For small x, ∫_x^∞ exp(−t²)dt/t = −ln x − γ_E/2: what is left of the integral over r is ∫dr/q and ∫ln r dr/q.
+  // For small x, ∫_x^∞ exp(−t²)dt/t = −ln x − γ_E/2: what is left of the integral over r is ∫dr/q
+  // and ∫ln r dr/q.
   double length = 0, log_slope = 0;
   const auto antiderivative = [](double r) { return r > 0 ? r * std::log(r) - r : 0; };
   for (const Ring& ring : rings_) {

@@ -35,7 +35,8 @@ void validate(const Oscillation& motion) {
   }
 }
 
-/// ∫ s² dx over the springs of a paraboloid with radius R at the mean indentation δ that open and close.
+/// ∫ s² dx over the springs of a paraboloid with radius R at the mean indentation δ that open and
+/// close.
 double released_square(double radius, double indentation, const Oscillation& motion) {
   const double amplitude = normal_amplitude_of(motion);
   if (amplitude == 0 || indentation + amplitude <= 0) return 0;

@@ -11,7 +11,8 @@
 
 namespace salebra::detail {
 
-/// T̄(v) of steady sliding for v >= 0: cubics in √(v/v_c), in which it is smooth also where it begins as v^{3/2}, through values and slopes.
+/// T̄(v) of steady sliding for v >= 0: cubics in √(v/v_c), in which it is smooth also where it
+/// begins as v^{3/2}, through values and slopes.
 class MeanFriction {
  public:
   MeanFriction(const SliderContact& contact, double friction_coefficient);
@@ -23,8 +24,9 @@ class MeanFriction {
   std::vector<double> values_, slopes_;  // slopes by √(v/v_c)
 };
 
-/// The averaged equation of motion of a slider. While it slips one way, the equation is smooth and is left to GSL; where it stops is located on
-/// the step that passes it, and how long it sticks is known.
+/// The averaged equation of motion of a slider. While it slips one way, the equation is smooth and
+/// is left to GSL; where it stops is located on the step that passes it, and how long it sticks is
+/// known.
 class AveragedSlider {
  public:
   AveragedSlider(const SliderContact& contact, const SteadySliding& sliding,

@@ -18,7 +18,8 @@ using std::numbers::pi;
 
 double square(double value) { return value * value; }
 
-// J(k) = Σ c_m k^m/m!, c_m = ∫θ² sinθ cos^mθ dθ = ((−1)^m π² + 2T_{m+1})/(m+1), T_n = ∫_0^π θ cosⁿθ dθ.
+// J(k) = Σ c_m k^m/m!, c_m = ∫θ² sinθ cos^mθ dθ = ((−1)^m π² + 2T_{m+1})/(m+1), T_n = ∫_0^π θ cosⁿθ
+// dθ.
 double drag_integral_series(double k) {
   double even = pi * pi / 2, odd = -2;  // T_0, T_1
   double sum = 0, power = 1;
@@ -45,8 +46,8 @@ double drag_integral_bessel_scaled(double k) {
   return pi * pi / k * (bessel[0] - std::exp(-2 * k)) - 8 / k * sum;
 }
 
-// With t = 1 − cosθ, θ² = 2 Σ (2t)ⁿ/(n² C(2n, n)), integrated against e^{−kt} over t > 0. The terms shrink until n ≈
-// 2k, so what is left out is of order e^{−2k}, as is the cut at t = 2.
+// With t = 1 − cosθ, θ² = 2 Σ (2t)ⁿ/(n² C(2n, n)), integrated against e^{−kt} over t > 0. The terms
+// shrink until n ≈ 2k, so what is left out is of order e^{−2k}, as is the cut at t = 2.
 double drag_integral_asymptotic_scaled(double k) {
   double term = 2 / square(k), sum = 0;
   for (int n = 1; n < 40; ++n) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The engine of all simulated cycles: steps, periods, balances, states to resume from (damping/cycle.hpp).
+// The engine of all simulated cycles: steps, periods, balances, states to resume from
+// (damping/cycle.hpp).
 #include "cycle_engine.hpp"
 
 #include <algorithm>

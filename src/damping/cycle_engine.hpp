@@ -22,13 +22,14 @@ struct CycleReading {
   bool converged = true;
 };
 
-/// A body in contact that a cycle drives: what differs between the three simulations. Its constructor brings it to the start of the
-/// trajectory, or to the state to resume from.
+/// A body in contact that a cycle drives: what differs between the three simulations. Its
+/// constructor brings it to the start of the trajectory, or to the state to resume from.
 class CycleBody {
  public:
   virtual ~CycleBody() = default;
   virtual void start_period() {}
-  /// To the indentation and the place of a step, from the tangential position `from`; returns the position reached, m.
+  /// To the indentation and the place of a step, from the tangential position `from`; returns the
+  /// position reached, m.
   virtual double advance(int step, double from) = 0;
   virtual CycleReading reading() const = 0;
   virtual double stored_energy() const = 0;  ///< J
@@ -49,12 +50,13 @@ struct TrajectoryRange {
 /// Throws InvalidInput for bad options or a trajectory without functions.
 TrajectoryRange checked_range(const Trajectory& trajectory, const CycleOptions& options);
 
-/// The state to resume from, of that kind of body; nullptr where the cycle starts. Throws InvalidInput where the state does not
-/// suit the grid and the options.
+/// The state to resume from, of that kind of body; nullptr where the cycle starts. Throws
+/// InvalidInput where the state does not suit the grid and the options.
 template <class State>
 const State* resumed(const CycleOptions& options, const Grid2D& grid);
 
-/// Periods until one loses what the last one lost, or one in all where the first is known to be steady.
+/// Periods until one loses what the last one lost, or one in all where the first is known to be
+/// steady.
 CycleResult run_cycle(CycleBody& body, const Grid2D& grid, const Trajectory& trajectory,
                       const CycleOptions& options, bool first_is_steady = false);
 

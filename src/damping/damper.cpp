@@ -85,9 +85,10 @@ double stabilising_amplitude(const ContactLaw& law, const Position& position,
     return damper_at(law, position, amplitude, angular_frequency, options).damping_constant -
            falling_slope;
   };
-  // γ starts in proportion to u_z and may have a maximum: the first of fine steps that is enough brackets the least
-  // amplitude. The steps begin well below what the proportion asks for and no lower, since the loss at finite
-  // amplitude drowns in round-off where the sweep is a last digit of δ.
+  // γ starts in proportion to u_z and may have a maximum: the first of fine steps that is enough
+  // brackets the least amplitude. The steps begin well below what the proportion asks for and no
+  // lower, since the loss at finite amplitude drowns in round-off where the sweep is a last digit
+  // of δ.
   DampingOptions small = options;
   small.amplitude = Amplitude::small;
   const double proportional =

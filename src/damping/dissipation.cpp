@@ -33,8 +33,8 @@ void require_amplitude(double amplitude) {
           "must be finite and >= 0; a negative one is a phase shift of pi");
 }
 
-// What distinguishes one kind of tangential motion from another, under δ = δ0 + u_z cosθ or any other even θ ↦ δ that
-// falls from 0 to π:
+// What distinguishes one kind of tangential motion from another, under δ = δ0 + u_z cosθ or any
+// other even θ ↦ δ that falls from 0 to π:
 //     W = square_velocity · scale · ∫_0^π weight(θ) [K_t(δ(θ)) − K_t(reference)] dθ.
 struct Kernel {
   double normal_amplitude = 0;
@@ -145,7 +145,8 @@ std::vector<double> break_angles(const ContactLaw& law, double mean_indentation,
   return angles;
 }
 
-// One cycle of the normal motion: K_t as a function of the phase θ, even about θ = 0 where δ is largest.
+// One cycle of the normal motion: K_t as a function of the phase θ, even about θ = 0 where δ is
+// largest.
 struct NormalCycle {
   std::function<double(double)> stiffness;
   std::vector<double> break_angles;
@@ -160,8 +161,8 @@ detail::Integral work_factor(const NormalCycle& cycle, const Kernel& kernel, dou
   detail::Integral integral = detail::integrate(
       [&](double angle) { return kernel.weight(angle) * (cycle.stiffness(angle) - reference); },
       cycle.break_angles, tolerance);
-  // K_t is known to a few units in its last place; where that is all there is, the tolerance cannot be reached and
-  // does not count.
+  // K_t is known to a few units in its last place; where that is all there is, the tolerance cannot
+  // be reached and does not count.
   const double round_off = 4 * epsilon * cycle.stiffness_at_top * kernel.absolute_weight;
   integral.converged = integral.converged || integral.error <= round_off;
   return {kernel.scale * integral.value, kernel.scale * (integral.error + round_off),
@@ -238,7 +239,8 @@ DampingResult force_controlled(const ContactLaw& law, double mean_force, double 
   require_positive(mean_force, "force");
   require(force_amplitude >= 0 && force_amplitude <= mean_force, "force_amplitude", force_amplitude,
           "must lie between 0 and the mean force");
-  // indentation_of() needs F > 0; 280 decades below the mean every K_t has reached its limit at F = 0.
+  // indentation_of() needs F > 0; 280 decades below the mean every K_t has reached its limit at F =
+  // 0.
   const double least = std::max(1e-280 * mean_force, std::numeric_limits<double>::min());
   auto stiffness_at = [&](double force) {
     return law.tangential_stiffness(law.indentation_of(std::max(force, least)));
@@ -283,8 +285,8 @@ double indentation_at_mean_force(const ContactLaw& law, double mean_force, doubl
   require_positive(mean_force, "force");
   const double settled = law.indentation_of(mean_force);
   if (amplitude == 0) return settled;
-  // F grows with δ, so F(δ0 − u_z) <= mean <= F(δ0 + u_z): δ0 is within u_z of where the force would rest without
-  // oscillation.
+  // F grows with δ, so F(δ0 − u_z) <= mean <= F(δ0 + u_z): δ0 is within u_z of where the force
+  // would rest without oscillation.
   const double low = std::max(settled - amplitude, law.lowest_indentation() + amplitude);
   const double high = std::min(settled + amplitude, law.highest_indentation() - amplitude);
   if (!(low <= high)) require_covered(law, settled, amplitude);

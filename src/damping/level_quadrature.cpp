@@ -55,7 +55,8 @@ double Series::slope(double theta) const {
   return sum;
 }
 
-// Data of a fit: values of the function at some phases, values of its slope d/dc at others with a weight of their own.
+// Data of a fit: values of the function at some phases, values of its slope d/dc at others with a
+// weight of their own.
 struct FitData {
   std::vector<double> theta, values, slope_theta, slopes;
   double slope_weight = 1;
@@ -82,7 +83,8 @@ Series fit(const FitData& data, int degree) {
   return series;
 }
 
-// The degree with the least generalised cross-validation error; a higher one only follows the noise.
+// The degree with the least generalised cross-validation error; a higher one only follows the
+// noise.
 Series best_fit(const FitData& data, int highest_degree) {
   const double rows = static_cast<double>(data.theta.size() + data.slopes.size());
   Series best;
@@ -98,7 +100,8 @@ Series best_fit(const FitData& data, int highest_degree) {
   return best;
 }
 
-// What independent errors of K_t at the nodes, and of the least one, make of W: the square root of the sum of their squares.
+// What independent errors of K_t at the nodes, and of the least one, make of W: the square root of
+// the sum of their squares.
 double scatter_of_loss(const Oscillation& motion, const std::vector<Node>& nodes,
                        const std::vector<double>& errors, double error_of_least) {
   double sum = std::pow(loss(
@@ -221,7 +224,8 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
   };
   result.work_by_force = by_force(force);
   result.force = force(pi / 2);
-  // The loss is an integral and forgives a fit that follows the cells; a second derivative at a point does not.
+  // The loss is an integral and forgives a fit that follows the cells; a second derivative at a
+  // point does not.
   const Series smooth = best_fit(normal, std::min(highest, 5));
   result.curvature = smooth.second_slope_at_middle() / (amplitude * amplitude);
   result.small_amplitude_work = std::visit(
@@ -235,7 +239,8 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
       [&](std::size_t k) { return modulus_ratio * values[k + 1].sample.normal_stiffness; },
       drag ? modulus_ratio * values.back().sample.normal_stiffness : 0);
   const int degree = static_cast<int>(force.coefficients.size()) - 1;
-  // K of whole cells scatters about F'. Its sum may agree by chance; the scatter tells by how much it could differ.
+  // K of whole cells scatters about F'. Its sum may agree by chance; the scatter tells by how much
+  // it could differ.
   const auto deviation = [&](std::size_t at) {
     return modulus_ratio *
            (values[at].sample.normal_stiffness - force.slope(theta[at]) / amplitude);

@@ -12,7 +12,8 @@ namespace {
 
 using std::numbers::pi;
 
-// δ = mean − u_z cos θ and x = tangential(θ) for θ = π + ω_z t: the first and last sample are minima of δ.
+// δ = mean − u_z cos θ and x = tangential(θ) for θ = π + ω_z t: the first and last sample are
+// minima of δ.
 SampledMotion sample_cycles(double mean, double amplitude, double angular_frequency, int cycles,
                             int steps, const std::function<double(double)>& tangential) {
   require(steps >= 3, "steps", steps, "must be >= 3");

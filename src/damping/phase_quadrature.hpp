@@ -6,7 +6,8 @@
 #include <salebra/damping/oscillation.hpp>
 #include <vector>
 
-// The loss of a cycle as a linear functional of K_t over the phase θ, δ(θ) = δ0 + u_z cosθ (docs/theory.md, section 7):
+// The loss of a cycle as a linear functional of K_t over the phase θ, δ(θ) = δ0 + u_z cosθ
+// (docs/theory.md, section 7):
 //     (a) W = 2u_x² sin²φ0 ∫_0^π K_t sin2θ dθ        (b) W = 4(v/ω)² ∫_0^π θ [K_t − K_t(π)] dθ
 namespace salebra::detail {
 

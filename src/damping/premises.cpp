@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Premises of a damping constant without slip, and the loss with slip, from the springs of a contact law.
+// Premises of a damping constant without slip, and the loss with slip, from the springs of a
+// contact law.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -26,7 +27,8 @@ using std::numbers::pi;
 constexpr double no_loss = 1e-7;
 constexpr int steps = 360;  // the ratio of two losses on one path is then good to 1e-4
 
-// A table continued beyond both ends, F = F1 exp((δ − δ1)/l), l = F1/K1, K_t likewise; other laws as they are.
+// A table continued beyond both ends, F = F1 exp((δ − δ1)/l), l = F1/K1, K_t likewise; other laws
+// as they are.
 class ContinuedLaw final : public ContactLaw {
  public:
   explicit ContinuedLaw(const ContactLaw& law)
@@ -125,7 +127,8 @@ struct JudgedMotion {
       {};  // at a normal amplitude, displacement 1; none: no small-amplitude form
 };
 
-// The loss of the same motion at another amplitude; frequencies without a common period have a power alone.
+// The loss of the same motion at another amplitude; frequencies without a common period have a
+// power alone.
 template <class Motion>
 std::function<double(double)> loss_at(const ContactLaw& law, double mean, Motion motion) {
   return [&law, mean, motion](double amplitude) mutable {
@@ -210,7 +213,8 @@ struct Loss {
   double total = 0, permanent = 0;
 };
 
-// Springs under a path, in units of μ/g: a spring may be stretched by δ − ζ, displacements count in (μ/g) m, losses in (μ/g)² J.
+// Springs under a path, in units of μ/g: a spring may be stretched by δ − ζ, displacements count in
+// (μ/g) m, losses in (μ/g)² J.
 class Springs {
  public:
   // furthest: largest displacement from the path's beginning.
@@ -238,7 +242,8 @@ class Springs {
 
   // Loss without slip at the displacement 1.
   double stick() const { return stick_ > no_loss * scale_ ? stick_ : 0; }
-  // Of the steady state at a displacement. ahead: how far the contact is dragged at its least indentation before.
+  // Of the steady state at a displacement. ahead: how far the contact is dragged at its least
+  // indentation before.
   Loss at(double displacement, double ahead = 0) {
     if (!contact_) return {};
     // Opening levels have no history.
@@ -254,7 +259,8 @@ class Springs {
 
  private:
   static constexpr double tolerance = 1e-9;
-  // The levels' own stiffness is the difference of two that may be much larger: no table fits its last digits.
+  // The levels' own stiffness is the difference of two that may be much larger: no table fits its
+  // last digits.
   double above_noise(double change) const {
     return std::clamp(1e-13 * scale_ / change, tolerance, 1e-3);
   }
@@ -285,7 +291,8 @@ struct Limits {
   double five = unknown, twenty = unknown;
 };
 
-// Least arguments at which change() passes 5 and 20 %, looked for from `low`, where nothing changes yet, to `high`.
+// Least arguments at which change() passes 5 and 20 %, looked for from `low`, where nothing changes
+// yet, to `high`.
 Limits first_crossings(const std::function<double(double)>& change, double low, double high) {
   constexpr double step = 1.2;
   constexpr int halvings = 18;
@@ -353,7 +360,8 @@ class ClosedLevels {
     return loss(excursion) * way_per_cycle_ / excursion;
   }
 
-  // Ways on which the loss is 5 and 20 % of `relaxation` per normal cycle; 0 where they were shorter than that of one cycle.
+  // Ways on which the loss is 5 and 20 % of `relaxation` per normal cycle; 0 where they were
+  // shorter than that of one cycle.
   Limits limits(double relaxation, double longest) const {
     const double negligible = no_loss * law_.tangential_stiffness(bottom_);
     const auto change = [&](double excursion) {
@@ -372,14 +380,16 @@ class ClosedLevels {
   double bottom_, way_per_cycle_, rise_, depth_;
 };
 
-// Displacements, in units of μ/g, at which slip changes the loss, and the loss without slip at the displacement 1.
+// Displacements, in units of μ/g, at which slip changes the loss, and the loss without slip at the
+// displacement 1.
 struct SlipLimits {
   double stick = 0;
   Limits displacements = {};
 };
 
 SlipLimits slip_limits(const ContactLaw& law, const JudgedMotion& motion, double length) {
-  // A contact that loses nothing without slip slips first at about its depth; M = 0.1 has long changed any other loss.
+  // A contact that loses nothing without slip slips first at about its depth; M = 0.1 has long
+  // changed any other loss.
   const double longest = std::max(10 * motion.amplitude, 2 * (length + motion.amplitude));
   const auto [back, ahead] = std::ranges::minmax(motion.path->displacement);
   Springs springs(law, *motion.path, !motion.drag, 2 * longest * (ahead - back));
@@ -392,7 +402,8 @@ SlipLimits slip_limits(const ContactLaw& law, const JudgedMotion& motion, double
 // Of the least normal force: what may stick in sliding.
 constexpr double stuck_share = 0.05;
 
-// Whether all levels slip. displacement of case (a), v/ω and the excursion of case (b), in units of μ/g.
+// Whether all levels slip. displacement of case (a), v/ω and the excursion of case (b), in units of
+// μ/g.
 bool slides(const ContactLaw& law, const JudgedMotion& motion, double displacement,
             double excursion) {
   const double bottom = motion.mean - motion.amplitude, least = law.force(bottom);
@@ -400,7 +411,8 @@ bool slides(const ContactLaw& law, const JudgedMotion& motion, double displaceme
   if (!(least > 0)) return motion.drag && displacement >= motion.amplitude;
   double deepest = bottom - 0.5 * excursion;
   if (!motion.drag) {
-    // A level sticks where one anchor is within its limit δ − ζ of x at all times: 2ζ < min(x + δ) − max(x − δ).
+    // A level sticks where one anchor is within its limit δ − ζ of x at all times: 2ζ < min(x + δ)
+    // − max(x − δ).
     double low = infinity, high = -infinity;
     for (std::size_t i = 0; i < motion.path->time.size(); ++i) {
       const double x = displacement * motion.path->displacement[i];
@@ -421,9 +433,10 @@ void judge(Premise& premise, bool large_is_good = false) {
                                                       : Verdict::holds;
 }
 
-// What a turning point of a slow motion at a random phase costs, in losses of one normal cycle. A level that touches from −θ to θ
-// is let go with the stretch 2vθ/ω; with a turning point at τ between it is 2vτ/ω, and the mean of θ² − τ² over all phases of the
-// cycle is 2θ³/(3π). The sums of θ³ and θ² over the levels are by parts those below.
+// What a turning point of a slow motion at a random phase costs, in losses of one normal cycle. A
+// level that touches from −θ to θ is let go with the stretch 2vθ/ω; with a turning point at τ
+// between it is 2vτ/ω, and the mean of θ² − τ² over all phases of the cycle is 2θ³/(3π). The sums
+// of θ³ and θ² over the levels are by parts those below.
 double cost_of_turning(const ContactLaw& law, double mean, double amplitude) {
   constexpr int cells = 360;
   const double closed = law.tangential_stiffness(mean - amplitude);
@@ -507,7 +520,8 @@ Premise coupling_of(const ContactLaw& law, const ContactFacts& facts) {
   const double poisson = poisson_of(law.modulus_ratio());
   const double dundurs =
       std::isnan(facts.dundurs) ? (1 - 2 * poisson) / (2 * (1 - poisson)) : facts.dundurs;
-  // Direct simulations of a rough surface at 45° and a paraboloid at 90°: 3 % at ν = 0.3 (β = 0.286), 17 % at ν = 0 (β = 0.5).
+  // Direct simulations of a rough surface at 45° and a paraboloid at 90°: 3 % at ν = 0.3 (β =
+  // 0.286), 17 % at ν = 0 (β = 0.5).
   premise.value = 1.3 * std::pow(std::abs(dundurs), 3);
   judge(premise);
   return premise;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Motion of a slider on a spring over an oscillating contact: full and averaged equation, what they end in, stability of sliding.
+// Motion of a slider on a spring over an oscillating contact: full and averaged equation, what they
+// end in, stability of sliding.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -152,8 +153,8 @@ class CycleMeter {
   const std::vector<Cycle>& cycles() const { return cycles_; }
   double slow_period() const { return slow_period_; }
 
-  // Whether the cycles repeat: those of the last quarter and those before them have one range. A motion without sticking may also grow or
-  // decay slowly, hence more of them.
+  // Whether the cycles repeat: those of the last quarter and those before them have one range. A
+  // motion without sticking may also grow or decay slowly, hence more of them.
   bool repeats() {
     const std::size_t count = cycles_.size();
     if (count < 6 || count == seen_) return false;

@@ -29,19 +29,24 @@ struct SliderContact {
   double least_indentation() const { return indentation - normal_amplitude; }
 };
 
-/// The full equation of motion of a slider, step by step. The unknowns are y = x − Vt and w = ẋ − V:
+/// The full equation of motion of a slider, step by step. The unknowns are y = x − Vt and w = ẋ −
+/// V:
 ///     mẇ = −k y − (c − b)w + bV − T.
-/// T is no function of (t, x, ẋ): it depends on the turning points of the path, which a general solver of differential equations would have
-/// to be given as a state of variable length, copied for each trial stage, and with a kink wherever a level begins or ends to slip, which
-/// no error estimate by embedded orders survives. TangentialContact follows straight steps in (δ, x) exactly, each level's slip,
-/// touch and release where it happens within the step. So the step is explicit of second order (velocity Verlet, the velocity's own damping
-/// implicit), its end is known before the contact is moved, and so is a turning point of x within it, at which it is divided. Turning points
-/// of δ and first touch are ends of steps. What remains is the path's curvature within a step: second order, estimated by halving.
+/// T is no function of (t, x, ẋ): it depends on the turning points of the path, which a general
+/// solver of differential equations would have to be given as a state of variable length, copied
+/// for each trial stage, and with a kink wherever a level begins or ends to slip, which no error
+/// estimate by embedded orders survives. TangentialContact follows straight steps in (δ, x)
+/// exactly, each level's slip, touch and release where it happens within the step. So the step is
+/// explicit of second order (velocity Verlet, the velocity's own damping implicit), its end is
+/// known before the contact is moved, and so is a turning point of x within it, at which it is
+/// divided. Turning points of δ and first touch are ends of steps. What remains is the path's
+/// curvature within a step: second order, estimated by halving.
 class SliderEquation {
  public:
   SliderEquation(const SliderContact& contact, const Slider& slider, int steps);
 
-  /// Puts it where δ is least, all levels at the limit of their stretch, which is where every period of sliding passes.
+  /// Puts it where δ is least, all levels at the limit of their stretch, which is where every
+  /// period of sliding passes.
   void begin(double offset, double relative_velocity);
   /// One period of the oscillation, from least to least indentation.
   void advance();

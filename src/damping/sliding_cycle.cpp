@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The simulated cycles with Coulomb friction, without and with coupling of pressures and tractions (damping/cycle.hpp).
+// The simulated cycles with Coulomb friction, without and with coupling of pressures and tractions
+// (damping/cycle.hpp).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +19,8 @@
 namespace salebra {
 namespace {
 
-// The pressures of each step of a period. Going down, a cycle meets the indentations of its way up again.
+// The pressures of each step of a period. Going down, a cycle meets the indentations of its way up
+// again.
 class StepPressures {
  public:
   StepPressures(const PressureLevels& levels, const Grid2D& grid, const Trajectory& trajectory,
@@ -234,7 +236,8 @@ class CoupledBody final : public SlidingBody {
       contact_.restore(*state);
       return;
     }
-    // What sticks while the contact is made depends on how: from first touch, in rings of about one width.
+    // What sticks while the contact is made depends on how: from first touch, in rings of about one
+    // width.
     const int approach = std::max(steps() / 4, 4);
     for (int k = 1; k <= approach; ++k) {
       const double part = static_cast<double>(k) / approach;

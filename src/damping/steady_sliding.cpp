@@ -18,7 +18,8 @@ namespace {
 
 using std::numbers::pi;
 
-// What a period looks like from the level of the spring foundation: r = v/v_c, φ counted from the least indentation.
+// What a period looks like from the level of the spring foundation: r = v/v_c, φ counted from the
+// least indentation.
 class Period {
  public:
   explicit Period(double ratio) : ratio_(ratio), sticks_from_(std::asin(std::min(ratio, 1.0))) {}
@@ -29,7 +30,8 @@ class Period {
 
   double ratio() const { return ratio_; }
 
-  // The phase at which a level that sticks from `start` on begins to slip: −cosφ − rφ is there what it was.
+  // The phase at which a level that sticks from `start` on begins to slip: −cosφ − rφ is there what
+  // it was.
   double slips_at(double start) const {
     const double high = 2 * pi - start;
     return slips_at(start, high - (high - start) * std::min(ratio_, 0.5));
@@ -55,7 +57,8 @@ class Period {
     return std::clamp(phase, low, high);
   }
 
-  // Mean over the period of (m − δ_min)/u_z, where levels that never open have the stretch (μK/K_t)(m − ζ).
+  // Mean over the period of (m − δ_min)/u_z, where levels that never open have the stretch
+  // (μK/K_t)(m − ζ).
   double mean_rise() const {
     if (ratio_ >= 1) return 1;
     const double end = slips_at(sticks_from_), stuck = end - sticks_from_;
@@ -74,7 +77,8 @@ struct PhaseState {
   double phase, sine, normal_stiffness, tangential_stiffness;
 };
 
-// Gauss–Kronrod rule of 7 points, exact for polynomials of degree 11, and the weights of its Gauss rule of 3.
+// Gauss–Kronrod rule of 7 points, exact for polynomials of degree 11, and the weights of its Gauss
+// rule of 3.
 constexpr int rule_points = 7;
 constexpr double rule_point[rule_points] = {
     -0.960491268708020283, -0.774596669241483377, -0.434243749346802558, 0,
@@ -84,7 +88,8 @@ constexpr double rule_weight[rule_points] = {
     0.401397414775962222, 0.268488089868333440, 0.104656226026467265};
 constexpr double gauss_weight[rule_points] = {0, 5.0 / 9, 0, 8.0 / 9, 0, 5.0 / 9, 0};
 
-// The law over one half of the oscillation δ = δ_min + u_z(1 − cosφ), at nodes that all velocities share.
+// The law over one half of the oscillation δ = δ_min + u_z(1 − cosφ), at nodes that all velocities
+// share.
 class HalfPeriod {
  public:
   HalfPeriod(const ContactLaw& law, double low, double amplitude)
@@ -103,7 +108,8 @@ class HalfPeriod {
         nodes_.push_back(node);
   }
 
-  // Calls add(nodes, from, to) for the pieces between breaks of the law and a velocity's two phases.
+  // Calls add(nodes, from, to) for the pieces between breaks of the law and a velocity's two
+  // phases.
   template <class Add>
   void for_each_piece(const Period& period, const Add& add) const {
     for (std::size_t i = 1; i < breaks_.size(); ++i) {
@@ -161,8 +167,9 @@ struct Force {
   bool converged = true;
 };
 
-// ∫_0^π of the shares over 2π. Pieces of the law first, at their shared nodes; then the worst piece is halved until the sum of errors
-// reaches the tolerance. Near φ = 0 a slow sliding has φ_e ≈ 2π − √(φ² + 4πr), which bends more than any law.
+// ∫_0^π of the shares over 2π. Pieces of the law first, at their shared nodes; then the worst piece
+// is halved until the sum of errors reaches the tolerance. Near φ = 0 a slow sliding has φ_e ≈ 2π −
+// √(φ² + 4πr), which bends more than any law.
 Force force_above_least(const HalfPeriod& half, const Period& period, double limit_scale,
                         double velocity, double omega, double tolerance) {
   struct Piece {
@@ -191,7 +198,8 @@ Force force_above_least(const HalfPeriod& half, const Period& period, double lim
     double spread = 0;
     for (int j = 0; j < rule_points; ++j)
       spread += rule_weight[j] * std::abs(values[j] - 0.5 * kronrod);
-    // The rules differ by the error of the lower order; its power 3/2 relative to the spread is that of the higher (QUADPACK).
+    // The rules differ by the error of the lower order; its power 3/2 relative to the spread is
+    // that of the higher (QUADPACK).
     const double part = spread > 0 ? 200 * std::abs(kronrod - gauss) / spread : 0;
     const double half_width = 0.5 * (to - from);
     return Piece{from, to, half_width * kronrod,

@@ -112,7 +112,8 @@ double StiffnessTable::at(double indentation) const {
                 std::clamp((indentation - cell.middle) / cell.half_width, -1.0, 1.0));
 }
 
-// Four Gauss points are exact up to degree 7; the integrand has degree 6. Nothing cancels, however short the range.
+// Four Gauss points are exact up to degree 7; the integrand has degree 6. Nothing cancels, however
+// short the range.
 StiffnessTable::Moments StiffnessTable::within(const Cell& cell, double low, double high) const {
   constexpr double node[2] = {0.3399810435848563, 0.8611363115940526};
   constexpr double weight[2] = {0.6521451548625461, 0.3478548451374538};

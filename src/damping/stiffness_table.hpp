@@ -8,9 +8,10 @@
 
 namespace salebra::detail {
 
-/// K_t of a law over [lowest, highest] as piecewise polynomials of degree 5 on cells that are halved until they fit,
-/// so that every integral of K_t' that the tangential problem needs is exact for the table and costs tens of
-/// nanoseconds, whatever the law costs. Immutable; memory depends on the law and the tolerance only.
+/// K_t of a law over [lowest, highest] as piecewise polynomials of degree 5 on cells that are
+/// halved until they fit, so that every integral of K_t' that the tangential problem needs is exact
+/// for the table and costs tens of nanoseconds, whatever the law costs. Immutable; memory depends
+/// on the law and the tolerance only.
 class StiffnessTable {
  public:
   /// ∫K_t'(ζ)(ζ − low)^k dζ over [low, high], k = 0, 1, 2.

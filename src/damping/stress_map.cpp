@@ -85,11 +85,12 @@ double OscillatingStress::pressure(double angle, double r) const {
   return law_.pressure(indentation(angle), r);
 }
 
-// q_x jumps at the edge by G*(x(θ) − x(−|θ|)), 0 while δ grows. Within, the levels that touched at −β have the anchor
-// x(−β), so that Eq. (17) becomes an integral over β; those inside the least contact share one anchor and do not
-// contribute. With Y = π − β the radius of a level grows like a² = a_min² + BY² at first, so that 1/√(a² − r²) has a
-// root at Y_r for r outside the least contact, and a peak of width √((a_min² − r²)/B) inside: Y = Y_r cosh t and Y =
-// width · sinh t make both smooth, however close r is.
+// q_x jumps at the edge by G*(x(θ) − x(−|θ|)), 0 while δ grows. Within, the levels that touched at
+// −β have the anchor x(−β), so that Eq. (17) becomes an integral over β; those inside the least
+// contact share one anchor and do not contribute. With Y = π − β the radius of a level grows like
+// a² = a_min² + BY² at first, so that 1/√(a² − r²) has a root at Y_r for r outside the least
+// contact, and a peak of width √((a_min² − r²)/B) inside: Y = Y_r cosh t and Y = width · sinh t
+// make both smooth, however close r is.
 double OscillatingStress::shear(double angle, double r) const {
   require(r >= 0, "radius", r, "must be >= 0");
   const double edge = contact_radius(angle), now = std::abs(angle);
@@ -110,8 +111,8 @@ double OscillatingStress::shear(double angle, double r) const {
     const double stretch = r > inner ? base_offset * std::sinh(t) : width * std::cosh(t);
     const double beyond =
         r > inner ? 2 * base_offset * std::pow(std::sinh(t / 2), 2) : offset - base_offset;
-    // How far the level lies above that of the base, without the difference of two cosines; close by, the radii
-    // differ too little for the difference of two inversions of g.
+    // How far the level lies above that of the base, without the difference of two cosines; close
+    // by, the radii differ too little for the difference of two inversions of g.
     const double climb =
         2 * amplitude_ * std::sin(0.5 * (offset + base_offset)) * std::sin(0.5 * beyond);
     double growth = climb / base_slope;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The simulated cycle of a stuck contact, with the estimated error of its steps (damping/cycle.hpp).
+// The simulated cycle of a stuck contact, with the estimated error of its steps
+// (damping/cycle.hpp).
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -131,7 +132,8 @@ class StuckBody final : public detail::CycleBody {
       state_.displacement.y = entering.select(present.y, state_.displacement.y);
     }
     state_.contact = contact;
-    // The stick traction of the last set is a good guess for this one; solve() reads it on the contact only.
+    // The stick traction of the last set is a good guess for this one; solve() reads it on the
+    // contact only.
     count(solver_.solve(contact, unit_motion_, 1.0, state_.unit_traction));
   }
 
@@ -177,9 +179,10 @@ struct LossInSteps {
   double variance = 0;  // from the unknown entry time of each cell within a step
 };
 
-// W = ½∮s² dK_t with the contact sets of every `stride`-th step, as the simulation would find it in steps of that length: what lies
-// between two sets enters and leaves at the middle time. Cells that enter at any time of a step, each by itself, have s² spread evenly
-// between its values at the ends. Of the second of two periods, since the first may begin anywhere.
+// W = ½∮s² dK_t with the contact sets of every `stride`-th step, as the simulation would find it in
+// steps of that length: what lies between two sets enters and leaves at the middle time. Cells that
+// enter at any time of a step, each by itself, have s² spread evenly between its values at the
+// ends. Of the second of two periods, since the first may begin anywhere.
 LossInSteps loss_in_steps(const std::vector<CycleSample>& samples, const Trajectory& trajectory,
                           double cell_area, int stride) {
   struct Band {
@@ -228,7 +231,8 @@ LossInSteps loss_in_steps(const std::vector<CycleSample>& samples, const Traject
 double step_error_of(const CycleResult& result, const Trajectory& trajectory, double cell_area) {
   const LossInSteps here = loss_in_steps(result.samples, trajectory, cell_area, 1);
   const LossInSteps twice = loss_in_steps(result.samples, trajectory, cell_area, 2);
-  // A third of the change is the error of second order; the whole of it leaves room for cells that enter in groups.
+  // A third of the change is the error of second order; the whole of it leaves room for cells that
+  // enter in groups.
   const double change = std::abs(here.lost - twice.lost);
   return std::max(change, change / 3 + 2 * std::sqrt(here.variance)) +
          std::abs(here.lost - result.work_per_cycle);
@@ -253,11 +257,13 @@ CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
                            const CycleOptions& options) {
   grid.validate();
   const detail::TrajectoryRange range = detail::checked_range(trajectory, options);
-  // A contact set, of a byte a cell, for every second step, since the way down meets those of the way up.
+  // A contact set, of a byte a cell, for every second step, since the way down meets those of the
+  // way up.
   require_memory(grid, 0.5 * options.steps * static_cast<double>(grid.points()),
                  "the contact sets of its steps (fewer `steps` need less)");
   StuckBody body(levels, grid, material, trajectory, options, range);
-  // Started at the minimum indentation, every other cell has been released and has entered again: the period repeats.
+  // Started at the minimum indentation, every other cell has been released and has entered again:
+  // the period repeats.
   const bool from_minimum =
       trajectory.indentation(0) <= range.indentation_min + 1e-9 * range.sweep();
   CycleResult result = detail::run_cycle(body, grid, trajectory, options, from_minimum);

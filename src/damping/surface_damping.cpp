@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Damping of one surface from contacts inside the oscillation, with the errors of levels, cells and solver.
+// Damping of one surface from contacts inside the oscillation, with the errors of levels, cells and
+// solver.
 #include <omp.h>
 
 #include <algorithm>
@@ -172,7 +173,8 @@ class Levels {
         .force = state.force,
         .cells =
             std::round(state.contact_area_fraction * static_cast<double>(surface_.grid.points())),
-        // Along the sides of cells a curve is longer by 4/π in the mean over its directions (Cauchy and Crofton).
+        // Along the sides of cells a curve is longer by 4/π in the mean over its directions (Cauchy
+        // and Crofton).
         .perimeter = pi / 4 * spots.perimeter / std::sqrt(surface_.grid.cell_area()),
         .spots = static_cast<double>(spots.spots.size())};
   }
@@ -233,9 +235,11 @@ class Load {
   const std::vector<GridValue>& values() const { return values_; }
   const StiffnessRatio& ratio() const { return ratio_; }
   double window() const { return half_; }
-  /// Relative standard deviation of W by the chance at which spots touch within the window and outside the oscillation. With n spots of
-  /// an exponential law, F'' is a sum of their δᵢ^{−1/2}; the Poisson variance of what a polynomial of degree d makes of it is I/(πn),
-  /// I = ½ ln(1 + 1.6((H/u_z)² − 1)/d²) to a tenth, by quadrature over the place of a spot for H/u_z of 1.5 to 40.
+  /// Relative standard deviation of W by the chance at which spots touch within the window and
+  /// outside the oscillation. With n spots of an exponential law, F'' is a sum of their δᵢ^{−1/2};
+  /// the Poisson variance of what a polynomial of degree d makes of it is I/(πn), I = ½ ln(1 +
+  /// 1.6((H/u_z)² − 1)/d²) to a tenth, by quadrature over the place of a spot for H/u_z of 1.5 to
+  /// 40.
   double spot_chance() const {
     const double wider = half_ / moved_, degree = Rule(levels_).inverse.rows() - 1.0;
     const double missed = std::log1p(1.6 * (wider * wider - 1) / (degree * degree)) / 2;
@@ -262,7 +266,8 @@ class Load {
   }
 
  private:
-  /// The second difference of F over the window is about F(KH/F)², and its tenth of a thousandth is lost in nothing else.
+  /// The second difference of F over the window is about F(KH/F)², and its tenth of a thousandth is
+  /// lost in nothing else.
   double tolerance() const {
     const double strain = half_ * sample_.normal_stiffness / sample_.force;
     return std::clamp(1e-4 * strain * strain, 1e-13, 1e-6);
@@ -362,7 +367,8 @@ class Load {
     });
   }
 
-  /// Standard deviation of W from the chance at which whole cells enter, each of which raises K alike.
+  /// Standard deviation of W from the chance at which whole cells enter, each of which raises K
+  /// alike.
   double scatter(const std::vector<Levels::Contact>& contacts, const Rule& rule,
                  const VectorXd& force, const VectorXd& series, const VectorXd& weights) const {
     const double curvature = 4 * (Rule(rule.points.size() - 1, 2).inverse.row(2).dot(force));
@@ -404,8 +410,9 @@ class Load {
     return std::sqrt(more * weights.dot(of_forces * weights));
   }
 
-  // Of the number of lattice points inside a smooth curve at a random place, for each unit of its length:
-  // Σ|k|⁻³/(4π³) over the reciprocal lattice (D. G. Kendall, Quart. J. Math. 19 (1948) 1, for ovals).
+  // Of the number of lattice points inside a smooth curve at a random place, for each unit of its
+  // length: Σ|k|⁻³/(4π³) over the reciprocal lattice (D. G. Kendall, Quart. J. Math. 19 (1948) 1,
+  // for ovals).
   static constexpr double lattice_variance = 0.0728;
 
   const Material& material_;
@@ -557,7 +564,8 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
     // The highest loads take longest and go first.
 #pragma omp parallel for schedule(dynamic, 1) num_threads(wanted) if (wanted > 1)
     for (int back = 0; back < static_cast<int>(open.size()); ++back) {
-      // One process may have been told to stop where the others were not. One that failed calls them no more.
+      // One process may have been told to stop where the others were not. One that failed calls
+      // them no more.
       if (failed || !ranks.all_agree(!stop)) stop = true;
       if (stop) continue;
       try {

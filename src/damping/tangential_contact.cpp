@@ -88,7 +88,8 @@ struct TangentialContact::State {
                       (empty ? 0 : pieces.back().second_integral) + second, deviation});
   }
 
-  // Takes levels >= `level` off the topmost piece, or all of it; `moments` are those of what is taken off.
+  // Takes levels >= `level` off the topmost piece, or all of it; `moments` are those of what is
+  // taken off.
   void cut(double level, const Moments& moments, Linear removed) {
     Piece& piece = pieces.back();
     const double low = bottom(), width = piece.top - level;
@@ -117,9 +118,9 @@ struct TangentialContact::State {
                           {w.low, w.low + fraction * (w.high - w.low)});
   }
 
-  // Lets go of the levels above new_indentation. A stretch s at the end is worth ½K_t's² without slip; with finite
-  // friction the level has slipped before, while the normal load left it and the motion pulled it, and the first
-  // share of that work remains.
+  // Lets go of the levels above new_indentation. A stretch s at the end is worth ½K_t's² without
+  // slip; with finite friction the level has slipped before, while the normal load left it and the
+  // motion pulled it, and the first share of that work remains.
   void release(double new_indentation, double new_x) {
     const double descent = indentation - new_indentation, travel = new_x - x;
     auto position = [&](double level) { return x + (indentation - level) / descent * travel; };
@@ -167,9 +168,10 @@ struct TangentialContact::State {
     push(new_indentation, {x, new_x});
   }
 
-  // Forward (side = 1) slip: x0 is raised to x − slope_limit(δ − ζ) where it lies below. Backward slip is its mirror
-  // image. The anchor of a level moves with the bound from when they meet to the end of the step, during which the
-  // stretch is slope_limit(δ(t) − ζ) and δ changes in proportion to the bound.
+  // Forward (side = 1) slip: x0 is raised to x − slope_limit(δ − ζ) where it lies below. Backward
+  // slip is its mirror image. The anchor of a level moves with the bound from when they meet to the
+  // end of the step, during which the stretch is slope_limit(δ(t) − ζ) and δ changes in proportion
+  // to the bound.
   void slip(double side, double new_indentation, double new_x) {
     const double climb = new_indentation - indentation;
     const double advance = side * (new_x - x) - slope_limit * climb;
@@ -304,7 +306,8 @@ TangentialContact::TangentialContact(const ContactLaw& law, double lowest, doubl
             ? 1.001 * options.tangential_range * law.modulus_ratio() / options.friction_coefficient
             : std::numeric_limits<double>::infinity();
     low = std::max(lowest - reach, law_low);
-    // Below first touch there is nothing; without friction, or with little, the reach has no other bound.
+    // Below first touch there is nothing; without friction, or with little, the reach has no other
+    // bound.
     if (!(law.force(low) > 0) || !std::isfinite(low)) {
       double open = low, closed = highest;
       if (!std::isfinite(open))

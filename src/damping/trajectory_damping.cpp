@@ -71,8 +71,9 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
   const bool stick = std::isinf(options.friction_coefficient);
   const bool drifts = moves_on(path);
   const double drift = drifts ? path.drift() : 0;
-  // A spring between two limits follows a periodic motion from its second period on. With drift it has to be at the limit of its
-  // stretch somewhere in each period: one that begins at that limit is never behind the periodic state and joins it there.
+  // A spring between two limits follows a periodic motion from its second period on. With drift it
+  // has to be at the limit of its stretch somewhere in each period: one that begins at that limit
+  // is never behind the periodic state and joins it there.
   const bool slides = drifts && !stick;
   const int periods = stick ? 1 : 2;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Losses of a viscoelastic contact in its periodic state: of the material, and of springs that are let go.
+// Losses of a viscoelastic contact in its periodic state: of the material, and of springs that are
+// let go.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -45,7 +46,8 @@ NormalPeriod normal_period(const MaxwellSpring& spring, const SpringPath& path, 
   NormalSpring state(spring, level);
   state.start(path.indentation[0], start);
   period.force.push_back(state.force(path.indentation[0]));
-  // The anchors' velocity is continuous at touch and release: that these move changes nothing at first order.
+  // The anchors' velocity is continuous at touch and release: that these move changes nothing at
+  // first order.
   double stay = 0;
   bool stays_closed = state.closed();
   const auto end_of_stay = [&] {
@@ -69,8 +71,8 @@ NormalPeriod normal_period(const MaxwellSpring& spring, const SpringPath& path, 
   return period;
 }
 
-// Newton's method for the anchors that a period returns to. They are a convex and rising function of those at the start, so that it
-// converges monotonically after its first step.
+// Newton's method for the anchors that a period returns to. They are a convex and rising function
+// of those at the start, so that it converges monotonically after its first step.
 bool find_periodic(const MaxwellSpring& spring, const SpringPath& path, double level, double range,
                    Branches& start, NormalPeriod& period) {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(spring.terms(), spring.terms());
@@ -81,7 +83,8 @@ bool find_periodic(const MaxwellSpring& spring, const SpringPath& path, double l
     const Branches change =
         detail::least_squares(one - period.derivative, (period.end - start).matrix()).array();
     const double distance = change.abs().maxCoeff();
-    // Round-off of one period, over the share of a branch that it decays by, may be all that is left.
+    // Round-off of one period, over the share of a branch that it decays by, may be all that is
+    // left.
     if (distance <= 1e-11 * range || (distance <= 1e-5 * range && distance >= 0.5 * last))
       return true;
     last = distance;
@@ -123,7 +126,8 @@ struct TangentialLoss {
   double material = 0, relaxation = 0;
 };
 
-// A spring whose stays in contact are known, so that a period is an affine map of its state: w, then the branches.
+// A spring whose stays in contact are known, so that a period is an affine map of its state: w,
+// then the branches.
 class OpeningSpring {
  public:
   OpeningSpring(const MaxwellSpring& spring, const SpringPath& path,
@@ -257,7 +261,8 @@ ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeri
 
   const detail::SpringLayout ring(law.profile(), result.min_contact_radius,
                                   result.max_contact_radius, springs);
-  // Each spring starts from the state of the one within it; the first from that of a spring that never leaves.
+  // Each spring starts from the state of the one within it; the first from that of a spring that
+  // never leaves.
   Branches start = trajectory.indentation.front() - permanent_level - normal.start;
   for (const detail::SpringLayout::Cell& cell : ring.cells) {
     NormalPeriod period;

@@ -194,7 +194,8 @@ void AtomicFile::place() {
     unlink(temporary_.c_str());
   }
   placed_ = true;
-  // A folder that may be written but not read cannot be opened for this, and not every file system knows it.
+  // A folder that may be written but not read cannot be opened for this, and not every file system
+  // knows it.
   const int folder = without_interruption(
       [&] { return open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
   if (folder < 0) return;

@@ -12,7 +12,8 @@
 
 namespace salebra::detail {
 
-/// Bytes that are written to an open file at their places, and read back. Throws IoError naming the target, under which the file will be known.
+/// Bytes that are written to an open file at their places, and read back. Throws IoError naming the
+/// target, under which the file will be known.
 class FilePieces {
  public:
   FilePieces(std::filesystem::path target, int descriptor)
@@ -31,7 +32,8 @@ class FilePieces {
   std::vector<Piece> pieces_;
 };
 
-/// The temporary file of an AtomicFile of another process, open for writing. Throws IoError naming the target.
+/// The temporary file of an AtomicFile of another process, open for writing. Throws IoError naming
+/// the target.
 class OthersFile {
  public:
   OthersFile(const std::filesystem::path& temporary, const std::filesystem::path& target);
@@ -44,7 +46,8 @@ class OthersFile {
   int descriptor_;
 };
 
-/// A file that appears under its name complete or not at all. Throws IoError for what the system refuses.
+/// A file that appears under its name complete or not at all. Throws IoError for what the system
+/// refuses.
 class AtomicFile {
  public:
   /// Creates the temporary file beside its target. Throws as require_output does.
@@ -59,10 +62,12 @@ class AtomicFile {
 
   /// Appends.
   void write(std::string_view bytes);
-  /// For FilePieces in place of write(): makes the file so long, with room on the disk where the file system can promise it.
+  /// For FilePieces in place of write(): makes the file so long, with room on the disk where the
+  /// file system can promise it.
   void reserve(std::uint64_t size);
   int descriptor() const { return descriptor_; }
-  /// Flushes to the disk, reads the bytes back and closes: what can fail for want of space or by a fault of the disk.
+  /// Flushes to the disk, reads the bytes back and closes: what can fail for want of space or by a
+  /// fault of the disk.
   void finish();
   /// Renames the finished file.
   void place();

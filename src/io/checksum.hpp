@@ -7,9 +7,10 @@
 
 namespace salebra::detail {
 
-/// Checksum of a stream of bytes, however it is cut into pieces. Each step is a bijection of the state for a given word and of the
-/// word for a given state: streams of one length that differ within a single aligned word of eight bytes never agree. It tells
-/// damage, not intent. Cost: one pass, several GB/s.
+/// Checksum of a stream of bytes, however it is cut into pieces. Each step is a bijection of the
+/// state for a given word and of the word for a given state: streams of one length that differ
+/// within a single aligned word of eight bytes never agree. It tells damage, not intent. Cost: one
+/// pass, several GB/s.
 class Checksum {
  public:
   void add(std::string_view bytes) {

@@ -28,7 +28,8 @@ std::pair<std::string_view, double> prefix_for(double largest) {
 
 std::string number(double value) { return fmt::format("{:g}", value); }
 
-// Decades carry labels, and where there are few of them 2 and 5 do too; what lies between has small tics.
+// Decades carry labels, and where there are few of them 2 and 5 do too; what lies between has small
+// tics.
 std::string logarithmic_tics(double low, double high) {
   const bool few = high - low < 1.7;
   const int stride = std::max(1, static_cast<int>(std::ceil((high - low) / 9)));

@@ -10,8 +10,9 @@
 #include "loaded_surface.hpp"
 #include "surface_writers.hpp"
 
-/// Gwyddion Simple Field: a text header "Key = value" ended by 1 to 4 NUL bytes that pad it to a multiple of four, then float32
-/// values, little-endian, row after row from the top left; undefined points are NaN.
+/// Gwyddion Simple Field: a text header "Key = value" ended by 1 to 4 NUL bytes that pad it to a
+/// multiple of four, then float32 values, little-endian, row after row from the top left; undefined
+/// points are NaN.
 namespace salebra::detail {
 namespace {
 

@@ -17,9 +17,10 @@
 #include "surface_format.hpp"
 #include "surface_writers.hpp"
 
-/// "GWYP", then one object: its type as text, its size, its components. A component is a name, a letter for its type, and a value: b
-/// (1 byte), c (1), i (4), q (8), d (double), s (text), o (an object), or their capital letters for arrays, which begin with their
-/// number. Texts end with NUL, numbers are little-endian, sizes have four bytes. Channel N of a file is the object /N/data, and
+/// "GWYP", then one object: its type as text, its size, its components. A component is a name, a
+/// letter for its type, and a value: b (1 byte), c (1), i (4), q (8), d (double), s (text), o (an
+/// object), or their capital letters for arrays, which begin with their number. Texts end with NUL,
+/// numbers are little-endian, sizes have four bytes. Channel N of a file is the object /N/data, and
 /// /N/mask marks its points. Source: "Gwyddion file formats", part "GWY", of Gwyddion's user guide.
 namespace salebra::detail {
 namespace {
@@ -35,7 +36,8 @@ T number_at(std::string_view bytes) {
   return value;
 }
 
-/// Bytes that are taken from the front. Whatever a file declares, nothing beyond its end is touched.
+/// Bytes that are taken from the front. Whatever a file declares, nothing beyond its end is
+/// touched.
 class Bytes {
  public:
   Bytes(const std::filesystem::path& file, std::string_view rest) : file_(file), rest_(rest) {}
@@ -103,7 +105,8 @@ std::string_view value_of(const std::filesystem::path& file, char type, Bytes& b
   return {};
 }
 
-/// Objects within are taken as a whole: only those that are asked for are looked into, so that no nesting is too deep.
+/// Objects within are taken as a whole: only those that are asked for are looked into, so that no
+/// nesting is too deep.
 Components components_of(const std::filesystem::path& file, std::string_view content) {
   Components all;
   Bytes bytes(file, content);
@@ -281,7 +284,8 @@ void write_gwy(const std::filesystem::path& file, const Surface& surface,
   if (bytes > std::numeric_limits<std::uint32_t>::max())
     throw InvalidInput(file.string(),
                        "would be larger than 4 GiB, which .gwy cannot be; write .h5");
-  // Gwyddion computes with every value of a channel: undefined points get a height among the others.
+  // Gwyddion computes with every value of a channel: undefined points get a height among the
+  // others.
   double sum = 0;
   for (const double height : surface.heights.reshaped()) sum += std::isnan(height) ? 0 : height;
   const Index defined = grid.points() - undefined;

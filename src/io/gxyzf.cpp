@@ -13,8 +13,8 @@
 #include "surface_writers.hpp"
 #include "xyz.hpp"
 
-/// Gwyddion XYZ Field: a text header padded by NUL bytes to a multiple of eight, then for each point x, y and its channels as
-/// little-endian float64.
+/// Gwyddion XYZ Field: a text header padded by NUL bytes to a multiple of eight, then for each
+/// point x, y and its channels as little-endian float64.
 namespace salebra::detail {
 namespace {
 

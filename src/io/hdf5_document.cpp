@@ -46,7 +46,8 @@ const AttributeValue* attribute_of(const Object& object, std::string_view name) 
 }
 
 Hdf5Reading reading_of(const InputFile& file, std::uint64_t bytes) {
-  // Unpacking and conversion take 40 MB/s on the slowest machine that is to be expected; a file that takes more keeps HDF5 in circles.
+  // Unpacking and conversion take 40 MB/s on the slowest machine that is to be expected; a file
+  // that takes more keeps HDF5 in circles.
   constexpr std::uint64_t slowest = 40'000'000, least = 5;
   Hdf5Reading reading;
   reading.file = file.path();

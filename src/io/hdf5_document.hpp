@@ -17,7 +17,8 @@
 
 #include "input_file.hpp"
 
-/// What an HDF5 file says, as plain values: the one interface between HDF5 and everything that reads.
+/// What an HDF5 file says, as plain values: the one interface between HDF5 and everything that
+/// reads.
 namespace salebra::detail::hdf5 {
 
 /// A number of any type, a text, or something else.
@@ -41,9 +42,10 @@ struct Object {
   std::optional<std::string> text(std::string_view attribute) const;
 };
 
-/// The outline of a file with all attributes and small datasets; large datasets are read when they are requested.
-/// Links and references to other files, symbolic links, external storage, virtual datasets, and filters other than one shuffle, one
-/// deflate and one fletcher32 are refused where they are requested; nothing beside the file is ever read.
+/// The outline of a file with all attributes and small datasets; large datasets are read when they
+/// are requested. Links and references to other files, symbolic links, external storage, virtual
+/// datasets, and filters other than one shuffle, one deflate and one fletcher32 are refused where
+/// they are requested; nothing beside the file is ever read.
 /// cost     memory: at most 64 times the file and 256 MB, in the process that reads
 class Document {
  public:
@@ -56,7 +58,8 @@ class Document {
   /// The same, of that kind. Throws InvalidInput where there is none, and where it is refused.
   const Object& group(const std::string& path) const;
   const Object& dataset(const std::string& path) const;
-  /// A dataset whose numbers can be read: count() of them fit in memory. Throws InvalidInput for any other.
+  /// A dataset whose numbers can be read: count() of them fit in memory. Throws InvalidInput for
+  /// any other.
   const Object& numeric(const std::string& path) const;
   /// Copies the values of a dataset of numbers, count() of them, the last dimension contiguous.
   /// Throws InvalidInput as numeric() does, and where they turn out to be damaged.
@@ -86,7 +89,8 @@ void read_numbers(const InputFile& file, const std::string& path,
 /// Calls work while no other thread is inside HDF5.
 void alone(const std::function<void()>& work);
 
-/// Objects by path as bytes, and back. Decoding takes nothing for granted; what is not what encode() writes throws InvalidInput.
+/// Objects by path as bytes, and back. Decoding takes nothing for granted; what is not what
+/// encode() writes throws InvalidInput.
 using Objects = std::map<std::string, Object, std::less<>>;
 std::string encode(const Objects& objects);
 Objects decode(const std::filesystem::path& file, std::string_view bytes);

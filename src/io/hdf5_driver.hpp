@@ -8,12 +8,14 @@
 
 namespace salebra::detail::hdf5 {
 
-/// What the file drivers of this folder have in common. HDF5 casts its base to a driver's file and back.
+/// What the file drivers of this folder have in common. HDF5 casts its base to a driver's file and
+/// back.
 struct DriverFile : H5FD_t {
   haddr_t end_of_addresses = 0, end = 0;
 };
 
-/// A class of drivers with the functions that need no more than a DriverFile; the others are the driver's own.
+/// A class of drivers with the functions that need no more than a DriverFile; the others are the
+/// driver's own.
 inline H5FD_class_t driver_class_of(const char* name, std::size_t access_size) {
   H5FD_class_t driver{};
   driver.name = name;

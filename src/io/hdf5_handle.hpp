@@ -13,8 +13,8 @@ namespace salebra::detail::hdf5 {
 /// HDF5 must not print: its errors are thrown. To be called by everything that enters the library.
 inline void be_silent() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
-/// Handles of this thread that a destructor could not close. Closing writes what HDF5 holds back: a writer compares this number
-/// before and after.
+/// Handles of this thread that a destructor could not close. Closing writes what HDF5 holds back: a
+/// writer compares this number before and after.
 inline int& failed_closes() {
   thread_local int count = 0;
   return count;

@@ -64,8 +64,9 @@ std::string_view image_of(hid_t file) {
   return {static_cast<const char*>(*bytes), static_cast<std::size_t>(size)};
 }
 
-/// What HDF5 asks for an image that stays where it is and belongs to another: every copy is the image itself, and nothing is freed. The ready-made
-/// H5LTopen_file_image() of HDF5 1.10 does the same and leaks its notes of it.
+/// What HDF5 asks for an image that stays where it is and belongs to another: every copy is the
+/// image itself, and nothing is freed. The ready-made H5LTopen_file_image() of HDF5 1.10 does the
+/// same and leaks its notes of it.
 void* same_image(std::size_t, H5FD_file_image_op_t, void* image) { return image; }
 void* no_copy(void* to, const void* from, std::size_t, H5FD_file_image_op_t, void*) {
   return to == from ? to : nullptr;
@@ -75,7 +76,8 @@ herr_t no_release(void*, H5FD_file_image_op_t, void*) { return 0; }
 void* same_notes(void* image) { return image; }
 herr_t no_notes_to_free(void*) { return 0; }
 
-/// A file that is read where its bytes lie. temporary: as of file_in_memory(); HDF5 takes two files in memory of one name for one file.
+/// A file that is read where its bytes lie. temporary: as of file_in_memory(); HDF5 takes two files
+/// in memory of one name for one file.
 File file_of_image(std::string_view bytes, const std::filesystem::path& temporary,
                    const std::string& what) {
   const Properties access(H5Pcreate(H5P_FILE_ACCESS), what);
@@ -253,7 +255,8 @@ void Output::attribute(hid_t object, const std::string& name, std::uint64_t valu
 
 void Output::attribute(hid_t object, const std::string& name, std::string_view value) {
   if (!ranks_.is_root()) return;
-  // Variable length: h5py and xarray read it as str, fixed length as bytes; and it may exceed the 64 KiB of an object header.
+  // Variable length: h5py and xarray read it as str, fixed length as bytes; and it may exceed the
+  // 64 KiB of an object header.
   const Type type = text_type(H5T_VARIABLE);
   const Space space(H5Screate(H5S_SCALAR), "write " + name);
   const Attribute attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),

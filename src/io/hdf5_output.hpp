@@ -24,10 +24,12 @@ struct Label {
 };
 
 /// An HDF5 file in the making, whose datasets have units, names and dimension scales.
-/// It is made in memory and written as bytes at the end: HDF5 does not report every failed write (small datasets are flushed by the
-/// closing of a handle) and crashes at the end of a process where a file could not be closed. Memory: the size of the file.
-/// Over several processes the root alone makes the file, with holes for the fields that are spread, which each process then fills with its
-/// rows. What another process than the root adds is nothing but its rows. The bytes are those of one process.
+/// It is made in memory and written as bytes at the end: HDF5 does not report every failed write
+/// (small datasets are flushed by the closing of a handle) and crashes at the end of a process
+/// where a file could not be closed. Memory: the size of the file. Over several processes the root
+/// alone makes the file, with holes for the fields that are spread, which each process then fills
+/// with its rows. What another process than the root adds is nothing but its rows. The bytes are
+/// those of one process.
 class Output {
  public:
   /// Not collective: a failure must be made known before commit(), by collectively().
@@ -43,12 +45,14 @@ class Output {
   void attribute(hid_t object, const std::string& name, std::uint64_t value);
   void attribute(hid_t object, const std::string& name, std::string_view value);
 
-  /// A dataset whose dimensions are the named scales of the group (none: a scalar). T: double, float, int64_t, int16_t, int8_t.
+  /// A dataset whose dimensions are the named scales of the group (none: a scalar). T: double,
+  /// float, int64_t, int16_t, int8_t.
   /// Throws InvalidInput if a scale is missing or values have not the shape that the scales give.
   template <class T>
   Dataset dataset(hid_t group, const std::string& name, const T* values, std::size_t count,
                   const std::vector<std::string>& dimensions, const Label& label);
-  /// A field on two scales. Over several processes it holds the rows of Share(ranks, rows of the first scale), and must stay until commit().
+  /// A field on two scales. Over several processes it holds the rows of Share(ranks, rows of the
+  /// first scale), and must stay until commit().
   Dataset field(hid_t group, const std::string& name, const Field& values,
                 const std::vector<std::string>& dimensions, const Label& label,
                 FieldType type = FieldType::float64);
@@ -59,8 +63,9 @@ class Output {
   void text_scale(hid_t group, const std::string& name, const std::vector<std::string>& values,
                   const std::string& long_name);
 
-  /// Compares each dataset of the finished file with the values it was given, writes the file and puts it in its place; nothing can
-  /// be written afterwards. Collective: a failure of one process is thrown on all, and nothing is left.
+  /// Compares each dataset of the finished file with the values it was given, writes the file and
+  /// puts it in its place; nothing can be written afterwards. Collective: a failure of one process
+  /// is thrown on all, and nothing is left.
   void commit();
 
  private:

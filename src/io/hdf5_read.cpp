@@ -89,8 +89,9 @@ std::vector<std::string> coordinates_of(hid_t dataset, std::size_t rank) {
   return names;
 }
 
-/// Why a dataset would be read from elsewhere, or through what nobody has checked; empty if it is not. To be called before its
-/// shape is requested: HDF5 opens the sources of a virtual dataset for that.
+/// Why a dataset would be read from elsewhere, or through what nobody has checked; empty if it is
+/// not. To be called before its shape is requested: HDF5 opens the sources of a virtual dataset for
+/// that.
 std::string strange_storage(hid_t properties) {
   if (H5Pget_layout(properties) == H5D_VIRTUAL)
     return "is a virtual dataset, whose values lie in other files; store the values themselves";
@@ -118,8 +119,8 @@ std::vector<hsize_t> chunk_of(hid_t properties, std::size_t rank) {
   return chunk;
 }
 
-/// Why the numbers of a dataset are more than the file can hold, or take more memory than they may; empty if they do not.
-/// A damaged or hostile header must not decide how much memory is allocated.
+/// Why the numbers of a dataset are more than the file can hold, or take more memory than they may;
+/// empty if they do not. A damaged or hostile header must not decide how much memory is allocated.
 std::string excess(const InputFile& file, hid_t dataset, hid_t properties,
                    const std::vector<hsize_t>& shape) {
   const Type type(H5Dget_type(dataset), "read its type");
@@ -168,7 +169,8 @@ class Outline {
  private:
   using Any = Handle<H5Oclose>;
 
-  /// What the outline takes of memory is counted: many links to one object would otherwise multiply it.
+  /// What the outline takes of memory is counted: many links to one object would otherwise multiply
+  /// it.
   void take(std::uint64_t bytes) {
     if (bytes > room_)
       refuse(file_.path(),
@@ -307,7 +309,8 @@ class Outline {
   std::set<haddr_t> groups_;
 };
 
-/// Rows of the first dimension that are read at a time: whole chunks, so that none is unpacked twice.
+/// Rows of the first dimension that are read at a time: whole chunks, so that none is unpacked
+/// twice.
 hsize_t rows_at_once(hid_t properties, const std::vector<hsize_t>& shape) {
   hsize_t row = sizeof(double);
   for (std::size_t i = 1; i < shape.size(); ++i) row *= shape[i];
@@ -316,7 +319,8 @@ hsize_t rows_at_once(hid_t properties, const std::vector<hsize_t>& shape) {
   return std::max<hsize_t>(block_bytes / std::max<hsize_t>(row, 1) / step, 1) * step;
 }
 
-/// Calls HDF5, and says of the file what HDF5 refuses. The work calls its argument before it hands anything over.
+/// Calls HDF5, and says of the file what HDF5 refuses. The work calls its argument before it hands
+/// anything over.
 template <class Work>
 void about(const InputFile& file, const Work& work) {
   be_silent();

@@ -10,8 +10,8 @@
 
 namespace salebra::detail::hdf5 {
 
-/// The bytes of an HDF5 file in memory, of which only those take any that were written: the fields that other processes
-/// write are holes. The layout is that of HDF5's own files in memory.
+/// The bytes of an HDF5 file in memory, of which only those take any that were written: the fields
+/// that other processes write are holes. The layout is that of HDF5's own files in memory.
 class SparseImage {
  public:
   static constexpr std::size_t page_size = 1 << 14;
@@ -19,7 +19,8 @@ class SparseImage {
   void write(std::uint64_t place, const char* bytes, std::size_t count);
   /// Holes are zeros.
   void read(std::uint64_t place, char* bytes, std::size_t count) const;
-  /// What was written, by place; each of page_size bytes, the last of which may lie beyond the end of the file.
+  /// What was written, by place; each of page_size bytes, the last of which may lie beyond the end
+  /// of the file.
   const std::map<std::uint64_t, std::vector<char>>& pages() const { return pages_; }
 
  private:

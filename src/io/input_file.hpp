@@ -8,12 +8,13 @@
 
 namespace salebra::detail {
 
-/// A file from outside, opened once: what is read later is what was judged, whatever happens to its name.
-/// Only a regular file is opened. A pipe or a device would let a reader wait for ever or read without end.
+/// A file from outside, opened once: what is read later is what was judged, whatever happens to its
+/// name. Only a regular file is opened. A pipe or a device would let a reader wait for ever or read
+/// without end.
 class InputFile {
  public:
-  /// Throws InvalidInput naming the file if there is no such regular file, or the user may not read it; IoError where the system
-  /// cannot open it.
+  /// Throws InvalidInput naming the file if there is no such regular file, or the user may not read
+  /// it; IoError where the system cannot open it.
   explicit InputFile(std::filesystem::path path);
   InputFile(InputFile&& other) noexcept;
   InputFile& operator=(InputFile&& other) noexcept;
@@ -23,10 +24,11 @@ class InputFile {
   int descriptor() const { return descriptor_; }
   std::uint64_t size() const { return size_; }
 
-  /// Bytes from the start: all, or fewer where the file ends before. Throws IoError where the disk does not give them.
+  /// Bytes from the start: all, or fewer where the file ends before. Throws IoError where the disk
+  /// does not give them.
   std::string head(std::uint64_t bytes) const;
-  /// The whole file. Throws InvalidInput for an empty file, for one of more than `limit` bytes, and for one that does not fit
-  /// in the memory that is free.
+  /// The whole file. Throws InvalidInput for an empty file, for one of more than `limit` bytes, and
+  /// for one that does not fit in the memory that is free.
   std::string content(std::uint64_t limit = std::numeric_limits<std::uint64_t>::max()) const;
   /// Whether the file begins as HDF5 does.
   bool is_hdf5() const;

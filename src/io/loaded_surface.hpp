@@ -8,7 +8,8 @@
 #include <string>
 #include <string_view>
 
-/// What the readers of single formats share. Each takes a file apart and returns what it says, no more.
+/// What the readers of single formats share. Each takes a file apart and returns what it says, no
+/// more.
 namespace salebra::detail {
 
 struct LoadedSurface {
@@ -23,7 +24,8 @@ struct LoadedSurface {
 /// InvalidInput "<file>: <what>".
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what);
 
-/// Room for the heights of a file, not initialised. Throws InvalidInput where they do not fit into the memory that is free.
+/// Room for the heights of a file, not initialised. Throws InvalidInput where they do not fit into
+/// the memory that is free.
 Field heights_of(const std::filesystem::path& file, Index nx, Index ny);
 
 /// The whole of a regular file. Throws InvalidInput if there is no such file or it cannot be read.
@@ -35,10 +37,12 @@ bool is_hdf5(const std::filesystem::path& file);
 /// Metres in one `unit` of length; throws InvalidInput naming the file for anything else.
 double metres_per(const std::filesystem::path& file, const std::string& unit);
 
-/// Any format but HDF5, by its first bytes. `file` is only named in messages, and where a sidecar may lie.
+/// Any format but HDF5, by its first bytes. `file` is only named in messages, and where a sidecar
+/// may lie.
 LoadedSurface read_content(const std::filesystem::path& file, std::string_view content);
 
-/// The surface in metres, with what the options say in place of the file. Throws InvalidInput as read_surface does.
+/// The surface in metres, with what the options say in place of the file. Throws InvalidInput as
+/// read_surface does.
 Surface completed(const std::filesystem::path& file, LoadedSurface loaded,
                   const ReadOptions& options);
 

@@ -14,8 +14,9 @@
 #include "loaded_surface.hpp"
 #include "netcdf_tags.hpp"
 
-/// The classic NetCDF formats, CDF-1, 2 and 5 (Unidata, "NetCDF Classic Format Specification"): a header of big-endian
-/// integers and padded names, then the data of each variable from a stated offset on.
+/// The classic NetCDF formats, CDF-1, 2 and 5 (Unidata, "NetCDF Classic Format Specification"): a
+/// header of big-endian integers and padded names, then the data of each variable from a stated
+/// offset on.
 namespace salebra::detail {
 namespace {
 
@@ -185,7 +186,8 @@ class Header {
   std::size_t at_ = 0;
 };
 
-/// Where the values of a two-dimensional variable lie, once it is known that the file holds them all.
+/// Where the values of a two-dimensional variable lie, once it is known that the file holds them
+/// all.
 std::string_view values_of(const std::filesystem::path& file, std::string_view content,
                            const Header& header, const Variable& variable) {
   const std::size_t size = size_of(variable.kind);

@@ -15,7 +15,8 @@
 namespace salebra::detail {
 namespace {
 
-/// Header of a CDF-2 file: big-endian integers of four bytes, offsets of eight, names and values padded to four.
+/// Header of a CDF-2 file: big-endian integers of four bytes, offsets of eight, names and values
+/// padded to four.
 class WrittenHeader {
  public:
   void word(std::uint32_t value) { big_endian(value, 4); }
@@ -74,7 +75,8 @@ std::string header_of(const Surface& surface, const std::string& information,
   header.word(static_cast<std::uint32_t>(grid.ny));
   header.list(attribute_tag, 1);
   header.note("json", information);
-  // SurfaceTopography asks for a mask where points are undefined; NaN among the heights is not enough for it.
+  // SurfaceTopography asks for a mask where points are undefined; NaN among the heights is not
+  // enough for it.
   const bool masked = surface.undefined_points() > 0;
   header.list(variable_tag, masked ? 4 : 3);
   std::uint64_t begin = data_begin;

@@ -16,7 +16,8 @@
 namespace salebra::detail {
 namespace {
 
-/// The header is the text of a Python dict: {'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }.
+/// The header is the text of a Python dict: {'descr': '<f8', 'fortran_order': False, 'shape': (2,
+/// 3), }.
 struct NpyHeader {
   std::string type;  ///< such as "<f8"
   bool fortran_order = false;

@@ -89,7 +89,8 @@ class MemoryFile {
   int descriptor_;
 };
 
-// The line of gnuplot's complaint that says what is wrong, after the script's line and a caret that point at it.
+// The line of gnuplot's complaint that says what is wrong, after the script's line and a caret that
+// point at it.
 std::string complaint(const std::string& text) {
   std::istringstream lines(text);
   std::string last;

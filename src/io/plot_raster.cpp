@@ -14,7 +14,8 @@ namespace {
 
 constexpr Index most_cells = 1200;
 
-// How the cells of one axis are made of the image's: cell k is the mean of `first`..`last`, or lies at `fraction` between them.
+// How the cells of one axis are made of the image's: cell k is the mean of `first`..`last`, or lies
+// at `fraction` between them.
 struct Sampling {
   struct Cell {
     Index first = 0, last = 0;

@@ -21,7 +21,8 @@ struct ResultReader::State {
     return names;
   }
 
-  /// The object whose attributes are requested; nullptr where there is none. Throws for one that is refused.
+  /// The object whose attributes are requested; nullptr where there is none. Throws for one that is
+  /// refused.
   const Object* described(const std::string& path) const {
     const Object* object = document.find(path);
     if (!object) return nullptr;

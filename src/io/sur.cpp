@@ -8,8 +8,9 @@
 #include "loaded_surface.hpp"
 #include "text_numbers.hpp"
 
-/// Digital Surf's SUR: a header of 512 bytes at fixed places, a comment, a private zone, then heights as integers row after row. All
-/// numbers are little-endian. Places and meanings are those that the files of MountainsMap and of its readers agree on.
+/// Digital Surf's SUR: a header of 512 bytes at fixed places, a comment, a private zone, then
+/// heights as integers row after row. All numbers are little-endian. Places and meanings are those
+/// that the files of MountainsMap and of its readers agree on.
 namespace salebra::detail {
 namespace {
 
@@ -43,7 +44,8 @@ class SurHeader {
   std::string_view content_;
 };
 
-/// A replica stands for the surface it was cast from: its heights were turned over, and one axis with them or not.
+/// A replica stands for the surface it was cast from: its heights were turned over, and one axis
+/// with them or not.
 enum class Inversion : std::int16_t { none, heights, along_x, along_y };
 
 }  // namespace

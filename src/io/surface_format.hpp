@@ -12,7 +12,8 @@
 
 namespace salebra::detail {
 
-/// A row of the table of formats, from which reader and writer are chosen, and which help, docs and fuzzers list.
+/// A row of the table of formats, from which reader and writer are chosen, and which help, docs and
+/// fuzzers list.
 struct SurfaceFormatEntry {
   using Read = LoadedSurface(const std::filesystem::path& file, std::string_view content);
   using Write = void(const std::filesystem::path& file, const Surface& surface,

@@ -11,7 +11,8 @@
 /// What the writers behind write_surface share. It has checked the surface.
 namespace salebra::detail {
 
-/// Size, unit, origin and provenance as a JSON object, for formats that have no place of their own for them.
+/// Size, unit, origin and provenance as a JSON object, for formats that have no place of their own
+/// for them.
 Json description_of(const Surface& surface, const Provenance& provenance);
 
 /// Appends the shortest digits that read back as the same double, or "nan".

@@ -45,7 +45,8 @@ std::string excerpt(const char* at, const char* end) {
   return text;
 }
 
-/// from_chars that also takes a plus sign and numbers below the least double; null if there is no number.
+/// from_chars that also takes a plus sign and numbers below the least double; null if there is no
+/// number.
 const char* parse_number(const char* at, const char* end, double& value) {
   if (at != end && *at == '+' && end - at > 1 && at[1] != '-') ++at;
   const auto [stop, status] = std::from_chars(at, end, value);

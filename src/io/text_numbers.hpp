@@ -10,7 +10,8 @@
 /// Numbers in lines of text, as programs of many countries write them.
 namespace salebra::detail {
 
-/// Lines of a text with their numbers (from 1); ends with LF, CR LF or, where there is no LF at all, CR.
+/// Lines of a text with their numbers (from 1); ends with LF, CR LF or, where there is no LF at
+/// all, CR.
 class Lines {
  public:
   explicit Lines(std::string_view text);
@@ -45,14 +46,15 @@ std::string utf8(std::string_view text);
 /// Whether the first value of the line is a number, "nan" or (an undefined point) empty.
 bool starts_with_number(std::string_view line);
 
-/// How the values of a line of numbers are separated and written. Lines before it have the say, if `format` holds a value; a line
-/// of whole numbers leaves open whether commas are decimal. Throws InvalidInput where the line can be read in two ways, and where it
-/// contradicts the lines before.
+/// How the values of a line of numbers are separated and written. Lines before it have the say, if
+/// `format` holds a value; a line of whole numbers leaves open whether commas are decimal. Throws
+/// InvalidInput where the line can be read in two ways, and where it contradicts the lines before.
 void settle_format(const std::filesystem::path& file, std::string_view line, int number,
                    std::optional<NumberFormat>& format);
 
 /// Appends the values of a line; an empty field is NaN, a separator at the end of the line none.
-/// Throws InvalidInput naming the line and what was found in it. Cost: one pass, no allocation but values'.
+/// Throws InvalidInput naming the line and what was found in it. Cost: one pass, no allocation but
+/// values'.
 void append_numbers(const std::filesystem::path& file, std::string_view line, int number,
                     const NumberFormat& format, std::vector<double>& values);
 

@@ -32,7 +32,8 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// The length that a header states, where it has a unit: a bare "width = 256" may well count points.
+/// The length that a header states, where it has a unit: a bare "width = 256" may well count
+/// points.
 std::optional<double> stated_length(std::string_view text) {
   double number;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);

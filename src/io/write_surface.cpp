@@ -68,7 +68,8 @@ void write_npy(const std::filesystem::path& file, const Surface& surface,
   sidecar.write(description.dump(2) + "\n");
   array.finish();
   sidecar.finish();
-  // The new sidecar refuses the old array by its checksum; an old one may have none, and would accept the new array.
+  // The new sidecar refuses the old array by its checksum; an old one may have none, and would
+  // accept the new array.
   std::error_code ignored;
   const bool alone = !std::filesystem::exists(sidecar.target(), ignored);
   sidecar.place();

@@ -8,13 +8,14 @@
 
 #include "loaded_surface.hpp"
 
-/// X3P, ISO 25178-72: a ZIP archive of main.xml, which describes the axes and names the files of heights and of valid points, and
-/// md5checksum.hex.
+/// X3P, ISO 25178-72: a ZIP archive of main.xml, which describes the axes and names the files of
+/// heights and of valid points, and md5checksum.hex.
 namespace salebra::detail {
 
-/// A member of the archive by its name: its content, which must be of exactly `bytes` bytes, or of any number up to
-/// max_xml_size if `bytes` is absent. Nothing if there is no such member. Throws InvalidInput where it is damaged or of
-/// another size; whatever its header declares, no more is allocated than `bytes` and the archive allow.
+/// A member of the archive by its name: its content, which must be of exactly `bytes` bytes, or of
+/// any number up to max_xml_size if `bytes` is absent. Nothing if there is no such member. Throws
+/// InvalidInput where it is damaged or of another size; whatever its header declares, no more is
+/// allocated than `bytes` and the archive allow.
 using X3pMember = std::function<std::optional<std::string>(const std::string& name,
                                                            std::optional<std::uint64_t> bytes)>;
 

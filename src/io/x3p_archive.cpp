@@ -9,8 +9,8 @@
 namespace salebra::detail {
 namespace {
 
-/// Bytes of a member that an archive of so many may hold. Deflate packs zeros a thousand times, heights of a measurement hardly
-/// four times; integers of two bytes become doubles.
+/// Bytes of a member that an archive of so many may hold. Deflate packs zeros a thousand times,
+/// heights of a measurement hardly four times; integers of two bytes become doubles.
 std::uint64_t most_bytes(std::uint64_t archive_size) {
   return (std::uint64_t{32} << 20) + 8 * archive_size;
 }

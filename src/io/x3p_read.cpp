@@ -32,7 +32,8 @@ bool same_digits(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, {}, lower, lower);
 }
 
-/// main.xml with what all its uses need: the file for messages, and entries by their path below the root.
+/// main.xml with what all its uses need: the file for messages, and entries by their path below the
+/// root.
 class Description {
  public:
   Description(const std::filesystem::path& file, const std::string& xml) : file_(file) {
@@ -109,7 +110,8 @@ HeightType height_type(const Description& description) {
   description.wrong("Record1/Axes/CZ/DataType");
 }
 
-/// Lines "<32 digits> *<name>" of md5checksum.hex. The standard asks for main.xml; some programs state a data file instead.
+/// Lines "<32 digits> *<name>" of md5checksum.hex. The standard asks for main.xml; some programs
+/// state a data file instead.
 void check_checksum_file(const std::filesystem::path& file, const Description& description,
                          const std::string& xml, const X3pMember& member) {
   const std::string_view name = description.words("Record4/ChecksumFile");
@@ -189,7 +191,8 @@ LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& me
   surface.size_x = std::abs(step_x) * static_cast<double>(nx);
   surface.size_y = std::abs(step_y) * static_cast<double>(ny);
   surface.heights = heights_of(file, nx, ny);
-  // Points may be listed against the direction of an axis; x and y grow with ix and iy all the same.
+  // Points may be listed against the direction of an axis; x and y grow with ix and iy all the
+  // same.
   for (Index row = 0; row < ny; ++row) {
     const Index iy = step_y > 0 ? row : ny - 1 - row;
     for (Index column = 0; column < nx; ++column) {

@@ -140,7 +140,8 @@ std::string zipped(const std::vector<Member>& members) {
       zip_discard(archive);
     }
     require_zip(index >= 0, "add a member");
-    // Doubles with noise in their last digits hardly shrink: the fastest level loses nothing but time.
+    // Doubles with noise in their last digits hardly shrink: the fastest level loses nothing but
+    // time.
     zip_set_file_compression(archive, static_cast<zip_uint64_t>(index), ZIP_CM_DEFLATE, 1);
   }
   const bool closed = zip_close(archive) == 0;

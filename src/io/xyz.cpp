@@ -35,7 +35,8 @@ XyzAxis find_axis(const std::filesystem::path& file, std::vector<double> coordin
   const double span = coordinates.back() - coordinates.front();
   if (!std::isfinite(span))
     refuse(file, std::string("has points whose ") + name + " is not a number; remove them");
-  // Values closer than 1e-6 of the span are one line of the grid, hence at most a million lines are told apart.
+  // Values closer than 1e-6 of the span are one line of the grid, hence at most a million lines are
+  // told apart.
   std::size_t lines = 1;
   double line = coordinates.front(), least_gap = span;
   for (const double value : coordinates) {

@@ -9,18 +9,19 @@
 
 namespace salebra::detail {
 
-/// The regular grid on which points (x, y, z), given one after the other, lie. Points of the grid that are missing are
-/// undefined. size_x is the step times the number of points, so that a grid is a period long.
-/// Throws InvalidInput if the points are on no regular grid, fill less than half of it, or one is given twice.
-/// Cost: two sorts of the points.
+/// The regular grid on which points (x, y, z), given one after the other, lie. Points of the grid
+/// that are missing are undefined. size_x is the step times the number of points, so that a grid is
+/// a period long.
+/// Throws InvalidInput if the points are on no regular grid, fill less than half of it, or one is
+/// given twice. Cost: two sorts of the points.
 LoadedSurface grid_of_points(const std::filesystem::path& file, const std::vector<double>& xyz);
 
 /// Takes the sizes of such a grid from a unit of length to metres.
 void scale_plane(const std::filesystem::path& file, const std::string& unit,
                  LoadedSurface& surface);
 
-/// Throws InvalidInput for a surface that its points alone do not describe: a single line has no step across, and less than half of
-/// a grid is not recognised.
+/// Throws InvalidInput for a surface that its points alone do not describe: a single line has no
+/// step across, and less than half of a grid is not recognised.
 void require_points(const std::filesystem::path& file, const Surface& surface);
 
 }  // namespace salebra::detail

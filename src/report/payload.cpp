@@ -65,7 +65,8 @@ constexpr std::size_t most_single_curves = 24;
 /// Points of all maps of one report together.
 constexpr double map_budget = 512. * 512.;
 
-/// The groups of one study, or of one point of it, and the parts of the payload that are made of them.
+/// The groups of one study, or of one point of it, and the parts of the payload that are made of
+/// them.
 class Point {
  public:
   Point(const ResultReader& file, std::string where)
@@ -224,7 +225,8 @@ class Point {
     if (const auto load = file_.number_attribute(where_ + "picture", "mapped_load")) {
       json["mapped_load"] = *load;
       for (const std::string name : {"contact_pressure", "gap"}) {
-        // In steps of 1/32767 of the largest, which is finer than any screen shows, and half as long.
+        // In steps of 1/32767 of the largest, which is finer than any screen shows, and half as
+        // long.
         const std::vector<double> values = part("picture/" + name, 0, x.size() * y.size());
         const double most = std::ranges::max(values);
         json["max_" + name] = number(most);

@@ -57,7 +57,8 @@ std::string law(const Json& point) {
   const double closest = number(find(*fit, {"decay_length_closest_over_rms_height", "mean"}));
   const double farthest = number(find(*fit, {"decay_length_farthest_over_rms_height", "mean"}));
   if (!(closest > 0)) return text;
-  // F/l² has to be within a factor of two of F″ at both ends, as in the page's script and on the terminal.
+  // F/l² has to be within a factor of two of F″ at both ends, as in the page's script and on the
+  // terminal.
   const auto fair = [&](double local) {
     const double ratio = local / whole * local / whole;
     return local > 0 && ratio > 0.5 && ratio < 2;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checkpoints of simulated cycles: states and settings in an HDF5 file (results/cycle_checkpoint.hpp).
+// Checkpoints of simulated cycles: states and settings in an HDF5 file
+// (results/cycle_checkpoint.hpp).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -53,7 +53,8 @@ Column column_of(const std::filesystem::path& file, std::string_view title) {
   return {};
 }
 
-/// Splits a line of titles at commas or semicolons, or else at blanks that are not before or within brackets.
+/// Splits a line of titles at commas or semicolons, or else at blanks that are not before or within
+/// brackets.
 std::vector<std::string_view> titles_of(std::string_view line) {
   const bool marked = line.find_first_of(",;") != std::string_view::npos;
   const auto tabbed = line.find('\t') != std::string_view::npos;

@@ -108,8 +108,8 @@ class CaseRun {
     return found;
   }
 
-  /// Each group computes a surface at a time, and waits for the others. The first process decides which: another might decide differently by
-  /// the last digit of its type of processor.
+  /// Each group computes a surface at a time, and waits for the others. The first process decides
+  /// which: another might decide differently by the last digit of its type of processor.
   void compute_together() {
     const Groups& groups = run_.groups;
     const Communicator& all = groups.all();
@@ -147,8 +147,8 @@ class CaseRun {
     limit_ = limit;
   }
 
-  /// In the first process of a group; nothing in the others, and where all of the group were stopped or failed alike. What one process alone
-  /// fails by is thrown, and ends the program.
+  /// In the first process of a group; nothing in the others, and where all of the group were
+  /// stopped or failed alike. What one process alone fails by is thrown, and ends the program.
   std::optional<Realisation> analysed(std::size_t i, const std::vector<std::size_t>& turn) {
     const Communicator& own = run_.groups.own();
     try {
@@ -221,7 +221,8 @@ class CaseRun {
     news_.push_back(item);
   }
 
-  /// On the calling thread only. What the caller throws ends the run; it must not leave a parallel region.
+  /// On the calling thread only. What the caller throws ends the run; it must not leave a parallel
+  /// region.
   void talk() {
     try {
       report();

@@ -14,15 +14,17 @@ std::vector<std::uint64_t> seeds_of(const StudyConfiguration& configuration);
 /// The keys of all realisations of the study, over points and seeds in their order.
 std::vector<std::uint64_t> keys_of(const std::vector<StudyConfiguration>& points);
 
-/// Throws InvalidInput for a folder with parts none of which has one of these keys: they would be passed over in silence, and days of
-/// work with them. Of one arithmetic are all or none: reading one refuses them before any work.
+/// Throws InvalidInput for a folder with parts none of which has one of these keys: they would be
+/// passed over in silence, and days of work with them. Of one arithmetic are all or none: reading
+/// one refuses them before any work.
 void require_some_of(StudyParts& parts, const std::vector<StudyConfiguration>& points);
 
 /// The rule by which a precision ends an ensemble.
 class PrecisionRule {
  public:
   explicit PrecisionRule(const StudyConfiguration& configuration) : configuration_(configuration) {}
-  /// Takes the next realisation, in the order of the seeds: whether those taken determine l/h_rms and κ to the precision requested.
+  /// Takes the next realisation, in the order of the seeds: whether those taken determine l/h_rms
+  /// and κ to the precision requested.
   bool met_with(const Realisation& realisation);
 
  private:
@@ -31,13 +33,15 @@ class PrecisionRule {
   std::vector<double> lengths_, slopes_;
 };
 
-/// Calls do_next(false) on that many threads until it answers false, and meanwhile talk() on the calling thread. Where fewer threads are
-/// to be had, the calling thread goes on with do_next(true).
+/// Calls do_next(false) on that many threads until it answers false, and meanwhile talk() on the
+/// calling thread. Where fewer threads are to be had, the calling thread goes on with
+/// do_next(true).
 void side_by_side(int workers, const std::function<bool(bool on_calling_thread)>& do_next,
                   const std::function<void()>& talk);
 
-/// The realisations of one point of the parameter grid, computed side by side and looked at in the order of their seeds. result has
-/// configuration and pressures, and receives the rest. start: what the whole run had finished before.
+/// The realisations of one point of the parameter grid, computed side by side and looked at in the
+/// order of their seeds. result has configuration and pressures, and receives the rest. start: what
+/// the whole run had finished before.
 void run_case(StudyResult& result, const StudyRun& run, const RealisationReport& start);
 
 }  // namespace salebra::detail

@@ -112,7 +112,8 @@ ModelResult persson_theory(ModelWork& work) {
   return result;
 }
 
-/// Greenwood and Tripp's two rough sides, equal and independent, whose sum has the moments of the surface.
+/// Greenwood and Tripp's two rough sides, equal and independent, whose sum has the moments of the
+/// surface.
 ModelResult two_rough_sides(ModelWork& work) {
   if (!work.realisation.has_random_summits()) return no_curve(work);
   const SpectralMoments& moments = work.realisation.moments;

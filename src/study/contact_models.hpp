@@ -9,8 +9,9 @@
 
 namespace salebra::detail {
 
-/// What a contact model presses. It returns its curve, and what only it knows of a ModelResult. Boundary elements press a surface that is
-/// spread over processes; all other models are of numbers, and computed by the first process.
+/// What a contact model presses. It returns its curve, and what only it knows of a ModelResult.
+/// Boundary elements press a surface that is spread over processes; all other models are of
+/// numbers, and computed by the first process.
 struct ModelWork {
   const StudyConfiguration& configuration;
   const Surface& surface;

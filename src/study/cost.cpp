@@ -20,7 +20,8 @@
 namespace salebra {
 namespace {
 
-// Measured on one thread of a server with AVX-512, 24 loads from 5e-4 to 0.2 E*h', surfaces of 256², 512² and 1024² points.
+// Measured on one thread of a server with AVX-512, 24 loads from 5e-4 to 0.2 E*h', surfaces of
+// 256², 512² and 1024² points.
 constexpr double stick_per_cell = 0.15e-6;       // s
 constexpr double growth = 0.15;                  // iterations grow with this power of the cells
 constexpr double level_per_cell = 0.15e-6;       // s, a contact that starts from its neighbour
@@ -48,7 +49,8 @@ double transform_seconds() {
   return least;
 }
 
-/// Contacts inside the oscillation for each load, those of finer and coarser cells by their size; mean over the surfaces.
+/// Contacts inside the oscillation for each load, those of finer and coarser cells by their size;
+/// mean over the surfaces.
 double levels_of(const StudyConfiguration& point, const Grid2D& grid) {
   if (point.levels == 0) return 0;
   const auto of = [&](std::uint64_t seed) {
@@ -88,7 +90,8 @@ PointCost cost_of(const StudyConfiguration& point, double speed) {
   return cost;
 }
 
-/// What is kept of a surface until the result is written: its samples, and the spots of each load by size.
+/// What is kept of a surface until the result is written: its samples, and the spots of each load
+/// by size.
 double kept_bytes(const StudyConfiguration& point, const Grid2D& grid) {
   const auto loads = static_cast<double>(point.pressures.size());
   const auto models = static_cast<double>(point.models.size());
@@ -98,7 +101,8 @@ double kept_bytes(const StudyConfiguration& point, const Grid2D& grid) {
                   sizeof(SpotStatistics) + sizes * sizeof(double));
 }
 
-/// Of threads over one, where a process has this many surfaces: one on each thread, or all threads on each.
+/// Of threads over one, where a process has this many surfaces: one on each thread, or all threads
+/// on each.
 double gain_of(int threads, std::size_t surfaces) {
   const bool side_by_side = surfaces >= static_cast<std::size_t>(threads);
   return side_by_side ? threads : 1 + gain_of_a_thread * (threads - 1);
@@ -131,8 +135,9 @@ ShardPlan plan_of(const StudyCost& cost, std::size_t shards) {
 /// The load as solves feel it: what the contact touches is taken from the measured range.
 double felt(double load) { return std::clamp(load, 1e-3, 0.5); }
 
-/// Of one contact on one thread, on the machine of the constants above, with K and K_t where they are computed. Those of a study
-/// are means over its loads, which solves at 0.0165 E*h' have; the rest of a solve is the stiffness.
+/// Of one contact on one thread, on the machine of the constants above, with K and K_t where they
+/// are computed. Those of a study are means over its loads, which solves at 0.0165 E*h' have; the
+/// rest of a solve is the stiffness.
 double contact_seconds(const SurfaceWork& work, double load) {
   constexpr double mean_load = 0.0165, power_of_load = 0.35, without_stiffness = 0.5;
   const auto cells = static_cast<double>(work.grid.points());
@@ -145,8 +150,8 @@ double contact_seconds(const SurfaceWork& work, double load) {
          std::pow(felt(load) / mean_load, power_of_load);
 }
 
-/// Of one contact, for what its group sends from machine to machine: transforms, applications of the ladder and sums, counted on one
-/// machine, times what each of them sends (docs/scaling.md).
+/// Of one contact, for what its group sends from machine to machine: transforms, applications of
+/// the ladder and sums, counted on one machine, times what each of them sends (docs/scaling.md).
 double network_seconds(const SurfaceWork& work, double load) {
   const double nodes = std::ceil(double(work.nodes) / work.groups),
                ranks = double(work.ranks) / work.groups;
@@ -171,7 +176,8 @@ double network_seconds(const SurfaceWork& work, double load) {
 }  // namespace
 
 double surface_memory(const SurfaceWork& work) {
-  // Bytes for each cell, at loads up to half of E*h'; measured at 1024², 2048² and 4096² (docs/scaling.md).
+  // Bytes for each cell, at loads up to half of E*h'; measured at 1024², 2048² and 4096²
+  // (docs/scaling.md).
   constexpr double of_process = 33e6, heights = 8, whole_ladder = 1.5;
   const auto cells = static_cast<double>(work.grid.points());
   const int ranks = std::max(1, work.ranks / work.groups);
@@ -199,7 +205,8 @@ double surface_memory(const SurfaceWork& work) {
 }
 
 int groups_that_fit(SurfaceWork work, const std::function<bool(double bytes)>& fits) {
-  // Of as many as let the loads be done in so many rounds; the fewest of them have the most processes each.
+  // Of as many as let the loads be done in so many rounds; the fewest of them have the most
+  // processes each.
   const std::size_t loads = work.loads.size();
   for (std::size_t rounds = 1; rounds < loads; ++rounds) {
     work.groups = static_cast<int>((loads + rounds - 1) / rounds);
@@ -240,11 +247,13 @@ double study_memory(const StudyConfiguration& point, const Grid2D& grid, int thr
                     std::optional<std::size_t> in_one_process) {
   const auto surfaces =
       static_cast<double>(in_one_process.value_or(detail::seeds_of(point).size()));
-  // As run_ensembles() does: one surface on each thread where there are enough, else all threads on each.
+  // As run_ensembles() does: one surface on each thread where there are enough, else all threads on
+  // each.
   const double side_by_side = surfaces >= threads ? threads : 1;
   const double per_cell = stick_solves(point) ? memory_per_cell_stick : memory_per_cell;
   const auto cells = static_cast<double>(grid.points());
-  // The refined surface with the contacts of its loads: of one surface on all threads, of several the first on its own.
+  // The refined surface with the contacts of its loads: of one surface on all threads, of several
+  // the first on its own.
   const int halvings =
       surface_damping_options(point, grid, detail::seeds_of(point).front()).refinements;
   const double refined =

@@ -72,7 +72,8 @@ void remove_abandoned(const std::filesystem::path& folder, const std::string& be
 
 constexpr const char* shard_lock = "shard.";
 
-/// A name of its own: two shards of one number are harmless, and one that is started again must not wait for the lock of a dead host.
+/// A name of its own: two shards of one number are harmless, and one that is started again must not
+/// wait for the lock of a dead host.
 std::string own_lock(const std::string& shard) {
   std::string name = shard;
   std::ranges::replace(name, '/', '-');
@@ -80,7 +81,8 @@ std::string own_lock(const std::string& shard) {
   return fmt::format("{}{}.{}-{}-{:x}", shard_lock, name, host(), getpid(), moment);
 }
 
-/// Locks of shards, claims, and what a process that was killed while it took the lock of all has left.
+/// Locks of shards, claims, and what a process that was killed while it took the lock of all has
+/// left.
 std::vector<std::filesystem::path> marks_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -103,7 +105,8 @@ struct StudyParts::State {
         shard(shard_text),
         lock(std::make_unique<detail::StudyLock>(folder /
                                                  (use == Use::shard ? own_lock(shard) : alone))) {
-    // Each makes its own lock first and then looks for the other's: of two that start at once, one at least sees the other.
+    // Each makes its own lock first and then looks for the other's: of two that start at once, one
+    // at least sees the other.
     if (use == Use::shard) {
       detail::StudyLock::require_free(folder / alone, *lock);
       return;

@@ -46,7 +46,8 @@ Surface read(const MeasuredSurface& recipe, const Communicator& ranks) {
   return detrended(std::move(surface), trend);
 }
 
-/// Root mean square of the steps between opposite edges, which a periodic continuation turns into cliffs.
+/// Root mean square of the steps between opposite edges, which a periodic continuation turns into
+/// cliffs.
 double seam_step(const Surface& surface) {
   const Field& h = surface.heights;
   const Index nx = surface.grid.nx, ny = surface.grid.ny;
@@ -229,7 +230,8 @@ ResidualSurface surface_to_press(const StudyConfiguration& configuration, std::u
   return residual;
 }
 
-/// What can be said of a model's curve. One that has too few samples in the window has no decay length, and no loss by Eq. (16).
+/// What can be said of a model's curve. One that has too few samples in the window has no decay
+/// length, and no loss by Eq. (16).
 void analyse(ModelResult& result, const StudyConfiguration& configuration, double scale) {
   constexpr double unknown = ForceSample::unknown;
   const ForceCurve& curve = result.curve;

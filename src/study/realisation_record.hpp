@@ -10,11 +10,12 @@
 
 namespace salebra::detail {
 
-/// CRC-64/XZ: any error of up to 64 bits in a row is found. before: that of the bytes that precede them.
+/// CRC-64/XZ: any error of up to 64 bits in a row is found. before: that of the bytes that precede
+/// them.
 std::uint64_t checksum(std::string_view bytes, std::uint64_t before = 0);
 
-/// A number for everything that decides the realisation: the point's configuration, the seed, and the program's version. What
-/// does not (other seeds, precision, comments) is not in it.
+/// A number for everything that decides the realisation: the point's configuration, the seed, and
+/// the program's version. What does not (other seeds, precision, comments) is not in it.
 /// Of everything that decides the result of a study with these points.
 std::uint64_t study_key(const std::vector<StudyConfiguration>& points);
 
@@ -30,7 +31,8 @@ struct Record {
 std::string encode(const Record& record, std::uint64_t key);
 /// Throws InvalidInput for anything but what encode() made with this key.
 Record decode(std::string_view bytes, std::uint64_t key);
-/// Of what encode() made with any key; empty for anything else, such as the record of another version whose form differs.
+/// Of what encode() made with any key; empty for anything else, such as the record of another
+/// version whose form differs.
 std::optional<PartOrigin> origin_of(std::string_view bytes);
 
 }  // namespace salebra::detail

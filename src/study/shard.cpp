@@ -93,7 +93,8 @@ class ShardRun {
   }
 
  private:
-  /// A numbered shard reads what is there, since its surfaces are its own. For any() each process would read the whole study.
+  /// A numbered shard reads what is there, since its surfaces are its own. For any() each process
+  /// would read the whole study.
   void drop_present() {
     std::erase_if(pending_, [&](const Item& item) {
       const bool present = shard_.any() ? parts_.holds(item.key) : bool(parts_.read(item.key));
@@ -196,7 +197,8 @@ class ShardRun {
                      .restored = restored});
   }
 
-  /// On the calling thread only. What the caller throws ends the run; it must not leave a parallel region.
+  /// On the calling thread only. What the caller throws ends the run; it must not leave a parallel
+  /// region.
   void talk() {
     try {
       report();

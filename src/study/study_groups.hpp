@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-/// What a file of a study holds: a dataset for each quantity over model, realisation and pressure, and its mean with interval.
+/// What a file of a study holds: a dataset for each quantity over model, realisation and pressure,
+/// and its mean with interval.
 namespace salebra::detail {
 
 /// The groups of one point of the parameter grid, below `where` ("" or "points/3/").

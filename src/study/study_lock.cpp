@@ -93,7 +93,8 @@ Owner parse(const std::string& identity) {
   return owner;
 }
 
-/// Whether the owner's process is there, running or stopped; empty where that cannot be known from here.
+/// Whether the owner's process is there, running or stopped; empty where that cannot be known from
+/// here.
 std::optional<bool> lives(const Owner& owner) {
   if (owner.process <= 0 || owner.space != process_space()) return {};
   if (kill(owner.process, 0) != 0 && errno == ESRCH) return false;
@@ -118,7 +119,8 @@ struct Found {
   bool stale = false;
 };
 
-/// Empty where there is no such file. now: of a file of the same file system that has just been touched.
+/// Empty where there is no such file. now: of a file of the same file system that has just been
+/// touched.
 std::optional<Found> look_at(const std::filesystem::path& file, const struct stat& now,
                              std::chrono::milliseconds stale_after) {
   std::error_code ignored;
@@ -130,7 +132,8 @@ std::optional<Found> look_at(const std::filesystem::path& file, const struct sta
   if (!text || stat(file.c_str(), &present) != 0) return {};
   const Owner owner = parse(*text);
   const double age = modified(now) - modified(present);
-  // A process that was stopped touches nothing, and goes on later: where it can be looked at, the clock has no say.
+  // A process that was stopped touches nothing, and goes on later: where it can be looked at, the
+  // clock has no say.
   const std::optional<bool> alive = lives(owner);
   return Found{*text,
                fmt::format("process {} on {}, which last touched it {:.0f} s ago", owner.process,
@@ -219,11 +222,13 @@ std::optional<std::string> StudyLock::try_link() {
   const std::optional<Found> found = look_at(file_, fresh, stale_after_);
   if (!found) return {};  // it has just gone
   if (!found->stale) return found->holder;
-  // If several processes decide this, only the one that renames the file it read proceeds; the others restore it.
+  // If several processes decide this, only the one that renames the file it read proceeds; the
+  // others restore it.
   const std::filesystem::path aside = file_.string() + ".stale." + word;
   if (rename(file_.c_str(), aside.c_str()) != 0) return {};
   if (read_text(aside) != found->text && link(aside.c_str(), file_.c_str()) != 0) {
-    // Another process took the name meanwhile: the owner that was put aside notices that its name is gone.
+    // Another process took the name meanwhile: the owner that was put aside notices that its name
+    // is gone.
   }
   unlink(aside.c_str());
   return {};

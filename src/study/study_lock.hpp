@@ -16,11 +16,13 @@ namespace salebra::detail {
 /// After the key of a realisation: the lock file of who computes it.
 inline constexpr const char* claim_suffix = ".claim";
 
-/// A lock file that lives as long as the object. It is made by link(), which is atomic on NFS too, and says who holds it: host and boot,
-/// process and the time of its start. On the same host whoever finds that process gone takes the lock over, and nobody else: a stopped
-/// process keeps it. A thread touches it every sixth of `stale_after`; on another host, whose processes cannot be seen, a lock that was
-/// not touched for longer, by the file system's own clock, is taken over. Should two do so at once, the one whose name is not in the
-/// file notices at the next touch: held() is then false.
+/// A lock file that lives as long as the object. It is made by link(), which is atomic on NFS too,
+/// and says who holds it: host and boot, process and the time of its start. On the same host
+/// whoever finds that process gone takes the lock over, and nobody else: a stopped process keeps
+/// it. A thread touches it every sixth of `stale_after`; on another host, whose processes cannot be
+/// seen, a lock that was not touched for longer, by the file system's own clock, is taken over.
+/// Should two do so at once, the one whose name is not in the file notices at the next touch:
+/// held() is then false.
 class StudyLock {
  public:
   /// Throws InvalidInput where someone else holds it, IoError where the file cannot be made.

@@ -18,7 +18,8 @@ namespace {
 
 using detail::unknown;
 
-/// C0 q^{−2(1+H)} with the C0 that fits the spectrum in the range of the estimate, every mode counting once.
+/// C0 q^{−2(1+H)} with the C0 that fits the spectrum in the range of the estimate, every mode
+/// counting once.
 std::vector<double> power_law(const RadialSpectrum& rings, const HurstEstimate& hurst) {
   std::vector<double> law(rings.wavenumber.size(), unknown);
   if (!hurst.found()) return law;

@@ -24,8 +24,9 @@ std::string written(const toml::node& node) {
   return one_line;
 }
 
-/// Each part of a dotted key is a table within a table to toml++, which takes them apart by recursion: a key of 60,000 parts would
-/// exhaust the stack. It limits the nesting of values itself. Strings are not told from keys here, decimal points are.
+/// Each part of a dotted key is a table within a table to toml++, which takes them apart by
+/// recursion: a key of 60,000 parts would exhaust the stack. It limits the nesting of values
+/// itself. Strings are not told from keys here, decimal points are.
 void require_shallow_keys(std::string_view text, const std::string& name) {
   constexpr int most = 32;
   const auto is_word = [](char symbol) {

@@ -39,7 +39,8 @@ class TomlTable {
   /// Throws InvalidInput at the key's line.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
   void check(bool ok, std::string_view key, const std::string& message) const;
-  /// Runs the library's own check and adds file and line to what it throws, by the key that it names.
+  /// Runs the library's own check and adds file and line to what it throws, by the key that it
+  /// names.
   template <class Action>
   auto located(Action action) const {
     try {

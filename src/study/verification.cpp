@@ -58,7 +58,8 @@ void check_hertz_by_boundary_elements(Checks& checks) {
   const double force = 4.0 / 3.0 * modulus * std::pow(contact_radius, 3) / radius;
   const auto state = press_to_pressure(sphere, modulus, force / sphere.grid.area(),
                                        {.tolerance = 1e-8, .boundary = Boundary::free});
-  // 26 cells to the radius: the indentation is of second order in the cell, the peak follows the centre's place in its cell.
+  // 26 cells to the radius: the indentation is of second order in the cell, the peak follows the
+  // centre's place in its cell.
   checks.push_back({"Hertz indentation by boundary elements",
                     state.converged ? state.indentation : ForceSample::unknown,
                     contact_radius * contact_radius / radius, 2e-3});

@@ -27,7 +27,8 @@ constexpr double correlation_level = 0.2;  ///< s of Sal and Str, ISO's default
 constexpr double pruning = 0.05;           ///< of Sz, ISO's default
 constexpr int directions = 720;            ///< of half a turn
 
-/// Distance along a direction at which the correlation first falls to the level; infinite where it does not.
+/// Distance along a direction at which the correlation first falls to the level; infinite where it
+/// does not.
 double fall_distance(const CorrelationMap& map, double angle, double level) {
   const double along_x = std::cos(angle), along_y = std::sin(angle);
   // Half a cell, counted in cells: these may be of any shape.

@@ -18,7 +18,8 @@ struct Line {
   double at_zero = 0, at_one = 0;  ///< heights at p = 0 and p = 1
 };
 
-/// Least squares of height against p over the points first … first + count − 1, which are evenly spaced.
+/// Least squares of height against p over the points first … first + count − 1, which are evenly
+/// spaced.
 Line fit_line(const std::vector<double>& heights, std::size_t first, std::size_t count) {
   const double n = static_cast<double>(count), points = static_cast<double>(heights.size());
   const double middle = static_cast<double>(first) + n / 2;
@@ -62,7 +63,8 @@ double BearingCurve::area_fraction(double height) const {
   const double points = static_cast<double>(heights_.size());
   if (height > heights_.front()) return 0;
   if (height < heights_.back()) return 1;
-  // Of equal heights the first and the last are found apart: the curve has a level piece, and its middle stands for it.
+  // Of equal heights the first and the last are found apart: the curve has a level piece, and its
+  // middle stands for it.
   const auto first = std::ranges::lower_bound(heights_, height, std::greater{});
   const auto end = std::ranges::upper_bound(heights_, height, std::greater{});
   const double above = static_cast<double>(first - heights_.begin());

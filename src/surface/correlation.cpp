@@ -19,7 +19,8 @@ using Modes = std::vector<std::complex<double>>;
 
 using detail::unknown;
 
-/// Sums over pairs of points at each distance vector, as circular correlations of a grid that is padded where it is not periodic.
+/// Sums over pairs of points at each distance vector, as circular correlations of a grid that is
+/// padded where it is not periodic.
 class PairSums {
  public:
   PairSums(Index nx, Index ny) : fft_(nx, ny), buffer_(nx, ny) {}
@@ -62,7 +63,8 @@ CorrelationMap correlation_map(const Surface& surface) {
   surface.require_whole("a correlation map");
   const double mean = height_statistics(surface).mean;
   const Grid2D& grid = surface.grid;
-  // Two fields of the grid, and two sets of complex modes of its pairs, which are four times as many where it is not periodic.
+  // Two fields of the grid, and two sets of complex modes of its pairs, which are four times as
+  // many where it is not periodic.
   require_memory(grid, (surface.periodic ? 32 : 80) * static_cast<double>(grid.points()),
                  "a correlation map");
   PairSums sums(padded(grid.nx, surface.periodic), padded(grid.ny, surface.periodic));

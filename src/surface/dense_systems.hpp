@@ -5,7 +5,8 @@
 
 namespace salebra::detail {
 
-/// Moore and Penrose's inverse of a of any shape and rank: the inverse where there is one, NaN where a is not finite.
+/// Moore and Penrose's inverse of a of any shape and rank: the inverse where there is one, NaN
+/// where a is not finite.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
 
 /// The shortest x of least |ax − b|, a of any shape and rank.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Removal of the mean, of a plane or of a quadratic surface; of a straight line or of the offset of each scan line.
+// Removal of the mean, of a plane or of a quadratic surface; of a straight line or of the offset of
+// each scan line.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -67,7 +68,8 @@ void subtract_fit(Surface& surface) {
   });
 }
 
-/// Of each line along x; a line with one defined point loses its height, one without any keeps none.
+/// Of each line along x; a line with one defined point loses its height, one without any keeps
+/// none.
 void subtract_lines(Surface& surface) {
   const Index nx = surface.grid.nx, ny = surface.grid.ny;
   height_statistics(surface);  // refuses what has no heights

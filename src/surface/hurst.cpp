@@ -193,8 +193,8 @@ class ModesWithin {
   std::vector<std::vector<Mode>> blocks_;
 };
 
-/// ln C = a + b·x by maximum likelihood for exponentially distributed powers: Newton's method with the expected information, which
-/// is convex and hence safe from any start.
+/// ln C = a + b·x by maximum likelihood for exponentially distributed powers: Newton's method with
+/// the expected information, which is convex and hence safe from any start.
 Eigen::Vector2d fit_power_law(const ModesWithin& modes, double mean_power,
                               const Eigen::Matrix2d& information) {
   Eigen::Vector2d law(std::log(mean_power), 0);
@@ -209,7 +209,8 @@ Eigen::Vector2d fit_power_law(const ModesWithin& modes, double mean_power,
     Eigen::Vector2d step = detail::least_squares(information, Eigen::Vector2d(score[0], score[1]));
     step /= std::max(1.0, step.norm());
     law += step;
-    // Processors of two types may not agree on the last digits of a logarithm, but on when to end they must.
+    // Processors of two types may not agree on the last digits of a logarithm, but on when to end
+    // they must.
     modes.ranks().broadcast(law.data(), 2 * sizeof(double));
     double length = step.norm();
     modes.ranks().broadcast(&length, sizeof length);
@@ -247,7 +248,8 @@ HurstEstimate found_or_not(const PowerSpectrum& spectrum) {
   const Eigen::Matrix2d information{{second[0], second[1]}, {second[1], second[2]}};
   const Eigen::Vector2d law = fit_power_law(modes, power / weight, information);
 
-  // Scatter of rings of equal width in ln q about the law, in units of what exponential powers have.
+  // Scatter of rings of equal width in ln q about the law, in units of what exponential powers
+  // have.
   const auto [least, greatest] = modes.range();
   const double width = std::log(2.0) / 4;
   const auto rings = static_cast<std::size_t>((greatest - least) / width) + 1;
@@ -269,7 +271,8 @@ HurstEstimate found_or_not(const PowerSpectrum& spectrum) {
   const double span = std::exp(greatest - least);
   if (freedom < 1 || span < least_span * (1 - 1e-9) || !(value > -0.25 && value < 1.5))
     return not_found;
-  // A window makes neighbouring modes alike: rings that happen to scatter less than that are luck, not knowledge.
+  // A window makes neighbouring modes alike: rings that happen to scatter less than that are luck,
+  // not knowledge.
   const double dispersion =
       std::max(scatter / freedom, spectrum.windowed ? spectrum.correlated_modes : 0);
   const double error = std::sqrt(dispersion * detail::pseudo_inverse(information)(1, 1)) / 2;

@@ -32,8 +32,8 @@ double sum_defined(const Surface& surface, const Term& term) {
   });
 }
 
-/// Sum of squares over the stencils that touch no undefined point; a NaN of any of their points makes
-/// the value NaN.
+/// Sum of squares over the stencils that touch no undefined point; a NaN of any of their points
+/// makes the value NaN.
 struct Squares {
   double sum = 0;
   Index count = 0;
@@ -57,8 +57,9 @@ struct ProfileMoments {
   double second = 0, fourth = 0;
 };
 
-/// Σ q² |ĥ|² and Σ q⁴ |ĥ|² of the profiles along an axis, in the mean over all of them. By Parseval's theorem across the profiles that is
-/// the sum over the spectrum of the surface, which would take as much memory as the heights.
+/// Σ q² |ĥ|² and Σ q⁴ |ĥ|² of the profiles along an axis, in the mean over all of them. By
+/// Parseval's theorem across the profiles that is the sum over the spectrum of the surface, which
+/// would take as much memory as the heights.
 ProfileMoments profile_moments(const Surface& surface, Axis axis, double mean) {
   const Grid2D& grid = surface.grid;
   const bool along_x = axis == Axis::x;

@@ -102,7 +102,8 @@ std::vector<Peak> significant_peaks(const Surface& surface, double min_prominenc
       if (!hills.uncovered(next)) return;
       std::size_t other = hills.summit_of(next);
       if (other == own) return;
-      // The lower of two hills ends at this saddle. A point that is no summit joins the hill it lies on.
+      // The lower of two hills ends at this saddle. A point that is no summit joins the hill it
+      // lies on.
       if (is_higher(static_cast<std::int32_t>(own), static_cast<std::int32_t>(other)))
         std::swap(own, other);
       if (own != point) keep(own, heights[own] - heights[point]);

@@ -11,13 +11,14 @@
 
 namespace salebra::detail {
 
-/// The profiles of a surface along an axis: its columns along x, its rows along y. Each process has some of them.
+/// The profiles of a surface along an axis: its columns along x, its rows along y. Each process has
+/// some of them.
 inline Share profiles_of(const Surface& surface, Axis axis) {
   return axis == Axis::x ? Share(surface.ranks, surface.grid.ny) : surface.share();
 }
 
-/// One Value for each block of profiles of this process. add(value of its block, heights) takes every profile, whose
-/// heights it may change; those of a block come in order. Collective.
+/// One Value for each block of profiles of this process. add(value of its block, heights) takes
+/// every profile, whose heights it may change; those of a block come in order. Collective.
 template <class Value, class Add>
 std::vector<Value> map_profiles(const Surface& surface, Axis axis, const Value& start,
                                 const Add& add) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interpolation of heights on a finer grid: Fourier where periodic, a periodic bicubic spline elsewhere.
+// Interpolation of heights on a finer grid: Fourier where periodic, a periodic bicubic spline
+// elsewhere.
 #include <array>
 #include <cmath>
 #include <complex>
@@ -39,7 +40,8 @@ Field fourier(const Field& heights, Index factor) {
     const Index wave = 2 * i <= nx ? i : i - nx;
     for (Index j = 0; j < width; ++j) {
       std::complex<double> mode = coarse[static_cast<std::size_t>(i * width + j)] / points;
-      // The wave of two points stands for two, of both signs. Along y the half-spectrum of the fine grid implies the other.
+      // The wave of two points stands for two, of both signs. Along y the half-spectrum of the fine
+      // grid implies the other.
       const bool middle_x = 2 * i == nx, middle_y = 2 * j == ny;
       if (middle_x) mode /= 2;
       if (middle_y) mode /= 2;
@@ -53,7 +55,8 @@ Field fourier(const Field& heights, Index factor) {
   return heights_of(fine, fine_nx, factor * ny);
 }
 
-// Coefficients of the cubic B-splines whose sum passes through the heights: (c₋ + 4c + c₊)/6 = h along each axis.
+// Coefficients of the cubic B-splines whose sum passes through the heights: (c₋ + 4c + c₊)/6 = h
+// along each axis.
 Field spline_coefficients(const Field& heights) {
   const Index nx = heights.rows(), ny = heights.cols(), width = ny / 2 + 1;
   Modes modes = modes_of(heights);

@@ -10,9 +10,10 @@
 
 namespace salebra::detail {
 
-/// Weighted means over rings about a point, of a spectrum or a correlation. The limits of the rings are in the ratio
-/// 2^(1/rings_per_octave), the first half a ring below `innermost`, so that no radius of a square lattice lies on a limit where
-/// rounding would decide. The radius 0 is a ring of its own. Sums are kept by the caller, who may add those of several parts.
+/// Weighted means over rings about a point, of a spectrum or a correlation. The limits of the rings
+/// are in the ratio 2^(1/rings_per_octave), the first half a ring below `innermost`, so that no
+/// radius of a square lattice lies on a limit where rounding would decide. The radius 0 is a ring
+/// of its own. Sums are kept by the caller, who may add those of several parts.
 template <std::size_t quantities>
 class RingMeans {
  public:

@@ -31,7 +31,8 @@ struct Ring {
   double weight = 0;  ///< independent complex amplitudes
 };
 
-/// body(q, power, independent complex amplitudes) for the modes of the columns begin … end of this process but for q = 0.
+/// body(q, power, independent complex amplitudes) for the modes of the columns begin … end of this
+/// process but for q = 0.
 template <class Body>
 void for_modes(const PowerSpectrum& spectrum, Index begin, Index end, const Body& body) {
   const Index first = spectrum.columns().begin();
@@ -67,9 +68,11 @@ std::vector<Ring> fine_rings(const PowerSpectrum& spectrum, double lowest, doubl
   return rings;
 }
 
-/// Twice the negative logarithm of the greatest likelihood of ln C = a − b·max(0, x − kink) over a and b.
+/// Twice the negative logarithm of the greatest likelihood of ln C = a − b·max(0, x − kink) over a
+/// and b.
 double deviance(const std::vector<Ring>& rings, double kink) {
-  // The likelihood of exponential variates is log-concave in a and b: Newton's method, halving a step that goes too far.
+  // The likelihood of exponential variates is log-concave in a and b: Newton's method, halving a
+  // step that goes too far.
   const auto basis = [&](const Ring& ring) {
     return Eigen::Vector2d(1, -std::max(0.0, ring.x - kink));
   };
@@ -171,7 +174,8 @@ IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEst
         });
       });
   const double least_power = ended * sums[0] / sums[1];
-  // The least (sign 1) or greatest (−1) wave number beyond one, of all modes or of those with power.
+  // The least (sign 1) or greatest (−1) wave number beyond one, of all modes or of those with
+  // power.
   const auto extreme = [&](double sign, double from, bool with_power) {
     double best = std::numeric_limits<double>::infinity();
     for (const double of_block : parallel::map_blocks_of<double>(
@@ -186,14 +190,16 @@ IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEst
       best = std::min(best, of_block);
     return sign * spectrum.ranks.least_of(best);
   };
-  // A mode of the law is below a thousandth of it with a probability of a thousandth: a run of them is the end.
+  // A mode of the law is below a thousandth of it with a probability of a thousandth: a run of them
+  // is the end.
   const double low = extreme(-1, hurst.wavenumber_min, true);
   const double high = extreme(1, low, false);
   const double last = extreme(-1, low, false);
   if (!std::isfinite(low) || !std::isfinite(high)) return not_found;
   const Grid2D& grid = spectrum.grid;
   const double step = 2 * pi / std::min(grid.lx, grid.ly);
-  // Modes of no power that lie beyond are all there are: with fewer than a ring of them the end may be the lattice's own.
+  // Modes of no power that lie beyond are all there are: with fewer than a ring of them the end may
+  // be the lattice's own.
   if (last < high + 4 * step) return not_found;
   const double margin = spectrum.windowed ? 2 * step : 0;
   const double middle = (low + high) / 2 - margin / 2;

@@ -104,7 +104,8 @@ PowerSpectrum power_spectrum(const Surface& surface, Window window) {
   const Share columns = spectrum.columns();
   collectively(surface.ranks, [&] {
     surface.require_complete_rows("a power spectrum");
-    // Half as many complex modes as points, the density of half of them, and what processes send and receive.
+    // Half as many complex modes as points, the density of half of them, and what processes send
+    // and receive.
     require_memory(grid,
                    (surface.ranks.alone() ? 12 : 20) * static_cast<double>(surface.heights.size()),
                    "a power spectrum");

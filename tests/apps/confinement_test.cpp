@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The child process that reads HDF5: whatever it does, its parent reads, refuses or says that it could not try.
+// The child process that reads HDF5: whatever it does, its parent reads, refuses or says that it
+// could not try.
 #include "confinement/confinement.hpp"
 
 #include <fcntl.h>

@@ -223,7 +223,8 @@ TEST_CASE("Pictures of damping name what they show", "[damping][plot]") {
   CHECK(test.read("cycle.png").substr(1, 3) == "PNG");
   check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.png"), "--overwrite");
   check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.jpg"), ".png, .svg or .pdf");
-  // Without gnuplot: one line, status 1, and no answer is lost for a picture that was not asked for.
+  // Without gnuplot: one line, status 1, and no answer is lost for a picture that was not asked
+  // for.
   const auto without = test.run(law + "--normal-amplitude 50nm --plot new.png", "PATH=/nowhere;");
   CHECK(without.status == 1);
   CHECK_THAT(without.err, Catch::Contains("salebra: error: new.png: gnuplot is not installed"));
@@ -270,7 +271,8 @@ TEST_CASE("Damping without what it needs is refused by name", "[damping]") {
 
 TEST_CASE("A drag far too short for sliding to begin has its steady state all the same",
           "[damping]") {
-  // The drag of 0.5 nm a period would take 10⁵ periods to stretch the springs that never open to their limit at μ = 100.
+  // The drag of 0.5 nm a period would take 10⁵ periods to stretch the springs that never open to
+  // their limit at μ = 100.
   const ProgramTest test;
   const std::string law =
       "--law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
@@ -307,7 +309,8 @@ TEST_CASE("What contradicts a curve is said in the quantity that was typed", "[d
                          "0.3 --contact-modulus 1GPa " +
                          drag),
                 "--radius: given, but --law cone has none");
-  // Poisson's ratio against the stiffnesses of the file; a stick solve's differ from G*/E* by some per cent on their own.
+  // Poisson's ratio against the stiffnesses of the file; a stick solve's differ from G*/E* by some
+  // per cent on their own.
   const std::string at =
       "--pressure 1MPa --normal-amplitude 1nm --drag-velocity 1um/s --frequency 20kHz --curve ";
   CHECK(test.run("damping --poisson 0.3 " + at + "curve.h5").err.empty());
@@ -380,8 +383,8 @@ frequency = "20kHz"
 )");
   const auto study = test.run("study study.toml --no-report --json --quiet").json();
   const auto& constant = study["damping"]["damping_constant"];
-  // The two start their contacts from different neighbours. K_t has the square of its solve's tolerance of 1e-3 as error,
-  // and its slope is a difference over 30 % of the load.
+  // The two start their contacts from different neighbours. K_t has the square of its solve's
+  // tolerance of 1e-3 as error, and its slope is a difference over 30 % of the load.
   CHECK(one["damping_constant"].get<double>() ==
         Approx(constant["mean"][1].get<double>()).epsilon(1e-6));
   CHECK(one["damping_constant_error"].get<double>() ==

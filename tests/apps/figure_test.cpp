@@ -335,7 +335,8 @@ TEST_CASE("A picture of a damper shows its map over frequency, and how it decays
     CHECK(decay.answer()["decay"]["damping_ratio"].get<double>() == Approx(ratio).epsilon(1e-3));
     const Values x = decay.column(1, 0, 1);
     CHECK(x[0] == Approx(1).epsilon(1e-9));
-    // ẋ = 0: the first of 4000 steps loses a quarter of what the first two lose, but for the third order.
+    // ẋ = 0: the first of 4000 steps loses a quarter of what the first two lose, but for the third
+    // order.
     CHECK((1 - x[1]) / (1 - x[2]) == Approx(0.25).margin(0.05));
   }
 }

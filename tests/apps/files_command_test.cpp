@@ -15,7 +15,8 @@ const double undefined = std::numeric_limits<double>::quiet_NaN();
 const std::vector<std::string> formats{".h5",  ".nc",    ".npy", ".x3p", ".gsf",
                                        ".txt", ".gxyzf", ".xyz", ".gwy"};
 
-/// Four by three points on 8 µm by 3 µm without any symmetry, one undefined, with five digits, which float32 keeps.
+/// Four by three points on 8 µm by 3 µm without any symmetry, one undefined, with five digits,
+/// which float32 keeps.
 const std::string scan =
     "# Width: 8 um\n# Height: 3 um\n# Value units: nm\n"
     "1.25 2 -3.5 4\n5 nan 7 0.5\n9.75 -10 11 12.5\n";

@@ -248,7 +248,8 @@ TEST_CASE("A surface that the grid cannot carry is refused, one that it carries 
 
 TEST_CASE("A generation that is interrupted leaves no file", "[generate]") {
   const ProgramTest test;
-  // A grid that takes seconds: the signal comes while its modes are summed, or while they are transformed.
+  // A grid that takes seconds: the signal comes while its modes are summed, or while they are
+  // transformed.
   const std::string surface =
       "generate --points 8192 --size-x 1mm --hurst 0.8 --rolloff 0.25mm --short-cutoff 1um "
       "--rms-height 1um --threads 1 -o rough.h5";

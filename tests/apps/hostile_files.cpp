@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Crafted HDF5 files: links, storage elsewhere, filters, chunks, cycles, and extents that are not there.
+// Crafted HDF5 files: links, storage elsewhere, filters, chunks, cycles, and extents that are not
+// there.
 #include "hostile_files.hpp"
 
 #include <hdf5.h>
@@ -170,7 +171,8 @@ std::vector<File> write_hdf5_files(const std::filesystem::path& folder) {
     surface(file, "heights", hsize_t{1} << 31, properties);
   });
   add("flat.h5", "too many for a file of", [](hid_t file) {
-    // One chunk of zeros stands for all of a surface of 512 MB: no deflate stream could be shorter, as far as the sum goes.
+    // One chunk of zeros stands for all of a surface of 512 MB: no deflate stream could be shorter,
+    // as far as the sum goes.
     const hid_t properties = chunked(512);
     good(H5Pset_deflate(properties, 9));
     const hid_t dataset = surface(file, "heights", 8192, properties);

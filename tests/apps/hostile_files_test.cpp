@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of strangers, read by the program: each is read or refused in one line, within bounds, and nothing beside it is read.
+// Files of strangers, read by the program: each is read or refused in one line, within bounds, and
+// nothing beside it is read.
 #include "hostile_files.hpp"
 
 #include <sys/resource.h>
@@ -17,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A run of the program, and what it may cost: 64 times the file and 256 MB, and 10 s of a processor. Limits, not expectations:
-/// nearly all take a hundredth.
+/// A run of the program, and what it may cost: 64 times the file and 256 MB, and 10 s of a
+/// processor. Limits, not expectations: nearly all take a hundredth.
 ProgramTest::Result run_bounded(const ProgramTest& test, const std::string& command,
                                 std::uint64_t file_bytes) {
   const auto used = [] {
@@ -97,7 +98,8 @@ TEST_CASE("Every command that reads HDF5 refuses storage outside the file", "[ho
   REQUIRE(test.run("generate --points 16 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff "
                    "0.2um --rms-height 1nm -o s.h5")
               .status == 0);
-  // Each command meets its dataset where it looks for it; what it says of the rest of the file is its own matter.
+  // Each command meets its dataset where it looks for it; what it says of the rest of the file is
+  // its own matter.
   const std::string press = "contact s.h5 --pressure 1MPa --contact-modulus 10GPa ";
   for (const std::string& command :
        {std::string("fit elsewhere.h5"), press + "--initial elsewhere.h5",

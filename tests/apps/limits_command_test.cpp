@@ -18,8 +18,9 @@ TEST_CASE("Three hundred surfaces are computed and written with 300 MB of addres
   text.replace(text.find("tolerance = 1e-8"), 16,
                "tolerance = 1e-4\ntangential_stiffness = \"proportional\"");
   test.write("study.toml", text);
-  // The draws that the bootstrap once kept of 300 surfaces and of all fewer would take 360 MB by themselves. Libraries and the stacks of two
-  // threads have some 200 MB of addresses; what is resident is 30 MB.
+  // The draws that the bootstrap once kept of 300 surfaces and of all fewer would take 360 MB by
+  // themselves. Libraries and the stacks of two threads have some 200 MB of addresses; what is
+  // resident is 30 MB.
   const auto result = test.run("study study.toml -o result.h5 --no-report --quiet --threads 2",
                                "ulimit -v 300000;");
   INFO(result.err);
@@ -37,7 +38,8 @@ TEST_CASE("A contact that a limit of memory does not hold is refused in one line
   REQUIRE(test.run("generate --points 2048 --size-x 10um --hurst 0.8 --rolloff 1um --short-cutoff "
                    "0.1um --rms-height 10nm -o s.h5 --quiet")
               .status == 0);
-  // 43 bytes for each of 2048² cells, 180 MB, of 500 in all, of which the program and its heights take the most.
+  // 43 bytes for each of 2048² cells, 180 MB, of 500 in all, of which the program and its heights
+  // take the most.
   for (const std::string command : {"contact s.h5 --contact-modulus 1GPa --pressure 1MPa",
                                     "sweep s.h5 --contact-modulus 1GPa --pressures 1MPa:2MPa:2"})
     check_refused(test.run(command + " --threads 1 --quiet", "ulimit -d 200000;"),
@@ -56,7 +58,8 @@ TEST_CASE("A contact that a limit of memory does not hold is refused in one line
 TEST_CASE("A file whose heights a limit of memory does not hold is refused in one line",
           "[limits]") {
   const ProgramTest test;
-  // One byte a point in the file, of which most are a hole on the disk, and eight in memory: 64 MB and 512 MB.
+  // One byte a point in the file, of which most are a hole on the disk, and eight in memory: 64 MB
+  // and 512 MB.
   std::string header = "{'descr': '|i1', 'fortran_order': False, 'shape': (8000, 8000), }";
   header.resize(117, ' ');
   header += '\n';
@@ -69,7 +72,8 @@ TEST_CASE("A file whose heights a limit of memory does not hold is refused in on
 TEST_CASE("A text whose values a limit of memory does not hold is refused in one line",
           "[limits]") {
   const ProgramTest test;
-  // Two bytes a value in the file and eight in memory, which a growing list needs three times for a moment: 32 MB and up to 400 MB.
+  // Two bytes a value in the file and eight in memory, which a growing list needs three times for a
+  // moment: 32 MB and up to 400 MB.
   std::string row;
   for (int column = 0; column < 4000; ++column) row += column % 2 == 0 ? "1 " : "2 ";
   row.back() = '\n';

@@ -148,8 +148,8 @@ TEST_CASE("mdr draws the contact at rest and a period of any of its motions", "[
 TEST_CASE("mdr refuses ranges with a way that its profile has, and warns of a coarse table",
           "[mdr]") {
   const ProgramTest test;
-  // A ball of 1 mm radius with a cap worn to 2 mm within 30 µm, in steps of 2.5 and 7.5 µm: at 500 nm g(a) changes by 2.6
-  // and 12 % without every other point.
+  // A ball of 1 mm radius with a cap worn to 2 mm within 30 µm, in steps of 2.5 and 7.5 µm: at 500
+  // nm g(a) changes by 2.6 and 12 % without every other point.
   for (const int step : {1, 3}) {
     std::string rows;
     for (int i = 0; i <= 40; i += step) {
@@ -197,7 +197,8 @@ TEST_CASE("The CLI refuses each unusable input of a damped contact with its reas
     test.write("table.txt", rows);
     check_refused(test.run(table), reason);
   };
-  // Profile tables: falling, with doubled or unsorted radii, with too few points, undersampled, not numbers, empty.
+  // Profile tables: falling, with doubled or unsorted radii, with too few points, undersampled, not
+  // numbers, empty.
   refused_table("0 0\n1 1\n2 3\n3 2\n4 5\n5 6\n6 7\n", "4 is a row");
   refused_table("0 0\n1 1\n1 3\n3 4\n4 5\n5 6\n6 7\n", "is a row whose radius");
   refused_table("0 0\n2 1\n1 3\n3 4\n4 5\n5 6\n6 7\n", "is a row whose radius");
@@ -268,7 +269,8 @@ TEST_CASE("The CLI refuses each unusable input of a damped contact with its reas
 TEST_CASE("u_z beyond the indentation opens the contact and keeps the answer right",
           "[mdr][bad-input]") {
   const ProgramTest test;
-  // The cone while it opens, by the released distances of Eq. (7) over the levels 0 … δ + u_z alone.
+  // The cone while it opens, by the released distances of Eq. (7) over the levels 0 … δ + u_z
+  // alone.
   const double indentation = 1e-6, amplitude = 1.5e-6, stroke = 2e-7, phase = pi / 3;
   const double ratio = 1.4 / 1.7, curvature = 2e9 / (pi / 2 * std::tan(0.1));
   double sum = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests that options, files and answers of all commands call each quantity what its description says.
+// Tests that options, files and answers of all commands call each quantity what its description
+// says.
 #include <catch2/catch.hpp>
 #include <map>
 #include <regex>
@@ -76,7 +77,8 @@ void check_group(const ResultReader& reader, const std::string& path, const std:
   CHECK(known > 0);
 }
 
-/// What counts or names, and so has no unit: axes of files, and what an answer has beside its quantities.
+/// What counts or names, and so has no unit: axes of files, and what an answer has beside its
+/// quantities.
 const std::set<std::string> indices{"sample",    "component",  "realisation", "midpoint",
                                     "min_cells", "surfaces",   "point",       "nx",
                                     "ny",        "mapped_load"};
@@ -105,7 +107,8 @@ bool is_old(const std::string& name) {
 }
 
 std::string stem(const std::string& name) {
-  // Of a sample of surfaces always a mean and its limits; "decay_length_low" of one curve is a quantity of its own.
+  // Of a sample of surfaces always a mean and its limits; "decay_length_low" of one curve is a
+  // quantity of its own.
   const bool sample = name.starts_with("ensemble_");
   const std::string whole = sample ? name.substr(9) : name;
   for (const std::string part : {"_mean", "_low", "_high"})
@@ -124,7 +127,8 @@ const std::set<std::string>& premise_keys() {
   return keys;
 }
 
-/// Every dataset has the name, unit and meaning of the table, every number in an attribute the name of one.
+/// Every dataset has the name, unit and meaning of the table, every number in an attribute the name
+/// of one.
 void check_file(const ResultReader& reader, const std::string& path = "") {
   for (const std::string& dataset : reader.datasets(path.empty() ? "/" : path)) {
     const std::string where = path + "/" + dataset;
@@ -155,7 +159,8 @@ void check_file(const ResultReader& reader, const std::string& path = "") {
   }
 }
 
-/// Every number stands under the name of a quantity, or is a part of one, as in "hurst": {"value": …, "low": …}.
+/// Every number stands under the name of a quantity, or is a part of one, as in "hurst": {"value":
+/// …, "low": …}.
 void check_numbers(const json& object, const std::string& parent) {
   for (const auto& [key, value] : object.items()) {
     INFO(parent << "." << key);
@@ -172,7 +177,8 @@ void check_numbers(const json& object, const std::string& parent) {
   }
 }
 
-/// The unit that an option's line of help begins with; numbers, words and lists of them are told in capitals: NUMBER, NX[,NY], INT:INT.
+/// The unit that an option's line of help begins with; numbers, words and lists of them are told in
+/// capitals: NUMBER, NX[,NY], INT:INT.
 std::string unit_of(const std::string& type) {
   if (std::regex_search(type, std::regex("^[A-Z]{2}"))) return "1";
   std::string longest;
@@ -238,7 +244,8 @@ TEST_CASE("Every column of a sweep has the name and unit of its description", "[
   int known = 0;
   for (const auto& [name, meaning] : columns)
     known += titles.find(name + " [" + meaning.units + "]") != std::string::npos;
-  // All but the separation, which boundary elements do not have, and `converged`, which has no unit.
+  // All but the separation, which boundary elements do not have, and `converged`, which has no
+  // unit.
   CHECK(known == int(columns.size()) - 2);
 }
 

@@ -104,7 +104,8 @@ TEST_CASE("oscillate tells relaxation and slip apart under finite friction", "[o
   };
   const auto stuck = balanced(test.run(command + "--friction 100 --steps 32").json());
   const auto coarse = balanced(test.run(command + "--friction 100 --steps 16").json());
-  // Both cycles are of second order in the steps, with different constants: 3.5 % at 16 steps, 1.0 % at 32.
+  // Both cycles are of second order in the steps, with different constants: 3.5 % at 16 steps, 1.0
+  // % at 32.
   const double missing = 1 - number(stuck, "over_stick");
   CHECK(std::abs(missing) < 0.015);
   CHECK(std::abs(missing) < std::abs(1 - number(coarse, "over_stick")) / 3);
@@ -115,14 +116,15 @@ TEST_CASE("oscillate tells relaxation and slip apart under finite friction", "[o
   CHECK(number(slipping, "relaxation_work") > 0.1 * number(slipping, "work_per_cycle"));
   CHECK(slipping["tangential_force"].size() == 33);
   CHECK(test.files().count("f.h5") == 1);
-  // Along y an elongated contact is stiffer than along x: a cycle with friction that moved along the other axis would be 10 % off.
+  // Along y an elongated contact is stiffer than along x: a cycle with friction that moved along
+  // the other axis would be 10 % off.
   const auto across = balanced(test.run("oscillate --shape ellipsoid --points 32 --contact-modulus "
                                         "1GPa --poisson 0.5 --json --friction 100 --steps 32 "
                                         "--direction 90deg")
                                    .json());
   CHECK(number(across, "over_stick") == Approx(1).epsilon(0.025));
-  // The exact cone at nu = 0.3, by the method of dimensionality reduction; measured 0.3 % apart, errors of the steps.
-  // The parts are not compared: springs are not cells.
+  // The exact cone at nu = 0.3, by the method of dimensionality reduction; measured 0.3 % apart,
+  // errors of the steps. The parts are not compared: springs are not cells.
   const auto exact =
       test.run(
               "mdr --profile cone --angle 0.05 --indentation 20um --mode equal-frequency "
@@ -158,15 +160,17 @@ TEST_CASE("oscillate lets a rough surface slip, between full stick and sliding",
     cycle["force"] = answer["force"];
     return cycle;
   };
-  // Without slip: the other simulation's loss, up to the different constants of the steps: 2.2 % apart at 32.
+  // Without slip: the other simulation's loss, up to the different constants of the steps: 2.2 %
+  // apart at 32.
   const auto stuck = friction("1000");
   CHECK(number(stuck, "over_stick") == Approx(1).epsilon(0.03));
   CHECK(number(stuck, "slip_work") < 1e-6 * number(stuck, "dissipated"));
   const auto partial = friction("1");
   CHECK(number(partial, "slip_work") > 0.02 * number(partial, "dissipated"));
   CHECK(number(partial, "relaxation_work") > 0.02 * number(partial, "dissipated"));
-  // Sliding: F_x = μF on the whole path of 4 u_x. F swings about its mean as cosθ does and |dx| as |sin(θ + φ0)|, so that the mean
-  // force along the path is that at rest up to second order in u_z, and the elastic return at both ends takes μF/K_t of the way.
+  // Sliding: F_x = μF on the whole path of 4 u_x. F swings about its mean as cosθ does and |dx| as
+  // |sin(θ + φ0)|, so that the mean force along the path is that at rest up to second order in u_z,
+  // and the elastic return at both ends takes μF/K_t of the way.
   const auto sliding = friction("0.001");
   CHECK(number(sliding, "dissipated") ==
         Approx(0.001 * number(sliding, "force") * 4 * 20e-9).epsilon(0.05));
@@ -183,7 +187,8 @@ TEST_CASE("A killed cycle with friction resumes to the same numbers and lists al
   const auto whole = test.run(command).json();
   const std::string recorded =
       command + "--checkpoint c.h5 --checkpoint-every 0 --fields f --field-steps 4,12 ";
-  // Killed when the first field of the cycle with friction appears; where it ended before, nothing was killed.
+  // Killed when the first field of the cycle with friction appears; where it ended before, nothing
+  // was killed.
   const auto killed = test.run(recorded,
                                "(while [ ! -e f-friction-0004.h5 ] && [ -e /proc/$$ ]; do sleep "
                                "0.01; done; kill -KILL $$) &");
@@ -191,7 +196,8 @@ TEST_CASE("A killed cycle with friction resumes to the same numbers and lists al
   REQUIRE(test.files().count("c.h5") == 1);
   check_refused(test.run(without_friction + "0.5 --checkpoint c.h5 --resume"),
                 "friction_coefficient was 0.4");
-  // A checkpoint that is told something else ends otherwise: both cycles go on from it and do not begin anew.
+  // A checkpoint that is told something else ends otherwise: both cycles go on from it and do not
+  // begin anew.
   const salebra::CycleSettings settings = settings_in(test.folder() / "c.h5");
   auto states = salebra::read_cycle_checkpoint(test.folder() / "c.h5", settings);
   REQUIRE(states.size() == 2);
@@ -297,7 +303,8 @@ TEST_CASE("oscillate knows which of two bodies is the softer one", "[oscillate]"
     return answer["coupling"]["dundurs"].get<double>();
   };
   const double softer = dundurs("--young 1GPa,10GPa --poisson 0.3,0.2");
-  // β = ½[(1 − 2ν_1)/G_1 − (1 − 2ν_2)/G_2]/[(1 − ν_1)/G_1 + (1 − ν_2)/G_2], G_1 = 1/2.6, G_2 = 10/2.4.
+  // β = ½[(1 − 2ν_1)/G_1 − (1 − 2ν_2)/G_2]/[(1 − ν_1)/G_1 + (1 − ν_2)/G_2], G_1 = 1/2.6, G_2 =
+  // 10/2.4.
   CHECK(softer == Approx(0.5 * (0.4 * 2.6 - 0.6 * 0.24) / (0.7 * 2.6 + 0.8 * 0.24)));
   CHECK(dundurs("--young 10GPa,1GPa --poisson 0.2,0.3") == Approx(-softer));
 }
@@ -310,7 +317,8 @@ TEST_CASE("A killed cycle resumes to the same numbers", "[oscillate]") {
   const std::string command = without_phase + "45deg";
   const auto whole = test.run(command).json();
   const std::string with_checkpoint = command + " --checkpoint c.h5 --checkpoint-every 0";
-  // Killed outright when its first checkpoint appears; where the cycle ended before, nothing was killed and nothing is left.
+  // Killed outright when its first checkpoint appears; where the cycle ended before, nothing was
+  // killed and nothing is left.
   const auto killed =
       test.run(with_checkpoint,
                "(while [ ! -e c.h5 ] && [ -e /proc/$$ ]; do sleep 0.02; done; kill -KILL $$) &");
@@ -404,7 +412,8 @@ TEST_CASE("oscillate says what it needs", "[oscillate]") {
 
 TEST_CASE("A force that bends the wrong way has no small-amplitude loss", "[oscillate]") {
   const ProgramTest test;
-  // A few cells carry the load: within the sweep one gives way, and the smooth force falls below its chord.
+  // A few cells carry the load: within the sweep one gives way, and the smooth force falls below
+  // its chord.
   const auto run = test.run("oscillate --surface " SALEBRA_DATA
                             "/surfaces/afm-scan.txt --size-x 10um --pressure 36.66MPa "
                             "--boundary periodic --contact-modulus 115GPa --poisson 0.3 --mode "

@@ -35,7 +35,8 @@ TEST_CASE("oscillate takes a position as depth, force, pressure or gap", "[oscil
         Approx(1.3 / 0.7).epsilon(0.02));
   // A longer cell has more of the same cells.
   CHECK(test.run(parabola + "--indentation 5um --size-x 1mm --size-y 2mm").json()["ny"] == 64);
-  // The force of the levels' fit at this depth, whose four levels leave 1e-3 of F, two thirds of it in the depth.
+  // The force of the levels' fit at this depth, whose four levels leave 1e-3 of F, two thirds of it
+  // in the depth.
   const std::string force = std::to_string(number(deep, "force"));
   CHECK(number(test.run(parabola + "--normal-force " + force).json(), "indentation") ==
         Approx(10e-6).epsilon(1e-3));
@@ -70,7 +71,8 @@ TEST_CASE("oscillate answers for Eqs (12) and (15), finite amplitude and the exp
   CHECK(number(equal, "predicted_exponential") == Approx(twelve * force / 64e-12));
   CHECK(number(equal, "predicted_exponential_finite") ==
         Approx(twelve * force / 64e-12 * 3 * (k * std::cosh(k) - std::sinh(k)) / (k * k * k)));
-  // v/ω = 1 mm/s / (2π 50 Hz); here F''' makes 8 % of difference, by which the two predictions are told apart.
+  // v/ω = 1 mm/s / (2π 50 Hz); here F''' makes 8 % of difference, by which the two predictions are
+  // told apart.
   const auto drag =
       test.run(parabola + "--mode drag --drag-velocity 1mm/s --frequency 50Hz").json();
   const double fifteen =
@@ -88,7 +90,8 @@ TEST_CASE("oscillate answers for Eqs (12) and (15), finite amplitude and the exp
     // The levels are a route of their own, and agree to their error.
     CHECK(number(answer, "work_by_levels") != work);
   }
-  // Of ½K_t u_x² with the stiffness 2G*a of the largest contact, in which x is u_x or v/ω; K_t of the last level, shy of the end.
+  // Of ½K_t u_x² with the stiffness 2G*a of the largest contact, in which x is u_x or v/ω; K_t of
+  // the last level, shy of the end.
   const double stiffest = 2 * modulus_ratio * 1e9 * std::sqrt(4e-3 * 26e-6);
   CHECK(number(equal, "work_over_elastic_energy") ==
         Approx(number(equal, "work_per_cycle") / (stiffest * amplitude * amplitude / 2))
@@ -110,7 +113,8 @@ TEST_CASE("oscillate frees the lateral displacement in all its simulations", "[o
   };
   const auto held = run("held"), free = run("free");
   const double steps = number(free, "work_per_cycle") / number(held, "work_per_cycle") - 1;
-  // What is free can only be softer: by 0.4 % here, the same for each route up to a tenth of it, the errors of steps and cells.
+  // What is free can only be softer: by 0.4 % here, the same for each route up to a tenth of it,
+  // the errors of steps and cells.
   CHECK(steps < -0.003);
   CHECK(number(free, "work_by_levels") / number(held, "work_by_levels") - 1 ==
         Approx(steps).epsilon(0.2));
@@ -129,7 +133,8 @@ TEST_CASE("oscillate moves in its direction by levels and by steps", "[oscillate
         .json();
   };
   const auto along = run("0deg"), across = run("90deg");
-  // The contact is longer along x: stiffer across it, by both routes alike up to the errors of the cells, which they share.
+  // The contact is longer along x: stiffer across it, by both routes alike up to the errors of the
+  // cells, which they share.
   const double steps = number(across, "work_per_cycle") / number(along, "work_per_cycle");
   CHECK(std::abs(steps - 1) > 0.05);
   CHECK(number(across, "work_by_levels") / number(along, "work_by_levels") ==
@@ -184,7 +189,8 @@ TEST_CASE("The file of oscillate holds what its answer says", "[oscillate]") {
         Approx(number(answer, "contact_area_max")));
   const std::vector<double> area = file.numbers("cycle/contact_area");
   CHECK(*std::max_element(area.begin(), area.end()) == number(answer, "contact_area_max"));
-  // K_t/K lies between 1 − ν/2 of strips and (1 − ν/2)/(1 − ν), times G*/E*, at every level: no column stands for the other.
+  // K_t/K lies between 1 − ν/2 of strips and (1 − ν/2)/(1 − ν), times G*/E*, at every level: no
+  // column stands for the other.
   const std::vector<double> tangential = file.numbers("levels/tangential_stiffness"),
                             normal = file.numbers("levels/normal_stiffness");
   for (std::size_t k = 1; k + 1 < normal.size(); ++k) {
@@ -199,7 +205,8 @@ TEST_CASE("The file of oscillate holds what its answer says", "[oscillate]") {
   CHECK(file.numbers("friction/tangential_force") == numbers(friction, "tangential_force"));
   CHECK(file.numbers("friction/tangential") == numbers(friction, "tangential"));
   CHECK(file.numbers("friction/dissipated").back() == Approx(number(friction, "dissipated")));
-  // An automatic choice of cells adds their error to that of the steps, which the file has by itself.
+  // An automatic choice of cells adds their error to that of the steps, which the file has by
+  // itself.
   CHECK(answer["error_contains"] == nlohmann::json{"steps", "cells"});
   CHECK(number(answer, "error_estimate") > attribute("cycle", "error_estimate"));
   CHECK(map.rows() == answer["nx"]);
@@ -217,7 +224,8 @@ TEST_CASE("oscillate warns of a loss that is not steady and of steps that are to
   CHECK(hasty.err.find("coupling: after 2 periods the loss still differs") != std::string::npos);
   CHECK(hasty.json()["coupling"]["steady"] == false);
   CHECK(hasty.json()["coupling"]["periods"] == 2);
-  // With friction alone it starts from the state of sliding, in which nothing changes from the first period on.
+  // With friction alone it starts from the state of sliding, in which nothing changes from the
+  // first period on.
   const auto slid = test.run(drag + "--friction 0.4");
   CHECK(slid.err.find("after") == std::string::npos);
   const auto friction = slid.json()["friction"];
@@ -247,8 +255,9 @@ TEST_CASE("figure3 moves as it is told", "[oscillate]") {
     CHECK(a["routes_agree"] == true);
     CHECK(c["routes_agree"] == true);
   }
-  // What tells the shapes apart: a² = Rδ up to 26 µm; 16 pyramids whose contacts are about those of cones of their slope, a = 2δ/(π 0.1)
-  // up to 7.8 µm; waves drawn out along the motion, so that K_t < (G*/E*)K, and across it would be more.
+  // What tells the shapes apart: a² = Rδ up to 26 µm; 16 pyramids whose contacts are about those of
+  // cones of their slope, a = 2δ/(π 0.1) up to 7.8 µm; waves drawn out along the motion, so that
+  // K_t < (G*/E*)K, and across it would be more.
   CHECK(number(quarter["parabola"], "contact_area_max") == Approx(pi * 4e-3 * 26e-6).epsilon(0.1));
   CHECK(number(quarter["parabola"], "ratio_finite") == Approx(1).epsilon(0.05));
   CHECK(number(quarter["pyramids"], "contact_area_max") ==

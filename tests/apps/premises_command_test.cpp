@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests that every damping constant is printed with its premises, and that their limits are those of a simulation with friction.
+// Tests that every damping constant is printed with its premises, and that their limits are those
+// of a simulation with friction.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -286,8 +287,9 @@ TEST_CASE("A study prints the loss with slip, and refuses a hardness below its p
   CHECK(reader.numbers("premises/slip_of_opening_levels_limit_5_percent").size() == loads);
   CHECK(reader.numbers("premises/work_per_cycle_with_slip")[1] ==
         answer["with_slip"]["work_per_cycle"][1].get<double>());
-  // With much friction and a short way nothing slips: the column is the damping constant itself, although the curve that gives the
-  // ratio of losses is interpolated between pressures, by up to 20 %. The 360 straight steps of the springs lose 1 %.
+  // With much friction and a short way nothing slips: the column is the damping constant itself,
+  // although the curve that gives the ratio of losses is interpolated between pressures, by up to
+  // 20 %. The 360 straight steps of the springs lose 1 %.
   const json stuck = test.run(study + "--friction-coefficient 1e4 --excursion 1fm --json").json();
   const json& constants = stuck["damping"]["damping_constant"]["mean"];
   int stated = 0;

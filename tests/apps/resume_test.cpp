@@ -39,7 +39,8 @@ std::size_t parts_in(const fs::path& folder) {
   return count;
 }
 
-/// Starts the program and kills it a while after its next part has appeared, or without waiting for one. False: it ended before.
+/// Starts the program and kills it a while after its next part has appeared, or without waiting for
+/// one. False: it ended before.
 bool run_and_kill(const ProgramTest& test, bool after_a_part, std::chrono::microseconds delay) {
   const fs::path parts = test.folder() / "result.h5.parts";
   const std::size_t before = parts_in(parts);
@@ -148,7 +149,8 @@ TEST_CASE("A study killed between its result and its page gets the page when it 
   const std::string page = test.read("result.html");
   const std::set<std::string> all{"study.toml", "result.h5", "result.html"};
 
-  // Nothing but the page is missing, as the process left it that died before it; the half of one may lie there.
+  // Nothing but the page is missing, as the process left it that died before it; the half of one
+  // may lie there.
   fs::remove(test.folder() / "result.html");
   test.write(".result.html.99999-0.part", "half of it");
   const auto resumed = test.run("study study.toml -o result.h5 --resume --json");
@@ -158,7 +160,8 @@ TEST_CASE("A study killed between its result and its page gets the page when it 
   CHECK(test.read("result.html") == page);
   CHECK(test.files() == all);
 
-  // A page of these results stays as it is, and one of older results is another's until --overwrite.
+  // A page of these results stays as it is, and one of older results is another's until
+  // --overwrite.
   const auto made = fs::last_write_time(test.folder() / "result.html");
   const auto whole = test.run("study study.toml -o result.h5 --resume");
   CHECK_THAT(whole.out, Contains("complete already") && Contains("report:  result.html"));

@@ -22,7 +22,8 @@ class ProgramTest {
     nlohmann::json json() const { return nlohmann::json::parse(out); }
   };
 
-  /// `salebra ARGUMENTS` in the folder; arguments as a shell takes them. before: shell commands such as "ulimit -f 1;".
+  /// `salebra ARGUMENTS` in the folder; arguments as a shell takes them. before: shell commands
+  /// such as "ulimit -f 1;".
   Result run(const std::string& arguments, const std::string& before = "") const;
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -35,7 +36,8 @@ class ProgramTest {
   std::filesystem::path folder_;
 };
 
-/// Bad input as the user must see it: status 2 and one line "salebra: error: …" that holds `part`; stdout is empty.
+/// Bad input as the user must see it: status 2 and one line "salebra: error: …" that holds `part`;
+/// stdout is empty.
 void check_refused(const ProgramTest::Result& result, const std::string& part);
 
 std::set<std::string> keys(const nlohmann::json& object);

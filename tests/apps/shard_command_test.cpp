@@ -52,7 +52,8 @@ pid_t start(const ProgramTest& test, const char* shard) {
   _exit(99);
 }
 
-/// Four processes with one --shard each, at once, as shell commands; their answers go to 1.json … 4.json beside the folder.
+/// Four processes with one --shard each, at once, as shell commands; their answers go to 1.json …
+/// 4.json beside the folder.
 std::string four_at_once(const ProgramTest& test, const std::array<std::string, 4>& shards) {
   std::string commands;
   for (std::size_t i = 0; i < shards.size(); ++i)
@@ -122,7 +123,8 @@ TEST_CASE("Twenty of four concurrent processes are killed: all surfaces are comp
     victim = start(test, "any");
   }
   for (const pid_t worker : workers) waitpid(worker, nullptr, 0);
-  // The claims of dead processes of this host are void at once, so that the survivors have left none.
+  // The claims of dead processes of this host are void at once, so that the survivors have left
+  // none.
   CHECK(parts_in(test.folder() / "result.h5.parts") == 24);
   const auto merged = test.run(merge);
   INFO(merged.err);
@@ -131,8 +133,8 @@ TEST_CASE("Twenty of four concurrent processes are killed: all surfaces are comp
   check_same_as_whole(test);
 }
 
-// Two hosts that share the folder: processes of one cannot be seen from the other. A namespace of process numbers and one of host names
-// do that on one machine.
+// Two hosts that share the folder: processes of one cannot be seen from the other. A namespace of
+// process numbers and one of host names do that on one machine.
 TEST_CASE("Workers of two hosts share a study, and wait a minute for one that was killed",
           "[shard]") {
   const ProgramTest test;
@@ -154,7 +156,8 @@ TEST_CASE("Workers of two hosts share a study, and wait a minute for one that wa
       }
     return count;
   };
-  // On node2 a worker is killed while it computes its first surfaces; should it have none in hand just then, another is started.
+  // On node2 a worker is killed while it computes its first surfaces; should it have none in hand
+  // just then, another is started.
   const std::string claims = "ls result.h5.parts/*.claim";
   const std::string killed =
       elsewhere + "'hostname node2; for attempt in 1 2 3 4 5; do " + claims + " && break; " + any +

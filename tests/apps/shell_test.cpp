@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What meets a person at the keyboard: the first study file, the cost of a run before it is run, suggestions, help, completion, manual
-// pages, colours.
+// What meets a person at the keyboard: the first study file, the cost of a run before it is run,
+// suggestions, help, completion, manual pages, colours.
 #include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,7 +17,8 @@ using Catch::Contains;
 
 namespace {
 
-/// Keys that a table of a study file knows, as the reader itself tells them of a key that it does not know.
+/// Keys that a table of a study file knows, as the reader itself tells them of a key that it does
+/// not know.
 std::vector<std::string> known_keys(const ProgramTest& test, const std::string& table,
                                     const std::string& others) {
   test.write("unknown.toml", others + "[" + table + "]\nno_such_key = 1\n");
@@ -202,7 +203,8 @@ TEST_CASE("A dry run tells what would run and does nothing of it", "[dry-run]") 
   CHECK(answer["memory_bytes"] > 64 * 64 * 80);
   CHECK(test.files() == std::set<std::string>{"small.toml"});
 
-  // Four times the cells: a little more than four times the time, for each route; two lists multiply the points.
+  // Four times the cells: a little more than four times the time, for each route; two lists
+  // multiply the points.
   const auto seconds = [&](const std::string& options) {
     return test.run("study small.toml --dry-run --json --threads 1 " + options).json();
   };
@@ -217,7 +219,8 @@ TEST_CASE("A dry run tells what would run and does nothing of it", "[dry-run]") 
   CHECK(ratio > 4);
   CHECK(ratio < 5);
 
-  // A hundred times the surfaces, a hundred times the time; each run measures its own speed, on a machine that may be busy.
+  // A hundred times the surfaces, a hundred times the time; each run measures its own speed, on a
+  // machine that may be busy.
   test.write("many.toml", study_text("seed_count = 300", 5));
   const auto many = test.run("study many.toml --dry-run --json --threads 1").json();
   CHECK(many["surfaces"] == 300);

@@ -19,7 +19,8 @@ TEST_CASE("slider sticks and slips without an oscillation, and slides with one",
   const auto jerks = test.run(slider + "--falling-slope 1 --json").json();
   CHECK(jerks["state"] == "stick_slip");
   CHECK(jerks["averaged"]["state"] == "stick_slip");
-  // The closed form of tests/damping/slider_test.cpp, 263.026 nm, of a rigid contact; 1 % of it is elastic.
+  // The closed form of tests/damping/slider_test.cpp, 263.026 nm, of a rigid contact; 1 % of it is
+  // elastic.
   CHECK(jerks["averaged"]["slider_amplitude"].get<double>() == Approx(2.63026e-7).epsilon(1e-5));
   CHECK(jerks["slider_amplitude"].get<double>() == Approx(2.63e-7).epsilon(0.02));
   CHECK_FALSE(jerks.contains("threshold_amplitude"));

@@ -34,7 +34,8 @@ TEST_CASE("The statistics of a surface agree with each other and with info", "[s
         Approx(info["rms_slope"].get<double>()).epsilon(1e-12));
   CHECK(found["correlation"]["autocorrelation"][0].get<double>() ==
         Approx(rms_height * rms_height).epsilon(1e-12));
-  // S(dx) = dx² ⟨(Δh/dx)²⟩, and the first entry of the scale-dependent slope is the slope by differences.
+  // S(dx) = dx² ⟨(Δh/dx)²⟩, and the first entry of the scale-dependent slope is the slope by
+  // differences.
   const double dx = 1e-6 / 64, slope = found["scale_x"]["profile_slope"][0];
   CHECK(found["correlation_x"]["structure"][1].get<double>() ==
         Approx(slope * slope * dx * dx).epsilon(1e-9));

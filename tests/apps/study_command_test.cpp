@@ -120,7 +120,8 @@ TEST_CASE("A damping constant of a study has its error, and none is printed that
 }
 
 TEST_CASE("More loads change no stated interval by more than its error", "[study]") {
-  // Every load of the short list is in the long one. One surface, whose damping has an error, and several, which have intervals too.
+  // Every load of the short list is in the long one. One surface, whose damping has an error, and
+  // several, which have intervals too.
   const ProgramTest test;
   for (const char* seeds : {"seeds = [2]", "seeds = [1, 2, 3]"}) {
     test.write("study.toml", study_text(seeds));
@@ -166,7 +167,8 @@ TEST_CASE("A relative error is met, or the study says what was reached and gives
   for (std::size_t k = 0; k < 4; ++k)
     CHECK(constant["error"][k].get<double>() <= 0.6 * constant["mean"][k].get<double>());
 
-  // No free boundary has anything to do with a periodic surface: the seam's error stays, whatever the cells.
+  // No free boundary has anything to do with a periodic surface: the seam's error stays, whatever
+  // the cells.
   const auto missed = test.run(
       "study study.toml --relative-error 0.1% --seam-error free --pressures 10MPa:40MPa:4 -o "
       "result.h5 --quiet");
@@ -224,8 +226,8 @@ TEST_CASE("An interrupted study keeps the surfaces that it has finished and says
   many.replace(many.find("seeds = [1, 2, 3]"), 17, "seed_count = 100000");
   test.write("study.toml", many);
   const std::string signal = GENERATE("INT", "TERM", "HUP");
-  // The signal goes to the program itself, once something is finished and the first second is over: the remaining time is
-  // told from then on.
+  // The signal goes to the program itself, once something is finished and the first second is over:
+  // the remaining time is told from then on.
   const auto result = test.run("study study.toml -o result.h5 --json",
                                "(while ! ls result.h5.parts/*.realisation >/dev/null 2>&1; do "
                                "sleep 0.1; done; sleep 2; kill -" +

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every table of the program says what its JSON twin says: the same numbers, each with the unit of its quantity.
+// Every table of the program says what its JSON twin says: the same numbers, each with the unit of
+// its quantity.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
@@ -14,7 +15,8 @@ using salebra::Dimension;
 
 namespace {
 
-/// What a name in an answer measures, independently of the program's own list. A name with a dot is a member of that object alone.
+/// What a name in an answer measures, independently of the program's own list. A name with a dot is
+/// a member of that object alone.
 Dimension meaning(const std::string& object, const std::string& name) {
   using enum Dimension;
   static const std::map<std::string, Dimension> meanings{

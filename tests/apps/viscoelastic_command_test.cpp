@@ -54,7 +54,8 @@ TEST_CASE("viscoelastic tells the losses of material and relaxation apart over f
                  at("relaxation_work", i)));
     CHECK(at("elastic_work", i) == at("elastic_work", 0));
   }
-  // Slow: the relaxed body, first order in ωτ = 1e-4. Fast: G(0)/G∞ times 1 + R/2 of it, docs/theory.md, section 9; 128 steps.
+  // Slow: the relaxed body, first order in ωτ = 1e-4. Fast: G(0)/G∞ times 1 + R/2 of it,
+  // docs/theory.md, section 9; 128 steps.
   CHECK(at("relaxation_work", 0) == Approx(at("elastic_work", 0)).epsilon(2e-3));
   CHECK(at("relaxation_work", 2) == Approx(10 * at("elastic_work", 0)).epsilon(2e-3));
   CHECK(at("normal_material_work", 1) > 100 * at("normal_material_work", 0));

@@ -58,7 +58,8 @@ TEST_CASE("A spectrum given by columns transforms as one given whole", "[fft]") 
     CHECK((serial == parallel_result).all());
     Field whole(nx, ny);
     RealFft2D<double>(nx, ny).backward(modes.data(), whole.data());
-    // Both round like eps·log n times the rms of the result, which is at most nx·ny times that of the random field.
+    // Both round like eps·log n times the rms of the result, which is at most nx·ny times that of
+    // the random field.
     CHECK((serial - whole).abs().maxCoeff() < 1e-14 * double(nx * ny));
   }
 }
@@ -72,8 +73,9 @@ TEST_CASE("A number of columns that the grid does not have is refused", "[fft]")
 }
 
 TEST_CASE("Columns of several processes transform to the bits of one process", "[fft][share]") {
-  // Even and odd, without rows for the last processes, with columns for some processes only; the last have groups for several batches, of
-  // which the last is not full, and more than one group in a batch.
+  // Even and odd, without rows for the last processes, with columns for some processes only; the
+  // last have groups for several batches, of which the last is not full, and more than one group in
+  // a batch.
   const auto [nx, ny] =
       GENERATE(std::pair<Index, Index>{64, 64}, std::pair<Index, Index>{96, 50},
                std::pair<Index, Index>{101, 64}, std::pair<Index, Index>{16, 16},
@@ -213,7 +215,8 @@ TEST_CASE("The columns of a spectrum are those of RealFft2D, for any number of p
   Modes whole(std::size_t(nx * all)), alone(whole.size());
   RealFft2D<double>(nx, ny).forward(field.data(), whole.data());
   CHECK(modes_of({}, alone));
-  // Both round like eps·log n times the largest mode, which is at least √(nx·ny)/2 for random heights.
+  // Both round like eps·log n times the largest mode, which is at least √(nx·ny)/2 for random
+  // heights.
   double largest = 0, difference = 0;
   for (std::size_t k = 0; k < whole.size(); ++k) {
     largest = std::max(largest, std::abs(whole[k]));

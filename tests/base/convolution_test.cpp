@@ -47,7 +47,8 @@ double by_hand_odd(const Field& field, const Case& shape, Index a, Index b) {
 
 TEST_CASE("A convolution equals the sum over the kernel's points, circular and zero-padded",
           "[convolution]") {
-  // Rows are paired within blocks of 16: whole ones, a last one of 1, 7, 8 and 15 rows, and less than one.
+  // Rows are paired within blocks of 16: whole ones, a last one of 1, 7, 8 and 15 rows, and less
+  // than one.
   const Case shape =
       GENERATE(Case{16, 64, 16, 64}, Case{7, 45, 7, 45}, Case{1, 5, 1, 5}, Case{33, 20, 66, 40},
                Case{5, 6, 12, 15}, Case{23, 12, 23, 12}, Case{40, 9, 40, 9}, Case{47, 8, 94, 16});
@@ -99,10 +100,12 @@ TEST_CASE("A convolution has the same bits for one thread and for two, and may w
 
 TEST_CASE("A convolution of rows that are made and taken one by one is that of the whole field",
           "[convolution]") {
-  // 96 rows are six blocks of eight pairs, 45 leave a row without partner and a block that is not full.
+  // 96 rows are six blocks of eight pairs, 45 leave a row without partner and a block that is not
+  // full.
   const Case shape = GENERATE(Case{96, 64, 96, 64}, Case{45, 20, 90, 40}, Case{1, 5, 1, 5});
   const int components = GENERATE(1, 2);
-  // Of the first two pairs one row is empty each, of the next both. The second component has other empty rows.
+  // Of the first two pairs one row is empty each, of the next both. The second component has other
+  // empty rows.
   const auto empty = [&](int component, Index row) {
     const Index half = (std::min<Index>(shape.nx, 16) + 1) / 2, shifted = row - component;
     return shifted == 0 || shifted == half + 1 || shifted == 2 || shifted == half + 2;

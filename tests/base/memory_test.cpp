@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests of the memory that machine, cgroups and resource limits leave, with made-up trees of /proc and /sys.
+// Tests of the memory that machine, cgroups and resource limits leave, with made-up trees of /proc
+// and /sys.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -37,7 +37,8 @@ TEST_CASE("Slabs cover every row once, and sums have the same bits for every thr
 
 TEST_CASE("Blocks of rows cover all rows in order, and 16 rows or their multiples are whole blocks",
           "[parallel]") {
-  // What ranks that hold a multiple of 16 rows rely on: whole blocks. At most 1024 of them, and the last may have fewer rows.
+  // What ranks that hold a multiple of 16 rows rely on: whole blocks. At most 1024 of them, and the
+  // last may have fewer rows.
   for (const Index rows : {1, 15, 16, 17, 100, 1024, 1025, 16384, 16385, 65536, 100000}) {
     const Index size = parallel::block_rows(rows), blocks = parallel::block_count(rows);
     CHECK((16 % size == 0 || size % 16 == 0));

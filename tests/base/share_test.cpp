@@ -101,7 +101,8 @@ TEMPLATE_TEST_CASE("A convolution over processes has the bits of one process", "
   struct Case {
     Index nx, ny, period_x, period_y;
   };
-  // Even and odd sizes, a last block that is not full, a zero-padded period, and fewer blocks than processes.
+  // Even and odd sizes, a last block that is not full, a zero-padded period, and fewer blocks than
+  // processes.
   const auto shape = GENERATE(Case{64, 64, 64, 64}, Case{96, 50, 96, 50}, Case{101, 64, 101, 64},
                               Case{101, 33, 216, 75}, Case{16, 16, 16, 16}, Case{40, 1, 40, 1});
   const int components = GENERATE(1, 2);
@@ -218,8 +219,9 @@ TEST_CASE("The transform of 65 536 squared points over 1024 processes fits the c
     const Share rows(Communicator(transport), n);
     REQUIRE(rows.count() == 64);
     Convolution2D<float> convolution({n, n, n, n}, 1, rows);
-    // Two buffers of 4 bytes for each of the cells of this process. The 32 769 columns of the half-spectrum are no multiple of 1024:
-    // a process has one of them, a thirty-second of its own, more or less, and column 0 is its own mirror image.
+    // Two buffers of 4 bytes for each of the cells of this process. The 32 769 columns of the
+    // half-spectrum are no multiple of 1024: a process has one of them, a thirty-second of its own,
+    // more or less, and column 0 is its own mirror image.
     const double bytes = 4.0 * static_cast<double>(n) * 64;
     CHECK(static_cast<double>(convolution.spectrum_bytes()) >= 2 * 0.96 * bytes);
     CHECK(static_cast<double>(convolution.spectrum_bytes()) <= 2 * 1.04 * bytes);
@@ -231,7 +233,8 @@ TEST_CASE("The transform of 65 536 squared points over 1024 processes fits the c
     CHECK(transport->exchanged.sent >= 2 * bytes * (1 - 1.0 / ranks) * 0.99);
     CHECK(transport->exchanged.sent <= 2 * bytes * 1.04);
   }
-  // In double precision with the period of an isolated surface, the most that is ever sent at this size.
+  // In double precision with the period of an isolated surface, the most that is ever sent at this
+  // size.
   const Share rows(Communicator(std::make_shared<salebra::testing::OneOfMany>(0, ranks)), n);
   CHECK_NOTHROW(Convolution2D<double>({n, n, 2 * n, 2 * n}, 2, rows));
 }

@@ -131,7 +131,8 @@ TEST_CASE("A formatted quantity reads back to the digits shown, for random numbe
   }
   CHECK(format_quantity(1.2344e-6, Dimension::length) == "1.234 \u00b5m");
   CHECK(format_quantity(9.99996e-7, Dimension::length) == "1 \u00b5m");
-  // The prefix belongs to the number of four digits, which rounds up here, and not to one of five, which does not.
+  // The prefix belongs to the number of four digits, which rounds up here, and not to one of five,
+  // which does not.
   CHECK(format_quantity(9.9996e-7, Dimension::length) == "1 \u00b5m");
   CHECK(format_quantity(std::nan(""), Dimension::length) == "n/a");
   CHECK(format_quantity(1.25e15, Dimension::stiffness_per_area) == "1.25 GPa/\u00b5m");

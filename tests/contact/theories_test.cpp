@@ -10,7 +10,8 @@ using std::numbers::pi;
 
 namespace {
 
-/// Self-affine with a plateau, H = 0.8, q from 1 to 64, roll-off at 4 = 64^{1/3}: three equal parts in ln q.
+/// Self-affine with a plateau, H = 0.8, q from 1 to 64, roll-off at 4 = 64^{1/3}: three equal parts
+/// in ln q.
 double self_affine(double q) { return 0.01 * (q < 4 ? 1 : std::pow(q / 4, -3.6)); }
 
 PerssonTheory theory_of(int shells, double energy_factor = 0.45) {
@@ -35,7 +36,8 @@ TEST_CASE("Area theories: Persson's slope √(8/π) is 2/π of BGT's, and ends i
 
 TEST_CASE("Persson's mean gap is his double integral, at second order in the shells",
           "[theories]") {
-  // ū from √π∫q²C w ∫_p^∞ … dp'/p' dq by nested quadrature in q and p' (mpmath), E* = 1, γ = 0.45; p, ū.
+  // ū from √π∫q²C w ∫_p^∞ … dp'/p' dq by nested quadrature in q and p' (mpmath), E* = 1, γ = 0.45;
+  // p, ū.
   const double table[][2] = {{0.01, 3.04540756112}, {0.3, 1.14543817718}, {2, 0.22131270724}};
   for (const auto& row : table) {
     const double coarse = theory_of(300).mean_gap(row[0]) / row[1] - 1;
@@ -53,8 +55,8 @@ TEST_CASE("Persson's gap, integrated over pressure, is the energy of complete co
   double energy = 0;
   for (const RoughnessShell& shell : shells) energy += shell.wavenumber * shell.power / 4;
   const PerssonTheory theory(shells, 1.0, energy_factor);
-  // The trapezoidal rule in ln p is spectrally accurate: the integrand p ū is smooth and vanishes on both sides, at
-  // p = e^−30 with what is left below it, about 30 e^−30.
+  // The trapezoidal rule in ln p is spectrally accurate: the integrand p ū is smooth and vanishes
+  // on both sides, at p = e^−30 with what is left below it, about 30 e^−30.
   double integral = 0;
   const double step = 0.1;
   for (double log_pressure = -30; log_pressure < 5; log_pressure += step)
@@ -94,7 +96,8 @@ TEST_CASE("Persson's pressure inverts his mean gap", "[theories]") {
 
 TEST_CASE("Shells carry the rms height and slope of the spectrum", "[theories]") {
   const PerssonTheory theory = theory_of(3000);
-  // √(2π∫qC dq), √(2π∫q³C dq) by quadrature (mpmath); midpoint rule in ln q, (ln 64/3000)²·(2…4)²/24 = 1e-6.
+  // √(2π∫qC dq), √(2π∫q³C dq) by quadrature (mpmath); midpoint rule in ln q, (ln
+  // 64/3000)²·(2…4)²/24 = 1e-6.
   CHECK(theory.rms_height() == Approx(1.04504410072452).epsilon(2e-6));
   CHECK(theory.rms_slope() == Approx(9.25712179040424).epsilon(2e-6));
   CHECK(theory.contact_area_fraction(1) == persson_area_fraction(1, 1, theory.rms_slope()));

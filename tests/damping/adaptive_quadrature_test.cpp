@@ -41,13 +41,15 @@ double around(F integrand) {
   return sum;
 }
 
-// Hertz' contact of x²/(2R_x) + y²/(2R_y) with R_x > R_y: b/a of its ellipses, and C of F = C δ^(3/2).
+// Hertz' contact of x²/(2R_x) + y²/(2R_y) with R_x > R_y: b/a of its ellipses, and C of F = C
+// δ^(3/2).
 struct HertzEllipse {
   double axes = 0, coefficient = 0;
 
   HertzEllipse(double radius_x, double radius_y) {
     const double curvature_x = 0.5 / radius_x, curvature_y = 0.5 / radius_y;
-    // With b = 1: δ = p0 b 𝐊/E*, curvatures p0/E* · b/(e²a²) · (𝐊 − 𝐄) along a, (a²/b² 𝐄 − 𝐊) along b.
+    // With b = 1: δ = p0 b 𝐊/E*, curvatures p0/E* · b/(e²a²) · (𝐊 − 𝐄) along a, (a²/b² 𝐄 − 𝐊) along
+    // b.
     double low = 1e-6, high = 1 - 1e-6;
     const auto ratio = [](double e) {
       const double k = std::comp_ellint_1(e), ee = std::comp_ellint_2(e);
@@ -59,7 +61,8 @@ struct HertzEllipse {
     }
     const double e = low, k = std::comp_ellint_1(e), ee = std::comp_ellint_2(e);
     axes = std::sqrt(1 - e * e);
-    // p0/E* = s at b = 1, a = 1/axes; δ = s·𝐊 there, curvature_x = s e⁻² axes² (𝐊 − 𝐄); all scale by b: δ/b², with R fixed.
+    // p0/E* = s at b = 1, a = 1/axes; δ = s·𝐊 there, curvature_x = s e⁻² axes² (𝐊 − 𝐄); all scale
+    // by b: δ/b², with R fixed.
     const double shape = axes * axes * (k - ee) / (e * e);
     const double slope_per_b = curvature_x / shape;                                   // p0/(E* b)
     const double depth_per_b2 = slope_per_b * k;                                      // δ/b²
@@ -98,7 +101,8 @@ TEST_CASE("A requested error is reached and holds against the exact loss of roun
     CHECK(result.error_estimate <= 0.01 * exact * 1.01);
     CHECK(std::abs(result.quadrature.work_per_cycle - exact) <= result.error_estimate);
     CHECK(result.trials.size() >= 3);
-    // The control variate: round contacts have the ratio 1 at any ν, on any grid that resolves them.
+    // The control variate: round contacts have the ratio 1 at any ν, on any grid that resolves
+    // them.
     CHECK(result.quadrature.stiffness_ratio == Approx(1).margin(poisson == 0 ? 1e-8 : 0.004));
   }
 }
@@ -109,7 +113,8 @@ TEST_CASE("The stated error holds for ellipses, whose loss elliptic integrals gi
   const double radius_x = 0.4, radius_y = 0.08;
   const HertzEllipse hertz(radius_x, radius_y);
   const double direction = GENERATE(0.0, pi / 2);
-  // K_t and K of an ellipse with the punch's traction, which stick on an ellipse has too: semi-axes 1, axes; motion along a or b.
+  // K_t and K of an ellipse with the punch's traction, which stick on an ellipse has too: semi-axes
+  // 1, axes; motion along a or b.
   const auto size = [&](double c, double s) { return std::hypot(c, hertz.axes * s); };
   const double normal = around([&](double c, double s) { return (1 - poisson) / size(s, c); });
   const double tangential = around([&](double c, double s) {

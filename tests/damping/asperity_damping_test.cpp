@@ -70,8 +70,9 @@ TEST_CASE("At small amplitude the summits lose Eqs (12), (15) with the F'' of al
       REQUIRE(damping.contacts_least == damping.contacts_most);
       return damping.work_per_cycle / damping.small_amplitude_work - 1;
     };
-    // The correction is of first order in u_z in case (b) and of second order in case (a): the limit is Eqs (12), (15).
-    // u_z must be small beside the indentation of the summit that touches least.
+    // The correction is of first order in u_z in case (b) and of second order in case (a): the
+    // limit is Eqs (12), (15). u_z must be small beside the indentation of the summit that touches
+    // least.
     const double coarse = miss(2e-8), fine = miss(1e-8);
     const int order = std::holds_alternative<Drag>(kind) ? 1 : 2;
     CHECK(std::abs(fine - (coarse - fine) / (std::pow(2, order) - 1)) < 1e-9);

@@ -82,7 +82,8 @@ TEST_CASE("Small and large amplitudes of the exponential law have their limits",
     const double small = cf::work_per_cycle(ratio, force / (decay_length * decay_length), motion);
     return cf::work_per_cycle_exponential(ratio, force, decay_length, motion) / small;
   };
-  // 1 + k²/10 + O(k⁴), and 1 − 0.42k + … in case (b), where c_1/c_0 = (−π² + π²/2)/2/(π² − 4) = −0.4203.
+  // 1 + k²/10 + O(k⁴), and 1 − 0.42k + … in case (b), where c_1/c_0 = (−π² + π²/2)/2/(π² − 4) =
+  // −0.4203.
   CHECK(at(equal, 1e-2) - 1 == Approx(1e-5).epsilon(1e-4));
   CHECK((at(drag, 1e-5) - 1) / 1e-5 == Approx(-pi * pi / 4 / (pi * pi - 4)).epsilon(1e-4));
   CHECK(1 / at(drag, 0.5) == Approx(1.2).epsilon(0.02));

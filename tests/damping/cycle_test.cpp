@@ -17,7 +17,8 @@ using std::numbers::pi;
 
 constexpr double contact_modulus = 3e9;
 
-// Cells whose centres lie within a radius of the middle of the grid, shifted by (0.31, 0.17) of a cell.
+// Cells whose centres lie within a radius of the middle of the grid, shifted by (0.31, 0.17) of a
+// cell.
 ContactSet disc(const Grid2D& grid, double radius) {
   ContactSet contact(grid.nx, grid.ny);
   for (Index ix = 0; ix < grid.nx; ++ix)
@@ -37,7 +38,8 @@ ContactLevels cone(const Grid2D& grid) {
   };
 }
 
-// Nested sets without any symmetry: islands that appear, grow and merge as δ goes from 0 to 1, and have holes that close.
+// Nested sets without any symmetry: islands that appear, grow and merge as δ goes from 0 to 1, and
+// have holes that close.
 ContactLevels islands(const Grid2D& grid) {
   return [grid](double indentation) {
     ContactSetAt level{.contact = ContactSet(grid.nx, grid.ny)};
@@ -61,8 +63,9 @@ double stiffness_along(const ContactSet& contact, const Grid2D& grid, const Mate
   return c * c * k.xx + 2 * c * s * k.xy + s * s * k.yy;
 }
 
-// The theorem for the sets of a discretised cycle that is symmetric about t = 1/2: the cells between A(t_k) and A(t_{k+1}) enter
-// at t_{k+1/2} and leave at 1 − t_{k+1/2}, hence W = ½ Σ (K_{k+1} − K_k) s².
+// The theorem for the sets of a discretised cycle that is symmetric about t = 1/2: the cells
+// between A(t_k) and A(t_{k+1}) enter at t_{k+1/2} and leave at 1 − t_{k+1/2}, hence W = ½ Σ
+// (K_{k+1} − K_k) s².
 double theorem(const ContactLevels& levels, const Grid2D& grid, const Material& material,
                const Trajectory& motion, const CycleOptions& options) {
   double sum = 0, below = 0;
@@ -97,7 +100,8 @@ TEST_CASE("The simulated loss is half the integral of s squared over K_t, for an
     REQUIRE(cycle.converged);
     CHECK(cycle.periods == 1);
     CHECK(cycle.steady);
-    // Exact for the discretised problem: what remains is the solvers' 1e-9 of the motion, summed over the steps.
+    // Exact for the discretised problem: what remains is the solvers' 1e-9 of the motion, summed
+    // over the steps.
     CHECK(cycle.work_per_cycle ==
           Approx(theorem(levels, grid, material, trajectory, options)).epsilon(1e-7));
     CHECK(cycle.dissipated == Approx(cycle.work_per_cycle).epsilon(1e-7));
@@ -121,7 +125,8 @@ TEST_CASE("Cells that enter and leave while the body rests release nothing", "[c
   const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
   const Grid2D grid{27, 20, 1.3e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.4);
-  // The core is moved, the contact grows and shrinks again around it, which has been displaced; then the core is moved back.
+  // The core is moved, the contact grows and shrinks again around it, which has been displaced;
+  // then the core is moved back.
   const Trajectory trajectory{
       [](double t) {
         return t < 0.3 || t > 0.7 ? 0.3 : 0.3 + 0.6 * std::sin((t - 0.3) / 0.4 * pi);
@@ -165,12 +170,14 @@ TEST_CASE("The steps state an error that covers what they lack to many steps", "
     if (steps == 8) first = cycle.step_error;
     last = cycle.step_error;
   }
-  // Eight times as many steps: first order is what is left where few cells, and those in groups, enter in a step.
+  // Eight times as many steps: first order is what is left where few cells, and those in groups,
+  // enter in a step.
   CHECK(last < first / 4);
 }
 
 TEST_CASE("The steps' error holds where few of them meet many cells", "[cycle]") {
-  // Here it is that of the rule, h²/24 = 2.6 % at eight steps, and not what single cells make of it.
+  // Here it is that of the rule, h²/24 = 2.6 % at eight steps, and not what single cells make of
+  // it.
   const Grid2D grid{56, 56, 1e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0);
   const double indentation = 0.25e-3 * cone_slope, amplitude = 0.2e-3 * cone_slope;
@@ -187,7 +194,8 @@ TEST_CASE("The steps' error holds where few of them meet many cells", "[cycle]")
 }
 
 TEST_CASE("The steps' error holds for a motion that turns inside the sweep", "[cycle]") {
-  // Two unequal rises a period, begun on the way up: bands enter, are partly released and enter again.
+  // Two unequal rises a period, begun on the way up: bands enter, are partly released and enter
+  // again.
   const Grid2D grid{27, 20, 1.3e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const Trajectory motion{
@@ -248,7 +256,8 @@ TEST_CASE("The cone loses Eqs (12) and (15) at any amplitude", "[cycle]") {
     CHECK(cycle.smallest.count() * grid.cell_area() == cycle.contact_area_min);
     return cycle.work_per_cycle;
   };
-  // Measured: 0.2 % in case (a), most of it the steps' h²/24 = 1.6e-3, and 0.5 to 0.8 % in case (b), the grid's.
+  // Measured: 0.2 % in case (a), most of it the steps' h²/24 = 1.6e-3, and 0.5 to 0.8 % in case
+  // (b), the grid's.
   for (const double phase : {pi / 2, pi / 4}) {
     const double s = std::sin(phase);
     CHECK(lost(EqualFrequency{amplitude, 2e-6, phase}) ==
@@ -259,8 +268,8 @@ TEST_CASE("The cone loses Eqs (12) and (15) at any amplitude", "[cycle]") {
 }
 
 TEST_CASE("The loss goes with the squared sine of the phase, even in few steps", "[cycle]") {
-  // A contact set that changed before or after the move, not in its middle, would shift the phase by half a step: 20 % of the
-  // loss at 45 degrees and 32 steps, and nothing at 90 degrees.
+  // A contact set that changed before or after the move, not in its middle, would shift the phase
+  // by half a step: 20 % of the loss at 45 degrees and 32 steps, and nothing at 90 degrees.
   const Grid2D grid{24, 24, 1e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const auto lost = [&](double phase) {

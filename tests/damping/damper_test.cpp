@@ -102,8 +102,9 @@ TEST_CASE("The stabilising amplitude is where γ meets the falling slope", "[dam
 
 TEST_CASE("The stabilising amplitude of a measured curve is that of the law behind it",
           "[damper]") {
-  // An exponential curve, sampled: the table interpolates ln F linearly and so reproduces it. δ far from 0, as it
-  // is from first touch: the search must not go where a sweep is lost in the last digits of δ.
+  // An exponential curve, sampled: the table interpolates ln F linearly and so reproduces it. δ far
+  // from 0, as it is from first touch: the search must not go where a sweep is lost in the last
+  // digits of δ.
   const double decay_length = 3e-8, omega = 1e5, area = 1e-10, highest = 2.5e-7;
   ForceCurve curve{.model = "made", .nominal_area = area};
   for (int i = 0; i <= 40; ++i) {

@@ -161,8 +161,9 @@ TEST_CASE("Power laws at finite amplitude are what the springs lose, open contac
     auto error = [&](int levels) {
       return std::abs(work_of_springs(law, indentation, motion, levels, 4 * levels) / exact - 1);
     };
-    // Second order where K_t' and s² are smooth. At the ends of the sweep s² goes like a root of the distance in (b),
-    // which leaves 1.25 and more; where first touch, K_t ~ δ^{n−1}, coincides with an end, n − 1/2.
+    // Second order where K_t' and s² are smooth. At the ends of the sweep s² goes like a root of
+    // the distance in (b), which leaves 1.25 and more; where first touch, K_t ~ δ^{n−1}, coincides
+    // with an end, n − 1/2.
     const double coarse = error(100), fine = error(400);
     const double order = std::log(coarse / fine) / std::log(4.0);
     CHECK(fine < 1e-2);
@@ -171,7 +172,8 @@ TEST_CASE("Power laws at finite amplitude are what the springs lose, open contac
 }
 
 TEST_CASE("The force form of the theorem needs no stiffness at all", "[dissipation]") {
-  // docs/theory.md, section 7: W = 4(G*/E*)(u_x² sin²φ0/u_z²)[u_z(F₊ + F₋) − ∫F dδ], here ∫F = Bδ^{n+1}/(n+1).
+  // docs/theory.md, section 7: W = 4(G*/E*)(u_x² sin²φ0/u_z²)[u_z(F₊ + F₋) − ∫F dδ], here ∫F =
+  // Bδ^{n+1}/(n+1).
   const double exponent = 1.5, coefficient = 1e9, indentation = 1e-6, amplitude = 7e-7;
   const PowerLaw law(coefficient, exponent, ratio);
   const auto motion = equal_frequency(amplitude, 0.4);

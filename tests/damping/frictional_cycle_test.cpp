@@ -62,8 +62,8 @@ Surface rough_surface(const Grid2D& grid) {
 }  // namespace
 
 TEST_CASE("A sphere under constant load loses Mindlin's loop", "[friction]") {
-  // From q = G*x/(μE*δ) = 0, F_x(q) = μF[1 − (1 − q)^{3/2}]; the way back from q_0 is F_x(q_0) − 2F_x((q_0 − q)/2), by Masing's rule.
-  // The area between this and its mirror image is the loss.
+  // From q = G*x/(μE*δ) = 0, F_x(q) = μF[1 − (1 − q)^{3/2}]; the way back from q_0 is F_x(q_0) −
+  // 2F_x((q_0 − q)/2), by Masing's rule. The area between this and its mirror image is the loss.
   const double radius = 8e-3, contact_radius = 0.35e-3, friction = 0.4;
   const double indentation = contact_radius * contact_radius / radius;
   const Material material = Material::of_contact_modulus(contact_modulus, 0);
@@ -106,8 +106,9 @@ TEST_CASE("A sphere under constant load loses Mindlin's loop", "[friction]") {
 }
 
 TEST_CASE("A sphere under a tangential force is Mindlin and Deresiewicz's", "[friction]") {
-  // At ν = 0 they are exact. The loss is off by the steps, of second order: 2.5, 0.63 and 0.16 % with 16, 32 and 64, the displacement
-  // at the turning points by 1e-5. With a normal oscillation 2 % are left with 32.
+  // At ν = 0 they are exact. The loss is off by the steps, of second order: 2.5, 0.63 and 0.16 %
+  // with 16, 32 and 64, the displacement at the turning points by 1e-5. With a normal oscillation 2
+  // % are left with 32.
   const auto [part, normal_amplitude, tolerance] =
       GENERATE(table<double, double, double>({{0.8, 0, 0.01}, {0.4, 3e-6, 0.03}}));
   CAPTURE(part, normal_amplitude);
@@ -134,7 +135,8 @@ TEST_CASE("A sphere under a tangential force is Mindlin and Deresiewicz's", "[fr
         Approx(simulated.work_per_cycle).epsilon(1e-5));
   if (normal_amplitude > 0) return;
   CHECK(simulated.relaxation_work == 0);
-  // By the displacement that it answered with, it is the same loop, now over a harmonic displacement.
+  // By the displacement that it answered with, it is the same loop, now over a harmonic
+  // displacement.
   const JointLoss again = simulated_joint_loss(levels, grid, material, indentation,
                                                TangentialAmplitude{simulated.tangential_amplitude},
                                                0, phase, free_boundary(friction, 32));
@@ -145,8 +147,8 @@ TEST_CASE("A sphere under a tangential force is Mindlin and Deresiewicz's", "[fr
 
 TEST_CASE("A rough surface under a tangential force obeys Masing's rule on its own normal force",
           "[friction]") {
-  // T = μ[F(δ) − F(δ − x/μ)] at ν = 0, whatever the cells: the superposition of Ciavarella and Jäger. The loop is off by the steps, 0.7 %
-  // with 32.
+  // T = μ[F(δ) − F(δ − x/μ)] at ν = 0, whatever the cells: the superposition of Ciavarella and
+  // Jäger. The loop is off by the steps, 0.7 % with 32.
   const Material material = Material::of_contact_modulus(contact_modulus, 0);
   const Grid2D grid{48, 48, 10e-6, 10e-6};
   const PressureLevels levels = boundary_element_pressures(rough_surface(grid), contact_modulus);
@@ -199,7 +201,8 @@ TEST_CASE("A tangential force at which the contact slides is refused, and what i
 
 TEST_CASE("An oscillating cone loses what the method of dimensionality reduction says",
           "[friction]") {
-  // Exact for ν = 0 in Cattaneo's and Mindlin's sense. Of the phases 45° is the harder: the body moves back while its load falls.
+  // Exact for ν = 0 in Cattaneo's and Mindlin's sense. Of the phases 45° is the harder: the body
+  // moves back while its load falls.
   const Grid2D grid{32, 32, 1e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0);
   const double angle = 0.05, indentation = 0.25e-3 * pi / 2 * std::tan(angle);
@@ -207,8 +210,8 @@ TEST_CASE("An oscillating cone loses what the method of dimensionality reduction
   const IndenterLaw law(cone_profile(angle), material);
   const PressureLevels levels = levels_of(cone_surface(grid, angle, off_grid_center(grid)));
   const auto [phase, number, tolerance] = GENERATE(table<double, double, double>({
-      // Measured with 64 steps: 0.01, 0.2, 0.2 and 0.2, 2.4, 0.1 %; the third, where half the cone slips all the time, has
-      // 1.0 % with 128 steps at 64².
+      // Measured with 64 steps: 0.01, 0.2, 0.2 and 0.2, 2.4, 0.1 %; the third, where half the cone
+      // slips all the time, has 1.0 % with 128 steps at 64².
       {pi / 2, 0.3, 0.005},
       {pi / 2, 1.0, 0.006},
       {pi / 2, 3.0, 0.006},
@@ -303,8 +306,9 @@ TEST_CASE("Work and friction balance on any surface, and every cell obeys Coulom
 }
 
 TEST_CASE("A sphere pressed obliquely slips nowhere below the angle of friction", "[friction]") {
-  // Along dx = c dδ the springs of the method of dimensionality reduction have q_x = G*c(δ − g) = (cG*/E*)q_z: the tractions are in
-  // proportion to the pressures, F_x = (cG*/E*)F, and while cG*/E* < μ nothing slips.
+  // Along dx = c dδ the springs of the method of dimensionality reduction have q_x = G*c(δ − g) =
+  // (cG*/E*)q_z: the tractions are in proportion to the pressures, F_x = (cG*/E*)F, and while
+  // cG*/E* < μ nothing slips.
   const Grid2D grid{32, 32, 1e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0);
   const double radius = 8e-3, indentation = std::pow(0.35e-3, 2) / radius, slope = 0.7;
@@ -329,7 +333,8 @@ TEST_CASE("A sphere pressed obliquely slips nowhere below the angle of friction"
     return Errors{std::abs(contact.tangential_force().x / (pull * force) - 1),
                   contact.loss().sum() / contact.work()};
   };
-  // Second order in the increments: 1.4 % and 0.45 % measured. What slips all the same is the rim of a step or so.
+  // Second order in the increments: 1.4 % and 0.45 % measured. What slips all the same is the rim
+  // of a step or so.
   const Errors coarse = errors(20), fine = errors(40);
   CHECK(fine.force < 0.006);
   CHECK(fine.force < coarse.force / 2.5);
@@ -373,7 +378,8 @@ TEST_CASE("Endless sliding is what a long slide ends in", "[friction]") {
 
 TEST_CASE("A drag with friction starts in the state that it would end in", "[friction]") {
   const Grid2D grid{18, 14, 1.3e-3, 1e-3};
-  // At ν > 0 the oscillation makes cells slip to the side too, by which the first period is 2e-4 off.
+  // At ν > 0 the oscillation makes cells slip to the side too, by which the first period is 2e-4
+  // off.
   const auto [poisson, advance, periods] =
       GENERATE(table<double, double, int>({{0.0, 3e-7, 2}, {0.3, 3e-7, 5}, {0.3, -3e-7, 5}}));
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
@@ -387,7 +393,8 @@ TEST_CASE("A drag with friction starts in the state that it would end in", "[fri
   REQUIRE(cycle.converged);
   CHECK(cycle.steady);
   CHECK(cycle.periods <= periods);
-  // The same from a contact without stress, until it slides: sticking on the way, since the force falls short of μF.
+  // The same from a contact without stress, until it slides: sticking on the way, since the force
+  // falls short of μF.
   SlidingContact contact(grid, material,
                          {.friction_coefficient = friction, .motion_scale = std::abs(advance)});
   REQUIRE(contact.advance(levels(0.4).pressure).converged);
@@ -417,9 +424,10 @@ TEST_CASE("A sliding rough surface has the mean friction of the springs of its o
   const Grid2D grid{48, 48, 10e-6, 10e-6};
   const Surface surface = rough_surface(grid);
   const double middle = 5e6, amplitude = 4e-9, friction = 0.3, omega = 1;  // Pa, m, –, rad/s
-  // At ν = 0 tractions and pressures have one kernel and nothing slips to the side: the superposition is exact on the same cells. What is
-  // left is of 16 steps (1e-3, against 64) and of a law through 15 forces (5e-4, against 57). At ν > 0 slip turns, and K_t depends on the
-  // shape of the contact spots: with 64 steps and 57 forces it is 1e-4 at ν = 0.3, 1e-3 at 0.5.
+  // At ν = 0 tractions and pressures have one kernel and nothing slips to the side: the
+  // superposition is exact on the same cells. What is left is of 16 steps (1e-3, against 64) and of
+  // a law through 15 forces (5e-4, against 57). At ν > 0 slip turns, and K_t depends on the shape
+  // of the contact spots: with 64 steps and 57 forces it is 1e-4 at ν = 0.3, 1e-3 at 0.5.
   const auto [poisson, speed] =
       GENERATE(table<double, double>({{0.0, 0.2}, {0.0, 0.4}, {0.3, 0.3}}));
   const double tolerance = 4e-3;
@@ -483,7 +491,8 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
   CHECK_THROWS_WITH(
       simulate_frictional_cycle(levels, grid, material, motion, {.friction_coefficient = -1}),
       Catch::StartsWith("friction_coefficient: -1"));
-  // 8 bytes for each of 2048² cells and half of 10⁵ steps are 1.7 TB, which are asked for before the first contact.
+  // 8 bytes for each of 2048² cells and half of 10⁵ steps are 1.7 TB, which are asked for before
+  // the first contact.
   const PressureLevels unasked = [](double) -> PressureAt { throw std::logic_error("asked"); };
   CHECK_THROWS_WITH(
       simulate_frictional_cycle(unasked, Grid2D{2048, 2048, 1e-3, 1e-3}, material, motion,
@@ -515,7 +524,8 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
     if (state.step > 0) CHECK((traction.x != 0).any());
   };
   CHECK(simulate_frictional_cycle(levels, grid, material, motion, lateral).converged);
-  // The contact, which is hard to solve, opens but for one cell that enters, which is easy: its way in is not known.
+  // The contact, which is hard to solve, opens but for one cell that enters, which is easy: its way
+  // in is not known.
   SlidingContactOptions few{.motion_scale = 1e-6,
                             .stick = {.tolerance = 1e-8, .max_iterations = 4}};
   SlidingContact opening(grid, material, few);
@@ -589,21 +599,25 @@ TEST_CASE("Coupling changes nothing at Poisson's ratio 1/2, and a few per cent a
   };
   const Cycles without = cycles(0.5), with = cycles(0.3);
   CHECK(without.coupled.work_per_cycle == Approx(without.alone.work_per_cycle).epsilon(1e-5));
-  // The contact is reached by the same pressures, so that ∮F dδ is the trapezoidal sum of one force and its way back.
+  // The contact is reached by the same pressures, so that ∮F dδ is the trapezoidal sum of one force
+  // and its way back.
   CHECK(std::abs(without.coupled.normal_work) < 1e-6 * without.coupled.work_per_cycle);
-  // Measured at 32²: F +1.4 to 1.5 %, W +1 to 3 %, 6 % of it through F; the balance is that of the steps.
+  // Measured at 32²: F +1.4 to 1.5 %, W +1 to 3 %, 6 % of it through F; the balance is that of the
+  // steps.
   const double normal_change =
       with.coupled.samples[8].normal_force / with.alone.samples[8].normal_force - 1;
   CHECK(normal_change > 0.005);
   CHECK(normal_change < 0.03);
   CHECK(std::abs(with.coupled.work_per_cycle / with.alone.work_per_cycle - 1) < 0.06);
   CHECK(with.coupled.normal_work > 0);
-  // Cells that enter and leave with a gap are all that keeps the two sums apart, and that is an error of the steps.
+  // Cells that enter and leave with a gap are all that keeps the two sums apart, and that is an
+  // error of the steps.
   CHECK(with.coupled.dissipated + with.coupled.gap_work ==
         Approx(with.coupled.work_per_cycle).epsilon(1e-5));
   CHECK(std::abs(with.coupled.gap_work) < 0.01 * with.coupled.work_per_cycle);
-  // At ν = 0, where β is largest, cells of the edge come and go between the sweeps until they are kept out: the others must then be
-  // in equilibrium without them. Pressures that only lost these cells' share were 1 % off.
+  // At ν = 0, where β is largest, cells of the edge come and go between the sweeps until they are
+  // kept out: the others must then be in equilibrium without them. Pressures that only lost these
+  // cells' share were 1 % off.
   const Cycles strongest = cycles(0);
   CHECK(strongest.coupled.dissipated + strongest.coupled.gap_work ==
         Approx(strongest.coupled.work_per_cycle).epsilon(1e-5));

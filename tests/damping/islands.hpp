@@ -5,7 +5,8 @@
 #include <numbers>
 #include <salebra/damping/cycle.hpp>
 
-/// Contact of several islands that grow and merge as the indentation rises from 0 to 1, which is its force too.
+/// Contact of several islands that grow and merge as the indentation rises from 0 to 1, which is
+/// its force too.
 inline salebra::ContactLevels island_levels(const salebra::Grid2D& grid) {
   using namespace salebra;
   using std::numbers::pi;

@@ -16,7 +16,8 @@ using std::numbers::pi;
 
 constexpr double ratio = 0.82;  // G*/E*
 
-// Mindlin and Deresiewicz (1953), Johnson's Contact Mechanics, Eq. (7.57), with his (2−ν1)/G1 + (2−ν2)/G2 = 4/G*.
+// Mindlin and Deresiewicz (1953), Johnson's Contact Mechanics, Eq. (7.57), with his (2−ν1)/G1 +
+// (2−ν2)/G2 = 4/G*.
 double mindlin_loss(double force, double normal_force, double radius, double shear_modulus,
                     double friction) {
   const double q = force / (friction * normal_force);
@@ -110,7 +111,8 @@ TEST_CASE("Storage and loss of a joint are the first harmonic of its loop", "[jo
 }
 
 TEST_CASE("A joint of a contact that may open: whole sliding, and beyond", "[joint]") {
-  // F = Cδ², K = 2Cδ: slip reaches the last level where c = δ, and from there on T = μF, W = 4μF(x − mean limit).
+  // F = Cδ², K = 2Cδ: slip reaches the last level where c = δ, and from there on T = μF, W = 4μF(x
+  // − mean limit).
   const double depth = 1e-6, friction = 0.2, constant = 1e12;
   const PowerLaw cone(constant, 2, ratio);
   const double force = constant * depth * depth, last = friction / ratio * depth;
@@ -132,7 +134,8 @@ TEST_CASE("A joint whose normal force oscillates loses by slip and by relaxation
   const auto at = [&](double friction, double phase) {
     return joint_loss(law, AtForce{2}, TangentialAmplitude{u_x}, friction, u_z, phase, 2000);
   };
-  // In phase nothing slips above μ = g u_x/u_z; out of phase and without slip the loss is relaxation damping's, to the steps' second order.
+  // In phase nothing slips above μ = g u_x/u_z; out of phase and without slip the loss is
+  // relaxation damping's, to the steps' second order.
   const double critical = ratio * u_x / u_z;
   CHECK(at(1.01 * critical, 0).work_per_cycle == Approx(0).margin(1e-12 * u_x * u_x * 1e7));
   CHECK(at(0.8 * critical, 0).work_per_cycle > 1e-3 * u_x * u_x * 1e7);

@@ -53,7 +53,8 @@ TEST_CASE("Levels of a paraboloid give its exact loss at finite amplitude", "[le
         level_quadrature(paraboloid(), grid, material, motion, mean_indentation, free_boundary());
     const DampingResult exact = relaxation_damping(law, AtIndentation{mean_indentation}, motion);
     REQUIRE(levels.converged);
-    // 23 to 34 cells across the contact: half a per cent measured in case (a), one in case (b), which weighs the edge of the sweep.
+    // 23 to 34 cells across the contact: half a per cent measured in case (a), one in case (b),
+    // which weighs the edge of the sweep.
     CHECK(levels.work_by_force == Approx(exact.work_per_cycle).epsilon(0.012));
     CHECK(levels.work_per_cycle == Approx(exact.work_per_cycle).epsilon(0.012));
     CHECK(levels.work_by_levels == Approx(exact.work_per_cycle).epsilon(0.012));
@@ -72,7 +73,8 @@ TEST_CASE("Levels of a paraboloid give its exact loss at finite amplitude", "[le
 }
 
 TEST_CASE("The levels' stated error holds wherever the cells lie under the contact", "[levels]") {
-  // 12 or 18 cells across: where the sums of cells agree by chance, as they do in a few of twelve places, only their scatter tells.
+  // 12 or 18 cells across: where the sums of cells agree by chance, as they do in a few of twelve
+  // places, only their scatter tells.
   const Index n = GENERATE(16, 24);
   const Grid2D cells{n, n, 1e-3, 1e-3};
   const Oscillation motion = EqualFrequency{amplitude, 2e-7, 0.8};
@@ -92,7 +94,8 @@ TEST_CASE("The levels' stated error holds wherever the cells lie under the conta
     const LevelQuadratureResult result = run(0), anisotropic = run(0.5);
     CHECK(std::abs(result.work_per_cycle - exact) <= result.error_estimate);
     stated += result.error_estimate / exact / 12;
-    // At ν = 0 the ratio of K_t to K is the same at all levels; where it scatters, that adds to the error.
+    // At ν = 0 the ratio of K_t to K is the same at all levels; where it scatters, that adds to the
+    // error.
     const double same_force = anisotropic.work_by_force / result.work_by_force;
     CHECK(anisotropic.error_estimate > 1.001 * same_force * result.error_estimate);
   }
@@ -121,7 +124,8 @@ TEST_CASE("Along and across an elongated contact the loss differs as Mindlin's e
   const double axes =
       std::sqrt((square_y - mean_y * mean_y / cells) / (square_x - mean_x * mean_x / cells));
   CHECK(axes < 0.4);
-  // ∫_0^{2π} (1 − ν cos²φ)/√(a²cos²φ + b²sin²φ) dφ of docs/theory.md, section 7's kernel, by the trapezoidal rule: periodic, so exact.
+  // ∫_0^{2π} (1 − ν cos²φ)/√(a²cos²φ + b²sin²φ) dφ of docs/theory.md, section 7's kernel, by the
+  // trapezoidal rule: periodic, so exact.
   const auto compliance = [&](double a, double b) {
     double sum = 0;
     for (int k = 0; k < 400; ++k) {
@@ -223,7 +227,8 @@ TEST_CASE("A level that fails makes the quadrature fail, and bad input is named"
   CHECK_FALSE(partly.converged);
   CHECK(partly.curve.samples[1].converged);
   CHECK_FALSE(partly.curve.samples[4].converged);
-  // The stick solve, which begins from the punch's pressures, may reach what the punch did not: that one fails all the same.
+  // The stick solve, which begins from the punch's pressures, may reach what the punch did not:
+  // that one fails all the same.
   const Material without_ratio = Material::of_contact_modulus(contact_modulus, 0);
   int rescued = 0;
   for (int iterations = 3; iterations <= 12; ++iterations) {
@@ -291,7 +296,8 @@ TEST_CASE("Both routes meet on the paper's shapes, and the exact law on the para
         simulate_cycle(levels, cells, material, trajectory_of(motion, depth), steps);
     REQUIRE(by_levels.converged);
     REQUIRE(by_steps.converged);
-    // h²/24 = 0.16 % of the steps and a per cent of the cells: 24 across the contact of a pyramid, 6 across a wave.
+    // h²/24 = 0.16 % of the steps and a per cent of the cells: 24 across the contact of a pyramid,
+    // 6 across a wave.
     CHECK(by_steps.work_per_cycle == Approx(by_levels.work_per_cycle).epsilon(0.015));
     CHECK(std::abs(by_steps.work_per_cycle - by_levels.work_per_cycle) <=
           by_steps.step_error + by_levels.error_estimate);
@@ -342,9 +348,10 @@ TEST_CASE("On rough surfaces levels and steps agree within a per cent", "[levels
 
 TEST_CASE("The theorem with K_t of the contact sets is the work of the steps on the same cells",
           "[levels]") {
-  // A load and a sweep so small that some dozens of cells change: nothing here is smooth, but W = ½∮ s² dK_t is no statement about
-  // smooth contacts. What is left is where between two levels, or two steps, a cell enters; it falls with their number. Measured on
-  // three surfaces, two loads and three sweeps with 64 levels and 128 steps: 0.01 to 0.56 %.
+  // A load and a sweep so small that some dozens of cells change: nothing here is smooth, but W =
+  // ½∮ s² dK_t is no statement about smooth contacts. What is left is where between two levels, or
+  // two steps, a cell enters; it falls with their number. Measured on three surfaces, two loads and
+  // three sweeps with 64 levels and 128 steps: 0.01 to 0.56 %.
   const Grid2D cells{64, 64, 1e-3, 1e-3};
   SelfAffineParameters parameters;
   parameters.rolloff = cells.lx / 4;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests of the premises of a damping constant against scaling laws, closed forms and simulated paths.
+// Tests of the premises of a damping constant against scaling laws, closed forms and simulated
+// paths.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -32,7 +33,8 @@ ForceCurve exponential_curve(double length) {
   return curve;
 }
 
-/// X there and back at the velocity v, with `cycles` normal cycles each way; from and to the least indentation.
+/// X there and back at the velocity v, with `cycles` normal cycles each way; from and to the least
+/// indentation.
 SampledMotion there_and_back(const Drag& drag, double mean, int cycles) {
   constexpr int steps = 400;
   SampledMotion path;
@@ -48,7 +50,8 @@ SampledMotion there_and_back(const Drag& drag, double mean, int cycles) {
   return path;
 }
 
-/// X there and back in `cycles` normal cycles each way, with turning points `offset` steps after the least indentation.
+/// X there and back in `cycles` normal cycles each way, with turning points `offset` steps after
+/// the least indentation.
 SampledMotion turning_at(const Drag& drag, double mean, int cycles, int steps, int offset) {
   SampledMotion path;
   for (int i = 0; i <= 2 * cycles * steps; ++i) {
@@ -108,7 +111,8 @@ TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or les
     CHECK(change_at(1.02 * opening.limit_20_percent) < 0.2);
     CHECK(opening.limit_5_percent > opening.limit_20_percent);
   }
-  // The path of a slide that goes on would leave the table; its K_t is proportional to that of the law.
+  // The path of a slide that goes on would leave the table; its K_t is proportional to that of the
+  // law.
   for (const Oscillation& motion :
        {Oscillation(Drag{1e-7, 1e-3, 1e5}), Oscillation(equal(3e-8, 1))}) {
     const ContactFacts facts{.friction_coefficient = 0.5};
@@ -239,7 +243,8 @@ TEST_CASE("The turning points of a slow motion cost what the simulated path miss
                                               (2 * phase + 1) * steps / (2 * phases)))
                     .work_per_cycle /
                 phases;
-      // The straight steps lose up to 1e-3 of the whole; a mean over 16 phases is that of all to 1e-3 of the turning point's cost.
+      // The straight steps lose up to 1e-3 of the whole; a mean over 16 phases is that of all to
+      // 1e-3 of the turning point's cost.
       CHECK(1 - loss / (2 * cycles * steady) ==
             Approx(0.05 * slow.limit_5_percent / cycles).margin(1e-3));
       CHECK(slow.limit_20_percent == Approx(std::max(1.0, slow.limit_5_percent / 4)));
@@ -255,7 +260,8 @@ TEST_CASE("The turning points of a slow motion cost what the simulated path miss
   CHECK(judged(9).verdict == Verdict::holds);
   CHECK(judged(8).verdict == Verdict::doubtful);
   CHECK(judged(2).verdict == Verdict::broken);
-  // A contact that touches for a moment loses little at a turning point, and still no way below w is slow.
+  // A contact that touches for a moment loses little at a turning point, and still no way below w
+  // is slow.
   const PowerLaw tip(1e7, 1.5, ratio);
   const ContactFacts half{.excursion = 0.99 * 2 * pi * 1e-11};
   const Premise brief = premises_of(tip, -9.9e-7, Drag{1e-6, 1e-6, 1e5}, half).slow_motion;
@@ -271,8 +277,8 @@ TEST_CASE("The turning points of a slow motion cost what the simulated path miss
 }
 
 TEST_CASE("A sine is slow where a triangle is", "[premises]") {
-  // Excursion 2u_x, v² the mean square of the velocity: X/w = √2 ω_z/(π ω_x). The triangle asks for more, so that a sine within the
-  // limits is off by less.
+  // Excursion 2u_x, v² the mean square of the velocity: X/w = √2 ω_z/(π ω_x). The triangle asks for
+  // more, so that a sine within the limits is off by less.
   for (const auto& [change, limit] : {std::pair{0.05, 8.79}, std::pair{0.2, 2.198}}) {
     const double r = std::sqrt(2) / (pi * limit);
     CHECK((pi * pi - 4) * r * r / closed_form::frequency_ratio_integral(r) - 1 < change);
@@ -366,7 +372,8 @@ TEST_CASE("Premises name what they need, and refuse facts that cannot be", "[pre
 TEST_CASE("After a first loading the plasticity is the load over the first load", "[premises]") {
   const ExponentialLaw law(1, 1e-7, ratio);
   const Drag motion{1e-9, 1e-6, 1e5};
-  // Pressures of the residual surface reach the hardness where the first loading did, and no further.
+  // Pressures of the residual surface reach the hardness where the first loading did, and no
+  // further.
   ContactFacts facts{.hardness = 1e9, .mean_contact_pressure = 9e8, .rms_slope = 1};
   facts.contact_modulus = 1e11;
   CHECK(premises_of(law, 0, motion, facts).plasticity.verdict == Verdict::broken);
@@ -507,7 +514,8 @@ TEST_CASE("A map of regimes has the borders of the premises, and they are monoto
         }
       }
     }
-    // The corner of slow and short motions has the loss without slip: 360 steps miss 0.02 % of what slips at the edge.
+    // The corner of slow and short motions has the loss without slip: 360 steps miss 0.02 % of what
+    // slips at the edge.
     if (one.law != &punch) {
       CHECK(map.regime[0][0] == Regime::no_slip);
       CHECK(map.loss_ratio(0, 0) == Approx(1).epsilon(2e-3));
@@ -572,7 +580,8 @@ TEST_CASE("A sheared contact slides where no anchor holds its levels", "[regimes
                        {.friction_coefficient = friction})
         .regime;
   };
-  // 2L = |u_x e^{iφ0} − A| + |u_x e^{iφ0} + A| in units of μ/g: at 90° L² = u_x² + u_z², at 0° L = u_x.
+  // 2L = |u_x e^{iφ0} − A| + |u_x e^{iφ0} + A| in units of μ/g: at 90° L² = u_x² + u_z², at 0° L =
+  // u_x.
   const double depth = mean - kept;
   const double quarter = std::sqrt(depth * depth - amplitude * amplitude);
   CHECK(regime(0.999 * quarter, pi / 2) == Regime::partial_slip);

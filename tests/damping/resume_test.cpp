@@ -102,8 +102,9 @@ TEST_CASE("A cycle with friction resumed from any of its steps ends in the same 
 }
 
 TEST_CASE("A coupled cycle resumed from any of its steps ends in the same bits", "[cycle]") {
-  // Where free, the kernels are made for the window of a contact, and their rounding depends on it; where periodic, and with no
-  // coupling, a step without motion keeps the scale of the tolerance of the step before.
+  // Where free, the kernels are made for the window of a contact, and their rounding depends on it;
+  // where periodic, and with no coupling, a step without motion keeps the scale of the tolerance of
+  // the step before.
   const Boundary boundary = GENERATE(Boundary::free, Boundary::periodic);
   const Grid2D cells{14, 12, 1.2e-3, 1e-3};
   const Surface surface = elliptic_paraboloid_surface(cells, 12e-3, 6e-3, off_grid_center(cells));

@@ -20,7 +20,8 @@ constexpr double friction = 0.3;
 constexpr double omega = 2 * pi * 20e3;
 constexpr AtForce load{0.02};
 
-// The contact of docs/howto/stick_slip.md, and a sphere whose contact opens in the larger of the motions.
+// The contact of docs/howto/stick_slip.md, and a sphere whose contact opens in the larger of the
+// motions.
 const ExponentialLaw rough(0.02, 30e-9, ratio);
 const PowerLaw sphere(1e9, 1.5, ratio);
 
@@ -37,9 +38,11 @@ Slider slider_of(double mass, double slowness, double velocity, double support, 
 
 TEST_CASE("A slider with falling friction on a rigid contact has the cycle of its closed form",
           "[slider]") {
-  // Without oscillation T = μF while it slides. With e = x − Vt less its value in steady sliding, e = (bV − μF)/k there, a slip obeys m e'' − b e' + k e = 0.
-  // It begins where the spring has reached μF at rest, −k(x − Vt) = μF: e = −bV/k, e' = −V. It grows, since b > 0, until e' = −V again; from
-  // there the slider sticks and e falls by V t to −bV/k, where the next slip begins. The length of slip is the root of e' = −V.
+  // Without oscillation T = μF while it slides. With e = x − Vt less its value in steady sliding, e
+  // = (bV − μF)/k there, a slip obeys m e'' − b e' + k e = 0. It begins where the spring has
+  // reached μF at rest, −k(x − Vt) = μF: e = −bV/k, e' = −V. It grows, since b > 0, until e' = −V
+  // again; from there the slider sticks and e falls by V t to −bV/k, where the next slip begins.
+  // The length of slip is the root of e' = −V.
   const Slider slider{.mass = 0.01, .spring_stiffness = 1000, .velocity = 5e-5, .falling_slope = 1};
   const double limit = friction * load.force;
   const double growth = slider.falling_slope / (2 * slider.mass);
@@ -74,7 +77,8 @@ TEST_CASE("A slider with falling friction on a rigid contact has the cycle of it
   const SliderMotion averaged = averaged_slider_motion(rough, load, none, slider, friction);
   REQUIRE(averaged.converged);
   CHECK(averaged.state == SliderState::stick_slip);
-  // Turning points by parabolas through samples 2π/256 apart are off by some 1e-8 of the range, and the period by 1e-7.
+  // Turning points by parabolas through samples 2π/256 apart are off by some 1e-8 of the range, and
+  // the period by 1e-7.
   CHECK(averaged.slider_amplitude == Approx(amplitude).epsilon(1e-7));
   CHECK(averaged.slider_period == Approx(slip + stick).epsilon(1e-6));
   CHECK(averaged.max_spring_force == Approx(limit - slider.falling_slope * slider.velocity -
@@ -83,8 +87,9 @@ TEST_CASE("A slider with falling friction on a rigid contact has the cycle of it
   // Of the means over whole samples, one of 260 may be missing.
   CHECK(averaged.stuck_fraction == Approx(stick / (slip + stick)).epsilon(4e-3));
 
-  // The full equation, whose contact is elastic: off in proportion to the way μl/g on which the contact sticks elastically, 4 % of the amplitude
-  // for l = 30 nm. Its share in the difference depends on the phase in which the contact swings when slip begins.
+  // The full equation, whose contact is elastic: off in proportion to the way μl/g on which the
+  // contact sticks elastically, 4 % of the amplitude for l = 30 nm. Its share in the difference
+  // depends on the phase in which the contact swings when slip begins.
   for (const double decay_length : {32e-9, 16e-9, 8e-9}) {
     CAPTURE(decay_length);
     const ExponentialLaw law(load.force, decay_length, ratio);
@@ -99,7 +104,8 @@ TEST_CASE("A slider with falling friction on a rigid contact has the cycle of it
 
 TEST_CASE("Where δ is least the state of a sliding contact is its position and velocity",
           "[slider]") {
-  // What slider_stability() rests on: a run of many periods goes on as one that begins with all levels at their limit.
+  // What slider_stability() rests on: a run of many periods goes on as one that begins with all
+  // levels at their limit.
   const Slider slider = slider_of(0.002, 40, 4e-5, 0, 0.5);
   const detail::SliderContact contact{rough, 0, 3e-9, omega, friction};
   detail::SliderEquation whole(contact, slider, 32), restarted(contact, slider, 32);
@@ -142,7 +148,8 @@ TEST_CASE("Steps of a slider are of second order, through stick and slip", "[sli
     };
     const double exact = end(2048);
     const double coarse = end(16) - exact, fine = end(128) - exact;
-    // Eight times as many: 64 at second order, 8 at first. Events that fall on an end of a step for one number and not for another make it uneven.
+    // Eight times as many: 64 at second order, 8 at first. Events that fall on an end of a step for
+    // one number and not for another make it uneven.
     CHECK(std::abs(coarse / fine) > 30);
     // The scale of the motion is V√(m/k).
     CHECK(std::abs(fine) < 1e-3 * slider.velocity / (omega / 30));
@@ -183,7 +190,8 @@ TEST_CASE("The energies of a slider balance", "[slider]") {
 }
 
 TEST_CASE("The full equation of a slider tends to the averaged one in first order", "[slider]") {
-  // k ∝ ε, m ∝ 1/ε: the averaged equation is the same in the time εt and the length εx, and √(k/m)/ω and K_t/(mω²) fall with ε.
+  // k ∝ ε, m ∝ 1/ε: the averaged equation is the same in the time εt and the length εx, and
+  // √(k/m)/ω and K_t/(mω²) fall with ε.
   std::vector<double> amplitudes, forces;
   for (const double scale : {1., 0.5, 0.25}) {
     CAPTURE(scale);
@@ -201,7 +209,8 @@ TEST_CASE("The full equation of a slider tends to the averaged one in first orde
     amplitudes.push_back(full.slider_amplitude / averaged.slider_amplitude - 1);
     forces.push_back(full.mean_tangential_force / averaged.mean_tangential_force - 1);
   }
-  // Twice for order 1; 1.88 and 1.93 for the amplitudes, which have 5 % of second order at ε = 1, and errors of steps of 1e-4.
+  // Twice for order 1; 1.88 and 1.93 for the amplitudes, which have 5 % of second order at ε = 1,
+  // and errors of steps of 1e-4.
   CHECK(std::abs(amplitudes[0]) < 0.1);
   for (std::size_t i = 1; i < amplitudes.size(); ++i) {
     CHECK(amplitudes[i - 1] / amplitudes[i] == Approx(2).margin(0.2));
@@ -295,8 +304,8 @@ TEST_CASE("A slider on a tabulated contact with its own K_t slides as its averag
                      averaged = averaged_slider_motion(table, load, normal, slider, friction);
   CHECK(full.state == SliderState::steady);
   CHECK(averaged.state == SliderState::steady);
-  // Both are off by less than K_t/(mω²) = 0.0016, by which the mass yields. What lies below the table, 3e-4 of the force, slips by the law's G*/E*
-  // instead of its K_t/K.
+  // Both are off by less than K_t/(mω²) = 0.0016, by which the mass yields. What lies below the
+  // table, 3e-4 of the force, slips by the law's G*/E* instead of its K_t/K.
   CHECK(full.mean_tangential_force == Approx(averaged.mean_tangential_force).epsilon(1e-3));
   CHECK(averaged.mean_tangential_force ==
         Approx(steady_sliding(table, load, Drag{3e-9, slider.velocity, omega}, friction)

@@ -6,11 +6,12 @@
 
 namespace salebra_test {
 
-/// Brute force, the second route to every number of damping/: the elastic foundation of Fig. 1 spring by spring.
-/// One spring stands at the middle of each of `levels` equal steps of indentation from `lowest` to `highest`, with
-/// the tangential stiffness that K_t gains over that step; what lies below `lowest` is one spring that is always in
-/// contact. Between two points of the trajectory the motion is straight, and touching and release are placed exactly.
-/// Second order in the step of the levels where K_t' is smooth.
+/// Brute force, the second route to every number of damping/: the elastic foundation of Fig. 1
+/// spring by spring. One spring stands at the middle of each of `levels` equal steps of indentation
+/// from `lowest` to `highest`, with the tangential stiffness that K_t gains over that step; what
+/// lies below `lowest` is one spring that is always in contact. Between two points of the
+/// trajectory the motion is straight, and touching and release are placed exactly. Second order in
+/// the step of the levels where K_t' is smooth.
 class SpringFoundation {
  public:
   SpringFoundation(const salebra::ContactLaw& law, double lowest, double highest, int levels)

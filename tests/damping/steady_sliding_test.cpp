@@ -43,7 +43,8 @@ double simulated_force(const ContactLaw& law, double middle, const Drag& motion,
 }  // namespace
 
 TEST_CASE("A sliding flat punch has the friction of Popov and Popov", "[sliding]") {
-  // Sphere or punch, F = Kδ while it stays closed: μ_macro/μ = 1 − (u_z/δ0) R(v/v_c), R from ../shared/SLIP.md, section 2, in five digits.
+  // Sphere or punch, F = Kδ while it stays closed: μ_macro/μ = 1 − (u_z/δ0) R(v/v_c), R from
+  // ../shared/SLIP.md, section 2, in five digits.
   const PowerLaw punch(2e6, 1, ratio);
   const double middle = 1e-6, amplitude = 3e-7, friction = 0.4;
   const double critical = friction / ratio * amplitude * omega;
@@ -72,11 +73,13 @@ TEST_CASE("At low speed sliding has the damping constant of S2 and S3", "[slidin
     const double critical = friction / ratio * amplitude * omega;
     return steady_sliding(law, AtForce{2}, {amplitude, part * critical, omega}, friction);
   };
-  // ∫_0^π θ K_t dθ by series of modified Bessel functions: e^{z cosθ} = I_0 + 2ΣI_k cos kθ, ∫θ cos kθ = −2/k² for odd k.
+  // ∫_0^π θ K_t dθ by series of modified Bessel functions: e^{z cosθ} = I_0 + 2ΣI_k cos kθ, ∫θ cos
+  // kθ = −2/k² for odd k.
   const double z = amplitude / decay_length;
   double integral = pi * pi / 2 * std::cyl_bessel_i(0., z);
   for (int k = 1; k < 30; k += 2) integral -= 4 * std::cyl_bessel_i(double(k), z) / (double(k) * k);
-  // δ runs to its largest value at θ = 0, whose cosine is +1: the odd terms reduce the weight there.
+  // δ runs to its largest value at θ = 0, whose cosine is +1: the odd terms reduce the weight
+  // there.
   const double stiffness = ratio * 2 / decay_length;
   const double slope = 2 / (pi * omega) * stiffness * integral;
   const SteadySliding slow = at(1e-3);
@@ -85,7 +88,8 @@ TEST_CASE("At low speed sliding has the damping constant of S2 and S3", "[slidin
         Approx(slope - pi * stiffness * std::exp(-z) / omega).epsilon(1e-8));
   CHECK(slow.static_friction_coefficient * slow.mean_force ==
         Approx(friction * 2 * std::exp(-z)).epsilon(1e-12));
-  // What is left goes like v^{3/2}, so that it falls 8 times when v falls 4 times, up to a part of order v^{1/2} of itself.
+  // What is left goes like v^{3/2}, so that it falls 8 times when v falls 4 times, up to a part of
+  // order v^{1/2} of itself.
   const auto rest = [&](double part) {
     const SteadySliding sliding = at(part);
     const double velocity = part * sliding.critical_velocity;
@@ -149,8 +153,8 @@ TEST_CASE("Steady sliding is what the springs do, with second order in their ste
     const double coarse = simulated_force(*one.law, one.middle, motion, friction, 400);
     const double fine = simulated_force(*one.law, one.middle, motion, friction, 3200);
     const double force = sliding.mean_tangential_force;
-    // Steps 8 times smaller are 64 times more exact, 8 times at first order; where slip begins and ends lies somewhere within a step, which makes
-    // the error uneven.
+    // Steps 8 times smaller are 64 times more exact, 8 times at first order; where slip begins and
+    // ends lies somewhere within a step, which makes the error uneven.
     CHECK(std::abs(fine / force - 1) < 1e-6);
     CHECK(std::abs(fine - force) < std::abs(coarse - force) / 12);
     const TrajectoryDamping path = trajectory_damping(*one.law, sample(motion, one.middle, 3200),
@@ -191,7 +195,8 @@ TEST_CASE("One period from the slid state is what a long way leads to", "[slidin
     }
     const TrajectoryDamping steady =
         trajectory_damping(*law, path, {.friction_coefficient = friction});
-    // From rest, until the deepest level that matters has been dragged along: those of exponential laws below 30 l carry 1e-13 of the force.
+    // From rest, until the deepest level that matters has been dragged along: those of exponential
+    // laws below 30 l carry 1e-13 of the force.
     const double lowest = std::ranges::min(path.indentation),
                  highest = std::ranges::max(path.indentation);
     const double depth = trial % 2 == 0 ? highest : highest + 32 * 4e-7;

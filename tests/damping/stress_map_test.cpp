@@ -20,7 +20,8 @@ const EqualFrequency quarter{.normal_amplitude = amplitude,
                              .phase = pi / 2,
                              .angular_frequency = 1};
 
-// Gauss–Legendre with six points on panels that shrink towards both ends by halving: for logarithms and roots there.
+// Gauss–Legendre with six points on panels that shrink towards both ends by halving: for logarithms
+// and roots there.
 double graded(const std::function<double(double)>& f, double low, double high) {
   const double node[3] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
   const double weight[3] = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};

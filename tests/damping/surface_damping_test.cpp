@@ -106,7 +106,8 @@ TEST_CASE(
                           << ' ' << result.error / exact.work_per_cycle);
       REQUIRE(result.converged);
       CHECK(std::abs(result.work_per_cycle - exact.work_per_cycle) < result.error);
-      // About 700 cells enter on the finer grid: two standard deviations are 8 %, and the quadrature's weights and K_t may double it.
+      // About 700 cells enter on the finer grid: two standard deviations are 8 %, and the
+      // quadrature's weights and K_t may double it.
       CHECK(result.error < 0.16 * exact.work_per_cycle);
       CHECK(result.damping_constant / exact.damping_constant ==
             Approx(result.work_per_cycle / exact.work_per_cycle));
@@ -134,13 +135,14 @@ TEST_CASE("What holds a mean force shifts the mean indentation of a paraboloid a
   }
   const double found = works[1] / works[0] - 1, expected = exact[1] / exact[0] - 1;
   REQUIRE(std::abs(expected) > 0.01);
-  // The same cells carry both, so that their scatter falls out but for what enters at the ends of the two ranges.
+  // The same cells carry both, so that their scatter falls out but for what enters at the ends of
+  // the two ranges.
   CHECK(found == Approx(expected).margin(0.5 * std::abs(expected)));
 }
 
 TEST_CASE("Stated errors of the damping of rough surfaces hold what it converges to") {
-  // Eighteen losses at three amplitudes. Of 180 with bench/damping/errors.cpp 91 % are held; 12 of 18 or fewer by chance would be one
-  // time in 500.
+  // Eighteen losses at three amplitudes. Of 180 with bench/damping/errors.cpp 91 % are held; 12 of
+  // 18 or fewer by chance would be one time in 500.
   Count count;
   for (const std::uint64_t seed : {11, 12, 13}) {
     const Surface surface = rough(48, seed), fine = refined(surface, 4);
@@ -153,7 +155,8 @@ TEST_CASE("Stated errors of the damping of rough surfaces hold what it converges
   }
   CHECK(count.cases >= 16);
   CHECK(count.held >= count.cases * 2 / 3);
-  // An error that is always held because it is huge says nothing. 3 in the bench; a median of eighteen varies by a half.
+  // An error that is always held because it is huge says nothing. 3 in the bench; a median of
+  // eighteen varies by a half.
   CHECK(count.median() < 6);
 }
 
@@ -302,7 +305,8 @@ TEST_CASE("A step at the seam has its error, which a surface without a step has 
     of_smooth += smooth[k].seam_error / smooth[k].work_per_cycle;
     of_stepped += stepped[k].seam_error / stepped[k].work_per_cycle;
   }
-  // The step carries the light loads of the tilted surface alone; the window takes a quarter of the area from either.
+  // The step carries the light loads of the tilted surface alone; the window takes a quarter of the
+  // area from either.
   CHECK(of_stepped > 1.5 * of_smooth);
 }
 
@@ -325,7 +329,8 @@ TEST_CASE("The error of a seam is the change of the loss beyond the scatter of b
     const double change = free[k].work_per_cycle - seamed[k].work_per_cycle;
     const double deviation = seamed[k].scatter / 1.645;  // 90 % of cases
     const double beyond = change * change - 2 * deviation * deviation;
-    // The same numbers in another order. A scatter of a thousandth of the change changes the result by 1e-6 of it.
+    // The same numbers in another order. A scatter of a thousandth of the change changes the result
+    // by 1e-6 of it.
     CHECK(seamed[k].seam_error == Approx(std::sqrt(std::max(0.0, beyond))).epsilon(1e-9));
     if (beyond > 0 && deviation > 1e-3 * std::abs(change)) ++told_apart;
   }

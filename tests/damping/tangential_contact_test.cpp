@@ -116,8 +116,8 @@ TEST_CASE("Along any path the stack of turning points is the spring foundation",
     }
     return error;
   };
-  // A step of the path cuts a spring's step of levels at random: first order for the force, and the constants
-  // scatter.
+  // A step of the path cuts a spring's step of levels at random: first order for the force, and the
+  // constants scatter.
   const double coarse = worst(500), fine = worst(8000);
   CHECK(fine < 5e-4);
   CHECK(fine < coarse / 4);
@@ -194,8 +194,8 @@ TEST_CASE("The memory holds one descent, not the past", "[tangential]") {
   };
   CHECK(memory_after(20, 200, 0).first == memory_after(2, 200, 0).first);
   CHECK(memory_after(2, 200, 0).first <= 102);
-  // 100 times the steps: without merging 100 times the memory, with it the same, and W changes by the tolerance at
-  // most.
+  // 100 times the steps: without merging 100 times the memory, with it the same, and W changes by
+  // the tolerance at most.
   const auto [merged, merged_loss] = memory_after(2, 20000, 1e-13);
   const auto [kept, kept_loss] = memory_after(2, 20000, 0);
   CHECK(kept > 9000);
@@ -261,7 +261,8 @@ TEST_CASE(
       contact.move_to(indentation, shift);
       return contact.tangential_force();
     };
-    // Only what sticks carries more: dF_x/dx = 2G*c, by central differences, second order in 1e-4/(1 − part).
+    // Only what sticks carries more: dF_x/dx = 2G*c, by central differences, second order in
+    // 1e-4/(1 − part).
     const double stick = (force_at(x + step) - force_at(x - step)) / (2 * step) / (2 * ratio * 1e9);
     CHECK(stick ==
           Approx(edge * std::pow(1 - force_at(x) / limit, sphere ? 1.0 / 3 : 0.5)).epsilon(1e-6));
@@ -290,8 +291,8 @@ TEST_CASE("Varying normal force: the friction stack is springs with a limit", "[
   };
   const Outcome coarse = springs_with(200), fine = springs_with(400);
   CHECK(std::abs(fine.force) < 1e-2);
-  // First order in level and substep: what halving both leaves is twice as small, and the extrapolation to 0 is of
-  // second order.
+  // First order in level and substep: what halving both leaves is twice as small, and the
+  // extrapolation to 0 is of second order.
   CHECK(coarse.lost / fine.lost == Approx(2).margin(0.1));
   CHECK(2 * fine.lost - coarse.lost == Approx(0).margin(5e-4));
   CHECK(2 * fine.force - coarse.force == Approx(0).margin(5e-4));
@@ -318,7 +319,8 @@ TEST_CASE("A contact refuses motion that it was not made for", "[tangential]") {
                          {.friction_coefficient = 0.01, .tangential_range = 2e-6});
   deep.start(1e-6, 0);
   CHECK_THROWS_WITH(deep.move_to(1e-6, 1e-6), Catch::Contains("extend the curve"));
-  // A force at which it slides, also where it slid before: there it went on for kilometres until rounding met the force.
+  // A force at which it slides, also where it slid before: there it went on for kilometres until
+  // rounding met the force.
   TangentialContact slipping(ExponentialLaw(2, 1e-7, ratio), -1e-7, 1e-7,
                              {.friction_coefficient = 0.3, .tangential_range = 4e-7});
   slipping.slide(0, 0, -1);

@@ -24,8 +24,8 @@ double x_at(double t) { return 2e-6 * std::cos(2 * pi * t + 0.7); }
 double y_at(double t) { return 3e-6 * std::cos(2 * pi * t - 0.9) + 1e-6 * std::sin(4 * pi * t); }
 double indentation_at(double t) { return 0.5 - 0.4 * std::cos(2 * pi * t); }
 
-// What stuck cells lose in three dimensions on a path in two directions, from its minimum of δ: half of the move, the change of the
-// contact set at rest, half of the move.
+// What stuck cells lose in three dimensions on a path in two directions, from its minimum of δ:
+// half of the move, the change of the contact set at rest, half of the move.
 double simulated_work(const std::function<ContactSet(double)>& set_at, const Grid2D& grid) {
   StickSolver solver(grid, material, {.tolerance = 1e-11});
   const auto zero = [&] {
@@ -57,8 +57,8 @@ double simulated_work(const std::function<ContactSet(double)>& set_at, const Gri
   return work;
 }
 
-// ½ Σ s·(K_{k+1} − K_k)s: the cells between two sets enter at the middle time, and leave as long before the end. With `crossed` off without
-// K_xy, which is the sum of both directions.
+// ½ Σ s·(K_{k+1} − K_k)s: the cells between two sets enter at the middle time, and leave as long
+// before the end. With `crossed` off without K_xy, which is the sum of both directions.
 double theorem(const std::function<ContactSet(double)>& set_at, const Grid2D& grid, bool crossed) {
   double sum = 0;
   StickStiffness below;

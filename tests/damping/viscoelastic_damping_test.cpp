@@ -124,8 +124,9 @@ TEST_CASE("Slow oscillation is relaxation damping of the relaxed body", "[viscoe
 
 TEST_CASE("Fast oscillation is relaxation damping of the unrelaxed body over a wider ring",
           "[viscoelastic]") {
-  // The branches are frozen at their means. With R = G(0)/G∞ − 1 a level that is above δ_0 − h in its frozen shape lies R times the mean
-  // overlap lower in the relaxed one, so that the levels that open are spread by 1 + Rθ/π, θ the half time of contact:
+  // The branches are frozen at their means. With R = G(0)/G∞ − 1 a level that is above δ_0 − h in
+  // its frozen shape lies R times the mean overlap lower in the relaxed one, so that the levels
+  // that open are spread by 1 + Rθ/π, θ the half time of contact:
   //     (a) 1 + R/2,    (b) 1 + R(π² − 6)/(π² − 4)    over the elastic loss with G(0), for constant F''.
   const IndenterLaw law(cone_profile(0.2), material);
   const double amplitude = 0.05 * indentation, omega = 1e5 / tau, R = 3;
@@ -286,7 +287,8 @@ TEST_CASE(
     "Relaxation times from far below to far above the period: each part of the series is relaxed "
     "or frozen",
     "[viscoelastic]") {
-  // The branch of 1e-9 s does nothing, that of 1e8 s is frozen: as the standard solid fast, (V2) of docs/theory.md, section 9.
+  // The branch of 1e-9 s does nothing, that of 1e8 s is frozen: as the standard solid fast, (V2) of
+  // docs/theory.md, section 9.
   const IndenterLaw law(cone_profile(0.2), material);
   const EqualFrequency motion = equal_frequency(0.05 * indentation, 10);
   const ViscoelasticDamping found =

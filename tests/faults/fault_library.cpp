@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Library to preload, which lets chosen calls on files below a folder, or allocations, fail as the plan in SALEBRA_FAULTS says.
+// Library to preload, which lets chosen calls on files below a folder, or allocations, fail as the
+// plan in SALEBRA_FAULTS says.
 #include "fault_library.hpp"
 
 #include <dlfcn.h>
@@ -35,7 +36,8 @@ std::array<char, 4096> working_folder;
 std::array<std::atomic<bool>, 1024> below;  // descriptors of files below the folder
 std::atomic<bool> in_main = false;
 
-/// Where HDF5 and GNU's OpenMP lie in memory. Neither survives a failed allocation of its own (docs/reliability.md).
+/// Where HDF5 and GNU's OpenMP lie in memory. Neither survives a failed allocation of its own
+/// (docs/reliability.md).
 struct Range {
   uintptr_t begin = 0, end = 0;
   bool holds(const void* place) const {
@@ -107,7 +109,8 @@ void note(long descriptor, bool is_below) {
 
 int open_file(int folder, const char* path, int flags, mode_t mode) {
   const bool counted = path_counts(path);
-  // The C++ library does not repeat the opening of a folder, which no signal interrupts on a local disk.
+  // The C++ library does not repeat the opening of a folder, which no signal interrupts on a local
+  // disk.
   const bool folder_read = (flags & O_DIRECTORY) != 0 && plan && plan->error == EINTR;
   if (counted && !folder_read && fails(Kind::open)) return -1;
   const long descriptor = syscall(SYS_openat, folder, path, flags, mode);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs commands that write while chosen system calls fail, and judges what they leave: old or complete files, a true exit status.
+// Runs commands that write while chosen system calls fail, and judges what they leave: old or
+// complete files, a true exit status.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -410,10 +411,12 @@ class CaseRun {
     for (const auto& [name, text] : now) {
       const std::string file = fs::path(name).filename().string();
       const bool temporary = file.ends_with(".part") || file.starts_with("lock.");
-      // Where an allocation fails while another failure is handled, the process ends at once (docs/reliability.md).
+      // Where an allocation fails while another failure is handled, the process ends at once
+      // (docs/reliability.md).
       if (temporary && (fault.kind == Kind::memory || is_kill)) continue;
       if (temporary) return name + " was left";
-      // What --resume, a shard and a merge go on with: they take over locks and claims of a process that is gone.
+      // What --resume, a shard and a merge go on with: they take over locks and claims of a process
+      // that is gone.
       if (file.ends_with(".realisation") || is_claim(file) || file.starts_with("shard.") ||
           file == "lock" || file == "out.state")
         continue;
@@ -455,8 +458,9 @@ class CaseRun {
   /// Finished, or not yet linked.
   static bool is_claim(const std::string& file) { return file.find(".claim") != std::string::npos; }
 
-  /// A lock whose file could not be read is left, and the next process takes it over. That of a shard is left until the merge, and so is
-  /// a file that a shard began, which another may be writing.
+  /// A lock whose file could not be read is left, and the next process takes it over. That of a
+  /// shard is left until the merge, and so is a file that a shard began, which another may be
+  /// writing.
   Files without_locks(Files now) const {
     now.erase("out.h5.parts/lock");
     std::erase_if(now, [&](const auto& file) {

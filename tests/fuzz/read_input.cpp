@@ -20,7 +20,8 @@
 namespace salebra::fuzz {
 namespace {
 
-/// A file, in memory where the system has such a folder for this user, for what is read through a path.
+/// A file, in memory where the system has such a folder for this user, for what is read through a
+/// path.
 class ScratchFile {
  public:
   ScratchFile() {
@@ -64,8 +65,9 @@ void complete(const std::string& name, detail::LoadedSurface loaded) {
   require_possible(detail::completed(name, std::move(loaded), options));
 }
 
-/// Members of an X3P archive without the archive: its checksums would leave nothing to a mutation. The input is main.xml and the
-/// heights, parted by a NUL byte; the mask, where one is asked for, is the end of the heights.
+/// Members of an X3P archive without the archive: its checksums would leave nothing to a mutation.
+/// The input is main.xml and the heights, parted by a NUL byte; the mask, where one is asked for,
+/// is the end of the heights.
 void read_x3p_parts(const std::string& input) {
   const auto parted = input.find('\0');
   const std::string xml = input.substr(0, parted),

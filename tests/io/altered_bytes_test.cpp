@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A disk and an HDF5 library that keep other values than they were given: what was written is read back and refused.
+// A disk and an HDF5 library that keep other values than they were given: what was written is read
+// back and refused.
 #include <dlfcn.h>
 #include <hdf5.h>
 #include <sys/syscall.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Copies of values whose memory fails at each allocation in turn: each throws std::bad_alloc and leaves nothing half-made.
+// Copies of values whose memory fails at each allocation in turn: each throws std::bad_alloc and
+// leaves nothing half-made.
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <new>
@@ -28,7 +29,8 @@ long allocations_left = never;
 
 namespace {
 
-/// Number of allocations of a piece of work that failed in turn, each with std::bad_alloc, before it went through.
+/// Number of allocations of a piece of work that failed in turn, each with std::bad_alloc, before
+/// it went through.
 template <class Work>
 long failures_before(Work work) {
   for (long n = 0; n < 1000; ++n) {

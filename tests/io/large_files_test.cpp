@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Places in files beyond 2^31 and 2^32 bytes and numbers, in a file of which only some rows are ever written.
+// Places in files beyond 2^31 and 2^32 bytes and numbers, in a file of which only some rows are
+// ever written.
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -22,7 +23,8 @@ bool takes_no_room_in_advance = false;
 
 }  // namespace
 
-// In place of the C library's: the test asks for more room than disks have free. As of file systems that cannot do it.
+// In place of the C library's: the test asks for more room than disks have free. As of file systems
+// that cannot do it.
 extern "C" int fallocate(int descriptor, int mode, off_t start, off_t size) {
   if (!takes_no_room_in_advance)
     return static_cast<int>(syscall(SYS_fallocate, descriptor, mode, start, size));
@@ -66,7 +68,8 @@ class FirstAndLast : public detail::Transport {
 
 constexpr Index columns = 65536;
 
-// Whole numbers that float holds exactly and that differ between neighbours in both directions and between the processes.
+// Whole numbers that float holds exactly and that differ between neighbours in both directions and
+// between the processes.
 double value_at(Index row, Index column) {
   return static_cast<double>((row * 4099 + column * 7) % 8388593);
 }
@@ -96,7 +99,8 @@ TEST_CASE("Rows beyond 2^32 bytes and numbers of a file are written and read at 
     WARN("skipped: this file system has no sparse files");
     return;
   }
-  // 4.4·10^9 numbers a field: 17 GB in float and, behind them, 35 GB in double. Blocks of 80 rows, one for each process.
+  // 4.4·10^9 numbers a field: 17 GB in float and, behind them, 35 GB in double. Blocks of 80 rows,
+  // one for each process.
   const Index rows = 66560;
   const int ranks = 832;
   const std::filesystem::path file = scratch / "large.h5";
@@ -124,7 +128,8 @@ TEST_CASE("Rows beyond 2^32 bytes and numbers of a file are written and read at 
   REQUIRE(stat(file.c_str(), &status) == 0);
   CHECK(status.st_size > 12 * Index{rows} * columns);
   CHECK(status.st_blocks * 512 < status.st_size / 100);
-  // One process after the other, since not every HDF5 library is for threads; one between them finds a hole.
+  // One process after the other, since not every HDF5 library is for threads; one between them
+  // finds a hole.
   const ResultReader results(file);
   for (const int rank : {0, 416, ranks - 1})
     for (const char* name : {"contact/pressure", "contact/gap"}) {

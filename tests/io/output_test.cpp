@@ -24,8 +24,9 @@ std::size_t files_in(const std::filesystem::path& folder) {
   return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
-/// Runs `write` in a child whose files may not exceed a size. Returns the child's exit status: 0 done, 3 IoError, 4 another
-/// exception, 128 + signal for a crash. The child leaves through exit(), so that what HDF5 does at the end of a process is run too.
+/// Runs `write` in a child whose files may not exceed a size. Returns the child's exit status: 0
+/// done, 3 IoError, 4 another exception, 128 + signal for a crash. The child leaves through exit(),
+/// so that what HDF5 does at the end of a process is run too.
 int status_with_file_limit(rlim_t bytes, const std::function<void()>& write) {
   const pid_t child = fork();
   if (child == 0) {
@@ -122,7 +123,8 @@ TEST_CASE("A full disk is an IoError, leaves no file and crashes nothing", "[out
     CHECK(status_with_file_limit(limit, write) == 3);
     CHECK(files_in(scratch.folder()) == 0);
   };
-  // 512² doubles are 2 MiB: the limits cut the file at its beginning, amid the data and just before their end.
+  // 512² doubles are 2 MiB: the limits cut the file at its beginning, amid the data and just before
+  // their end.
   for (const rlim_t limit : {0, 100, 1 << 10, 1 << 20, 3 << 19, (2 << 20) + 100}) {
     check_none(limit, [&] { write_surface(scratch / "surface.h5", flat(512)); });
     if (limit < (2 << 20)) {

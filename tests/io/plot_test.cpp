@@ -198,7 +198,8 @@ TEST_CASE(
 
 TEST_CASE("A map of more cells than a picture draws is averaged, each cell about its middle",
           "[plot]") {
-  // 2400 columns at 0.5, 1.5 … are drawn as 1200: the mean of a pair, or the one of it that is a number.
+  // 2400 columns at 0.5, 1.5 … are drawn as 1200: the mean of a pair, or the one of it that is a
+  // number.
   PlotImage image;
   for (int i = 0; i < 2400; ++i) image.x.push_back(i + 0.5);
   image.y = {0, 1};

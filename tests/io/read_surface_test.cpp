@@ -34,7 +34,8 @@ TEST_CASE("Measured surfaces have the statistics of the reference", "[read]") {
     CHECK(surface.undefined_points() == expected.at("undefined_points").get<Index>());
     CHECK_FALSE(surface.periodic);
     const HeightStatistics statistics = height_statistics(surface);
-    // Both sides sum some 10⁵ doubles; SurfaceTopography multiplies by the unit before, salebra after.
+    // Both sides sum some 10⁵ doubles; SurfaceTopography multiplies by the unit before, salebra
+    // after.
     CHECK(surface.grid.lx == Approx(number("size_x_m")).epsilon(1e-12));
     CHECK(surface.grid.ly == Approx(number("size_y_m")).epsilon(1e-12));
     CHECK(statistics.minimum == Approx(number("min_m")).epsilon(1e-12));
@@ -266,7 +267,8 @@ TEST_CASE("NetCDF of other programs is read with its axes, unit, fill value and 
     double length;
     std::size_t periodic;
   };
-  // CDF-1 as Unidata's specification has it: heights(first, second), float64, and an empty variable for each axis.
+  // CDF-1 as Unidata's specification has it: heights(first, second), float64, and an empty variable
+  // for each axis.
   const auto file_of = [&](const Axis& first, const Axis& second, const std::string& unit,
                            const std::vector<double>& values) {
     std::string header = std::string("CDF\1", 4) + word(0) + word(10) + word(2);

@@ -103,7 +103,8 @@ bool hdf5_has_threads() {
 
 TEST_CASE("The file of a spread surface is byte for byte that of one process", "[spread]") {
   const Scratch scratch;
-  // Fields smaller and larger than the blocks in which HDF5 and the image of a file keep bytes; ranks without rows.
+  // Fields smaller and larger than the blocks in which HDF5 and the image of a file keep bytes;
+  // ranks without rows.
   const auto [nx, ny] =
       GENERATE(std::pair<Index, Index>(16, 3), std::pair<Index, Index>(33, 7),
                std::pair<Index, Index>(128, 65), std::pair<Index, Index>(101, 512));

@@ -87,7 +87,8 @@ TEST_CASE("The table of docs/formats.md is that of the program", "[formats]") {
 
 TEST_CASE("A file of Gwyddion: the first channel of heights, its mask, its size", "[formats]") {
   const Scratch scratch;
-  // Components of every type stand before and between those that are read; channel 10 comes after 2.
+  // Components of every type stand before and between those that are read; channel 10 comes after
+  // 2.
   const std::string others = name("/flag") + 'b' + '\1' + name("/letter") + 'c' + 'x' +
                              name("/long") + 'q' + raw(std::int64_t{1}) + name("/letters") + 'C' +
                              raw(std::uint32_t{2}) + "ab" + name("/numbers") + 'I' +

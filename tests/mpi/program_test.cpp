@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// salebra-mpi as a user runs it: by the launcher, in a folder of its own. SALEBRA_PROGRAM of run_program.cpp is the launcher.
+// salebra-mpi as a user runs it: by the launcher, in a folder of its own. SALEBRA_PROGRAM of
+// run_program.cpp is the launcher.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -259,8 +260,8 @@ TEST_CASE(
               .status == 0);
   const std::string press =
       "contact rough.h5 --contact-modulus 10GPa --json --pressure 20MPa --precision full " + quiet;
-  // To the launcher, which hands it on, and to one process alone, not the first. Sent when the first checkpoint appears; one after each
-  // iteration leaves time enough.
+  // To the launcher, which hands it on, and to one process alone, not the first. Sent when the
+  // first checkpoint appears; one after each iteration leaves time enough.
   for (const std::string target : {"$launcher", "$(cat pid)"}) {
     const auto stopped = test.run(
         "", environment +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The transport of MPI conforms: mpirun -n N test_mpi. `test_mpi large` gathers and sends more bytes than an int counts, in 5 GB of each
-// process; ctest leaves that out.
+// The transport of MPI conforms: mpirun -n N test_mpi. `test_mpi large` gathers and sends more
+// bytes than an int counts, in 5 GB of each process; ctest leaves that out.
 #include <iostream>
 #include <salebra/mpi/mpi.hpp>
 #include <string_view>

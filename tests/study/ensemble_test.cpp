@@ -42,7 +42,8 @@ StudyConfiguration quick_study(std::size_t seeds, const std::string& more = "") 
 
 TEST_CASE("Bootstrap intervals of a small Greenwood-Williamson study cover the exact force",
           "[ensemble]") {
-  // 60 summits, seven of them in contact: the force of a realisation is skew, and its mean is known without chance.
+  // 60 summits, seven of them in contact: the force of a realisation is skew, and its mean is known
+  // without chance.
   const SummitEnsemble ensemble{.density = 6e11, .radius = 1e-6, .summit_rms = 1e-8};
   const Material material = Material::of_contact_modulus(1e10);
   const double area = 1e-10, separation = 1.2e-8;
@@ -77,7 +78,8 @@ TEST_CASE("The bootstrap of symmetric values is close to Student's t, and determ
   for (int i = 0; i < 40; ++i) values.push_back(5 + gaussian_pair(3, i, 0).first);
   const EnsembleMean student = student_mean(values), resampled = Bootstrap().mean(values);
   const double half = (student.high - student.low) / 2;
-  // 2000 resamples place a 2.5 % quantile to some 5 % of the width, the sample's own skewness to 10 %.
+  // 2000 resamples place a 2.5 % quantile to some 5 % of the width, the sample's own skewness to 10
+  // %.
   CHECK(resampled.low == Approx(student.low).margin(0.15 * half));
   CHECK(resampled.high == Approx(student.high).margin(0.15 * half));
   CHECK(resampled.mean == student.mean);
@@ -91,8 +93,8 @@ TEST_CASE("The bootstrap of symmetric values is close to Student's t, and determ
 }
 
 TEST_CASE("Both limits of a bootstrap interval are 2.5 % quantiles", "[ensemble]") {
-  // Values in pairs about the mean have no skewness: what is left is the chance of 20 000 resamples, 1 % of the width, and the
-  // kurtosis of forty values, a few.
+  // Values in pairs about the mean have no skewness: what is left is the chance of 20 000
+  // resamples, 1 % of the width, and the kurtosis of forty values, a few.
   std::vector<double> values;
   for (int i = 0; i < 20; ++i) {
     const double step = gaussian_pair(3, i, 0).first;
@@ -108,7 +110,8 @@ TEST_CASE("Both limits of a bootstrap interval are 2.5 % quantiles", "[ensemble]
 
 TEST_CASE("No mean lies at the edge of its interval, however few or alike the values",
           "[ensemble]") {
-  // Six seeds of which five agree: resampling without the sixth has no scatter, and would put the mean at the edge.
+  // Six seeds of which five agree: resampling without the sixth has no scatter, and would put the
+  // mean at the edge.
   std::vector<double> values{0.4205, 0.4198, 0.4201, 0.4203, 0.4196, 0.54};
   for (int count : {6, 12, 19, 20, 40}) {
     INFO(count);
@@ -124,7 +127,8 @@ TEST_CASE("No mean lies at the edge of its interval, however few or alike the va
 }
 
 TEST_CASE("A bootstrap interval has the bits of its definition, on any threads", "[ensemble]") {
-  // Resample r draws place k by the first uniform number of (seed 1, r, k); t* = (mean* − mean)/s*; quantiles between order statistics.
+  // Resample r draws place k by the first uniform number of (seed 1, r, k); t* = (mean* − mean)/s*;
+  // quantiles between order statistics.
   constexpr std::size_t n = 37, resamples = 400;
   std::vector<double> values, statistics;
   for (int i = 0; i < int(n); ++i) values.push_back(2 + gaussian_pair(8, i, 0).first);
@@ -263,7 +267,8 @@ TEST_CASE("A study ends at the surface that makes its mean precise enough, on an
   REQUIRE(one.realisations.size() >= 3);
   REQUIRE(one.realisations.size() < 40);
   REQUIRE(three.realisations.size() == one.realisations.size());
-  // The least number is enough where it is precise enough; where there are no more seeds, none was spared.
+  // The least number is enough where it is precise enough; where there are no more seeds, none was
+  // spared.
   configuration.target_precision = 100;
   const StudyResult least = run_study(configuration);
   CHECK(least.realisations.size() == 3);
@@ -311,7 +316,8 @@ TEST_CASE("A study goes on until its decay length and its area slope are both pr
       ++count;
     return count;
   };
-  // Between the two precisions after some number of surfaces, one of the quantities suffices there and the other does not.
+  // Between the two precisions after some number of surfaces, one of the quantities suffices there
+  // and the other does not.
   for (std::size_t count = 3; count < 12 && configuration.target_precision == 0; ++count) {
     const double between = std::sqrt(length_precision[count - 1] * slope_precision[count - 1]);
     if (enough(between, true) != enough(between, false)) configuration.target_precision = between;
@@ -445,10 +451,12 @@ TEST_CASE("Two equal rough sides carry what the pairs of their summits carry", "
   const StudyResult result = run_study(configuration);
   const Realisation& r = result.realisations.front();
   const ForceSample& sample = r.of(ContactModel::greenwood_tripp).curve.samples[4];
-  // A side has half of each moment: η and σ_s²/m0 of Nayak's theory depend on α alone, which stays; R grows by √2.
+  // A side has half of each moment: η and σ_s²/m0 of Nayak's theory depend on α alone, which stays;
+  // R grows by √2.
   const double density = r.ensemble.density, radius = std::numbers::sqrt2 * r.ensemble.radius,
                side_rms = r.ensemble.summit_rms / std::numbers::sqrt2;
-  // F = (4/3)E*√(R/2) ∫∫ w^{3/2} over the positions and the heights of a pair, by Riemann sums: w = z − s − r²/(4R).
+  // F = (4/3)E*√(R/2) ∫∫ w^{3/2} over the positions and the heights of a pair, by Riemann sums: w =
+  // z − s − r²/(4R).
   const double sum_rms = std::numbers::sqrt2 * side_rms, area = r.grid.area();
   const double top = 8 * sum_rms - sample.separation;
   double force = 0;
@@ -489,7 +497,8 @@ TEST_CASE("A measured surface has the seam of its edges, and summits within them
     along_y += std::pow(level.heights(ix, 0) - level.heights(ix, 47), 2) / 64;
   const double rms_height = height_statistics(level).rms_height;
   CHECK(r.seam_step == Approx(std::sqrt((along_x + along_y) / 2) / rms_height).epsilon(1e-9));
-  // A point of the border has no eight neighbours: summits are sought, and counted, on 62 × 46 cells.
+  // A point of the border has no eight neighbours: summits are sought, and counted, on 62 × 46
+  // cells.
   const SummitList summits = find_summits(level);
   CHECK(r.of(ContactModel::gw_deterministic).curve.nominal_area ==
         Approx(62 * 46 * part.grid.cell_area()).epsilon(1e-12));
@@ -539,7 +548,8 @@ TEST_CASE("An ensemble says what is too small about it", "[ensemble]") {
   surfaces.grid = {128, 32, 8e-6, 2e-6};
   const auto strip = names(run_study(configuration));
   CHECK(strip.front() == "finite_size");
-  // Spots count where the law is fitted: fifty there are enough, though the lightest loads have fewer.
+  // Spots count where the law is fitted: fifty there are enough, though the lightest loads have
+  // fewer.
   surfaces.grid = {64, 64, 4e-6, 4e-6};
   configuration.relative_pressures = true;
   const double scale = contact_scale(configuration);
@@ -596,7 +606,8 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
             .epsilon(1e-12));
   CHECK(first.spots[6].corrected_area_fraction <
         first.of(ContactModel::bem).curve.samples[6].contact_area_fraction);
-  // The same contact once more: spots of n cells count where 2^k <= n < 2^(k+1), and the largest is the largest.
+  // The same contact once more: spots of n cells count where 2^k <= n < 2^(k+1), and the largest is
+  // the largest.
   const Surface surface = study_surface(result.configuration, first.seed);
   const NormalContactState state =
       press_to_pressure(surface, 1e10, result.pressures[6], {.tolerance = 1e-8});
@@ -609,7 +620,8 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
   }
   CHECK(first.spots[6].spots_by_size == sizes);
   CHECK(first.spots[6].largest_spot_area == Approx(largest).epsilon(1e-12));
-  // Persson's theory has the slope of the surface's own modes; a ring's mean radius differs from its rms one by 2^(1/16) − 1 at most.
+  // Persson's theory has the slope of the surface's own modes; a ring's mean radius differs from
+  // its rms one by 2^(1/16) − 1 at most.
   CHECK(first.of(ContactModel::persson).curve.samples[6].contact_area_fraction ==
         Approx(persson_area_fraction(result.pressures[6], 1e10, first.moments.rms_slope()))
             .epsilon(0.02));
@@ -678,7 +690,8 @@ TEST_CASE("Statistical, drawn and own summits agree on a Gaussian surface within
     const double statistical = force_at_gap(StatisticalSummits(ensemble, material, grid.area()));
     const double own = force_at_gap(DeterministicSummits(find_summits(surface).summits, material,
                                                          grid.area(), surface.heights.mean()));
-    // As many summits of that density at random: by how much one surface of this size may differ from the mean, and where the mean is.
+    // As many summits of that density at random: by how much one surface of this size may differ
+    // from the mean, and where the mean is.
     const int count = int(std::lround(ensemble.density * grid.area()));
     std::vector<double> drawn;
     for (int draw = 0; draw < draws; ++draw)
@@ -695,8 +708,8 @@ TEST_CASE("Statistical, drawn and own summits agree on a Gaussian surface within
   }
   INFO("at " << distance << " h_rms: " << own_inside << " and " << statistical_inside
              << " of 20, ratio " << ratio);
-  // 95 % of 20 are 19 ± 1; fewer than 16 would happen once in 400 times, if nothing but chance were at work. Own summits are not
-  // equal spheres: the higher ones are sharper.
+  // 95 % of 20 are 19 ± 1; fewer than 16 would happen once in 400 times, if nothing but chance were
+  // at work. Own summits are not equal spheres: the higher ones are sharper.
   CHECK(statistical_inside >= 16);
   CHECK(own_inside >= 16);
 }

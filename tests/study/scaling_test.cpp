@@ -29,8 +29,8 @@ double status_bytes(const std::string& name) {
   return std::nan("");
 }
 
-/// How far the resident memory of a process of its own rises above its start, bytes. One thread: what threads share does not depend on
-/// chance, and a forked process has none of its parent's.
+/// How far the resident memory of a process of its own rises above its start, bytes. One thread:
+/// what threads share does not depend on chance, and a forked process has none of its parent's.
 double peak_growth(const std::function<void()>& work) {
   int ends[2];
   REQUIRE(pipe(ends) == 0);
@@ -69,7 +69,8 @@ const Material material = Material::of_contact_modulus(1e10, 0.3);
 }  // namespace
 
 TEST_CASE("The memory of a study grows with its surfaces as their samples do", "[scaling]") {
-  // Surfaces as a study has them, of four loads and three models, without the contacts that would take the time.
+  // Surfaces as a study has them, of four loads and three models, without the contacts that would
+  // take the time.
   StudyConfiguration study = parse_study_configuration(study_text("seeds = [1]", 4), "four.toml");
   study.stick = false;
   const auto written = [&](std::size_t surfaces) {
@@ -89,11 +90,13 @@ TEST_CASE("The memory of a study grows with its surfaces as their samples do", "
   };
   const double few = written(400), many = written(800), more = written(1200);
   INFO(few << ' ' << many << ' ' << more);
-  // Per surface: the Realisation itself, 3 kB; for each of four loads 3 × 152 bytes of samples and 160 of spots, 2.5 kB; lists of several
-  // kinds, a kilobyte; a vector that doubles while it grows, three times the first; columns of the result, 1 kB. The bootstrap's table took
-  // 4000 bytes for each surface and each smaller number of them, 3.2 MB for each of the last 400.
+  // Per surface: the Realisation itself, 3 kB; for each of four loads 3 × 152 bytes of samples and
+  // 160 of spots, 2.5 kB; lists of several kinds, a kilobyte; a vector that doubles while it grows,
+  // three times the first; columns of the result, 1 kB. The bootstrap's table took 4000 bytes for
+  // each surface and each smaller number of them, 3.2 MB for each of the last 400.
   CHECK((more - few) / 800 < 20e3);
-  // Linear: the second 400 take what the first took, but for the step at which the vector doubles, 1200 times 3 kB.
+  // Linear: the second 400 take what the first took, but for the step at which the vector doubles,
+  // 1200 times 3 kB.
   CHECK(more - many < many - few + 4e6);
 }
 
@@ -106,8 +109,8 @@ TEST_CASE("The memory of a sweep does not grow with its loads", "[scaling]") {
       sweep_pressures(surface, material, pressures, {.concurrent_loads = 1});
     });
   };
-  // Of 65536 cells one field alone would be 0.5 MB a load: what grows are samples of 72 bytes. One load at a time: of two, more loads
-  // are more chances that both stand at their peaks at once.
+  // Of 65536 cells one field alone would be 0.5 MB a load: what grows are samples of 72 bytes. One
+  // load at a time: of two, more loads are more chances that both stand at their peaks at once.
   CHECK(swept(64) - swept(16) < 48 * 10e3);
 }
 
@@ -132,9 +135,11 @@ TEST_CASE("The memory of a simulated cycle grows by half a byte a cell and step"
                      {.steps = steps, .max_periods = 1, .stick = {.tolerance = 1e-2}});
     });
   };
-  // Over many steps: the pools of the solves grow with the largest sets and leave gaps in the heap, up to a megabyte in all.
+  // Over many steps: the pools of the solves grow with the largest sets and leave gaps in the heap,
+  // up to a megabyte in all.
   const double each = (simulated(256) - simulated(32)) / 224;
-  // Sets of the way down are those of the way up: half a set of a byte a cell. A field of doubles would be 8 bytes.
+  // Sets of the way down are those of the way up: half a set of a byte a cell. A field of doubles
+  // would be 8 bytes.
   CHECK(each < 0.5 * n * n * 1.25);
 }
 
@@ -144,8 +149,8 @@ TEST_CASE("The memory of a contact is 43 bytes a cell and its result's", "[scali
     return peak_growth([&] { press_to_pressure(surface, 1e10, 2e7); });
   };
   const double each = (pressed(1024) - pressed(512)) / (1024. * 1024 - 512. * 512);
-  // docs/performance.md, "Memory": 43 with contact on a tenth of the cells, of which tiles are half; large pages add up to 2 MB for each of
-  // some ten arrays, 25 bytes a cell here.
+  // docs/performance.md, "Memory": 43 with contact on a tenth of the cells, of which tiles are
+  // half; large pages add up to 2 MB for each of some ten arrays, 25 bytes a cell here.
   CHECK(each < 70);
   CHECK(each > 20);  // or nothing was measured
 }

@@ -146,7 +146,8 @@ TEST_CASE("A merge stops where one run would have stopped for its precision", "[
   Merged merged = merge(scratch, study);
   CHECK(merged.missing.empty());
   CHECK(file_of(scratch, merged.results) == file_of(scratch, whole));
-  // Before each surface `any` looks whether those before it are enough; one thread has none in hand meanwhile.
+  // Before each surface `any` looks whether those before it are enough; one thread has none in hand
+  // meanwhile.
   fs::remove_all(scratch.parts);
   parallel::set_threads(1);
   const ShardOutcome outcome = compute(scratch, study, "any");
@@ -243,8 +244,8 @@ TEST_CASE("Shards share the folder with each other, and with nobody else", "[sha
   }
   CHECK_FALSE(fs::exists(scratch.parts));
 
-  // On another host, whose processes cannot be seen, a shard is alive for a minute by the clock of the file system; one whose clock
-  // is ahead is no exception.
+  // On another host, whose processes cannot be seen, a shard is alive for a minute by the clock of
+  // the file system; one whose clock is ahead is no exception.
   fs::create_directory(scratch.parts);
   const fs::path lock = scratch.parts / "shard.1-3.elsewhere-1-2";
   std::ofstream(lock) << "elsewhere boot space\n1\n2\nword\n";

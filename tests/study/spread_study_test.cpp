@@ -18,7 +18,8 @@
 #include "ranks_in_threads.hpp"
 #include "study_text.hpp"
 
-// A study over several processes: every number has the bits of one process, hence no tolerance is needed.
+// A study over several processes: every number has the bits of one process, hence no tolerance is
+// needed.
 
 using namespace salebra;
 using Catch::Contains;
@@ -162,7 +163,8 @@ TEST_CASE("A study over processes that is stopped continues with any number of t
   const fs::path folder = scratch.folder / "run.h5.parts";
   const StudyConfiguration study = study_of("seeds = [1, 2, 3, 4]");
   const std::string whole = bits_of(run_ensembles(study));
-  // The first process alone keeps files. The last one says stop within the sweep after two surfaces; another group finishes its third.
+  // The first process alone keeps files. The last one says stop within the sweep after two
+  // surfaces; another group finishes its third.
   const auto run = [&](int ranks, int groups, bool resume, bool stop) {
     std::atomic<int> interrupted = 0, same = 0, computed = 0;
     run_ranks(ranks, [&](const Communicator& all) {
@@ -199,7 +201,8 @@ TEST_CASE("A study over processes that is stopped continues with any number of t
 
 namespace {
 
-/// A process that fails by itself at its call number `last`, as where memory is short, and must not call the others after that.
+/// A process that fails by itself at its call number `last`, as where memory is short, and must not
+/// call the others after that.
 class Failing : public detail::Transport {
  public:
   Failing(const Communicator& all, std::shared_ptr<std::atomic<int>> left, std::atomic<int>& late)
@@ -257,7 +260,8 @@ TEST_CASE("A process that fails alone leaves a study at once", "[study][share]")
           }
         });
       } catch (const std::exception&) {
-        // The others wait for one that has ended, which the tests' transport notices, and salebra-mpi too.
+        // The others wait for one that has ended, which the tests' transport notices, and
+        // salebra-mpi too.
       }
       CHECK(failed == 1);
       CHECK(late == 0);

@@ -160,7 +160,8 @@ TEST_CASE("Damping of a study rests on K_t of stick solves, which at nu = 0 is (
     REQUIRE(std::isnan(a) == std::isnan(b));
     if (!std::isnan(a)) largest = std::max(largest, std::abs(a / b - 1));
   }
-  // The kernels coincide at ν = 0, and both solves stop within 1e-5 of K; otherwise the spots are not round.
+  // The kernels coincide at ν = 0, and both solves stop within 1e-5 of K; otherwise the spots are
+  // not round.
   if (poisson == 0)
     CHECK(largest < 3e-3);
   else

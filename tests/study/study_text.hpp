@@ -3,7 +3,8 @@
 
 #include <string>
 
-/// [material], [contact] and [damping] of a small study; loads: how many from light contact to a fifth of E*h'.
+/// [material], [contact] and [damping] of a small study; loads: how many from light contact to a
+/// fifth of E*h'.
 inline std::string contact_text(int loads = 10) {
   return R"([material]
 contact_modulus = "10GPa"
@@ -19,7 +20,8 @@ frequency = "20kHz"
 )";
 }
 
-/// A study of surfaces of 64 × 64 cells, eight to the shortest wave and four roll-offs a side: some 20 ms each at a dozen loads.
+/// A study of surfaces of 64 × 64 cells, eight to the shortest wave and four roll-offs a side: some
+/// 20 ms each at a dozen loads.
 inline std::string study_text(const std::string& seeds = "seeds = [1, 2, 3]", int loads = 10) {
   return R"([surface]
 points = 64
@@ -32,7 +34,8 @@ rms_height = "10nm"
          "\n" + contact_text(loads);
 }
 
-/// The same at loads so high that no mean gap exceeds the rms height: there is nothing to fit a decay length to.
+/// The same at loads so high that no mean gap exceeds the rms height: there is nothing to fit a
+/// decay length to.
 inline std::string close_study_text() {
   std::string text = study_text("seeds = [1, 2]", 5);
   const std::string usual = "1e-3:0.2:5";

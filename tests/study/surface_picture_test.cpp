@@ -37,7 +37,8 @@ TEST_CASE("The picture of a study shows where its first surface touches under ea
         double(touching) / (64 * 64) ==
         Approx(first.of(ContactModel::bem).curve.samples[k].contact_area_fraction).epsilon(0.005));
   }
-  // The maps of one load, of every cell: their means are those of the contact, to the seven digits of floats.
+  // The maps of one load, of every cell: their means are those of the contact, to the seven digits
+  // of floats.
   const ForceSample& mapped =
       first.of(ContactModel::bem).curve.samples[std::size_t(picture.mapped_load)];
   REQUIRE(picture.mapped_load == Index(result.pressures.size() / 2));
@@ -61,8 +62,8 @@ TEST_CASE("The law drawn with a random-phase surface is its spectrum", "[picture
   int compared = 0;
   for (std::size_t i = 0; i < picture.wavenumber.size(); ++i) {
     if (std::isnan(picture.law_psd[i]) || picture.psd[i] == 0) continue;
-    // The mean of q^-3.6 over a ring of an eighth of an octave is not that of the mean q: 1 %. A ring across a limit of the law
-    // holds modes beyond it.
+    // The mean of q^-3.6 over a ring of an eighth of an octave is not that of the mean q: 1 %. A
+    // ring across a limit of the law holds modes beyond it.
     const double wavelength = 2 * std::numbers::pi / picture.wavenumber[i];
     if (wavelength < 1.1 * 0.5e-6 || std::abs(wavelength / 1e-6 - 1) < 0.1) continue;
     CHECK(picture.psd[i] == Approx(picture.law_psd[i]).epsilon(0.02));

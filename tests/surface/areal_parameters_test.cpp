@@ -66,11 +66,13 @@ TEST_CASE("A stretched Gaussian correlation has the lengths, aspect and directio
       std::make_shared<FunctionSpectrum>(gaussian_correlation_spectrum(1e-6, length));
   const AnisotropicSpectrum spectrum(isotropic, {.along = 2, .across = 0.8, .angle = angle});
   const ArealParameters p = areal_parameters(random_phase({512, 512, 2, 2}, spectrum, 3));
-  // exp(−r²/ℓ²) = 0.2. Random phase has the correlation of its spectrum exactly; the steps of 0.25 ℓ/5 bend bilinear values by 1 %.
+  // exp(−r²/ℓ²) = 0.2. Random phase has the correlation of its spectrum exactly; the steps of 0.25
+  // ℓ/5 bend bilinear values by 1 %.
   const double fall = length * std::sqrt(std::log(5.0));
   CHECK(p.Sal == Approx(0.8 * fall).epsilon(0.02));
   CHECK(p.Str == Approx(0.8 / 2).epsilon(0.02));
-  // Power lies across the lay. Fixed amplitudes: nothing but the lattice of modes moves the greatest value.
+  // Power lies across the lay. Fixed amplitudes: nothing but the lattice of modes moves the
+  // greatest value.
   CHECK(p.Std == Approx(angle + pi / 2).margin(pi / 180));
 }
 
@@ -115,12 +117,14 @@ TEST_CASE("The parameters of heights are those of their statistics and bearing c
 
 TEST_CASE("Hills in a chain of known saddles are pruned in the order of their prominence",
           "[peaks]") {
-  // Along x: heights of points, a ridge that is the same for all y but for one row that makes each peak a point.
+  // Along x: heights of points, a ridge that is the same for all y but for one row that makes each
+  // peak a point.
   const std::vector<double> ridge{0, 5, 3, 4, 1, 9, 8, 8.5, 0, 2, 0};
   Surface surface = sampled({11, 5, 11, 5}, false, [&](double x, double y) {
     return ridge[static_cast<std::size_t>(x + 0.5)] - (std::abs(y - 2) > 0.5 ? 20 : 0);
   });
-  // Prominences: 9 highest of all, 5 over its saddle 1: 4, 2 over 0: 2, 4 over 3: 1, 8.5 over 8: 0.5.
+  // Prominences: 9 highest of all, 5 over its saddle 1: 4, 2 over 0: 2, 4 over 3: 1, 8.5 over 8:
+  // 0.5.
   CHECK(significant_peaks(surface, 0).size() == 5);
   CHECK(significant_peaks(surface, 0.5).size() == 5);
   CHECK(significant_peaks(surface, 0.6).size() == 4);
@@ -131,7 +135,8 @@ TEST_CASE("Hills in a chain of known saddles are pruned in the order of their pr
   CHECK(last.front().ix == 5);
   // −½ (−8 − 1 + −40)/1.
   CHECK(last.front().mean_curvature == Approx(0.5 * (8 + 1 + 40)));
-  // Two peaks beside an undefined point are not listed; the 5 still ends at its saddle with one of them.
+  // Two peaks beside an undefined point are not listed; the 5 still ends at its saddle with one of
+  // them.
   surface.heights(6, 2) = std::numeric_limits<double>::quiet_NaN();
   CHECK(significant_peaks(surface, 0.6).size() == 3);
   CHECK(significant_peaks(surface, 5).empty());

@@ -44,7 +44,8 @@ TEST_CASE("A linear bearing curve is all core: Sk is its whole range, Spk and Sv
 }
 
 TEST_CASE("Peaks and valleys on a linear core have the triangles of their areas", "[bearing]") {
-  // Core from 1 to −1 over 0.1 <= p <= 0.9, quadratic peaks above, linear valleys of triple slope below.
+  // Core from 1 to −1 over 0.1 <= p <= 0.9, quadratic peaks above, linear valleys of triple slope
+  // below.
   const auto height = [](double p) {
     const double core = (0.5 - p) * 2.5;
     const double peak = p < 0.1 ? 300 * (0.1 - p) * (0.1 - p) : 0;
@@ -54,7 +55,8 @@ TEST_CASE("Peaks and valleys on a linear core have the triangles of their areas"
   const BearingCurve curve(with_curve(400, 250, height));
   const CoreParameters core = core_parameters(curve);
   CHECK(core.core_height == Approx(2.5).epsilon(1e-9));
-  // The limits are c0 = ±1.25 m. Above: core + peak = 1.25 at 2.5 p = 300 (0.1 − p)²; p is the smaller root.
+  // The limits are c0 = ±1.25 m. Above: core + peak = 1.25 at 2.5 p = 300 (0.1 − p)²; p is the
+  // smaller root.
   const double b = 0.2 + 2.5 / 300, p1 = (b - std::sqrt(b * b - 0.04)) / 2;
   // ∫_0^p1 (300 (0.1 − p)² − 2.5 p) dp = 100 (0.1³ − (0.1 − p1)³) − 1.25 p1²; Spk = 2 area/p1.
   const double above = 100 * (1e-3 - std::pow(0.1 - p1, 3)) - 1.25 * p1 * p1;
@@ -71,8 +73,8 @@ TEST_CASE("Sk of a Gaussian surface is that of the straight line through its qua
           "[bearing]") {
   const BearingCurve curve(with_curve(200, 200, [](double p) { return normal_quantile(1 - p); }));
   const CoreParameters core = core_parameters(curve);
-  // The flattest 40 % lie in the middle, up to z = Φ⁻¹(0.7). Least squares over them, x = p − ½ in ±0.2:
-  // −∫ x Φ⁻¹(½ + x) dx / ∫ x² dx by parts, ∫ (Φ − ½) z φ dz = erf(z)/(2√π) − 2·0.2 φ(z).
+  // The flattest 40 % lie in the middle, up to z = Φ⁻¹(0.7). Least squares over them, x = p − ½ in
+  // ±0.2: −∫ x Φ⁻¹(½ + x) dx / ∫ x² dx by parts, ∫ (Φ − ½) z φ dz = erf(z)/(2√π) − 2·0.2 φ(z).
   const double z = normal_quantile(0.7), phi = std::exp(-z * z / 2) / std::sqrt(2 * pi);
   const double slope = (std::erf(z) / (2 * std::sqrt(pi)) - 0.4 * phi) / (2 * 0.008 / 3);
   CHECK(core.core_height == Approx(slope).epsilon(1e-4));
@@ -110,7 +112,8 @@ TEST_CASE("A histogram of heights integrates to 1 and has the density of its dis
     sum += histogram.height_density[k] * histogram.width;
     const double z = histogram.height[k];
     const double exact = std::exp(-z * z / 2) / std::sqrt(2 * pi);
-    // Evenly spaced quantiles: a bin is off by one point at most on either side, and by the curvature of the density.
+    // Evenly spaced quantiles: a bin is off by one point at most on either side, and by the
+    // curvature of the density.
     CHECK(histogram.height_density[k] ==
           Approx(exact).margin(2 / (40000 * histogram.width) +
                                0.4 * std::pow(histogram.width, 2) / 24));

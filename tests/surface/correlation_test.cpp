@@ -147,7 +147,8 @@ TEST_CASE("The structure function of a self-affine surface grows with twice the 
   const std::size_t low = at(8.0 / 1024), high = at(32.0 / 1024);
   const double slope = std::log(rings.structure[high] / rings.structure[low]) /
                        std::log(rings.distance[high] / rings.distance[low]);
-  // S ∝ r^{2H} far from both cut-offs; at a hundredth of the cell these bend it by (r/L)^{2−2H} and (a/r)^{2H}, 0.1 at worst.
+  // S ∝ r^{2H} far from both cut-offs; at a hundredth of the cell these bend it by (r/L)^{2−2H} and
+  // (a/r)^{2H}, 0.1 at worst.
   CHECK(slope == Approx(2 * hurst).margin(0.1));
 }
 

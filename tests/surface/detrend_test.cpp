@@ -82,7 +82,8 @@ namespace {
 
 double rms(const Surface& surface) { return std::sqrt(surface.heights.square().mean()); }
 
-// Thirty waves of one amplitude in directions and with phases that look random, 6 to 20 of them on the side.
+// Thirty waves of one amplitude in directions and with phases that look random, 6 to 20 of them on
+// the side.
 Surface hilly(Index n) {
   return sampled({n, n, 1.0, 1.0}, false, [](double x, double y) {
     double height = 0;
@@ -102,11 +103,13 @@ TEST_CASE("Offsets of scan lines are found by the median of differences, whateve
   const Surface alone = detrended(rough, Detrend::median_differences);
   Surface scanned = rough;
   for (Index iy = 0; iy < 64; ++iy) scanned.heights.col(iy) += 40 * std::sin(7.0 * double(iy * iy));
-  // Adding a constant to a line changes the order of no differences. Heights up to 40 m, 64 offsets one upon the other: round-off.
+  // Adding a constant to a line changes the order of no differences. Heights up to 40 m, 64 offsets
+  // one upon the other: round-off.
   const Surface flat = detrended(scanned, Detrend::median_differences);
   CHECK((flat.heights - alone.heights).abs().maxCoeff() < 1e-11);
 
-  // Undefined points: a part of a line, a whole line, lines without a point at the same x as the one before.
+  // Undefined points: a part of a line, a whole line, lines without a point at the same x as the
+  // one before.
   const double undefined = std::nan("");
   Surface torn = rough, torn_scan = scanned;
   for (Surface* surface : {&torn, &torn_scan}) {
@@ -128,8 +131,9 @@ TEST_CASE("Offsets of scan lines are found by the median of differences, whateve
 
 TEST_CASE("The median of an even number of differences is the mean of the two in the middle",
           "[detrend]") {
-  // The second line differs from the first by 0, 1, 3 and 10, hence by 2, and the third is the second without these 2. Other offsets of
-  // these two lines would be no plane. Its removal, which follows, therefore keeps them, and rounds to a few 1e-16 of 10.
+  // The second line differs from the first by 0, 1, 3 and 10, hence by 2, and the third is the
+  // second without these 2. Other offsets of these two lines would be no plane. Its removal, which
+  // follows, therefore keeps them, and rounds to a few 1e-16 of 10.
   Surface scan{{4, 3, 4.0, 3.0}, Field::Zero(4, 3), false, "three lines"};
   scan.heights.col(1) << 10, 0, 3, 1;
   scan.heights.col(2) = scan.heights.col(1) - 2;
@@ -140,7 +144,8 @@ TEST_CASE("The median of an even number of differences is the mean of the two in
 }
 
 TEST_CASE("What stands out of a flat ground comes out of its scan as it is", "[detrend]") {
-  // A tilted ground with a block over 45 % of the lines 20 to 39, a hole, and an edge along x that a third of a line has.
+  // A tilted ground with a block over 45 % of the lines 20 to 39, a hole, and an edge along x that
+  // a third of a line has.
   const Surface truth = sampled({60, 50, 60.0, 50.0}, false, [](double x, double y) {
     const double block = x >= 5 && x < 32 && y >= 20 && y < 40 ? 8 : 0;
     const double hole = x >= 40 && x < 45 && y >= 10 && y < 30 ? -3 : 0;
@@ -149,7 +154,8 @@ TEST_CASE("What stands out of a flat ground comes out of its scan as it is", "[d
   Surface scanned = truth;
   for (Index iy = 0; iy < 50; ++iy) scanned.heights.col(iy) += std::cos(3.0 * double(iy));
   const Surface expected = detrended(truth, Detrend::plane);
-  // More than half of each line's differences are those of the ground: exact but for round-off of heights up to 10 m.
+  // More than half of each line's differences are those of the ground: exact but for round-off of
+  // heights up to 10 m.
   CHECK((detrended(scanned, Detrend::median_differences).heights - expected.heights)
             .abs()
             .maxCoeff() < 1e-12);
@@ -167,11 +173,13 @@ TEST_CASE("Flattening harms a surface without jumps along y only, and by a known
   for (const Detrend method : {Detrend::lines, Detrend::median_differences}) {
     const Surface flat = detrended(rough, method);
     const Field lost = flat.heights - rough.heights;
-    // A mean over a line that is six waves long and more keeps 1/6 of a wave; the steps of 127 medians add up to more than that of
-    // means. An error of the method, such as a tilt left in, would be of the order of 1.
+    // A mean over a line that is six waves long and more keeps 1/6 of a wave; the steps of 127
+    // medians add up to more than that of means. An error of the method, such as a tilt left in,
+    // would be of the order of 1.
     INFO("method " << int(method));
     CHECK(std::sqrt(lost.square().mean()) < 0.4 * rms(rough));
-    // What is taken is the same along a line, or straight: no difference along x changes but by one number a line.
+    // What is taken is the same along a line, or straight: no difference along x changes but by one
+    // number a line.
     const Field change = along_x(flat) - along_x(rough);
     CHECK((change.rowwise() - change.row(0)).abs().maxCoeff() < 1e-12);
   }

@@ -106,7 +106,8 @@ TEST_CASE("Every window keeps the expectation of short waves", "[psd]") {
     sum += static_cast<double>(radial.modes[k]) * radial.psd[k];
     modes += static_cast<double>(radial.modes[k]);
   }
-  // The mean of w²h² over 10800 points: ⟨w⁴⟩ ≈ 4 to 7, ⟨h⁴⟩/⟨h²⟩² = 1.8; 4 standard deviations are 4·√(12/10800).
+  // The mean of w²h² over 10800 points: ⟨w⁴⟩ ≈ 4 to 7, ⟨h⁴⟩/⟨h²⟩² = 1.8; 4 standard deviations are
+  // 4·√(12/10800).
   CHECK(sum / modes == Approx(exact).epsilon(window == Window::none ? 0.04 : 0.14));
   const ProfilePsd profiles = profile_psd(surface, Axis::x, window);
   double mean = 0;
@@ -116,7 +117,8 @@ TEST_CASE("Every window keeps the expectation of short waves", "[psd]") {
 }
 
 TEST_CASE("A window takes the leakage of a tilt out of the short waves", "[psd]") {
-  // A plane has no short waves; its steps at the edges leave C ∝ q⁻² along the axes, a Hann window q⁻⁶.
+  // A plane has no short waves; its steps at the edges leave C ∝ q⁻² along the axes, a Hann window
+  // q⁻⁶.
   const Surface plane = sampled({128, 128, 1, 1}, false, [](double x, double) { return x; });
   const auto high = [&](Window window) {
     const ProfilePsd psd = profile_psd(plane, Axis::x, window);

@@ -11,7 +11,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Waves that 12 × 10 points hold, along both axes and between them, on a surface with `points` times as many.
+// Waves that 12 × 10 points hold, along both axes and between them, on a surface with `points`
+// times as many.
 Surface waves(Index points) {
   const Grid2D grid{12 * points, 10 * points, 3e-6, 2e-6};
   Surface surface{grid, Field(grid.nx, grid.ny), true, ""};
@@ -34,7 +35,8 @@ TEST_CASE("Fourier interpolation of a band-limited surface is that surface") {
     const Surface fine = refined(waves(1), factor), exact = waves(factor);
     CHECK(fine.grid == exact.grid);
     CHECK(fine.periodic);
-    // Round-off of transforms of numbers of order 1. cos 5y has the shortest wave of ten points, cos 6x of twelve.
+    // Round-off of transforms of numbers of order 1. cos 5y has the shortest wave of ten points,
+    // cos 6x of twelve.
     CHECK(largest_difference(fine.heights, exact.heights) < 1e-13);
   }
 }
@@ -77,7 +79,8 @@ TEST_CASE(
     return largest_difference(refined(coarse, 2).heights, exact.heights);
   };
   const double order = std::log2(error(32) / error(64));
-  // The next power in the error is the sixth, of relative size (2π·3/32)² at most: the order is 4 to a few tenths.
+  // The next power in the error is the sixth, of relative size (2π·3/32)² at most: the order is 4
+  // to a few tenths.
   CHECK(order == Approx(4).margin(0.3));
 }
 

@@ -45,7 +45,8 @@ TEST_CASE("The 95 % intervals of H and of the roll-off hold the truth for 90 to 
 }
 
 TEST_CASE("A crop that is not periodic has honest intervals of H too", "[self_affine]") {
-  // The window makes neighbouring modes alike. Judged by the scatter of few rings alone, intervals were too short: 88 to 90 %.
+  // The window makes neighbouring modes alike. Judged by the scatter of few rings alone, intervals
+  // were too short: 88 to 90 %.
   constexpr double hurst = 0.5;
   const SelfAffineSpectrum target(
       {.hurst = hurst, .rolloff = 0.25, .short_cutoff = 3.0 / 128, .rms_height = 1});

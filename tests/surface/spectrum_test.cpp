@@ -70,8 +70,9 @@ TEST_CASE("The PSD of a generated surface is the one asked, with a window too", 
     if (independent < 100 || q > 0.85 * 2 * pi * 64) continue;
     if (std::abs(std::log2(q / (2 * pi * 10))) < 0.3) continue;  // the ring with the kink
     INFO("q = " << q);
-    // Mean of n exponential variates: 4 standard deviations (1.94 times as wide under the window), and the curvature of C within a
-    // ring (2^(1/4) wide: 1 %) and within the window, (1/6)·3.4²/(qL/2π)².
+    // Mean of n exponential variates: 4 standard deviations (1.94 times as wide under the window),
+    // and the curvature of C within a ring (2^(1/4) wide: 1 %) and within the window,
+    // (1/6)·3.4²/(qL/2π)².
     const double waves = q / (2 * pi);
     const double tolerance = 4 * (windowed ? 1.94 : 1) / std::sqrt(independent) + 0.02 +
                              (windowed ? 2 / (waves * waves) : 0);
@@ -83,7 +84,8 @@ TEST_CASE(
     "Under a window the spectrum holds the mean square of the weighted heights about their "
     "weighted mean",
     "[psd]") {
-  // A parabola along x, so that the weighted mean is not the mean; a cell that is longer along y than along x.
+  // A parabola along x, so that the weighted mean is not the mean; a cell that is longer along y
+  // than along x.
   Surface surface = white({24, 30, 1.0, 2.0}, false);
   for (Index ix = 0; ix < 24; ++ix) surface.heights.row(ix) += 0.01 * double(ix * ix);
   const auto at_edges = [](Index i, Index n) { return 2 * pi * (double(i) + 0.5) / double(n); };

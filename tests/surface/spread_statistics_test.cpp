@@ -36,7 +36,8 @@ Surface spread(const Surface& whole, const Communicator& ranks) {
   return surface;
 }
 
-/// What each process has of the whole, and parts of lists that are spread over the processes in their order.
+/// What each process has of the whole, and parts of lists that are spread over the processes in
+/// their order.
 struct Numbers {
   std::vector<double> of_all;
   std::vector<std::vector<double>> parts;

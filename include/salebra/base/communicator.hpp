@@ -13,7 +13,8 @@ namespace salebra {
 
 namespace detail {
 
-/// Carries bytes between the processes of a communicator. Each call is collective: all processes make it, in the same order.
+/// Carries bytes between the processes of a communicator. Each call is collective: all processes
+/// make it, in the same order.
 class Transport {
  public:
   virtual ~Transport() = default;
@@ -34,11 +35,12 @@ class Transport {
 
 }  // namespace detail
 
-/// What each process of a communicator sends to each other one, in units of some bytes. Throws InvalidInput where a count or a place is
-/// beyond 2^31 − 1 units, the most that MPI 3 takes.
+/// What each process of a communicator sends to each other one, in units of some bytes. Throws
+/// InvalidInput where a count or a place is beyond 2^31 − 1 units, the most that MPI 3 takes.
 class Exchange {
  public:
-  /// sent[r], received[r]: units to and from process r; their places follow one another, in the order of the processes.
+  /// sent[r], received[r]: units to and from process r; their places follow one another, in the
+  /// order of the processes.
   Exchange(std::size_t unit, std::vector<std::int64_t> sent, std::vector<std::int64_t> received);
 
   std::int64_t sent_units() const { return sent_places_.back(); }
@@ -55,9 +57,10 @@ class Exchange {
   std::vector<std::int64_t> sent_places_, received_places_;  // and behind the last
 };
 
-/// The processes that compute one surface together; a copy means the same processes. Each call but rank(), ranks() and is_root() is
-/// collective: all processes make it, in the same order and with the same sizes. A communicator of one process does nothing.
-/// The library has no other transport than that; salebra-mpi brings the one of MPI.
+/// The processes that compute one surface together; a copy means the same processes. Each call but
+/// rank(), ranks() and is_root() is collective: all processes make it, in the same order and with
+/// the same sizes. A communicator of one process does nothing. The library has no other transport
+/// than that; salebra-mpi brings the one of MPI.
 class Communicator {
  public:
   Communicator() = default;  ///< this process alone
@@ -77,7 +80,8 @@ class Communicator {
   bool all_agree(bool yes) const;
   /// The least of their numbers.
   double least_of(double mine) const;
-  /// from: units of this process for each other one; to: those of each other one for this. They must not overlap.
+  /// from: units of this process for each other one; to: those of each other one for this. They
+  /// must not overlap.
   void exchange(const Exchange& plan, const void* from, void* to) const;
   /// The processes that name the same group, >= 0, in the order that they have here.
   Communicator split(int group) const;
@@ -86,7 +90,8 @@ class Communicator {
   std::shared_ptr<detail::Transport> transport_;
 };
 
-/// The processes of a communicator in groups of consecutive ones, whose sizes differ by one at most.
+/// The processes of a communicator in groups of consecutive ones, whose sizes differ by one at
+/// most.
 class Groups {
  public:
   Groups() = default;  ///< this process alone, one group
@@ -103,8 +108,9 @@ class Groups {
   int count_ = 1, place_ = 0;
 };
 
-/// Runs body on every process and throws the failure of the first process that failed on all of them, as InvalidInput, IoError,
-/// NotConverged, Interrupted, std::bad_alloc or Error. body must not communicate. Collective.
+/// Runs body on every process and throws the failure of the first process that failed on all of
+/// them, as InvalidInput, IoError, NotConverged, Interrupted, std::bad_alloc or Error. body must
+/// not communicate. Collective.
 void collectively(const Communicator& ranks, const std::function<void()>& body);
 
 }  // namespace salebra

@@ -16,13 +16,15 @@ class Error : public std::runtime_error {
 };
 
 /// The caller's value or file is unusable; nothing was computed or written. The CLI exits with 2.
-/// what() is one line, "field: value constraint; remedy", without the parts that are empty. The parts are there for a program that
-/// calls its fields by other names, such as options.
+/// what() is one line, "field: value constraint; remedy", without the parts that are empty. The
+/// parts are there for a program that calls its fields by other names, such as options.
 class InvalidInput : public Error {
  public:
-  /// demand: "constraint; remedy", which reads on from the value: "must be > 0; leave it out for none".
+  /// demand: "constraint; remedy", which reads on from the value: "must be > 0; leave it out for
+  /// none".
   InvalidInput(std::string_view field, std::string_view value, std::string_view demand);
-  /// Where the value says nothing, or the field is a file and the demand what is wrong with it: "holds no numbers".
+  /// Where the value says nothing, or the field is a file and the demand what is wrong with it:
+  /// "holds no numbers".
   InvalidInput(std::string_view field, std::string_view demand) : InvalidInput(field, "", demand) {}
 
   const std::string& field() const noexcept { return parts_->field; }  ///< an argument or a file
@@ -38,13 +40,15 @@ class InvalidInput : public Error {
   std::shared_ptr<const Parts> parts_;  // a copy of an exception must not throw
 };
 
-/// The operating system refused a read or a write (disk full, no permission, broken disk). The CLI exits with 1.
+/// The operating system refused a read or a write (disk full, no permission, broken disk). The CLI
+/// exits with 1.
 class IoError : public Error {
  public:
   using Error::Error;
 };
 
-/// A computation ended without reaching the tolerance asked, where no result object could say so. The CLI exits with 1.
+/// A computation ended without reaching the tolerance asked, where no result object could say so.
+/// The CLI exits with 1.
 class NotConverged : public Error {
  public:
   using Error::Error;
@@ -66,7 +70,8 @@ void require(bool ok, std::string_view field, const T& value, std::string_view d
   throw InvalidInput(field, text.str(), demand);
 }
 
-/// Throws InvalidInput(field, demand) unless ok: for what no value shows, "given together with size_x; give one of them".
+/// Throws InvalidInput(field, demand) unless ok: for what no value shows, "given together with
+/// size_x; give one of them".
 void require_that(bool ok, std::string_view field, std::string_view demand);
 
 /// Throws InvalidInput unless exactly one of two things is given.

@@ -10,9 +10,10 @@ namespace salebra {
 /// Real two-dimensional discrete Fourier transform, unnormalised in both directions:
 ///     forward:  F(i, j) = Σ_ab f(a, b) exp(−2πi(ia/nx + jb/ny)),  i = 0 … nx−1, j = 0 … ny/2
 ///     backward: f(a, b) = Σ_ij F(i, j) exp(+2πi(ia/nx + jb/ny)) over the full Hermitian spectrum,
-/// so that backward(forward(f)) = nx·ny·f. Fields are (nx, ny), half-spectra (nx, ny/2+1), both x first and contiguous.
-/// The result has the same bits for every thread count. Real is float or double.
-/// Planning is serialised inside (FFTW's planner is not thread-safe); forward() of one object may run in several threads at once, backward() in one.
+/// so that backward(forward(f)) = nx·ny·f. Fields are (nx, ny), half-spectra (nx, ny/2+1), both x
+/// first and contiguous. The result has the same bits for every thread count. Real is float or
+/// double. Planning is serialised inside (FFTW's planner is not thread-safe); forward() of one
+/// object may run in several threads at once, backward() in one.
 template <class Real>
 class RealFft2D {
  public:

@@ -9,11 +9,13 @@ namespace salebra {
 
 using Index = Eigen::Index;
 
-/// Scalar field on a Grid2D: (nx, ny), x first, y contiguous, so that field(ix, iy) is the value in cell (ix, iy).
+/// Scalar field on a Grid2D: (nx, ny), x first, y contiguous, so that field(ix, iy) is the value in
+/// cell (ix, iy).
 using Field = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Regular grid of nx × ny cells on a rectangle of lx × ly metres.
-/// Point (ix, iy) lies at x = ix·dx, y = iy·dy; lx = nx·dx is the period where the surface is periodic.
+/// Point (ix, iy) lies at x = ix·dx, y = iy·dy; lx = nx·dx is the period where the surface is
+/// periodic.
 struct Grid2D {
   Index nx = 0;
   Index ny = 0;
@@ -34,8 +36,8 @@ struct Grid2D {
 class Share;
 
 /// Heights of the rough side. A hill is positive; hills touch first.
-/// A surface that is spread over several processes has its whole grid in each of them and in `heights` the rows of share(). What takes
-/// such surfaces says so; everything else refuses them.
+/// A surface that is spread over several processes has its whole grid in each of them and in
+/// `heights` the rows of share(). What takes such surfaces says so; everything else refuses them.
 struct Surface {
   Grid2D grid;
   Field heights;  ///< (nx, ny) or (share().count(), ny), m; NaN where the instrument has no value
@@ -47,10 +49,11 @@ struct Surface {
   Share share() const;
   /// Number of NaN heights among those of this process. Cost: one pass.
   Index undefined_points() const;
-  /// Throws InvalidInput where several processes hold it. `purpose` completes "is spread over 4 processes, and <purpose> needs it whole".
+  /// Throws InvalidInput where several processes hold it. `purpose` completes "is spread over 4
+  /// processes, and <purpose> needs it whole".
   void require_whole(const std::string& purpose) const;
-  /// require_whole(), and throws InvalidInput unless the grid is valid, heights has its shape and every height is finite.
-  /// `purpose` completes "undefined points cannot be used in <purpose>".
+  /// require_whole(), and throws InvalidInput unless the grid is valid, heights has its shape and
+  /// every height is finite. `purpose` completes "undefined points cannot be used in <purpose>".
   void require_complete(const std::string& purpose) const;
   /// The same of the rows that this process holds, for what takes surfaces that are spread.
   void require_complete_rows(const std::string& purpose) const;

@@ -9,11 +9,13 @@
 
 namespace salebra {
 
-/// Tells a Progress of a parallel loop, from the thread that made this object alone, and lets every thread know that it said stop.
-/// A loop leaves its results incomplete then, and finish() after it throws.
+/// Tells a Progress of a parallel loop, from the thread that made this object alone, and lets every
+/// thread know that it said stop. A loop leaves its results incomplete then, and finish() after it
+/// throws.
 class LoopProgress {
  public:
-  /// items: of the whole loop. from, to: the fractions of the stage at its beginning and end. progress must outlive the object.
+  /// items: of the whole loop. from, to: the fractions of the stage at its beginning and end.
+  /// progress must outlive the object.
   LoopProgress(const Progress& progress, std::string_view stage, Index items, double from = 0,
                double to = 1);
 
@@ -21,8 +23,8 @@ class LoopProgress {
   bool running() const { return !stopped_; }
   /// So many more items are done, by any thread. False: leave the loop.
   bool advance(Index items = 1);
-  /// Tells that all is done, which a loop may be before the thread that tells has had a part in it. Throws Interrupted
-  /// "<stage>: interrupted" where the answer, or one before it, was stop.
+  /// Tells that all is done, which a loop may be before the thread that tells has had a part in it.
+  /// Throws Interrupted "<stage>: interrupted" where the answer, or one before it, was stop.
   void finish();
 
  private:

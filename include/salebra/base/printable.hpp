@@ -6,8 +6,9 @@
 
 namespace salebra {
 
-/// Text that may hold names of files and what they contain, safe for a terminal: control characters other than newline and tab, and
-/// bytes that are not UTF-8, appear as hexadecimal escapes. Everything that is printed for people passes through here.
+/// Text that may hold names of files and what they contain, safe for a terminal: control characters
+/// other than newline and tab, and bytes that are not UTF-8, appear as hexadecimal escapes.
+/// Everything that is printed for people passes through here.
 std::string printable(std::string_view text);
 
 }  // namespace salebra

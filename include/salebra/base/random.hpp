@@ -45,8 +45,8 @@ void fill_gaussian(std::uint64_t seed, std::int32_t i, std::int32_t j,
 void fill_phase_factors(std::uint64_t seed, std::int32_t i, std::int32_t j,
                         std::span<std::complex<double>> factors, std::uint32_t stream = 0);
 
-/// indices[k] = ⌊count u₁⌋ with the u₁ of uniform_pair(seed, i, j + k), vectorised: draws with replacement
-/// from 0 … count − 1. count: 1 to 2³¹ − 1.
+/// indices[k] = ⌊count u₁⌋ with the u₁ of uniform_pair(seed, i, j + k), vectorised: draws with
+/// replacement from 0 … count − 1. count: 1 to 2³¹ − 1.
 void fill_draws(std::uint64_t seed, std::int32_t i, std::int32_t j, std::int32_t count,
                 std::span<std::int32_t> indices, std::uint32_t stream = 0);
 

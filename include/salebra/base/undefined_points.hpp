@@ -5,8 +5,8 @@
 
 namespace salebra {
 
-/// Thrown when an operation needs complete data, by Surface::require_complete(). A separate type, so that a program can say how it
-/// fills undefined points.
+/// Thrown when an operation needs complete data, by Surface::require_complete(). A separate type,
+/// so that a program can say how it fills undefined points.
 class UndefinedPoints : public InvalidInput {
  public:
   using InvalidInput::InvalidInput;

@@ -13,29 +13,34 @@
 namespace salebra {
 
 struct SweepOptions {
-  /// on_progress is told of finished loads, with stage "sweep"; when it returns false, the loads finished by then are returned.
+  /// on_progress is told of finished loads, with stage "sweep"; when it returns false, the loads
+  /// finished by then are returned.
   NormalContactOptions contact = {};
   bool stiffness =
       true;  ///< K by a punch solve on each contact set, and K_t = (G*/E*)K where G* is known
-  /// With stiffness: K_t along x by a stick solve on each contact set instead of (G*/E*)K; needs the bodies or Poisson's ratio.
+  /// With stiffness: K_t along x by a stick solve on each contact set instead of (G*/E*)K; needs
+  /// the bodies or Poisson's ratio.
   bool stick = false;
-  /// Loads solved at the same time, each on one thread and with 50 to 60 bytes a cell of its own; 1 gives all threads to one load
-  /// after the other; 0: as many as there are threads.
+  /// Loads solved at the same time, each on one thread and with 50 to 60 bytes a cell of its own; 1
+  /// gives all threads to one load after the other; 0: as many as there are threads.
   int concurrent_loads = 0;
-  /// Of a surface that each of several groups of processes holds, spread over the group (`ranks` of the surface is groups->own()). Each group
-  /// solves some of the loads, one after the other; all processes get all samples. Default: one group.
+  /// Of a surface that each of several groups of processes holds, spread over the group (`ranks` of
+  /// the surface is groups->own()). Each group solves some of the loads, one after the other; all
+  /// processes get all samples. Default: one group.
   std::optional<Groups> groups = {};
-  /// Called with the place in `pressures` and the state of each load that converged, as soon as it is there: from several threads at
-  /// once where loads are concurrent.
+  /// Called with the place in `pressures` and the state of each load that converged, as soon as it
+  /// is there: from several threads at once where loads are concurrent.
   std::function<void(std::size_t, const NormalContactState&)> on_state = {};
 };
 
-/// Force–gap curve of a surface by boundary elements, one independent solve for each pressure, in parallel over loads: a solve
-/// that starts from its own coarse grids is not slower than one that starts from the neighbouring load.
-/// A surface may be spread over several processes: the call is then collective, and solves one load after the other. Samples do not depend
-/// on the number of processes and groups, but for K and K_t of isolated surfaces: alone, these are solved on the cells that the contact spans.
-/// pressures: > 0, Pa, increasing. Samples that did not converge are kept and marked. With a hardness this is the curve of first loading;
-/// that of unloading is the elastic sweep of after_first_loading() (contact/normal/first_loading.hpp).
+/// Force–gap curve of a surface by boundary elements, one independent solve for each pressure, in
+/// parallel over loads: a solve that starts from its own coarse grids is not slower than one that
+/// starts from the neighbouring load. A surface may be spread over several processes: the call is
+/// then collective, and solves one load after the other. Samples do not depend on the number of
+/// processes and groups, but for K and K_t of isolated surfaces: alone, these are solved on the
+/// cells that the contact spans. pressures: > 0, Pa, increasing. Samples that did not converge are
+/// kept and marked. With a hardness this is the curve of first loading; that of unloading is the
+/// elastic sweep of after_first_loading() (contact/normal/first_loading.hpp).
 /// throws InvalidInput before any work
 ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                            const std::vector<double>& pressures, const SweepOptions& options = {});

@@ -6,11 +6,12 @@
 #include <salebra/contact/law/force_curve.hpp>
 #include <vector>
 
-/// Closed theories of nominally flat contact, to compare with. Lengths in m, pressures in Pa; every function throws
-/// InvalidInput for a pressure, modulus, slope or rms height that is not > 0.
+/// Closed theories of nominally flat contact, to compare with. Lengths in m, pressures in Pa; every
+/// function throws InvalidInput for a pressure, modulus, slope or rms height that is not > 0.
 namespace salebra {
 
-/// Fraction of a Gaussian surface above a plane at mean_gap over its mean plane, ½ erfc(ū/(√2 h_rms)): geometry alone.
+/// Fraction of a Gaussian surface above a plane at mean_gap over its mean plane, ½ erfc(ū/(√2
+/// h_rms)): geometry alone.
 double bearing_area_fraction(double mean_gap, double rms_height);
 
 /// Bush et al. (1975): A/A0 = √(2π) p/(E*h'), the limit of small pressures.
@@ -25,21 +26,23 @@ struct RoughnessShell {
   double power = 0;
 };
 
-/// `count` shells of equal ratio of an isotropic spectrum C(q), m⁴, between two wave numbers, by the midpoint rule in ln q.
+/// `count` shells of equal ratio of an isotropic spectrum C(q), m⁴, between two wave numbers, by
+/// the midpoint rule in ln q.
 std::vector<RoughnessShell> roughness_shells(const std::function<double(double)>& density,
                                              double lowest, double highest, int count = 1000);
 
 /// Mean gap and stiffness by the theory of Persson (2007) in the form of Yang and
-/// Persson (2008). The energy of the mode q is γ P + (1−γ) P³ of its value in full contact, P(q) = erf(w p/E*) the area at that
-/// magnification, w⁻² = π∫^q q³C dq; p dū = −dU then gives
+/// Persson (2008). The energy of the mode q is γ P + (1−γ) P³ of its value in full contact, P(q) =
+/// erf(w p/E*) the area at that magnification, w⁻² = π∫^q q³C dq; p dū = −dU then gives
 ///     ū(p) = √π ∫ q²C w ∫_p^∞ [γ + 3(1−γ)P²] exp(−(w p'/E*)²) dp'/p' dq
-/// and K/A0 = −dp/dū. With r = 1/w, the rms slope over √2 up to q, the outer integral is (2/√π)∫ … dr/q, which is done in closed
-/// form for each shell, one integral over erf² being left to quadrature.
-/// Valid for complete and partial contact of large surfaces. At ū >> h_rms a finite surface has nothing left to touch,
-/// while this p(ū) stays exponential.
+/// and K/A0 = −dp/dū. With r = 1/w, the rms slope over √2 up to q, the outer integral is (2/√π)∫ …
+/// dr/q, which is done in closed form for each shell, one integral over erf² being left to
+/// quadrature. Valid for complete and partial contact of large surfaces. At ū >> h_rms a finite
+/// surface has nothing left to touch, while this p(ū) stays exponential.
 class PerssonTheory {
  public:
-  /// γ in (0, 1]: 0.4 to 0.5 agrees with simulations; 1 neglects the correlation of the modes in contact.
+  /// γ in (0, 1]: 0.4 to 0.5 agrees with simulations; 1 neglects the correlation of the modes in
+  /// contact.
   static constexpr double usual_energy_factor = 0.45;
 
   /// shells: any order, wave numbers > 0; those without power do not count.

@@ -12,7 +12,8 @@ struct AdaptiveQuadratureOptions {
   double relative_error = 0.01;  ///< of work_per_cycle, in (0, 1)
   Index most_points = 1024;      ///< cells along the longer side of the finest grid
   int most_levels = 128;
-  /// Direction, tolerances and progress; its number of levels is where the search begins, half of the usual number if 0.
+  /// Direction, tolerances and progress; its number of levels is where the search begins, half of
+  /// the usual number if 0.
   LevelQuadratureOptions quadrature = {};
 };
 
@@ -29,8 +30,9 @@ struct AdaptiveQuadratureResult {
   LevelQuadratureResult quadrature;  ///< the last; its error_estimate is the one below
   Grid2D grid;
   int levels = 0;
-  /// The largest of the last quadrature's own estimate and of the changes that the last halving of the cells and the last doubling
-  /// of the levels made; J. Where the grid is given, its cells are part of the problem and no error of theirs is in it.
+  /// The largest of the last quadrature's own estimate and of the changes that the last halving of
+  /// the cells and the last doubling of the levels made; J. Where the grid is given, its cells are
+  /// part of the problem and no error of theirs is in it.
   double error_estimate = 0;
   /// Of that, the change that the last halving of the cells made, J; 0 where the grid is given.
   double cell_error = 0;
@@ -38,9 +40,10 @@ struct AdaptiveQuadratureResult {
   std::vector<QuadratureTrial> trials;
 };
 
-/// Level quadrature with as many levels and cells as a requested relative error needs. It begins with few of both and refines
-/// the one whose last refinement changed the loss more. The area of the contact grows by whole cells, so that the error is not
-/// smooth in their size and is not extrapolated: the change is taken for the error.
+/// Level quadrature with as many levels and cells as a requested relative error needs. It begins
+/// with few of both and refines the one whose last refinement changed the loss more. The area of
+/// the contact grows by whole cells, so that the error is not smooth in their size and is not
+/// extrapolated: the change is taken for the error.
 /// cost  the last quadrature and about as much for those before it
 AdaptiveQuadratureResult adaptive_level_quadrature(const LevelsOnGrid& levels, const Grid2D& grid,
                                                    const Material& material,
@@ -48,7 +51,8 @@ AdaptiveQuadratureResult adaptive_level_quadrature(const LevelsOnGrid& levels, c
                                                    double mean_indentation,
                                                    const AdaptiveQuadratureOptions& options = {});
 
-/// The same for levels on one grid that cannot be refined, such as those of a measured surface: the levels alone are chosen.
+/// The same for levels on one grid that cannot be refined, such as those of a measured surface: the
+/// levels alone are chosen.
 AdaptiveQuadratureResult adaptive_level_quadrature(const ContactLevels& levels, const Grid2D& grid,
                                                    const Material& material,
                                                    const Oscillation& motion,

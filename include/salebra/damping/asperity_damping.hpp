@@ -20,13 +20,15 @@ struct AsperityDamping {
   double damping_constant = 0;  ///< γ, N s/m; NaN where ω or the velocity is not known
 };
 
-/// Each summit is an elastic foundation of its own (docs/theory.md, section 6, g = x²/R) that sticks: a spring of width dx touched at the level
-/// ζ = x²/R is released by the distance s of Eq. (7) or (13), so that
+/// Each summit is an elastic foundation of its own (docs/theory.md, section 6, g = x²/R) that
+/// sticks: a spring of width dx touched at the level ζ = x²/R is released by the distance s of Eq.
+/// (7) or (13), so that
 ///     W_i = G* ∫ s(ζ(x) − δ_i)² dx over the springs that open and close, at any amplitude.
-/// By the theorem of docs/theory.md, section 7 the sum is relaxation_damping() of the GreenwoodWilliamsonLaw of the same summits, mean
-/// indentation held; this way of computing it uses no force law at all.
-/// separation: mean, from the mean of the summits' heights, m.
-/// Throws InvalidInput as DeterministicSummits, for an unknown G*, u_z < 0, or ω <= 0 in Drag. Cost: 50 to 500 evaluations of s a summit.
+/// By the theorem of docs/theory.md, section 7 the sum is relaxation_damping() of the
+/// GreenwoodWilliamsonLaw of the same summits, mean indentation held; this way of computing it uses
+/// no force law at all. separation: mean, from the mean of the summits' heights, m.
+/// Throws InvalidInput as DeterministicSummits, for an unknown G*, u_z < 0, or ω <= 0 in Drag.
+/// Cost: 50 to 500 evaluations of s a summit.
 AsperityDamping asperity_damping(const std::vector<Summit>& summits, const Material& material,
                                  double separation, const Oscillation& motion,
                                  SummitShape shape = SummitShape::circular);

@@ -11,8 +11,9 @@
 #include <variant>
 #include <vector>
 
-/// Direct three-dimensional simulation of a contact that moves along a trajectory, period after period. One engine drives three
-/// contacts: a stuck one, one with Coulomb friction, and one whose pressures and tractions are coupled (Dundurs' β).
+/// Direct three-dimensional simulation of a contact that moves along a trajectory, period after
+/// period. One engine drives three contacts: a stuck one, one with Coulomb friction, and one whose
+/// pressures and tractions are coupled (Dundurs' β).
 namespace salebra {
 
 /// The cells of the frictionless normal contact at one indentation.
@@ -32,8 +33,8 @@ struct PressureAt {
 using ContactLevels = std::function<ContactSetAt(double indentation)>;
 using PressureLevels = std::function<PressureAt(double indentation)>;
 
-/// The normal contact of a surface by boundary elements; the boundary of `options` must be that of the tangential solves.
-/// No contact for δ <= 0. The function keeps a copy of the surface.
+/// The normal contact of a surface by boundary elements; the boundary of `options` must be that of
+/// the tangential solves. No contact for δ <= 0. The function keeps a copy of the surface.
 ContactLevels boundary_element_levels(Surface surface, double contact_modulus,
                                       const NormalContactOptions& options = {});
 PressureLevels boundary_element_pressures(Surface surface, double contact_modulus,
@@ -43,11 +44,13 @@ PressureLevels boundary_element_pressures(Surface surface, double contact_modulu
 struct Trajectory {
   std::function<double(double t)> indentation;  ///< δ, m
   std::function<double(double t)> tangential;   ///< x, m
-  /// T, N: the body goes to where F_x is T, in place of `tangential`, which is left empty. Of simulate_frictional_cycle alone.
+  /// T, N: the body goes to where F_x is T, in place of `tangential`, which is left empty. Of
+  /// simulate_frictional_cycle alone.
   std::function<double(double t)> tangential_force = {};
 };
 
-/// One period of an oscillation about a mean indentation, from one minimum of the indentation to the next.
+/// One period of an oscillation about a mean indentation, from one minimum of the indentation to
+/// the next.
 Trajectory trajectory_of(const Oscillation& motion, double mean_indentation);
 
 /// The state between two moves; work and losses count from the start of the period.
@@ -104,39 +107,46 @@ struct CycleOptions {
   double direction = 0;  ///< of the tangential motion against x, rad
   /// β/(πE*) of simulate_coupled_cycle, 1/Pa; default: coupling_constant(material).
   std::optional<double> coupling_constant = {};
-  /// Of each tangential solve, on the scale of the tangential motion; work and dissipation agree to about this tolerance.
+  /// Of each tangential solve, on the scale of the tangential motion; work and dissipation agree to
+  /// about this tolerance.
   StickOptions stick = {.tolerance = 1e-8};
   Progress on_progress = {};
   /// Receives a copy of the state at each step after its sample was taken.
   std::function<void(CycleState)> on_state = {};
-  /// Continues from this state, which is read before the first step. It must come from the same function, contact, grid, material,
-  /// trajectory and options.
+  /// Continues from this state, which is read before the first step. It must come from the same
+  /// function, contact, grid, material, trajectory and options.
   const CycleState* resume = nullptr;
 };
 
 /// A simulated period.
 struct CycleResult {
-  /// ∮F_x dx less the change of the stored energy, J; with coupling ∮F dδ too. Cells that enter in a step count from their entry.
+  /// ∮F_x dx less the change of the stored energy, J; with coupling ∮F dδ too. Cells that enter in
+  /// a step count from their entry.
   double work_per_cycle = 0;
-  /// The same loss as an independent sum over the cells, J: ½∫τ·[u] of cells as they leave the contact, or with friction ∮∫τ·ds.
+  /// The same loss as an independent sum over the cells, J: ½∫τ·[u] of cells as they leave the
+  /// contact, or with friction ∮∫τ·ds.
   double dissipated = 0;
-  /// Of `dissipated`, J: by cells that open and close, which becomes the relaxation loss of the paper as μ → ∞, and by slip in cells
-  /// that are in contact all the time, which becomes Mindlin's loss as u_z → 0. friction_map splits by the springs of the method of
-  /// dimensionality reduction, which are not cells: the totals agree, the parts differ. Cone at 90°, M = μE*u_z/(G*u_x) = 0.3:
-  /// relaxation over W(∞) is 0.50 by cells and 0.32 by springs.
+  /// Of `dissipated`, J: by cells that open and close, which becomes the relaxation loss of the
+  /// paper as μ → ∞, and by slip in cells that are in contact all the time, which becomes Mindlin's
+  /// loss as u_z → 0. friction_map splits by the springs of the method of dimensionality reduction,
+  /// which are not cells: the totals agree, the parts differ. Cone at 90°, M = μE*u_z/(G*u_x) =
+  /// 0.3: relaxation over W(∞) is 0.50 by cells and 0.32 by springs.
   double relaxation_work = 0;
   double slip_work = 0;
   double normal_work = 0;  ///< ∮F dδ, part of work_per_cycle, J; 0 without coupling
-  /// Of normal_work, what the steps make of gaps that close and open within one of them, J (CoupledContact::gap_work); 0 without
-  /// coupling. work_per_cycle = dissipated + gap_work to the solvers' tolerance.
+  /// Of normal_work, what the steps make of gaps that close and open within one of them, J
+  /// (CoupledContact::gap_work); 0 without coupling. work_per_cycle = dissipated + gap_work to the
+  /// solvers' tolerance.
   double gap_work = 0;
-  /// Estimated error of work_per_cycle due to the steps, J, without that of the cells; see simulate_cycle. NaN with friction.
+  /// Estimated error of work_per_cycle due to the steps, J, without that of the cells; see
+  /// simulate_cycle. NaN with friction.
   double step_error = std::numeric_limits<double>::quiet_NaN();
   double stored_energy_change = 0;  ///< over the period, J; not 0 where the contact advances
   double contact_area_min = 0;      ///< m²
   double contact_area_max = 0;      ///< m²
   Field
-      loss;  ///< lost in a period by unit area, (nx, ny), J/m²: where friction wears; empty where nothing slips
+      loss;  ///< lost in a period by unit area, (nx, ny), J/m²: where friction wears; empty where
+             ///< nothing slips
   ContactSet smallest, largest;      ///< cells that are in contact always, at some time
   std::vector<CycleSample> samples;  ///< after each step of the last period
   int periods = 0;
@@ -148,41 +158,51 @@ struct CycleResult {
 };
 
 /// A contact with infinite friction.
-/// A period is divided into steps t_k. The contact set is A(δ(t_k)) while x goes from its value at t_{k−1/2} to that at t_{k+1/2}:
-/// the set changes at the middle time, without which φ0 is shifted by half a step.
+/// A period is divided into steps t_k. The contact set is A(δ(t_k)) while x goes from its value at
+/// t_{k−1/2} to that at t_{k+1/2}: the set changes at the middle time, without which φ0 is shifted
+/// by half a step.
 ///     move         the cells of A move with the body: Δτ = Δx · (stick traction of A)
-///     release      cells that leave have τ = 0; the others are solved again with their displacements fixed
-///     entry        cells enter with the displacement that they have at that time, and keep it relative to the body
-/// From a trajectory that starts, stress-free, at its minimum indentation the first period is already the steady one.
-/// Levels are evaluated at indentations rounded to 1e-9 of the sweep, each once: a cycle meets the levels of its way up again on its
-/// way down. The error of the steps is of second order, −h²/24 of W, h = 2π/steps, for K_t' = const and equal frequencies. A second
-/// term accounts for the unknown time within a step at which each cell enters. step_error has both, from W = ½∮s² dK_t with the K_t
-/// of the same contact sets (no further solve): with Δ the change of this W to every second set, and σ its standard deviation if each
-/// cell entered at any time of its step, it is max(|Δ|, |Δ|/3 + 2σ), and how far this W is from the simulated one. It is the error
-/// against infinitely many steps on the same cells; cells that are too large for the contact change both alike.
+///     release      cells that leave have τ = 0; the others are solved again with their
+///                  displacements fixed
+///     entry        cells enter with the displacement that they have at that time, and keep it
+///                  relative to the body
+/// From a trajectory that starts, stress-free, at its minimum indentation the first period is
+/// already the steady one. Levels are evaluated at indentations rounded to 1e-9 of the sweep, each
+/// once: a cycle meets the levels of its way up again on its way down. The error of the steps is of
+/// second order, −h²/24 of W, h = 2π/steps, for K_t' = const and equal frequencies. A second term
+/// accounts for the unknown time within a step at which each cell enters. step_error has both, from
+/// W = ½∮s² dK_t with the K_t of the same contact sets (no further solve): with Δ the change of
+/// this W to every second set, and σ its standard deviation if each cell entered at any time of its
+/// step, it is max(|Δ|, |Δ|/3 + 2σ), and how far this W is from the simulated one. It is the error
+/// against infinitely many steps on the same cells; cells that are too large for the contact change
+/// both alike.
 /// cost    per step a stick solve, and another where cells leave
 /// memory  that of the stick solves, and half a byte a cell for each step
 CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
                            const Material& material, const Trajectory& trajectory,
                            const CycleOptions& options = {});
 
-/// A contact with Coulomb friction: SlidingContact, from step to step, at second order in them. Without drift it starts stress-free, and the
-/// permanent contact settles within two or three periods. With drift and a finite μ it starts from endless sliding at the first
-/// indentation: where that is the minimum, the first period is the steady one, as with the springs (docs/theory.md, section 8).
-/// A tangential force is met to 1e-7 of its greatest value, by a secant search at each step. Throws InvalidInput where it is not below μF:
-/// the contact slides there.
-/// cost  per step a partial-slip solve, and another where cells enter; of a force four to six times that
+/// A contact with Coulomb friction: SlidingContact, from step to step, at second order in them.
+/// Without drift it starts stress-free, and the permanent contact settles within two or three
+/// periods. With drift and a finite μ it starts from endless sliding at the first indentation:
+/// where that is the minimum, the first period is the steady one, as with the springs
+/// (docs/theory.md, section 8). A tangential force is met to 1e-7 of its greatest value, by a
+/// secant search at each step. Throws InvalidInput where it is not below μF: the contact slides
+/// there.
+/// cost  per step a partial-slip solve, and another where cells enter; of a force four to six times
+///       that
 CycleResult simulate_frictional_cycle(const PressureLevels& levels, const Grid2D& grid,
                                       const Material& material, const Trajectory& trajectory,
                                       const CycleOptions& options = {});
 
-/// The same with the coupling of normal and tangential directions (Dundurs' β): in each step the pressures follow the tractions and
-/// the tractions the pressures, and F does work over a cycle too. Compared with simulate_frictional_cycle it shows when the coupling,
-/// which the paper neglects, may be left out. The contact is made from first touch in steps/4 increments without motion, so that the
-/// radial tractions of the first loading are there.
-/// work_per_cycle = dissipated + gap_work to the sweeps' tolerance; gap_work, which the trapezoidal ∫F dδ makes of cells that enter or
-/// leave with a gap, measures the steps. δ >= 0 counts from the first touch of the undeformed bodies; the boundaries of both solves
-/// must agree.
+/// The same with the coupling of normal and tangential directions (Dundurs' β): in each step the
+/// pressures follow the tractions and the tractions the pressures, and F does work over a cycle
+/// too. Compared with simulate_frictional_cycle it shows when the coupling, which the paper
+/// neglects, may be left out. The contact is made from first touch in steps/4 increments without
+/// motion, so that the radial tractions of the first loading are there. work_per_cycle = dissipated
+/// + gap_work to the sweeps' tolerance; gap_work, which the trapezoidal ∫F dδ makes of cells that
+/// enter or leave with a gap, measures the steps. δ >= 0 counts from the first touch of the
+/// undeformed bodies; the boundaries of both solves must agree.
 /// cost  per step 5 to 10 sweeps of a normal solve and partial-slip solves
 CycleResult simulate_coupled_cycle(const Surface& surface, const Material& material,
                                    const Trajectory& trajectory, const CycleOptions& options = {},

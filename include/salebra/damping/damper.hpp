@@ -31,13 +31,13 @@ struct OscillatorDecay {
   double decay_time =
       0;  ///< in which the amplitude falls by e, 2m/γ (ζ < 1) or the slower of two times, s
   double logarithmic_decrement = 0;  ///< 2πζ/√(1 − ζ²); NaN for ζ >= 1
-  /// ω0/ω: the description assumes that it is small. It is off by its square or so, and by more where it is near a
-  /// simple fraction.
+  /// ω0/ω: the description assumes that it is small. It is off by its square or so, and by more
+  /// where it is near a simple fraction.
   double frequency_ratio = 0;
 };
 
-/// Decay of a tangential oscillator under fast normal oscillation of its contact. Throws InvalidInput as
-/// relaxation_damping, and for an oscillator without mass or without any stiffness.
+/// Decay of a tangential oscillator under fast normal oscillation of its contact. Throws
+/// InvalidInput as relaxation_damping, and for an oscillator without mass or without any stiffness.
 OscillatorDecay oscillator_decay(const ContactLaw& law, const Position& position,
                                  const NormalOscillation& normal,
                                  const TangentialOscillator& oscillator,
@@ -56,10 +56,11 @@ DamperMap damper_map(const ContactLaw& law, const Position& position,
                      const std::vector<double>& angular_frequencies,
                      const DampingOptions& options = {});
 
-/// The least normal amplitude, m, at which γ >= falling_slope: an estimate, without slip, of what keeps a slider from stick–slip whose friction force
-/// falls with velocity, F_f = F_0 − bv, b = falling_slope > 0, N s/m, which is a damping constant of −b
-/// for small disturbances of steady sliding. NaN where no amplitude up to largest_amplitude is enough: under a dead weight γ has
-/// a maximum over u_z.
+/// The least normal amplitude, m, at which γ >= falling_slope: an estimate, without slip, of what
+/// keeps a slider from stick–slip whose friction force falls with velocity, F_f = F_0 − bv, b =
+/// falling_slope > 0, N s/m, which is a damping constant of −b for small disturbances of steady
+/// sliding. NaN where no amplitude up to largest_amplitude is enough: under a dead weight γ has a
+/// maximum over u_z.
 double stabilising_amplitude(const ContactLaw& law, const Position& position,
                              double angular_frequency, double falling_slope,
                              double largest_amplitude, const DampingOptions& options = {});

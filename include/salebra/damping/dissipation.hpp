@@ -11,7 +11,8 @@
 
 namespace salebra {
 
-/// Where a contact stands before or while it oscillates: at an indentation δ on the law's own scale, m …
+/// Where a contact stands before or while it oscillates: at an indentation δ on the law's own
+/// scale, m …
 struct AtIndentation {
   double indentation = 0;
 };
@@ -27,8 +28,9 @@ enum class Amplitude {
 };
 
 struct DampingOptions {
-  /// Hold::indentation: the position is that of mean indentation. Hold::force: the cycle mean of F equals the force
-  /// of the position (its F(δ) where an indentation was given); at Amplitude::small the two coincide.
+  /// Hold::indentation: the position is that of mean indentation. Hold::force: the cycle mean of F
+  /// equals the force of the position (its F(δ) where an indentation was given); at
+  /// Amplitude::small the two coincide.
   Hold hold = Hold::indentation;
   Amplitude amplitude = Amplitude::finite;
   double tolerance = 1e-10;   ///< relative, of the quadrature of W; 1e-13 … 1e-2
@@ -48,9 +50,10 @@ struct DampingResult {
   double normal_stiffness = unknown;  ///< K at the mean indentation, N/m
   double curvature = unknown;         ///< F'' at the mean indentation, N/m²
   double tangential_curvature =
-      unknown;  ///< K_t' at the mean indentation, N/m²; (G*/E*)F'' unless the law has a K_t of its own
-  /// Eq. (12) or (15) with (G*/E*)F'' at the *given* position, J. What Hold::force does to the mean indentation is
-  /// not in it.
+      unknown;  ///< K_t' at the mean indentation, N/m²; (G*/E*)F'' unless the law has a K_t of its
+                ///< own
+  /// Eq. (12) or (15) with (G*/E*)F'' at the *given* position, J. What Hold::force does to the mean
+  /// indentation is not in it.
   double small_amplitude_work = unknown;
   double error_estimate =
       unknown;  ///< of work_per_cycle, J: quadrature and round-off, not the law's own error
@@ -62,10 +65,10 @@ struct DampingResult {
 ///     W = ½∮ s² dK_t,  s = x_out − x_in of each indentation level, in the by-parts forms that need K_t alone:
 ///     (a) W = 2u_x² sin²φ0 ∫_0^π K_t(δ(θ)) sin2θ dθ
 ///     (b) W = 4(v/ω)² ∫_0^π θ [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ,
-/// δ(θ) = δ0 + u_z cosθ, adaptively, with first touch as a break point: the contact may open during the cycle.
-/// No slip, contact sets that grow with δ, quasi-static.
-/// throws  InvalidInput for u_z < 0, an ω that is not > 0 in Drag or < 0 in EqualFrequency, values that are not
-///         finite, a force <= 0,
+/// δ(θ) = δ0 + u_z cosθ, adaptively, with first touch as a break point: the contact may open during
+/// the cycle. No slip, contact sets that grow with δ, quasi-static.
+/// throws  InvalidInput for u_z < 0, an ω that is not > 0 in Drag or < 0 in EqualFrequency, values
+///         that are not finite, a force <= 0,
 ///         and a motion that leaves the range of a tabulated law
 /// cost    about 100 to 1000 evaluations of the law; 50 times that with Hold::force
 DampingResult relaxation_damping(const ContactLaw& law, const Position& position,
@@ -73,8 +76,9 @@ DampingResult relaxation_damping(const ContactLaw& law, const Position& position
 
 /// Two frequencies, W over their common period of p normal cycles,
 ///     W = 2u_x² S r ∫_0^π sin(2rθ) [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ,
-/// r = ω_x/ω_z and S as closed_form::frequency_ratio_phase_sum. Without a common period work_per_cycle is NaN and
-/// power is the mean power, with S/p = 1/2; small_amplitude_work and error_estimate are then means per normal cycle.
+/// r = ω_x/ω_z and S as closed_form::frequency_ratio_phase_sum. Without a common period
+/// work_per_cycle is NaN and power is the mean power, with S/p = 1/2; small_amplitude_work and
+/// error_estimate are then means per normal cycle.
 DampingResult relaxation_damping(const ContactLaw& law, const Position& position,
                                  const TwoFrequencies& motion, const DampingOptions& options = {});
 
@@ -89,9 +93,9 @@ std::vector<DampingResult> relaxation_damping(const ContactLaw& law,
                                               std::span<const DampingCase> cases,
                                               const DampingOptions& options = {});
 
-/// Normal motion by force, F = F0 + F_a cosωt with 0 <= F_a <= F0; a table must cover the whole range of F.
-/// motion.normal_amplitude is not used; indentation is that of F0, mean_force is F0, small_amplitude_work is Eq. (12)
-/// or (15) with u_z = F_a/K.
+/// Normal motion by force, F = F0 + F_a cosωt with 0 <= F_a <= F0; a table must cover the whole
+/// range of F. motion.normal_amplitude is not used; indentation is that of F0, mean_force is F0,
+/// small_amplitude_work is Eq. (12) or (15) with u_z = F_a/K.
 DampingResult relaxation_damping_force_controlled(const ContactLaw& law, double mean_force,
                                                   double force_amplitude, const Oscillation& motion,
                                                   const DampingOptions& options = {});
@@ -100,11 +104,12 @@ DampingResult relaxation_damping_force_controlled(const ContactLaw& law, double 
                                                   const TwoFrequencies& motion,
                                                   const DampingOptions& options = {});
 
-/// Mean of F over a cycle δ0 + u_z cosθ, N. Throws InvalidInput where the law does not cover the cycle.
+/// Mean of F over a cycle δ0 + u_z cosθ, N. Throws InvalidInput where the law does not cover the
+/// cycle.
 double mean_force_of_cycle(const ContactLaw& law, double mean_indentation, double normal_amplitude);
 
-/// The mean indentation δ0 at which the cycle mean of F is mean_force: where a dead weight settles under the
-/// oscillation. Throws InvalidInput where the law's range does not hold such a cycle.
+/// The mean indentation δ0 at which the cycle mean of F is mean_force: where a dead weight settles
+/// under the oscillation. Throws InvalidInput where the law's range does not hold such a cycle.
 double indentation_at_mean_force(const ContactLaw& law, double mean_force, double normal_amplitude);
 
 }  // namespace salebra

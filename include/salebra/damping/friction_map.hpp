@@ -14,8 +14,8 @@ struct FrictionMapOptions {
   Progress on_progress = {};
 };
 
-/// How far the paper's "infinite" friction reaches, for equal frequencies: losses over the full-stick loss at the
-/// same u_z, u_x and phase.
+/// How far the paper's "infinite" friction reaches, for equal frequencies: losses over the
+/// full-stick loss at the same u_z, u_x and phase.
 struct FrictionMap {
   std::vector<double> friction_number;  ///< M = μE*u_z/(G*u_x)
   std::vector<double> phase;            ///< φ0, rad
@@ -24,8 +24,10 @@ struct FrictionMap {
   Field slip_ratio;                     ///< its part from slip in permanent contact
 };
 
-/// Phases with sin φ0 = 0 have no relaxation loss and give NaN. Cost: steps × 2 for each entry, in parallel.
-/// Throws InvalidInput for friction numbers < 0, amplitudes that are not > 0, and motion outside the law.
+/// Phases with sin φ0 = 0 have no relaxation loss and give NaN. Cost: steps × 2 for each entry, in
+/// parallel.
+/// Throws InvalidInput for friction numbers < 0, amplitudes that are not > 0, and motion outside
+/// the law.
 FrictionMap friction_map(const ContactLaw& law, double mean_indentation, double normal_amplitude,
                          double tangential_amplitude, const std::vector<double>& friction_numbers,
                          const std::vector<double>& phases, const FrictionMapOptions& options = {});

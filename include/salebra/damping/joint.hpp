@@ -33,32 +33,36 @@ struct TangentialForce {
 };
 using TangentialOscillation = std::variant<TangentialAmplitude, TangentialForce>;
 
-/// Partial slip under a constant normal force, by superposition of the springs of the law. With K_t of the law, g = G*/E*, the greatest depth of
-/// slip c = gx/μ and δ(θ) = δ − c(1 − cosθ)/2,
+/// Partial slip under a constant normal force, by superposition of the springs of the law. With K_t
+/// of the law, g = G*/E*, the greatest depth of slip c = gx/μ and δ(θ) = δ − c(1 − cosθ)/2,
 ///     T = (x/2) ∫_0^π K_t(δ(θ)) sinθ dθ  ( = μ[F(δ) − F(δ − c)] with K_t = gK ),
 ///     W = x² ∫_0^π K_t(δ(θ)) sin2θ dθ,    k' = (2/π) ∫_0^π K_t(δ(θ)) sin²θ dθ,
 ///     d ln W/d ln T = (T/W) · 4[T/K_t(δ − c) − x]
-/// by Masing's rule, whose loop is made of the first loading (docs/theory.md, section 8). W is half of Eq. (12)'s theorem for a normal
-/// oscillation of amplitude c/2 about δ − c/2 at φ0 = 90°.
+/// by Masing's rule, whose loop is made of the first loading (docs/theory.md, section 8). W is half
+/// of Eq. (12)'s theorem for a normal oscillation of amplitude c/2 about δ − c/2 at φ0 = 90°.
 /// friction_coefficient  μ > 0, finite
-/// throws  InvalidInput for a force at which the contact slides (it says at which), for slip that reaches levels below the range of a tabulated law,
-///         and as relaxation_damping()
+/// throws  InvalidInput for a force at which the contact slides (it says at which), for slip that
+///         reaches levels below the range of a tabulated law, and as relaxation_damping()
 /// cost    some hundred evaluations of the law, ten times as many for a force
 JointLoss joint_loss(const ContactLaw& law, const Position& position,
                      const TangentialOscillation& motion, double friction_coefficient,
                      const DampingOptions& options = {});
 
-/// The same with a normal oscillation δ + u_z cosωt while the displacement is x cos(ωt + φ0), or the force T cos(ωt + φ0). Followed step by step
-/// to the steady state: exact for straight steps, of second order in their length. The exponent is that of ±1 % of the motion.
+/// The same with a normal oscillation δ + u_z cosωt while the displacement is x cos(ωt + φ0), or
+/// the force T cos(ωt + φ0). Followed step by step to the steady state: exact for straight steps,
+/// of second order in their length. The exponent is that of ±1 % of the motion.
 /// steps    in a period, >= 16
-/// throws   NotConverged where a force leads to no steady state within 200 periods; InvalidInput also where the normal force falls to what slides
-/// cost     two periods of a displacement, O(steps); of a force some tens of evaluations of the state for each step, and periods until the loss is steady to 1e-9
+/// throws   NotConverged where a force leads to no steady state within 200 periods; InvalidInput
+///          also where the normal force falls to what slides
+/// cost     two periods of a displacement, O(steps); of a force some tens of evaluations of the
+///          state for each step, and periods until the loss is steady to 1e-9
 JointLoss joint_loss(const ContactLaw& law, const Position& position,
                      const TangentialOscillation& motion, double friction_coefficient,
                      double normal_amplitude, double phase, int steps = 2000);
 
-/// The same in three dimensions: cells with Coulomb's friction, through the motion until two periods lose the same
-/// (simulate_frictional_cycle). Relaxation and slip are told apart by cells, not by springs; the exponent is NaN.
+/// The same in three dimensions: cells with Coulomb's friction, through the motion until two
+/// periods lose the same (simulate_frictional_cycle). Relaxation and slip are told apart by cells,
+/// not by springs; the exponent is NaN.
 /// options    with a finite friction_coefficient > 0
 /// converged  every solve did, and the loss is steady
 /// throws     InvalidInput as above

@@ -15,8 +15,9 @@ struct LevelQuadratureOptions {
 
 /// The loss of a cycle from a few contact sets.
 struct LevelQuadratureResult {
-  /// W with K_t = ρ(δ)(G*/E*)F'(δ): F and K of the levels give F', ρ = K_t/((G*/E*)K) of each level the tangential part; J.
-  /// Both stiffnesses of a level see the same cells, so that the resolution of the contact's edge drops out of ρ.
+  /// W with K_t = ρ(δ)(G*/E*)F'(δ): F and K of the levels give F', ρ = K_t/((G*/E*)K) of each level
+  /// the tangential part; J. Both stiffnesses of a level see the same cells, so that the resolution
+  /// of the contact's edge drops out of ρ.
   double work_per_cycle = 0;
   double error_estimate =
       0;  ///< of work_per_cycle, J: scatter of ρ, and F' against K of the levels as they are
@@ -33,9 +34,11 @@ struct LevelQuadratureResult {
   bool interrupted = false;
 };
 
-/// Relaxation damping of a contact without stepping through the cycle, W = ½∮ s² dK_t by parts (docs/theory.md, section 7):
+/// Relaxation damping of a contact without stepping through the cycle, W = ½∮ s² dK_t by parts
+/// (docs/theory.md, section 7):
 ///     (a) W = 2u_x² sin²φ0 ∫_0^π K_t(δ(θ)) sin2θ dθ        (b) W = 4(v/ω)² ∫_0^π θ [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ
-/// on Gauss–Legendre nodes of θ, δ(θ) = δ0 + u_z cosθ, with a normal contact, a stick and a punch solve at each.
+/// on Gauss–Legendre nodes of θ, δ(θ) = δ0 + u_z cosθ, with a normal contact, a stick and a punch
+/// solve at each.
 /// cost  levels + 2 normal contacts, and for each but one a stick and a punch solve
 LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D& grid,
                                        const Material& material, const Oscillation& motion,

@@ -11,12 +11,13 @@ struct EqualFrequency {
   double normal_amplitude = 0;      ///< u_z >= 0, m
   double tangential_amplitude = 0;  ///< u_x, m
   double phase = 0;                 ///< φ0, rad
-  /// ω > 0, rad/s, or 0 where it is not known: the work per cycle does not depend on it, only power and damping
-  /// constant do.
+  /// ω > 0, rad/s, or 0 where it is not known: the work per cycle does not depend on it, only power
+  /// and damping constant do.
   double angular_frequency = 0;
 };
 
-/// Case (b): z = u_z cos ωt and a slow oscillation along x, velocity v, excursion far below (μE*/G*)F/K. Motion that goes on slides.
+/// Case (b): z = u_z cos ωt and a slow oscillation along x, velocity v, excursion far below
+/// (μE*/G*)F/K. Motion that goes on slides.
 struct Drag {
   double normal_amplitude = 0;   ///< u_z >= 0, m
   double drag_velocity = 0;      ///< v, m/s
@@ -25,8 +26,8 @@ struct Drag {
 
 using Oscillation = std::variant<EqualFrequency, Drag>;
 
-/// Two frequencies: z = u_z cos ω_z t, x = u_x cos(ω_x t + φ0). Equal ones are case (a), slow tangential motion tends
-/// to case (b).
+/// Two frequencies: z = u_z cos ω_z t, x = u_x cos(ω_x t + φ0). Equal ones are case (a), slow
+/// tangential motion tends to case (b).
 struct TwoFrequencies {
   double normal_amplitude = 0;              ///< u_z >= 0, m
   double tangential_amplitude = 0;          ///< u_x, m
@@ -35,16 +36,18 @@ struct TwoFrequencies {
   double tangential_angular_frequency = 0;  ///< ω_x > 0, rad/s
 };
 
-/// ω_x/ω_z = tangential_cycles/normal_cycles in lowest terms; 0/0 where no ratio with at most `most_cycles` normal
-/// cycles fits to 1e-9: then the motion never repeats, and means take the place of sums.
+/// ω_x/ω_z = tangential_cycles/normal_cycles in lowest terms; 0/0 where no ratio with at most
+/// `most_cycles` normal cycles fits to 1e-9: then the motion never repeats, and means take the
+/// place of sums.
 struct CommonPeriod {
   int normal_cycles = 0;      ///< p
   int tangential_cycles = 0;  ///< q
 };
 CommonPeriod common_period(const TwoFrequencies& motion, int most_cycles = 1000);
 
-/// One period of any motion, straight between the samples; the last sample closes the period. δ returns to its first
-/// value; x may have moved on by a drift, which every period repeats (case (b)).
+/// One period of any motion, straight between the samples; the last sample closes the period. δ
+/// returns to its first value; x may have moved on by a drift, which every period repeats (case
+/// (b)).
 struct SampledMotion {
   std::vector<double> time;          ///< s, strictly increasing
   std::vector<double> indentation;   ///< δ, m
@@ -52,17 +55,19 @@ struct SampledMotion {
 
   double period() const { return time.back() - time.front(); }
   double drift() const { return displacement.back() - displacement.front(); }
-  /// Throws InvalidInput unless the columns have one length >= 3, all values are finite, time grows, and δ closes to
-  /// 1e-9 of its range.
+  /// Throws InvalidInput unless the columns have one length >= 3, all values are finite, time
+  /// grows, and δ closes to 1e-9 of its range.
   void validate() const;
 };
 
-/// One period about a mean indentation, `steps` straight steps for each normal cycle, beginning at a minimum of δ. An
-/// EqualFrequency of unknown ω gets a period of 2π s. Throws InvalidInput for TwoFrequencies without a common period.
+/// One period about a mean indentation, `steps` straight steps for each normal cycle, beginning at
+/// a minimum of δ. An EqualFrequency of unknown ω gets a period of 2π s. Throws InvalidInput for
+/// TwoFrequencies without a common period.
 SampledMotion sample(const Oscillation& motion, double mean_indentation, int steps);
 SampledMotion sample(const TwoFrequencies& motion, double mean_indentation, int steps);
 
-/// What stays fixed over a cycle while u_z is finite: the mean indentation, or the mean force (a dead weight).
+/// What stays fixed over a cycle while u_z is finite: the mean indentation, or the mean force (a
+/// dead weight).
 enum class Hold { indentation, force };
 
 }  // namespace salebra

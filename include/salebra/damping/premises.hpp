@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-/// Whether a damping constant without slip may be used: the premises behind it, each with the limits at which the loss changes by
-/// 5 % and by 20 % (docs/theory.md, section 8).
+/// Whether a damping constant without slip may be used: the premises behind it, each with the
+/// limits at which the loss changes by 5 % and by 20 % (docs/theory.md, section 8).
 namespace salebra {
 
 /// What is known of a contact in addition to its law and its motion. NaN: not known.
@@ -22,8 +22,8 @@ struct ContactFacts {
   double friction_coefficient = unknown;  ///< μ > 0
   double hardness = unknown;              ///< H > 0, Pa
   double density = unknown;               ///< ρ > 0, kg/m³
-  /// X > 0, m: case (a) the greatest tangential displacement from the mean, u_x if not given; case (b) the way from one turning
-  /// point of the slow motion to the other, velocity times duration.
+  /// X > 0, m: case (a) the greatest tangential displacement from the mean, u_x if not given; case
+  /// (b) the way from one turning point of the slow motion to the other, velocity times duration.
   double excursion = unknown;
   double contact_modulus = unknown;   ///< E* > 0, Pa
   double dundurs = unknown;           ///< β; one elastic body with the law's G*/E* if not given
@@ -32,18 +32,18 @@ struct ContactFacts {
   double largest_pressure = unknown;  ///< Pa
   double mean_contact_pressure = unknown;  ///< F over the true contact area, Pa
   double rms_slope = unknown;              ///< h' of a rough surface
-  /// F up to which the surface was loaded before with pressures up to its hardness, N; the law is that of its residual surface
-  /// (contact/normal/first_loading.hpp).
+  /// F up to which the surface was loaded before with pressures up to its hardness, N; the law is
+  /// that of its residual surface (contact/normal/first_loading.hpp).
   double first_load = unknown;
 };
 
-/// Adds what an indenter, or the curve that the law is made of, says of the contact at an indentation: E*, pressures and size. curve may
-/// be nullptr.
+/// Adds what an indenter, or the curve that the law is made of, says of the contact at an
+/// indentation: E*, pressures and size. curve may be nullptr.
 ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
                       double indentation);
 
-/// Radius of a typical contact spot, m: of an indenter's one contact; of a curve 2E*A/(πK), since spots of radius a have K = 2E*Σa
-/// and A = πΣa². NaN where E* or K is not known.
+/// Radius of a typical contact spot, m: of an indenter's one contact; of a curve 2E*A/(πK), since
+/// spots of radius a have K = 2E*Σa and A = πΣa². NaN where E* or K is not known.
 double spot_radius(const ContactFacts& facts, const ContactLaw& law, const ForceCurve* curve,
                    double indentation);
 
@@ -57,7 +57,8 @@ std::string name_of(Verdict verdict);
 
 struct Premise {
   double value = ContactFacts::unknown;
-  /// NaN: the loss does not change so much at any value that the law covers, or a fact is missing without which there is no limit.
+  /// NaN: the loss does not change so much at any value that the law covers, or a fact is missing
+  /// without which there is no limit.
   double limit_5_percent = ContactFacts::unknown;
   double limit_20_percent = ContactFacts::unknown;
   Verdict verdict = Verdict::unknown;
@@ -69,10 +70,11 @@ struct Premise {
 enum class Regime {
   no_slip,       ///< both premises of slip hold: the loss is that without slip to 5 %
   partial_slip,  ///< levels slip, and others that carry a part of the force do not
-  /// All levels slip but those that carry less than 5 % of the least normal force; where the contact opens in each cycle, levels never
-  /// stick, which is case (b) from v_c = (μ/g) u_z ω on.
+  /// All levels slip but those that carry less than 5 % of the least normal force; where the
+  /// contact opens in each cycle, levels never stick, which is case (b) from v_c = (μ/g) u_z ω on.
   sliding,
-  /// Not known: a fact is missing, or the excursion of case (b) is shorter than the way in one normal cycle, and the motion not slow.
+  /// Not known: a fact is missing, or the excursion of case (b) is shorter than the way in one
+  /// normal cycle, and the motion not slow.
   unknown
 };
 std::string name_of(Regime regime);
@@ -87,38 +89,50 @@ struct LargestMotion {
       ContactFacts::unknown;  ///< X of the closed levels, m; 0: no slow motion at this velocity
 };
 
-/// The seven premises. With g = G*/E* of the law, levels ζ that open and close during the cycle (ζ > δ0 − u_z) and levels that stay
-/// closed, each a spring that may be stretched by (μ/g)(δ − ζ):
+/// The seven premises. With g = G*/E* of the law, levels ζ that open and close during the cycle (ζ
+/// > δ0 − u_z) and levels that stay closed, each a spring that may be stretched by (μ/g)(δ − ζ):
 struct Premises {
   /// value  M = μ u_z/(g u_x), case (b) μ u_z ω/(g v); dimensionless, the larger the better.
-  /// limits computed from the springs of the law: (a) M at which the loss with slip differs by 5 % from that without; all levels,
-  ///        because the slip of opening and of closed levels partly cancel at some phases. (b) the same of the opening levels.
+  /// limits computed from the springs of the law: (a) M at which the loss with slip differs by 5 %
+  /// from that without; all levels,
+  ///        because the slip of opening and of closed levels partly cancel at some phases. (b) the
+  ///        same of the opening levels.
   Premise slip_of_opening_levels;
   /// value  X, m.
-  /// limits (a) the u_x of the limit above. (b) X at which the closed levels lose, by slip, 5 % of the relaxation loss over the same
-  ///        way there and back at the velocity v, many normal cycles that touch the turning points at the least indentation:
-  ///        ∫K_t'(e + r)(X − 2e)dζ = 0.05 W Xω/(2πv), e = (μ/g)(δ0 − u_z − ζ), r the mean rise of a closed level's stretch in a normal
-  ///        cycle: πv/ω for v ≪ v_c, (μ/g)u_z from v_c on.
-  ///        0 where X would be shorter than the way in one normal cycle: no slow motion at this velocity keeps the premise.
+  /// limits (a) the u_x of the limit above. (b) X at which the closed levels lose, by slip, 5 % of
+  /// the relaxation loss over the same
+  ///        way there and back at the velocity v, many normal cycles that touch the turning points
+  ///        at the least indentation: ∫K_t'(e + r)(X − 2e)dζ = 0.05 W Xω/(2πv), e = (μ/g)(δ0 − u_z
+  ///        − ζ), r the mean rise of a closed level's stretch in a normal cycle: πv/ω for v ≪ v_c,
+  ///        (μ/g)u_z from v_c on. 0 where X would be shorter than the way in one normal cycle: no
+  ///        slow motion at this velocity keeps the premise.
   Premise slip_of_closed_levels;
-  /// value  X/w, w = 2πv/ω the way of case (b) in one normal cycle; the larger the better. Other motions are not slow: no value, holds.
-  /// limits computed: a turning point at a random phase costs (1/π)∫θ²k dθ/∫θk dθ · w/X of the loss, k = K_t(δ0 + u_z cos θ) −
-  ///        K_t(δ0 − u_z), which is 0.44 w/X for constant K_t'. At least 1: below, no level needs to touch on one straight way.
+  /// value  X/w, w = 2πv/ω the way of case (b) in one normal cycle; the larger the better. Other
+  ///        motions are not slow: no value, holds.
+  /// limits computed: a turning point at a random phase costs (1/π)∫θ²k dθ/∫θk dθ · w/X of the
+  /// loss, k = K_t(δ0 + u_z cos θ) −
+  ///        K_t(δ0 − u_z), which is 0.44 w/X for constant K_t'. At least 1: below, no level needs
+  ///        to touch on one straight way.
   Premise slow_motion;
   /// value  u_z, m.
-  /// limits computed: u_z at which Eq. (12), (15) or (16), proportional to u_z, is 5 % off the theorem at finite amplitude, mean
+  /// limits computed: u_z at which Eq. (12), (15) or (16), proportional to u_z, is 5 % off the
+  /// theorem at finite amplitude, mean
   ///        indentation held. A loss at finite amplitude does not need this premise.
   Premise amplitude;
-  /// value  the largest that is known of: largest pressure/H, 1.5 mean pressure of the contact/H (a paraboloid's), E*h'/H.
-  /// limits estimated: 0.6 (flow begins below the surface at 1.6 yield stresses, H = 2.8; Greenwood and Williamson's ψ) and 1.
-  /// After a first loading: the mean force over the first load, which both limits are: below it the residual surface is elastic.
+  /// value  the largest that is known of: largest pressure/H, 1.5 mean pressure of the contact/H (a
+  ///        paraboloid's), E*h'/H.
+  /// limits estimated: 0.6 (flow begins below the surface at 1.6 yield stresses, H = 2.8; Greenwood
+  /// and Williamson's ψ) and 1. After a first loading: the mean force over the first load, which
+  /// both limits are: below it the residual surface is elastic.
   Premise plasticity;
   /// value  ω a/c_s, c_s = √(G/ρ) of one elastic body with the law's G*/E*.
-  /// limits estimated: a stuck circle has the impedance K(1 + 0.58i ωa/c_s), so that 0.55 and 1.1 change |K| by 5 and 20 %; in case (a)
+  /// limits estimated: a stuck circle has the impedance K(1 + 0.58i ωa/c_s), so that 0.55 and 1.1
+  /// change |K| by 5 and 20 %; in case (a)
   ///        less, where waves carry away 5 % of the loss: π·0.58 (ωa/c_s) u_x² K_t²/(2G*a).
   Premise inertia;
-  /// value  share of the loss that the coupling of pressure and traction changes, 1.3|β|³: interpolates direct simulations of a rough
-  ///        surface at 45° and a paraboloid at 90°, 3 % at ν = 0.3, 17 % at ν = 0, none at ν = 0.5; a paraboloid at 45° has 12 and 52 %.
+  /// value  share of the loss that the coupling of pressure and traction changes, 1.3|β|³:
+  ///        interpolates direct simulations of a rough surface at 45° and a paraboloid at 90°, 3 %
+  ///        at ν = 0.3, 17 % at ν = 0, none at ν = 0.5; a paraboloid at 45° has 12 and 52 %.
   /// limits 0.05 and 0.2.
   Premise coupling;
 
@@ -137,19 +151,22 @@ struct PremiseName {
 };
 std::span<const PremiseName> premise_names();
 
-/// What is broken and what is doubtful in any of the cases, a line each, with the worst value; empty where nothing is.
+/// What is broken and what is doubtful in any of the cases, a line each, with the worst value;
+/// empty where nothing is.
 std::string objections(std::span<const Premises> cases);
 
 /// mean_indentation: δ0, m, as DampingResult::indentation. A table is continued beyond its ends by
 /// exponentials with the F/K there. Drag::drag_velocity NaN: not known; the largest is found.
-/// throws  InvalidInput for facts that are not > 0, for a nominal pressure above the hardness, and as relaxation_damping()
+/// throws  InvalidInput for facts that are not > 0, for a nominal pressure above the hardness, and
+///         as relaxation_damping()
 /// cost    about 10 ms and 10⁴ evaluations of the law
 Premises premises_of(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
                      const ContactFacts& facts = {});
 /// Two frequencies: as case (a), over the common period; without one the slip is not known.
 Premises premises_of(const ContactLaw& law, double mean_indentation, const TwoFrequencies& motion,
                      const ContactFacts& facts = {});
-/// A sampled path about the middle of its indentations, u_z and u_x half its ranges; one that drifts is case (b) with its mean velocity.
+/// A sampled path about the middle of its indentations, u_z and u_x half its ranges; one that
+/// drifts is case (b) with its mean velocity.
 Premises premises_of(const ContactLaw& law, const SampledMotion& path,
                      const ContactFacts& facts = {});
 
@@ -161,21 +178,22 @@ struct LossWithSlip {
   double full_stick_work = ContactFacts::unknown;  ///< of the same springs without slip
 };
 
-/// The same springs with friction. Case (b) without an excursion: sliding that goes on, all levels slip; with one: mean of a cycle on
-/// the way there and back.
+/// The same springs with friction. Case (b) without an excursion: sliding that goes on, all levels
+/// slip; with one: mean of a cycle on the way there and back.
 /// throws  InvalidInput for μ or an excursion that is not > 0, and as relaxation_damping()
 LossWithSlip loss_with_slip(const ContactLaw& law, double mean_indentation,
                             const Oscillation& motion, double friction_coefficient,
                             double excursion = ContactFacts::unknown);
 
-/// Regimes of case (b) over velocity and excursion of the slow motion, with borders from the springs of the law.
+/// Regimes of case (b) over velocity and excursion of the slow motion, with borders from the
+/// springs of the law.
 struct RegimeMap {
   std::vector<double> velocity;   ///< v, m/s
   std::vector<double> excursion;  ///< X, m
   /// (velocities, excursions): as Premises::regime.
   std::vector<std::vector<Regime>> regime;
-  /// W/W without slip (velocities, excursions), mean of a normal cycle on the way there and back; NaN where X is shorter than the way in one, and
-  /// where nothing is lost without slip.
+  /// W/W without slip (velocities, excursions), mean of a normal cycle on the way there and back;
+  /// NaN where X is shorter than the way in one, and where nothing is lost without slip.
   Field loss_ratio;
   Field slip_ratio;  ///< its part from levels that stay closed
   /// X up to which there is no slip at each velocity, m; 0: at no excursion, NaN: at every one.
@@ -186,12 +204,15 @@ struct RegimeMap {
       ContactFacts::unknown;  ///< X from which the contact slides, m; NaN: it opens in each cycle
   double critical_velocity =
       ContactFacts::unknown;  ///< v_c = (μ/g) u_z ω, m/s: levels never stick beyond
-  /// W without slip over its small-amplitude form, Eq. (15), or (16) of an exponential law: loss_ratio times this is the loss over that equation.
+  /// W without slip over its small-amplitude form, Eq. (15), or (16) of an exponential law:
+  /// loss_ratio times this is the loss over that equation.
   double full_stick_ratio = ContactFacts::unknown;
 };
 
-/// throws  InvalidInput for a velocity, an excursion, an amplitude, a frequency or a μ that is not > 0, and as relaxation_damping()
-/// cost    some 10 ms, 1 ms for each velocity, and 256 evaluations of the law for each velocity and excursion
+/// throws  InvalidInput for a velocity, an excursion, an amplitude, a frequency or a μ that is not
+///         > 0, and as relaxation_damping()
+/// cost    some 10 ms, 1 ms for each velocity, and 256 evaluations of the law for each velocity and
+///         excursion
 RegimeMap regime_map(const ContactLaw& law, double mean_indentation,
                      const NormalOscillation& normal, const std::vector<double>& velocities,
                      const std::vector<double>& excursions, double friction_coefficient);

@@ -9,10 +9,11 @@
 /// A slider on a spring: stick–slip, and the normal oscillation that suppresses it.
 namespace salebra {
 
-/// A mass m that a spring k and a dashpot c in parallel with it drag at constant velocity V over a contact, whose friction force T may be
-/// given a falling part −bẋ:
+/// A mass m that a spring k and a dashpot c in parallel with it drag at constant velocity V over a
+/// contact, whose friction force T may be given a falling part −bẋ:
 ///     m ẍ + c(ẋ − V) − bẋ + k(x − Vt) + T = 0.
-/// The dashpot is that of the support, as in the model of a mass on a moving belt: it carries no force in steady sliding.
+/// The dashpot is that of the support, as in the model of a mass on a moving belt: it carries no
+/// force in steady sliding.
 struct Slider {
   double mass = 0;              ///< m > 0, kg
   double spring_stiffness = 0;  ///< k > 0, N/m
@@ -23,7 +24,8 @@ struct Slider {
 
 enum class SliderStart {
   rest,  ///< at rest, dragged to the point of slipping
-  sliding  ///< steady sliding with a velocity that is 1 % too low: shows whether small disturbances grow
+  sliding  ///< steady sliding with a velocity that is 1 % too low: shows whether small disturbances
+           ///< grow
 };
 
 /// What the motion ends in.
@@ -36,22 +38,25 @@ enum class SliderState {
 struct SliderOptions {
   Hold hold = Hold::indentation;  ///< what of the position stays fixed, as in DampingOptions
   SliderStart start = SliderStart::rest;  ///< where the motion begins
-  /// >= 16, in a period of the oscillation. More are taken where the slider or the contact's resonance √(K_t/m) is faster.
+  /// >= 16, in a period of the oscillation. More are taken where the slider or the contact's
+  /// resonance √(K_t/m) is faster.
   int steps = 32;
-  /// Relative, of the amplitude of a slow cycle: between halved steps, and between the cycles that are averaged. 1e-6 … 0.5.
+  /// Relative, of the amplitude of a slow cycle: between halved steps, and between the cycles that
+  /// are averaged. 1e-6 … 0.5.
   double tolerance = 1e-2;
   int most_cycles = 200;      ///< > 0, slow periods 2π√(m/k), after which the motion is given up
   Progress on_progress = {};  ///< a stop throws Interrupted
 };
 
-/// The motion in which a slider ends. Means are over whole slow cycles, from one largest stretch of the spring to the next; of steady
-/// sliding over one slow period.
+/// The motion in which a slider ends. Means are over whole slow cycles, from one largest stretch of
+/// the spring to the next; of steady sliding over one slow period.
 struct SliderMotion {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   SliderState state = SliderState::steady;
   double slider_amplitude = unknown;  ///< half the range of x − Vt in a slow cycle, m; 0: steady
   double slider_period = unknown;     ///< of a slow cycle, s; NaN: steady
-  /// Part of the time in which not all levels slip in a normal period, so that the contact as a whole stays where it is.
+  /// Part of the time in which not all levels slip in a normal period, so that the contact as a
+  /// whole stays where it is.
   double stuck_fraction = unknown;
   double mean_tangential_force = unknown;  ///< of T, N, without the falling part
   double friction_coefficient = unknown;   ///< that over the mean normal force
@@ -60,7 +65,8 @@ struct SliderMotion {
   double contact_power = unknown;          ///< lost by the contact's levels, W
   double support_power = unknown;          ///< lost in the dashpot, W
   double falling_slope_power = unknown;    ///< b⟨ẋ²⟩, by which friction loses less, W
-  /// What the balance of these and of the stored energy leaves, over drive_power: error of the steps.
+  /// What the balance of these and of the stored energy leaves, over drive_power: error of the
+  /// steps.
   double energy_error = unknown;
   double slider_amplitude_error = unknown;  ///< m: halved steps, and the spread of the cycles
   int cycles = 0;                           ///< slow cycles that were averaged
@@ -72,18 +78,22 @@ struct SliderMotion {
   std::vector<double> tangential_force;  ///< T, N; of the averaged equation its mean T̄
 };
 
-/// The full equation: T from the contact's levels with the history of each (TangentialContact), step by step until the motion repeats. Steps of
-/// second order; the motion is followed with `steps` and twice as many until the amplitude changes by less than the tolerance.
+/// The full equation: T from the contact's levels with the history of each (TangentialContact),
+/// step by step until the motion repeats. Steps of second order; the motion is followed with
+/// `steps` and twice as many until the amplitude changes by less than the tolerance.
 /// normal_oscillation  δ = δ0 − u_z cos ωt; u_z = 0: none, and ω is not used; else ω > 4√(k/m)
 /// friction_coefficient  μ > 0, finite
-/// throws  InvalidInput as steady_sliding(), and where the motion reaches velocities at which −bẋ makes friction negative
-/// cost    some 0.6 µs a step; slow cycles have ω/√(k/m) times `steps` of them, and more the slower the drive
+/// throws  InvalidInput as steady_sliding(), and where the motion reaches velocities at which −bẋ
+///         makes friction negative
+/// cost    some 0.6 µs a step; slow cycles have ω/√(k/m) times `steps` of them, and more the slower
+///         the drive
 SliderMotion slider_motion(const ContactLaw& law, const Position& position,
                            const NormalOscillation& normal, const Slider& slider,
                            double friction_coefficient, const SliderOptions& options = {});
 
-/// The averaged equation m ẍ + c(ẋ − V) − bẋ + k(x − Vt) + T̄(ẋ) = 0 with T̄ of steady_sliding(), |T| <= μF(δ_min) at rest: the limit of
-/// √(k/m) << √(K_t/m) << ω of the full one. Solved by Runge–Kutta steps of order 8 between sticking and slipping, which are located.
+/// The averaged equation m ẍ + c(ẋ − V) − bẋ + k(x − Vt) + T̄(ẋ) = 0 with T̄ of steady_sliding(),
+/// |T| <= μF(δ_min) at rest: the limit of √(k/m) << √(K_t/m) << ω of the full one. Solved by
+/// Runge–Kutta steps of order 8 between sticking and slipping, which are located.
 SliderMotion averaged_slider_motion(const ContactLaw& law, const Position& position,
                                     const NormalOscillation& normal, const Slider& slider,
                                     double friction_coefficient, const SliderOptions& options = {});
@@ -92,38 +102,45 @@ SliderMotion averaged_slider_motion(const ContactLaw& law, const Position& posit
 struct SliderStability {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double sliding_damping = unknown;       ///< dT̄/dv at V, by steady_sliding(), N s/m
-  double averaged_growth_rate = unknown;  ///< 1/s, of m s² + (dT̄/dv + c − b)s + k; < 0: it dies out
+  double averaged_growth_rate = unknown;  ///< 1/s, of m s² + (dT̄/dv + c − b)s + k; < 0: it dies
+                                          ///< out
   double growth_rate = unknown;           ///< of the full equation, 1/s
-  /// What has to take the place of dT̄/dv for the mass and the spring alone to have the full equation's growth, N s/m; NaN where K_t/m is so
-  /// large that the contact swings within a period.
+  /// What has to take the place of dT̄/dv for the mass and the spring alone to have the full
+  /// equation's growth, N s/m; NaN where K_t/m is so large that the contact swings within a period.
   double slider_damping = unknown;
-  /// Of sliding_damping beside slider_damping, N s/m: what the mass does within a period. NaN: too much for an estimate.
+  /// Of sliding_damping beside slider_damping, N s/m: what the mass does within a period. NaN: too
+  /// much for an estimate.
   double sliding_damping_error = unknown;
   bool converged =
       false;  ///< false: no steady sliding without turning back was found; growth_rate is NaN
 };
 
-/// While the slider never turns back, all levels that touch are at the limit of their stretch whenever δ is least: the state there is (x − Vt, ẋ)
-/// and a period of the full equation is a map of two numbers. Its fixed point is steady sliding, its multipliers are the growth.
-/// The error of the averaged estimate is that of two effects of the mass, f = Γ/(πmω) in place of K_t/(mω²). Levels that stick for a whole period
-/// have −ln cos(2π√f)/(2π²f) times the damping. The mass yields to the oscillating friction, so that V is V/(1 − f) to what decides on
-/// sticking. To the larger of both (π²/3)(k/m)/ω² of the damping are added.
+/// While the slider never turns back, all levels that touch are at the limit of their stretch
+/// whenever δ is least: the state there is (x − Vt, ẋ) and a period of the full equation is a map
+/// of two numbers. Its fixed point is steady sliding, its multipliers are the growth. The error of
+/// the averaged estimate is that of two effects of the mass, f = Γ/(πmω) in place of K_t/(mω²).
+/// Levels that stick for a whole period have −ln cos(2π√f)/(2π²f) times the damping. The mass
+/// yields to the oscillating friction, so that V is V/(1 − f) to what decides on sticking. To the
+/// larger of both (π²/3)(k/m)/ω² of the damping are added.
 /// throws  InvalidInput as slider_motion()
 /// cost    some ten periods of the full equation with 4 `steps`
 SliderStability slider_stability(const ContactLaw& law, const Position& position,
                                  const NormalOscillation& normal, const Slider& slider,
                                  double friction_coefficient, const SliderOptions& options = {});
 
-/// The least amplitude, m, or angular frequency, rad/s, of the normal oscillation at which small disturbances of sliding die out.
+/// The least amplitude, m, or angular frequency, rad/s, of the normal oscillation at which small
+/// disturbances of sliding die out.
 struct SliderThreshold {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double value = unknown;            ///< of the full equation; NaN: none in the range
   double linear_estimate = unknown;  ///< where dT̄/dv + c = b; NaN: nowhere in the range
-  /// Of linear_estimate: how far it moves with the error of dT̄/dv (SliderStability). NaN: out of the range.
+  /// Of linear_estimate: how far it moves with the error of dT̄/dv (SliderStability). NaN: out of
+  /// the range.
   double linear_estimate_error = unknown;
 };
 
-/// Both look upwards from where v_c = V, below which nothing sticks, in ratios of 1.05. The estimate has an upper end too, for Γ falls with either.
+/// Both look upwards from where v_c = V, below which nothing sticks, in ratios of 1.05. The
+/// estimate has an upper end too, for Γ falls with either.
 /// largest_amplitude, largest_angular_frequency  end of the range
 /// throws  InvalidInput as slider_motion(), and where b <= c, which needs no oscillation
 /// cost    slider_stability() and steady_sliding() some tens to hundreds of times

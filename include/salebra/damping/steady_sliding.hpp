@@ -28,19 +28,23 @@ struct SteadySliding {
   bool converged = false;               ///< whether the quadratures reached the tolerance
 };
 
-/// Mean tangential force of steady sliding with Coulomb's friction under a normal oscillation δ = δ0 − u_z cosφ.
-/// A level ζ of indentation sticks or slips at the stretch limit (μK/K_t)(δ − ζ). While v > 0 every closed level is at its limit when δ is
-/// least, so that one period from there is the steady state (docs/theory.md, section 8). With r = v/v_c < 1, φ_a = arcsin r, and
-/// φ_e(φ) > π − φ_a where −cosφ_e − rφ_e = −cosφ − rφ,
+/// Mean tangential force of steady sliding with Coulomb's friction under a normal oscillation δ =
+/// δ0 − u_z cosφ. A level ζ of indentation sticks or slips at the stretch limit (μK/K_t)(δ − ζ).
+/// While v > 0 every closed level is at its limit when δ is least, so that one period from there is
+/// the steady state (docs/theory.md, section 8). With r = v/v_c < 1, φ_a = arcsin r, and φ_e(φ) > π
+/// − φ_a where −cosφ_e − rφ_e = −cosφ − rφ,
 ///     T̄ = μF(δ_min) + (1/2π) ∫_0^π [μ u_z K (2π − φ − φ_e) sinφ + (v/ω) K_t (φ_e − φ)] dφ,
-/// φ_e = 2π − φ and no second term outside φ_a < φ < π − φ_a. Γ = γ + πK_t(δ_min)/ω. Where K_t has values of its own, K_t/K is taken at δ0.
-/// A small disturbance of the sliding, slow against the oscillation, is damped by
+/// φ_e = 2π − φ and no second term outside φ_a < φ < π − φ_a. Γ = γ + πK_t(δ_min)/ω. Where K_t has
+/// values of its own, K_t/K is taken at δ0. A small disturbance of the sliding, slow against the
+/// oscillation, is damped by
 ///     dT̄/dv = (1/2πω) ∫ K_t (φ_e − φ)(1 + (sinφ − r)/(r − sinφ_e)) dφ   over φ_a < φ < π − φ_a,
-/// since the stretch of a level that sticks since φ grows by (φ' − φ)/ω for each unit of v until it slips.
+/// since the stretch of a level that sticks since φ grows by (φ' − φ)/ω for each unit of v until it
+/// slips.
 /// friction_coefficient  μ >= 0, finite
 /// motion                drag_velocity is v > 0
 /// throws  InvalidInput as relaxation_damping()
-/// cost    seven evaluations of the law for each of its pieces, some hundred for a smooth one; a list of velocities shares them
+/// cost    seven evaluations of the law for each of its pieces, some hundred for a smooth one; a
+///         list of velocities shares them
 SteadySliding steady_sliding(const ContactLaw& law, const Position& position, const Drag& motion,
                              double friction_coefficient, const DampingOptions& options = {});
 /// One for each velocity > 0, m/s.

@@ -9,8 +9,9 @@
 
 namespace salebra {
 
-/// Stresses under an axisymmetric indenter in the first, and already steady, cycle that begins free of tangential
-/// stress at the least indentation: δ = δ0 + u_z cosθ, θ = ωt from −π to π (Fig. 4 of the paper). Full stick.
+/// Stresses under an axisymmetric indenter in the first, and already steady, cycle that begins free
+/// of tangential stress at the least indentation: δ = δ0 + u_z cosθ, θ = ωt from −π to π (Fig. 4 of
+/// the paper). Full stick.
 class OscillatingStress {
  public:
   /// Throws InvalidInput where the motion is not usable or leaves the profile.
@@ -22,9 +23,10 @@ class OscillatingStress {
   double tangential_force(double angle) const;    ///< F_x = 2∫_0^a q_x dx, N
   double pressure(double angle, double r) const;  ///< p(r), Pa
   /// τ(r) by Eq. (17) from q_x = G*(x − x0), Pa; 0 for r >= a.
-  /// While δ falls it has a square-root singularity at the edge: τ → (G*/π)(x(θ) − x(−θ))/√(a² − r²), x(θ) − x(−θ) =
-  /// −2u_x sinθ sinφ0. At the least contact radius it has, once passed, a logarithmic one whose coefficient does not
-  /// change in time: (G*x'(−π)/2π)√(2/(R u_z)) ln[1/(a_min − r)] for a paraboloid, x' = dx/dθ.
+  /// While δ falls it has a square-root singularity at the edge: τ → (G*/π)(x(θ) − x(−θ))/√(a² −
+  /// r²), x(θ) − x(−θ) = −2u_x sinθ sinφ0. At the least contact radius it has, once passed, a
+  /// logarithmic one whose coefficient does not change in time: (G*x'(−π)/2π)√(2/(R u_z))
+  /// ln[1/(a_min − r)] for a paraboloid, x' = dx/dθ.
   double shear(double angle, double r) const;
 
  private:
@@ -50,8 +52,9 @@ struct StressMap {
   Field contact_pressure;                ///< p (phases, radii), Pa
 };
 
-/// The map of Fig. 4: `phases` + 1 angles from −π to π, both ends included, and `radii` cells from 0 to 1.05 times
-/// the largest contact radius, with the stresses at their middles. In parallel over phases; a stop of the progress
+/// The map of Fig. 4: `phases` + 1 angles from −π to π, both ends included, and `radii` cells from
+/// 0 to 1.05 times the largest contact radius, with the stresses at their middles. In parallel over
+/// phases; a stop of the progress
 /// throws Interrupted.
 StressMap stress_map(const IndenterLaw& law, double mean_indentation, const Oscillation& motion,
                      int phases = 128, int radii = 256, const Progress& on_progress = {});

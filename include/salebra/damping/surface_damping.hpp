@@ -13,10 +13,13 @@
 
 namespace salebra {
 
-/// What shows the share of the seam, where a surface that is not periodic is continued as if it were.
+/// What shows the share of the seam, where a surface that is not periodic is continued as if it
+/// were.
 enum class SeamCheck {
-  window,  ///< the outermost sixteenth along each edge goes smoothly to the mean height, so that nothing is left to step
-  free  ///< the surface by itself on an infinite half-space: for light loads; at high ones its edges press harder
+  window,  ///< the outermost sixteenth along each edge goes smoothly to the mean height, so that
+           ///< nothing is left to step
+  free  ///< the surface by itself on an infinite half-space: for light loads; at high ones its
+        ///< edges press harder
 };
 
 /// Whether an oscillation may be divided into so many intervals: 4, 8, 16 or 32.
@@ -30,25 +33,32 @@ struct SurfaceDampingOptions {
   Boundary boundary = Boundary::periodic;
   /// Intervals between the indentations at which the contact is solved: 4, 8, 16 or 32.
   int levels = 8;
-  /// Doubles the levels, up to 32, where the last doubling changed W by more than the scatter of whole cells.
+  /// Doubles the levels, up to 32, where the last doubling changed W by more than the scatter of
+  /// whole cells.
   bool choose_levels = true;
-  /// Halvings of the cells (refined(), surface/refine.hpp). 0: the error of the cells is not known, and no error is stated.
+  /// Halvings of the cells (refined(), surface/refine.hpp). 0: the error of the cells is not known,
+  /// and no error is stated.
   int refinements = 1;
-  /// Compares with cells of twice the size in place of a half: a quarter of the cost, for large grids. The error of the cells is then
-  /// that of the coarser of the two and rather too large. Numbers of points must be even.
+  /// Compares with cells of twice the size in place of a half: a quarter of the cost, for large
+  /// grids. The error of the cells is then that of the coarser of the two and rather too large.
+  /// Numbers of points must be even.
   bool coarsen = false;
-  /// W on the cells as they are, to which the refinements only give the error; false: on the finest.
+  /// W on the cells as they are, to which the refinements only give the error; false: on the
+  /// finest.
   bool keep_cells = false;
-  /// Halves the cells on, beyond `refinements`, for the loads whose error is not yet below this part of W; 0: does not.
+  /// Halves the cells on, beyond `refinements`, for the loads whose error is not yet below this
+  /// part of W; 0: does not.
   double relative_error = 0;
-  /// Solves once more, on the cells as they are, and takes the change of W for the error of the seam.
+  /// Solves once more, on the cells as they are, and takes the change of W for the error of the
+  /// seam.
   std::optional<SeamCheck> seam = {};
   Index most_refined =
       8;  ///< times as many points along each side, at the most, that relative_error may ask for
   Progress on_progress = {};
 };
 
-/// Damping of one surface at one load, with its error. All errors are of work_per_cycle, J; NaN where not known.
+/// Damping of one surface at one load, with its error. All errors are of work_per_cycle, J; NaN
+/// where not known.
 struct SurfaceDamping {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double work_per_cycle = unknown;    ///< W, J
@@ -74,30 +84,40 @@ struct SurfaceDamping {
   double damping_constant_error() const { return error * damping_constant / work_per_cycle; }
 };
 
-/// Relaxation damping of one surface at each load of its curve, from contacts at indentations inside the oscillation, and no
-/// interpolation between loads: W = ½∮ s² dK_t by parts (docs/theory.md, section 7) with K_t = ρ(G*/E*)F'.
-///     F   least-squares polynomial through the forces of the contacts at Chebyshev–Lobatto points of δ. Forces are smooth: cells that enter change F
-///         at second order only, while K and K_t jump. Half as many powers as intervals (3 for 4 intervals).
-///     ρ   K_t/((G*/E*)K) of the curve: at the load, with its slope in ln F from the neighbouring loads.
-/// The range of δ is that of the oscillation; where too few cells enter within it (fewer than 100 on the finer grid), it is widened until they do, at most to
-/// F/(4K), over which F changes by e^{±1/4}.
+/// Relaxation damping of one surface at each load of its curve, from contacts at indentations
+/// inside the oscillation, and no interpolation between loads: W = ½∮ s² dK_t by parts
+/// (docs/theory.md, section 7) with K_t = ρ(G*/E*)F'.
+///     F   least-squares polynomial through the forces of the contacts at Chebyshev–Lobatto points
+///         of δ. Forces are smooth: cells that enter change F at second order only, while K and K_t
+///         jump. Half as many powers as intervals (3 for 4 intervals).
+///     ρ   K_t/((G*/E*)K) of the curve: at the load, with its slope in ln F from the neighbouring
+///         loads.
+/// The range of δ is that of the oscillation; where too few cells enter within it (fewer than 100
+/// on the finer grid), it is widened until they do, at most to F/(4K), over which F changes by
+/// e^{±1/4}.
 ///
-/// Errors. Of the levels: n against n/2 intervals, nested. Of the solver: its tolerance, relative to F, times the weights of the forces in W. Of ρ: the
-/// difference of its slopes to both sides. Of whole cells two parts. Scatter: cells that enter do so at chance indentations, and each
-/// raises K by the same step. A number N of them, which is counted, has the variance N as long as N is small, and no more than
-/// 2 × 0.0728 times the perimeter, in cells, where the perimeter moves by more than a fifth of a cell: that of lattice points inside a smooth
-/// curve at a random place. This makes a covariance of the forces, and W is linear in them. Where the residuals of the polynomial
-/// are larger than in 95 % of cases by this covariance (rows of cells that touch together), it is multiplied. A window wider than the
-/// oscillation adds the chance of the spots that touch in between, about ln(H/(3u_z))/(πn) of n spots. 1.645 standard deviations are stated, for 90 %. Bias: the surface is interpolated
-/// on cells of half the size, at the same pressure. Forces converge at second order, so that a third of what W changes by, beyond the
-/// scatter of both, is the error of the finer grid, and four thirds that of the coarser.
+/// Errors. Of the levels: n against n/2 intervals, nested. Of the solver: its tolerance, relative
+/// to F, times the weights of the forces in W. Of ρ: the difference of its slopes to both sides. Of
+/// whole cells two parts. Scatter: cells that enter do so at chance indentations, and each raises K
+/// by the same step. A number N of them, which is counted, has the variance N as long as N is
+/// small, and no more than 2 × 0.0728 times the perimeter, in cells, where the perimeter moves by
+/// more than a fifth of a cell: that of lattice points inside a smooth curve at a random place.
+/// This makes a covariance of the forces, and W is linear in them. Where the residuals of the
+/// polynomial are larger than in 95 % of cases by this covariance (rows of cells that touch
+/// together), it is multiplied. A window wider than the oscillation adds the chance of the spots
+/// that touch in between, about ln(H/(3u_z))/(πn) of n spots. 1.645 standard deviations are stated,
+/// for 90 %. Bias: the surface is interpolated on cells of half the size, at the same pressure.
+/// Forces converge at second order, so that a third of what W changes by, beyond the scatter of
+/// both, is the error of the finer grid, and four thirds that of the coarser.
 ///
-/// curve   of this surface and material, by sweep_pressures(); samples that did not converge are left out (converged = false)
-/// throws  InvalidInput for a curve without loads, levels that are none of the four, relative_error outside [0, 1); Interrupted where
-///         on_progress says stop. A surface may be spread over processes: the call is then collective, takes one load after the other, and all
-///         numbers have the same bits as in one process
-/// cost    for each load levels + 3 to 9 normal contacts on each grid, in parallel over loads; a halving of the cells costs five times
-///         the grid before it
+/// curve   of this surface and material, by sweep_pressures(); samples that did not converge are
+///         left out (converged = false)
+/// throws  InvalidInput for a curve without loads, levels that are none of the four, relative_error
+///         outside [0, 1); Interrupted where on_progress says stop. A surface may be spread over
+///         processes: the call is then collective, takes one load after the other, and all numbers
+///         have the same bits as in one process
+/// cost    for each load levels + 3 to 9 normal contacts on each grid, in parallel over loads; a
+///         halving of the cells costs five times the grid before it
 std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Material& material,
                                             const Oscillation& motion, const ForceCurve& curve,
                                             const SurfaceDampingOptions& options = {});

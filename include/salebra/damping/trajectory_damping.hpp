@@ -21,31 +21,38 @@ struct TrajectoryDamping {
   double slip_work = 0;  ///< of it, by levels in permanent contact: slip of Cattaneo and Mindlin, J
   double power = 0;      ///< W per period, W
   double damping_constant = 0;  ///< γ = P/⟨ẋ²⟩, N s/m; NaN for a motion without ẋ
-  /// Part of F_x in phase with x: ⟨F_x(x − ⟨x⟩)⟩/⟨(x − ⟨x⟩)²⟩ over a period, N/m; NaN for a motion with drift or
-  /// without x.
+  /// Part of F_x in phase with x: ⟨F_x(x − ⟨x⟩)⟩/⟨(x − ⟨x⟩)²⟩ over a period, N/m; NaN for a motion
+  /// with drift or without x.
   double storage_stiffness = 0;
   double loss_factor =
-      0;  ///< W/(2π · storage_stiffness · ⟨(x − ⟨x⟩)²⟩), W/(2πU) of a harmonic motion; NaN as storage_stiffness
+      0;  ///< W/(2π · storage_stiffness · ⟨(x − ⟨x⟩)²⟩), W/(2πU) of a harmonic motion; NaN as
+          ///< storage_stiffness
   /// At the samples of the trajectory, in its order: the loop is (displacement, tangential_force).
   std::vector<double>
-      tangential_force;  ///< F_x, N; with drift without the permanent levels' share, which grows for
+      tangential_force;  ///< F_x, N; with drift without the permanent levels' share, which grows
+                         ///< for
                          ///< ever in full stick
   std::vector<double> transverse_force;  ///< F_y, N, likewise; empty where nothing moves along y
   std::vector<double> dissipated;        ///< energy lost since the first sample, J
   std::size_t memory = 0;                ///< most pieces of history held at a time
 };
 
-/// Steady state of a periodic trajectory, by a TangentialContact. Without drift it is reached in the second period. With drift and friction
-/// the contact slides: a period that begins with every level at the limit of its stretch where δ is least makes the next one steady (docs/theory.md,
-/// section 8). Exact for the straight steps of the trajectory; a sampled harmonic motion is met at second order in its step. Throws InvalidInput for a trajectory
-/// that is not valid or leaves the law's range, and for friction < 0. Cost: O(samples).
+/// Steady state of a periodic trajectory, by a TangentialContact. Without drift it is reached in
+/// the second period. With drift and friction the contact slides: a period that begins with every
+/// level at the limit of its stretch where δ is least makes the next one steady (docs/theory.md,
+/// section 8). Exact for the straight steps of the trajectory; a sampled harmonic motion is met at
+/// second order in its step. Throws InvalidInput for a trajectory that is not valid or leaves the
+/// law's range, and for friction < 0. Cost: O(samples).
 TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& trajectory,
                                      const TrajectoryDampingOptions& options = {});
 
-/// The same in full stick for a motion in two tangential directions, x of the trajectory and y. The stretch s that a level is let go with
-/// is a vector, and ½K_t'|s|² is lost: the sum of both directions' losses, for a law whose K_t is the same in all of them. Means are of
-/// the vectors: damping constant P/⟨ẋ² + ẏ²⟩, storage stiffness by F_x x + F_y y. With friction the limit of slip is one of |s|: not here.
-/// transverse   y at the samples, m; may have moved on at the end of the period. Throws InvalidInput unless there is one for each, finite.
+/// The same in full stick for a motion in two tangential directions, x of the trajectory and y. The
+/// stretch s that a level is let go with is a vector, and ½K_t'|s|² is lost: the sum of both
+/// directions' losses, for a law whose K_t is the same in all of them. Means are of the vectors:
+/// damping constant P/⟨ẋ² + ẏ²⟩, storage stiffness by F_x x + F_y y. With friction the limit of
+/// slip is one of |s|: not here.
+/// transverse   y at the samples, m; may have moved on at the end of the period. Throws
+///              InvalidInput unless there is one for each, finite.
 TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& trajectory,
                                      std::span<const double> transverse);
 

@@ -14,24 +14,29 @@ struct ViscoelasticDamping {
   double normal_material_work = 0;
   double tangential_material_work =
       0;  ///< by the material of springs in contact under the tangential motion, J
-  /// By springs that are let go stretched, J: what they hold when they leave, less what they still hold when they are met again. It
-  /// is lost at once and by recovery of the free surface, and tends to the relaxation damping of an elastic body.
+  /// By springs that are let go stretched, J: what they hold when they leave, less what they still
+  /// hold when they are met again. It is lost at once and by recovery of the free surface, and
+  /// tends to the relaxation damping of an elastic body.
   double relaxation_work = 0;
   double power = 0;  ///< work_per_cycle over the period, W
-  /// That of tangential_material_work and relaxation_work over ⟨ẋ²⟩, N s/m; NaN for a motion without ẋ.
+  /// That of tangential_material_work and relaxation_work over ⟨ẋ²⟩, N s/m; NaN for a motion
+  /// without ẋ.
   double damping_constant = 0;
   std::vector<double> force;      ///< F at the samples of the trajectory, N
   double mean_force = 0;          ///< its mean over the period, N
   double min_contact_radius = 0;  ///< of what never leaves contact, m
   double max_contact_radius = 0;  ///< m
-  /// Whether the periodic state of each spring was found; round-off hides it where relaxation times exceed some 1e9 periods.
+  /// Whether the periodic state of each spring was found; round-off hides it where relaxation times
+  /// exceed some 1e9 periods.
   bool converged = false;
 };
 
-/// Steady state of a viscoelastic body under a periodic trajectory without slip. Springs of the foundation as in
-/// viscoelastic_indentation(), of the tangential stiffness G* where they have E* normally; a spring that is let go loses its tangential
-/// force at once. Each spring's periodic state is found by Newton's method, not by waiting for it; springs that never leave contact are
-/// one. With drift (case (b)) the force of permanent springs grows for ever, their loss does not. docs/theory.md, section 9.
+/// Steady state of a viscoelastic body under a periodic trajectory without slip. Springs of the
+/// foundation as in viscoelastic_indentation(), of the tangential stiffness G* where they have E*
+/// normally; a spring that is let go loses its tangential force at once. Each spring's periodic
+/// state is found by Newton's method, not by waiting for it; springs that never leave contact are
+/// one. With drift (case (b)) the force of permanent springs grows for ever, their loss does not.
+/// docs/theory.md, section 9.
 /// law, prony  as in viscoelastic_indentation(); G* is known
 /// trajectory  one period, straight between the samples; second order in their number
 /// springs     over the ring that opens and closes, second order

@@ -13,7 +13,8 @@
 
 namespace salebra {
 
-/// A JSON value to write: null, truth, number, text, array, or object whose members keep the order in which they came.
+/// A JSON value to write: null, truth, number, text, array, or object whose members keep the order
+/// in which they came.
 ///   Json answer{{"area", 0.1}, {"spots", spots}};   // members; arrays come from std::vector
 ///   answer["unit"] = "m^2";                         // null becomes an object, by push_back an array
 /// throws    std::logic_error where a value is not of the kind that is asked for
@@ -22,9 +23,10 @@ class Json {
   using Array = std::vector<Json>;
   using Object = std::vector<std::pair<std::string, Json>>;
 
-  /// What is null, and neither a number nor a text. Its copy is written out so that a variant with it counts as one that can lose its
-  /// value: of a variant that holds only plain types, texts and vectors, the standard library of GCC 12 takes the opposite for granted,
-  /// and a copy for which memory fails then ends the process by signal 11 instead of throwing std::bad_alloc.
+  /// What is null, and neither a number nor a text. Its copy is written out so that a variant with
+  /// it counts as one that can lose its value: of a variant that holds only plain types, texts and
+  /// vectors, the standard library of GCC 12 takes the opposite for granted, and a copy for which
+  /// memory fails then ends the process by signal 11 instead of throwing std::bad_alloc.
   struct Null {
     Null() = default;
     Null(const Null&) noexcept {}
@@ -93,8 +95,8 @@ class Json {
   const Array& elements() const&;
   const Array& elements() const&& = delete;
 
-  /// JSON text; with indent < 0 in one line. Text that is not UTF-8, such as a file's name, has U+FFFD where it is not; a number that
-  /// is not finite becomes null.
+  /// JSON text; with indent < 0 in one line. Text that is not UTF-8, such as a file's name, has
+  /// U+FFFD where it is not; a number that is not finite becomes null.
   std::string dump(int indent = -1) const;
 
   using Value =

@@ -7,8 +7,9 @@
 
 namespace salebra {
 
-/// Reads the columns of a text table of numbers in SI units: profiles (r, f), trajectories (t, δ, x). Values are separated by
-/// blanks, ',' or ';'; lines that are empty or begin with '#' are passed over, and one line of titles may come first.
+/// Reads the columns of a text table of numbers in SI units: profiles (r, f), trajectories (t, δ,
+/// x). Values are separated by blanks, ',' or ';'; lines that are empty or begin with '#' are
+/// passed over, and one line of titles may come first.
 /// columns   how many there must be in each line
 /// most      the first line may have up to so many, and then each does
 /// throws    InvalidInput naming file and line

@@ -10,18 +10,20 @@
 #include <string_view>
 #include <vector>
 
-/// Pictures of results: lines, bands, markers and maps in panels, as PNG, SVG or PDF. gnuplot draws them, nothing of it shows here.
+/// Pictures of results: lines, bands, markers and maps in panels, as PNG, SVG or PDF. gnuplot draws
+/// them, nothing of it shows here.
 ///
 ///     Figure figure;
 ///     PlotPanel& panel = figure.panels.emplace_back();
 ///     panel.x = {.label = "indentation δ", .unit = "m"};
 ///     panel.y = {.label = "force F", .unit = "N", .logarithmic = true};
 ///     panel.curves.push_back({.name = "boundary elements", .x = indentation, .y = force});
-///     panel.curves.push_back({.name = "Hertz", .x = indentation, .y = hertz, .style = PlotStyle::dashed});
-///     write_plot("force.png", figure);
+///     panel.curves.push_back({.name = "Hertz", .x = indentation, .y = hertz, .style =
+///     PlotStyle::dashed}); write_plot("force.png", figure);
 ///
-/// Data are in SI units; an axis with a unit gets the SI prefix that suits its values, "indentation δ (nm)". Text is UTF-8 with
-/// the markup of subscripts and powers, u_z, W_{max}, 10^{-3}; what a user named goes through plot_text() first.
+/// Data are in SI units; an axis with a unit gets the SI prefix that suits its values, "indentation
+/// δ (nm)". Text is UTF-8 with the markup of subscripts and powers, u_z, W_{max}, 10^{-3}; what a
+/// user named goes through plot_text() first.
 namespace salebra {
 
 struct PlotAxis {
@@ -40,11 +42,12 @@ struct PlotCurve {
                       high = {};  ///< a band around it, such as a confidence interval; both or none
   PlotStyle style = PlotStyle::line;
   int color =
-      -1;  ///< 0 blue, 1 vermilion, 2 green, 3 purple, 4 orange, 5 light blue, 6 black, 7 grey; −1: the next one
+      -1;  ///< 0 blue, 1 vermilion, 2 green, 3 purple, 4 orange, 5 light blue, 6 black, 7 grey; −1:
+           ///< the next one
 };
 
-/// sequential: dark to bright; diverging: blue over white to red, for signed values, symmetric about 0 unless the scale
-/// has limits; grey: white to black.
+/// sequential: dark to bright; diverging: blue over white to red, for signed values, symmetric
+/// about 0 unless the scale has limits; grey: white to black.
 enum class PlotPalette { sequential, diverging, grey };
 
 struct PlotImage {
@@ -85,14 +88,16 @@ struct Figure {
 /// A text without markup, for file names and the like.
 std::string plot_text(std::string_view plain);
 
-/// Throws what write_plot would throw at its start, for callers that compute for long before they draw: InvalidInput for a
-/// suffix other than .png, .svg and .pdf and as require_output; IoError where gnuplot is not installed.
+/// Throws what write_plot would throw at its start, for callers that compute for long before they
+/// draw: InvalidInput for a suffix other than .png, .svg and .pdf and as require_output; IoError
+/// where gnuplot is not installed.
 void require_plot(const std::filesystem::path& file, const WriteOptions& options = {});
 
-/// Draws a figure to a .png (at twice the size on the screen), .svg or .pdf. Large images are averaged down to at most 1200 cells a
-/// side. The file appears complete or not at all. Throws as require_plot; InvalidInput for columns of different lengths, values
-/// <= 0 only on a logarithmic axis, or a figure without data; IoError where gnuplot fails, with what it said.
-/// Cost: 0.1 to 1 s, one gnuplot process.
+/// Draws a figure to a .png (at twice the size on the screen), .svg or .pdf. Large images are
+/// averaged down to at most 1200 cells a side. The file appears complete or not at all. Throws as
+/// require_plot; InvalidInput for columns of different lengths, values <= 0 only on a logarithmic
+/// axis, or a figure without data; IoError where gnuplot fails, with what it said. Cost: 0.1 to 1
+/// s, one gnuplot process.
 void write_plot(const std::filesystem::path& file, const Figure& figure,
                 const WriteOptions& options = {});
 

@@ -7,7 +7,8 @@
 
 namespace salebra {
 
-/// What a file says of its own making, as attributes at its root, beside the program, its version and those of its libraries.
+/// What a file says of its own making, as attributes at its root, beside the program, its version
+/// and those of its libraries.
 struct Provenance {
   std::string command_line;           ///< as typed; empty when a library call made the file
   std::string configuration;          ///< full text of the configuration, defaults filled in
@@ -21,7 +22,8 @@ struct Provenance {
 /// Now, as "2026-01-31T12:34:56Z".
 std::string utc_now();
 
-/// "Eigen 3.4.0, FFTW 3.3.10, GSL 2.7.1, HDF5 1.10.8": the libraries in use, which the last digits of a result depend on.
+/// "Eigen 3.4.0, FFTW 3.3.10, GSL 2.7.1, HDF5 1.10.8": the libraries in use, which the last digits
+/// of a result depend on.
 std::string library_versions();
 
 }  // namespace salebra

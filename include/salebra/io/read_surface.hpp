@@ -18,28 +18,33 @@ struct ReadOptions {
   std::vector<std::string>* remarks = nullptr;  ///< lines on what the user gave against the file
 };
 
-/// Reads the heights of a surface. What the file is follows from its first bytes, not from its name:
-///   HDF5    dataset `heights` (nx, ny) at the root, or the only two-dimensional one there, with attributes size_x,
-///           size_y (m), periodic, units
-///   NPY     two-dimensional real array [nx, ny], versions 1 to 3, any byte order, C or Fortran order; size and
-///           unit from the sidecar FILE.json where there is one
-///   NetCDF  classic (CDF-1, 2, 5) in SurfaceTopography's layout: heights(x, y) with unit, x and y with length, periodic, unit; a mask
-///   X3P     ISO 25178-72, one surface on a grid, its checksums compared; scales, directions of axes and mask
+/// Reads the heights of a surface. What the file is follows from its first bytes, not from its
+/// name:
+///   HDF5    dataset `heights` (nx, ny) at the root, or the only two-dimensional one there, with
+///           attributes size_x, size_y (m), periodic, units
+///   NPY     two-dimensional real array [nx, ny], versions 1 to 3, any byte order, C or Fortran
+///           order; size and unit from the sidecar FILE.json where there is one
+///   NetCDF  classic (CDF-1, 2, 5) in SurfaceTopography's layout: heights(x, y) with unit, x and y
+///           with length, periodic, unit; a mask
+///   X3P     ISO 25178-72, one surface on a grid, its checksums compared; scales, directions of
+///           axes and mask
 ///   GWY     Gwyddion: the first channel whose unit is a length, less the points of its mask
 ///   GSF     Gwyddion Simple Field
 ///   GXYZF   Gwyddion XYZ Field of one channel whose points form a regular grid
 ///   SUR     Digital Surf, one surface of 16 or 32 bits
-///   text    a matrix whose columns run along x and whose rows along y: heights(ix, iy) is the value in column ix of row
-///           iy. Headers of Gwyddion (English and German) and of instruments (h=, w=, pixel size=, height conversion
-///           factor=). Values separated by blanks, ';' or ','; decimal point, or decimal comma where that is not
-///           ambiguous; empty fields and "nan" are undefined points
-///   XYZ     text of three columns that form a complete or partly filled regular grid; "# Lateral units:" and "# Value units:"
-///           where it has them
+///   text    a matrix whose columns run along x and whose rows along y: heights(ix, iy) is the
+///           value in column ix of row iy. Headers of Gwyddion (English and German) and of
+///           instruments (h=, w=, pixel size=, height conversion factor=). Values separated by
+///           blanks, ';' or ','; decimal point, or decimal comma where that is not ambiguous; empty
+///           fields and "nan" are undefined points
+///   XYZ     text of three columns that form a complete or partly filled regular grid; "# Lateral
+///           units:" and "# Value units:" where it has them
 /// Undefined points become NaN. Heights are metres unless the file or the options name a unit.
-/// throws   InvalidInput "<file>: <what is wrong>; <what to do>" for a file that is absent, not one of these, truncated,
-///          larger by its header than by its content, ambiguous, without a size, or with an infinite height
-/// ranks    processes over which the surface is spread: of an HDF5 file each reads its rows, any other is read by the root whole. Collective;
-///          what fails in one process is thrown on all
+/// throws   InvalidInput "<file>: <what is wrong>; <what to do>" for a file that is absent, not one
+///          of these, truncated, larger by its header than by its content, ambiguous, without a
+///          size, or with an infinite height
+/// ranks    processes over which the surface is spread: of an HDF5 file each reads its rows, any
+///          other is read by the root whole. Collective; what fails in one process is thrown on all
 /// cost     one pass over the file; memory: the file and the heights
 Surface read_surface(const std::filesystem::path& file, const ReadOptions& options = {},
                      const Communicator& ranks = {});

@@ -20,9 +20,10 @@ std::vector<double> positions(Index count, double step);
 
 /// One group of a ResultFile: coordinates, and datasets on them. Opened as it is by
 /// xarray.open_dataset(file, engine="h5netcdf", group=…).
-/// Every dataset has `units` (SI, "1" for pure numbers) and a `long_name`; the values of unknown quantities are NaN.
-/// throws   InvalidInput for a name used twice, a missing unit, or values that have not the shape of their coordinates;
-///          IoError when the disk is full
+/// Every dataset has `units` (SI, "1" for pure numbers) and a `long_name`; the values of unknown
+/// quantities are NaN.
+/// throws   InvalidInput for a name used twice, a missing unit, or values that have not the shape
+///          of their coordinates; IoError when the disk is full
 class ResultGroup {
  public:
   /// A one-dimensional coordinate, an HDF5 dimension scale.
@@ -48,8 +49,8 @@ class ResultGroup {
   void dataset(const std::string& name, std::span<const std::int16_t> values,
                const std::vector<std::string>& coordinates, const std::string& units,
                const std::string& long_name);
-  /// A field on the coordinates of its x and y. In a file of several processes it holds the rows that Share gives to this one, and must
-  /// stay until commit().
+  /// A field on the coordinates of its x and y. In a file of several processes it holds the rows
+  /// that Share gives to this one, and must stay until commit().
   void dataset(const std::string& name, const Field& values, const std::string& x,
                const std::string& y, const std::string& units, const std::string& long_name,
                FieldType type = FieldType::float64);
@@ -74,13 +75,15 @@ class ResultGroup {
   std::shared_ptr<Place> place_;
 };
 
-/// An HDF5 file of results: a group for each stage (`surface`, `curve`, `fit`, `damping`, …), provenance at its root.
-/// It takes its name at commit(), complete; without commit nothing is left. Not for use by several threads at once.
+/// An HDF5 file of results: a group for each stage (`surface`, `curve`, `fit`, `damping`, …),
+/// provenance at its root. It takes its name at commit(), complete; without commit nothing is left.
+/// Not for use by several threads at once.
 class ResultFile {
  public:
   /// Throws as require_output does; IoError when the disk is full.
-  /// ranks  the processes over which fields are spread. Each makes the same calls; the root writes everything but the rows of
-  ///        the others. What fails before commit() fails in one process alone: make it known by collectively()
+  /// ranks  the processes over which fields are spread. Each makes the same calls; the root writes
+  ///        everything but the rows of the others. What fails before commit() fails in one process
+  ///        alone: make it known by collectively()
   ResultFile(const std::filesystem::path& file, const Provenance& provenance,
              const WriteOptions& options = {}, const Communicator& ranks = {});
   ResultFile(ResultFile&&) noexcept;
@@ -89,7 +92,8 @@ class ResultFile {
 
   /// The group at that path, such as "damping" or "realisations/3", created when it is not there.
   ResultGroup group(const std::string& path);
-  /// Closes the file and puts it in its place. Collective; what fails in one process is thrown on all, and nothing is left. The file and its groups cannot be used afterwards.
+  /// Closes the file and puts it in its place. Collective; what fails in one process is thrown on
+  /// all, and nothing is left. The file and its groups cannot be used afterwards.
   void commit();
 
  private:
@@ -97,7 +101,8 @@ class ResultFile {
   std::unique_ptr<State> state_;
 };
 
-/// Reads what a ResultFile wrote, or any HDF5 file of real numbers. Paths are like "curve/pressure".
+/// Reads what a ResultFile wrote, or any HDF5 file of real numbers. Paths are like
+/// "curve/pressure".
 /// throws   InvalidInput naming the file for what is not there, is of another kind, or damaged
 class ResultReader {
  public:
@@ -125,7 +130,8 @@ class ResultReader {
   /// Of a group or dataset; "/" is the root. Empty where there is none of that name and kind.
   std::optional<double> number_attribute(const std::string& path, const std::string& name) const;
   std::optional<std::string> text_attribute(const std::string& path, const std::string& name) const;
-  /// Names of the attributes of a group or dataset in their order, without those that HDF5 keeps its dimension scales in.
+  /// Names of the attributes of a group or dataset in their order, without those that HDF5 keeps
+  /// its dimension scales in.
   std::vector<std::string> attributes(const std::string& path = "/") const;
 
  private:

@@ -7,8 +7,8 @@
 
 namespace salebra {
 
-/// A format of surface files: what read_surface and write_surface do with it. The texts are the columns of the table in
-/// docs/formats.md.
+/// A format of surface files: what read_surface and write_surface do with it. The texts are the
+/// columns of the table in docs/formats.md.
 struct SurfaceFormat {
   std::string_view title;
   std::vector<std::string_view> extensions;  ///< by which write_surface chooses it, with the point

@@ -16,8 +16,9 @@
 /// MPI as the transport of communicators. No other header of salebra includes mpi.h.
 namespace salebra::mpi {
 
-/// The processes of an MPI communicator. They talk in a copy of it, hence never to the caller's own messages. Each process may call MPI
-/// from one thread at a time. Collective; MPI must be initialised, and the last handle be gone before it is finalised.
+/// The processes of an MPI communicator. They talk in a copy of it, hence never to the caller's own
+/// messages. Each process may call MPI from one thread at a time. Collective; MPI must be
+/// initialised, and the last handle be gone before it is finalised.
 /// throws   Error for what MPI refuses; the communicator is of no use then
 Communicator communicator(MPI_Comm processes);
 
@@ -34,8 +35,8 @@ class Session {
   /// All processes, and those of them that share this one's memory. Collective.
   Communicator ranks() const;
   Communicator ranks_of_node() const;
-  /// Waits until all processes have called this. False: some did not in time, for they compute, or wait for this one elsewhere; another
-  /// call waits on.
+  /// Waits until all processes have called this. False: some did not in time, for they compute, or
+  /// wait for this one elsewhere; another call waits on.
   bool all_here(std::chrono::milliseconds patience);
   /// Ends all processes with that status.
   [[noreturn]] void abort(int status) const;

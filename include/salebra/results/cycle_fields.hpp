@@ -12,19 +12,23 @@ namespace salebra {
 
 /// Fields of a simulated cycle at chosen steps, for ParaView and for any reader of HDF5:
 ///     PREFIX.xdmf          what to open; lists the steps written so far
-///     PREFIX-mesh.h5       /mesh/points (nx, ny, 3): where each cell's middle lies, and /mesh/heights
-///     PREFIX-0016.h5       /fields/… (nx, ny) at step 16: contact, traction_x, traction_y, displacement_x, displacement_y,
-///                          pressure, gap; with friction also loss, by unit area since the start of the period
-/// One object is for the states of one cycle. All are (nx, ny) with x first. The points are given one by one, so that no reader has to guess which index is x.
-/// Every file is complete as soon as it is there; an interrupted run leaves the steps that it has finished.
+///     PREFIX-mesh.h5       /mesh/points (nx, ny, 3): where each cell's middle lies, and
+///                          /mesh/heights
+///     PREFIX-0016.h5       /fields/… (nx, ny) at step 16: contact, traction_x, traction_y,
+///                          displacement_x, displacement_y, pressure, gap; with friction also loss,
+///                          by unit area since the start of the period
+/// One object is for the states of one cycle. All are (nx, ny) with x first. The points are given
+/// one by one, so that no reader has to guess which index is x. Every file is complete as soon as
+/// it is there; an interrupted run leaves the steps that it has finished.
 class CycleFields {
  public:
   /// Writes the mesh. Throws as require_output does, for any of its files.
   CycleFields(std::filesystem::path prefix, const Surface& surface, Provenance provenance,
               const WriteOptions& options = {});
 
-  /// Adds the state at a step, or replaces what was written of it. time: in periods. normal: the pressure, of a stuck contact, and the
-  /// gap, of one without coupling; a default one where nothing is in contact.
+  /// Adds the state at a step, or replaces what was written of it. time: in periods. normal: the
+  /// pressure, of a stuck contact, and the gap, of one without coupling; a default one where
+  /// nothing is in contact.
   void write(const CycleState& state, double time, const NormalContactState& normal);
 
   /// Steps that an earlier, interrupted run has written, so that the list names them too.

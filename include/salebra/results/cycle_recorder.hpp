@@ -31,8 +31,9 @@ struct RecordedContact {
   std::function<NormalContactState(double indentation)> normal_at;
 };
 
-/// Runs cycles one after the other, with checkpoints in time and fields at steps. A checkpoint holds the last states of the cycles that
-/// are finished, and that of the current one; whatever stops a cycle leaves it.
+/// Runs cycles one after the other, with checkpoints in time and fields at steps. A checkpoint
+/// holds the last states of the cycles that are finished, and that of the current one; whatever
+/// stops a cycle leaves it.
 class CycleRecorder {
  public:
   /// Reads the checkpoint to resume from.

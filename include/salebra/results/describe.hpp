@@ -13,19 +13,20 @@
 #include <type_traits>
 #include <vector>
 
-/// Each struct of results is described once: every member with its name, unit and meaning. Files, JSON, tables, Python and the kept
-/// realisations of a study are all made from the description
+/// Each struct of results is described once: every member with its name, unit and meaning. Files,
+/// JSON, tables, Python and the kept realisations of a study are all made from the description
 ///     template <class Visitor>
 ///     constexpr void describe(Visitor&& visit, std::type_identity<SpotStatistics>) {
-///       visit(&SpotStatistics::spot_count, Quantity{"spot_count", Dimension::dimensionless, "number of contact spots"});
-///       …
+///       visit(&SpotStatistics::spot_count, Quantity{"spot_count", Dimension::dimensionless,
+///       "number of contact spots"}); …
 ///     }
 /// which calls visit(member, line) in the order of the declarations. A line is
 ///     Quantity  a column: a number, or a list of them, with its name, unit and meaning
 ///     Part      a described struct, whose columns are columns of this one too
 ///     Kept      anything else that belongs to the result
-/// A const member function without arguments may be a column too: it is computed, and nowhere stored.
-/// The structs of a study are described beside their declarations, those of lower layers in salebra/results/.
+/// A const member function without arguments may be a column too: it is computed, and nowhere
+/// stored. The structs of a study are described beside their declarations, those of lower layers in
+/// salebra/results/.
 namespace salebra {
 
 struct Part {
@@ -45,7 +46,8 @@ concept Described = requires {
 template <class T>
 using NumberOf = std::function<double(const T&)>;
 
-/// Whether the description lists all members, in the order of their declarations: what a struct that grows is reminded by.
+/// Whether the description lists all members, in the order of their declarations: what a struct
+/// that grows is reminded by.
 template <Described T>
 consteval bool describes_all() {
   std::size_t end = 0;
@@ -71,7 +73,8 @@ void for_each_member(Visitor&& visit) {
       std::type_identity<T>{});
 }
 
-/// Calls visit(access, quantity) for every column of T, those of its parts included; access(const T&) is its value.
+/// Calls visit(access, quantity) for every column of T, those of its parts included; access(const
+/// T&) is its value.
 template <Described T, class Visitor>
 void for_each_column(Visitor&& visit) {
   describe(

@@ -21,7 +21,8 @@
 #include <utility>
 #include <vector>
 
-/// The one table of the words of enumerations: in study files, files and Python as they are here, in options with "-" for "_".
+/// The one table of the words of enumerations: in study files, files and Python as they are here,
+/// in options with "-" for "_".
 namespace salebra {
 
 template <class Enum>

@@ -60,8 +60,8 @@ struct StudyConfiguration {
       pressures;  ///< of the BEM sweep, increasing: Pa, or in units of E*h'_rms if relative
   bool relative_pressures = false;
   double tolerance = 1e-8;  ///< e_c of each contact
-  /// K_t of the boundary-element curve by a stick solve on each contact; false: (G*/E*)K. Moduli that no elastic body has leave
-  /// only the latter.
+  /// K_t of the boundary-element curve by a stick solve on each contact; false: (G*/E*)K. Moduli
+  /// that no elastic body has leave only the latter.
   bool stick = true;
   std::optional<PressureWindow>
       window;               ///< of the exponential fit; empty: 1 … 2.5 h_rms in mean gap
@@ -78,12 +78,14 @@ struct StudyConfiguration {
   bool has(ContactModel model) const;
   Oscillation motion;
   DampingOptions damping;
-  /// Friction, hardness, density and excursion, for the premises of the damping. With a hardness each surface is first loaded to the
-  /// largest pressure, after_first_loading(), and the study is of the residual surface.
+  /// Friction, hardness, density and excursion, for the premises of the damping. With a hardness
+  /// each surface is first loaded to the largest pressure, after_first_loading(), and the study is
+  /// of the residual surface.
   ContactFacts known;
-  /// Intervals between the contacts inside the oscillation, SurfaceDampingOptions::levels; empty: 8 for one surface, doubled where they
-  /// do not suffice, 4 for each of several. 0: none, the loss of the boundary elements is that of their curve between loads, without
-  /// an error, as the loss of every other model.
+  /// Intervals between the contacts inside the oscillation, SurfaceDampingOptions::levels; empty: 8
+  /// for one surface, doubled where they do not suffice, 4 for each of several. 0: none, the loss
+  /// of the boundary elements is that of their curve between loads, without an error, as the loss
+  /// of every other model.
   std::optional<int> levels = {};
   double relative_error =
       0;  ///< of each damping constant, for which the cells are halved; 0: does not
@@ -91,21 +93,25 @@ struct StudyConfiguration {
   std::string text;                    ///< the file as it was read, for provenance
 };
 
-/// Reads a TOML file; README of data/ explains each key by example. Lengths, pressures and so on are numbers in SI units or
-/// strings with a unit.
-/// throws  InvalidInput "FILE:LINE: table.key: …" for an unknown key, a missing one, a wrong type or a value out of range
+/// Reads a TOML file; README of data/ explains each key by example. Lengths, pressures and so on
+/// are numbers in SI units or strings with a unit.
+/// throws  InvalidInput "FILE:LINE: table.key: …" for an unknown key, a missing one, a wrong type
+///         or a value out of range
 StudyConfiguration read_study_configuration(const std::filesystem::path& file);
 
-/// The same from text; `name` stands for the file in errors, relative paths are taken from `folder`.
+/// The same from text; `name` stands for the file in errors, relative paths are taken from
+/// `folder`.
 StudyConfiguration parse_study_configuration(const std::string& text, const std::string& name,
                                              const std::filesystem::path& folder = ".");
 
-/// The configurations of all combinations of the ensemble's lists, the last parameter (points) changing fastest, their own lists
-/// empty; the configuration itself where it has none. Throws InvalidInput for a combination that no grid can carry, and before it
-/// makes any for more than 10 000 combinations or 256 MB of settings.
+/// The configurations of all combinations of the ensemble's lists, the last parameter (points)
+/// changing fastest, their own lists empty; the configuration itself where it has none. Throws
+/// InvalidInput for a combination that no grid can carry, and before it makes any for more than 10
+/// 000 combinations or 256 MB of settings.
 std::vector<StudyConfiguration> parameter_combinations(const StudyConfiguration& configuration);
 
-/// "H = 0.5, roll-off 1.25 µm, …": the parameters that the ensemble's lists vary, as this point has them; empty without lists.
+/// "H = 0.5, roll-off 1.25 µm, …": the parameters that the ensemble's lists vary, as this point has
+/// them; empty without lists.
 std::string describe_point(const ParameterLists& varied, const StudyConfiguration& point);
 
 /// `file` in place of the surfaces of the configuration, which keeps everything else.

@@ -24,9 +24,10 @@ enum class ContactModel {
   greenwood_tripp
 };
 
-/// A contact model: the name that files, JSON and study files have for it, that of the enumerator; what people call it; what it costs for
-/// each cell and pressure, s, on the machine of estimate_cost(); and the function that presses a surface with it. A new model is an
-/// enumerator and an entry in src/study/contact_models.cpp.
+/// A contact model: the name that files, JSON and study files have for it, that of the enumerator;
+/// what people call it; what it costs for each cell and pressure, s, on the machine of
+/// estimate_cost(); and the function that presses a surface with it. A new model is an enumerator
+/// and an entry in src/study/contact_models.cpp.
 struct StudyModel {
   ContactModel id;
   const char* name;

@@ -16,8 +16,8 @@ struct PointCost {
   double contact_scale = 0;       ///< E*h'_rms, Pa
   std::vector<double> pressures;  ///< Pa
   std::size_t surfaces = 0;
-  /// Contacts inside the oscillation for each load and surface, counted in contacts on the cells as they are; without the halvings that a
-  /// relative error may ask for beyond the first.
+  /// Contacts inside the oscillation for each load and surface, counted in contacts on the cells as
+  /// they are; without the halvings that a relative error may ask for beyond the first.
   double levels = 0;
   double seconds = 0;                 ///< of one thread, all surfaces
   double memory = 0;                  ///< of one surface, bytes
@@ -30,7 +30,8 @@ struct StudyProcesses {
   int groups = 1;
 };
 
-/// What a study would cost on this machine, or on several like it, before anything of it is computed.
+/// What a study would cost on this machine, or on several like it, before anything of it is
+/// computed.
 struct StudyCost {
   std::vector<PointCost> points;
   StudyProcesses processes;
@@ -45,17 +46,18 @@ struct StudyCost {
   std::size_t contacts() const;
 };
 
-/// Peak memory of run_ensembles() at one point of the parameter grid, bytes: the program, the surfaces that are side by side on this
-/// many threads, and what is kept of all of them. grid: of one surface. surfaces: that one process computes; empty: all of the point.
+/// Peak memory of run_ensembles() at one point of the parameter grid, bytes: the program, the
+/// surfaces that are side by side on this many threads, and what is kept of all of them. grid: of
+/// one surface. surfaces: that one process computes; empty: all of the point.
 double study_memory(const StudyConfiguration& point, const Grid2D& grid, int threads,
                     std::optional<std::size_t> surfaces = {});
 
-/// Counts what run_ensembles() would do, and multiplies it with what a contact costs for each cell: measured once on a server, for
-/// surfaces of 256² to 1024² points and loads up to 0.2 E*h', and scaled by how long one Fourier transform takes here. Good to a factor of
-/// two for studies, of three with interacting summits.
-/// Of several processes as estimate_cost(SurfaceWork) has it.
-/// throws  as parameter_combinations(), and as readers do for a measured surface, which is read; InvalidInput unless there is at least one
-///         process on each machine and in each group
+/// Counts what run_ensembles() would do, and multiplies it with what a contact costs for each cell:
+/// measured once on a server, for surfaces of 256² to 1024² points and loads up to 0.2 E*h', and
+/// scaled by how long one Fourier transform takes here. Good to a factor of two for studies, of
+/// three with interacting summits. Of several processes as estimate_cost(SurfaceWork) has it.
+/// throws  as parameter_combinations(), and as readers do for a measured surface, which is read;
+///         InvalidInput unless there is at least one process on each machine and in each group
 /// cost    some milliseconds, and the reading of a measured surface
 StudyCost estimate_cost(const StudyConfiguration& configuration,
                         const StudyProcesses& processes = {});
@@ -82,8 +84,9 @@ struct SurfaceCost {
   static constexpr double latency = 2e-6;  ///< assumed of a message, s
 };
 
-/// Time as estimate_cost() of a study has it, shared evenly, with the exchange between machines as docs/scaling.md models it. Memory as it was measured
-/// for one to sixteen processes. Neither has the reading and writing of files.
+/// Time as estimate_cost() of a study has it, shared evenly, with the exchange between machines as
+/// docs/scaling.md models it. Memory as it was measured for one to sixteen processes. Neither has
+/// the reading and writing of files.
 /// throws InvalidInput unless there is at least one process on each machine and in each group
 /// cost   some milliseconds
 SurfaceCost estimate_cost(const SurfaceWork& work);
@@ -91,12 +94,14 @@ SurfaceCost estimate_cost(const SurfaceWork& work);
 /// SurfaceCost::memory_of_process alone.
 double surface_memory(const SurfaceWork& work);
 
-/// The contacts of one surface of a study, which each group of processes presses at all of these loads.
+/// The contacts of one surface of a study, which each group of processes presses at all of these
+/// loads.
 SurfaceWork surface_work(const StudyConfiguration& point, const Grid2D& grid,
                          const std::vector<double>& loads, const StudyProcesses& processes);
 
-/// The most groups that are of use, whose surfaces fit into memory: exchange between processes is what does not get faster with more
-/// of them. fits: whether each process may take so many bytes. 1 where nothing does.
+/// The most groups that are of use, whose surfaces fit into memory: exchange between processes is
+/// what does not get faster with more of them. fits: whether each process may take so many bytes. 1
+/// where nothing does.
 int groups_that_fit(SurfaceWork work, const std::function<bool(double bytes)>& fits);
 
 /// A study divided among processes of cost.threads threads each.
@@ -107,7 +112,8 @@ struct ShardPlan {
   double memory = 0;         ///< peak of a shard, bytes
 };
 
-/// The fewest shards none of which takes longer than that; one for each surface where even these do.
+/// The fewest shards none of which takes longer than that; one for each surface where even these
+/// do.
 ShardPlan plan_shards(const StudyCost& cost, double seconds);
 
 }  // namespace salebra

@@ -23,24 +23,28 @@ struct PartOrigin {
   bool operator==(const PartOrigin&) const = default;
 };
 
-/// A folder with the finished realisations of a study, so that a study that was stopped, killed or ran out of disk can go on: one file
-/// for each, complete or not there at all, with a checksum and a key of everything that decides it. While the object lives, the
-/// folder is locked: by a file that link() creates, with host, process and its start time, touched every few seconds. A lock is
-/// taken over when its process is gone, where that is one of this host; that of another host when it has not been touched for a minute,
-/// by the clock of the file system.
-/// One process has the folder alone, or any number of shards share it. Realisations are files that appear whole, and the same bits
-/// whoever computes them: that several shards compute one is a waste, no fault.
+/// A folder with the finished realisations of a study, so that a study that was stopped, killed or
+/// ran out of disk can go on: one file for each, complete or not there at all, with a checksum and
+/// a key of everything that decides it. While the object lives, the folder is locked: by a file
+/// that link() creates, with host, process and its start time, touched every few seconds. A lock is
+/// taken over when its process is gone, where that is one of this host; that of another host when
+/// it has not been touched for a minute, by the clock of the file system. One process has the
+/// folder alone, or any number of shards share it. Realisations are files that appear whole, and
+/// the same bits whoever computes them: that several shards compute one is a waste, no fault.
 class StudyParts {
  public:
-  /// Creates the folder where it is not there. resume: a folder that holds realisations is accepted.
-  /// Throws InvalidInput where it holds some and resume is false, and where another process has it; IoError where the folder cannot be
-  /// created.
+  /// Creates the folder where it is not there. resume: a folder that holds realisations is
+  /// accepted.
+  /// Throws InvalidInput where it holds some and resume is false, and where another process has it;
+  /// IoError where the folder cannot be created.
   StudyParts(const std::filesystem::path& folder, bool resume);
-  /// Of one of several processes that share the folder. Throws InvalidInput where a process has it alone. The folder stays when the
-  /// object goes, and files that others write into it are left alone.
+  /// Of one of several processes that share the folder. Throws InvalidInput where a process has it
+  /// alone. The folder stays when the object goes, and files that others write into it are left
+  /// alone.
   static std::unique_ptr<StudyParts> of_shard(const std::filesystem::path& folder,
                                               const Shard& shard);
-  /// Alone, to read realisations of any arithmetic(), since nothing is added to them. Throws InvalidInput while a shard runs.
+  /// Alone, to read realisations of any arithmetic(), since nothing is added to them. Throws
+  /// InvalidInput while a shard runs.
   static std::unique_ptr<StudyParts> to_merge(const std::filesystem::path& folder);
   /// Unlocks; where it was had alone, a folder without realisations is removed.
   ~StudyParts();
@@ -56,21 +60,23 @@ class StudyParts {
   /// Of all realisations of a study, in ascending order.
   static std::vector<std::uint64_t> keys(const StudyConfiguration& study);
   bool holds(std::uint64_t key) const;
-  /// Empty where there is none; a damaged one is removed and counts in damaged(). Throws InvalidInput for one of another arithmetic(),
-  /// such as that of a processor with wider vectors: a study whose surfaces differ in their last digits is no study of either. Shards
-  /// run where a scheduler sends them: for them and a merge it counts in origins() only.
+  /// Empty where there is none; a damaged one is removed and counts in damaged(). Throws
+  /// InvalidInput for one of another arithmetic(), such as that of a processor with wider vectors:
+  /// a study whose surfaces differ in their last digits is no study of either. Shards run where a
+  /// scheduler sends them: for them and a merge it counts in origins() only.
   std::optional<Realisation> read(std::uint64_t key);
-  /// On the disk when it returns; may be called by several threads. Throws IoError, and Interrupted where another process
-  /// took the lock over.
+  /// On the disk when it returns; may be called by several threads. Throws IoError, and Interrupted
+  /// where another process took the lock over.
   void write(std::uint64_t key, const Realisation& realisation);
   int damaged() const;
   /// Of every realisation that read() returned.
   const std::vector<PartOrigin>& origins() const;
-  /// Of the realisations in the folder that have none of these keys, in ascending order: of other settings, seeds or versions.
+  /// Of the realisations in the folder that have none of these keys, in ascending order: of other
+  /// settings, seeds or versions.
   std::vector<PartOrigin> others(std::span<const std::uint64_t> keys) const;
 
-  /// Removes the folder with all that is in it: the study's result is safe elsewhere. only: where it has keys, realisations of
-  /// others stay, and the folder with them.
+  /// Removes the folder with all that is in it: the study's result is safe elsewhere. only: where
+  /// it has keys, realisations of others stay, and the folder with them.
   void discard(std::span<const std::uint64_t> only = {});
 
  private:

@@ -30,12 +30,13 @@ struct DampingPoint {
   /// Eq. (15) or (12) with the F'' that the curve itself has there: small amplitudes, no law.
   double small_work_per_cycle = ForceSample::unknown;    ///< J
   double small_damping_constant = ForceSample::unknown;  ///< N s/m
-  /// The theorem at the amplitude given. Boundary elements: from contacts inside the oscillation, surface_damping(). Other models: on
-  /// their curve, whose loads are joined smoothly; NaN where the motion leaves it, and of a single surface where the error is no
-  /// smaller.
+  /// The theorem at the amplitude given. Boundary elements: from contacts inside the oscillation,
+  /// surface_damping(). Other models: on their curve, whose loads are joined smoothly; NaN where
+  /// the motion leaves it, and of a single surface where the error is no smaller.
   double work_per_cycle = ForceSample::unknown;    ///< J
   double damping_constant = ForceSample::unknown;  ///< N s/m
-  /// Numerical error of damping_constant, N s/m, and its parts (SurfaceDamping); NaN where it was not computed.
+  /// Numerical error of damping_constant, N s/m, and its parts (SurfaceDamping); NaN where it was
+  /// not computed.
   double damping_constant_error = ForceSample::unknown;
   double cell_error = ForceSample::unknown;
   double scatter_error = ForceSample::unknown;
@@ -92,16 +93,20 @@ struct ModelResult {
   LocalDecayLength local{};
   /// l of a fit in which all loads count alike, m; see FitWeights.
   double decay_length_equal_weights = ForceSample::unknown;
-  /// κ of A/A0 = κ p/(E*h'): least squares through the origin over loads of 0.002 to 0.05 E*h', h' that of the surface.
+  /// κ of A/A0 = κ p/(E*h'): least squares through the origin over loads of 0.002 to 0.05 E*h', h'
+  /// that of the surface.
   double area_slope = ForceSample::unknown;
-  /// α of K = αF/h_rms: least squares through the origin over the pressures of the fit; h_rms/l where the exponential law holds.
+  /// α of K = αF/h_rms: least squares through the origin over the pressures of the fit; h_rms/l
+  /// where the exponential law holds.
   double stiffness_coefficient = ForceSample::unknown;
-  /// u0 of Persson's p ∝ exp(−ū/u0), which is also K = pA0/u0 of Campañá, Persson and Müser, m; of ContactModel::persson.
+  /// u0 of Persson's p ∝ exp(−ū/u0), which is also K = pA0/u0 of Campañá, Persson and Müser, m; of
+  /// ContactModel::persson.
   double asymptotic_decay_length = ForceSample::unknown;
   std::vector<DampingPoint> damping = {};  ///< for each sample of the curve
 
-  /// How far F ∝ exp(−ū/l) is from holding over the window of the fit: l at its far end over l at its close end, less 1, by the
-  /// parabola of test_exponential(); unknown for fewer than four points.
+  /// How far F ∝ exp(−ū/l) is from holding over the window of the fit: l at its far end over l at
+  /// its close end, less 1, by the parabola of test_exponential(); unknown for fewer than four
+  /// points.
   double law_bend() const;
   /// Lengths over h_rms.
   double decay_length_closest_over_rms_height() const {
@@ -218,8 +223,8 @@ struct Realisation {
   SurfacePicture
       picture;  ///< of one realisation of a study, see wants_picture(); of the others empty
 
-  /// Whether its moments can be those of a random surface. A smooth shape may have a Nayak parameter below 1; the models that take
-  /// their summits from the moments then have no curve.
+  /// Whether its moments can be those of a random surface. A smooth shape may have a Nayak
+  /// parameter below 1; the models that take their summits from the moments then have no curve.
   bool has_random_summits() const { return !(moments.nayak() < 1); }
 
   /// Throws InvalidInput for a model that was not asked for.
@@ -250,38 +255,42 @@ constexpr void describe(Visitor&& visit, std::type_identity<Realisation>) {
   visit(&S::picture, Kept{"picture", "heights, first contacts, spectrum, distribution"});
 }
 
-/// Whether K_t of the boundary elements comes from stick solves: where they are wanted, and the moduli are those of a body.
+/// Whether K_t of the boundary elements comes from stick solves: where they are wanted, and the
+/// moduli are those of a body.
 bool stick_solves(const StudyConfiguration& configuration);
 
-/// How the damping of one surface of the configuration is computed. One surface: with the cells halved once; beyond 512 points it is
-/// compared with cells of twice the size instead. Several: with 4 intervals on the cells as they are, and the error of all from the first
-/// of them, by cells of twice the size. With a relative error: each with cells halved until it is met.
+/// How the damping of one surface of the configuration is computed. One surface: with the cells
+/// halved once; beyond 512 points it is compared with cells of twice the size instead. Several:
+/// with 4 intervals on the cells as they are, and the error of all from the first of them, by cells
+/// of twice the size. With a relative error: each with cells halved until it is met.
 SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configuration,
                                               const Grid2D& grid, std::uint64_t seed);
 
 /// Those of the configuration, in the order of contact_models().
 std::vector<StudyModel> models_of(const StudyConfiguration& configuration);
 
-/// The surface of a seed, or the measured one (its plane removed, as the configuration says). Throws as generators and readers do.
-/// progress: of the generator. ranks: the processes over which the surface is spread, as in filtered_noise and read_surface; collective.
+/// The surface of a seed, or the measured one (its plane removed, as the configuration says).
+/// Throws as generators and readers do. progress: of the generator. ranks: the processes over which
+/// the surface is spread, as in filtered_noise and read_surface; collective.
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
                       const Progress& progress = {}, const Communicator& ranks = {});
 
-/// The unit of relative pressures, E*h'_rms, Pa, without looking at chance: what the lattice has in the mean, or what was measured.
-/// ranks: the processes that read it together; collective.
+/// The unit of relative pressures, E*h'_rms, Pa, without looking at chance: what the lattice has in
+/// the mean, or what was measured. ranks: the processes that read it together; collective.
 double contact_scale(const StudyConfiguration& configuration, const Communicator& ranks = {});
 
-/// Pressures of the sweep in Pa. Throws InvalidInput for a window of the fit with fewer than three of them, and for
-/// a hardness below the largest.
+/// Pressures of the sweep in Pa. Throws InvalidInput for a window of the fit with fewer than three
+/// of them, and for a hardness below the largest.
 std::vector<double> study_pressures(const StudyConfiguration& configuration,
                                     const Communicator& ranks = {});
 
-/// Surface → statistics → contact models → exponential law → damping for one surface of the configuration, whose ensemble lists
-/// are empty. With a hardness the surface is first loaded to the largest pressure and by the oscillation about it, and all that
-/// follows is of the residual surface. progress: of this surface, "realisation"; a stop throws Interrupted.
-/// Throws NotConverged where fewer than four contacts of a sweep converged, or the first loading did not.
-/// ranks: the processes over which the surface is spread. The first of them gets the realisation, with the bits of one process; the others
-/// what they know of it. Collective.
+/// Surface → statistics → contact models → exponential law → damping for one surface of the
+/// configuration, whose ensemble lists are empty. With a hardness the surface is first loaded to
+/// the largest pressure and by the oscillation about it, and all that follows is of the residual
+/// surface. progress: of this surface, "realisation"; a stop throws Interrupted.
+/// Throws NotConverged where fewer than four contacts of a sweep converged, or the first loading
+/// did not. ranks: the processes over which the surface is spread. The first of them gets the
+/// realisation, with the bits of one process; the others what they know of it. Collective.
 Realisation analyse_realisation(const StudyConfiguration& configuration, std::uint64_t seed,
                                 const std::vector<double>& pressures, const Progress& progress = {},
                                 const Communicator& ranks = {});

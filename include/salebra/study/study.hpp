@@ -15,15 +15,17 @@
 
 namespace salebra {
 
-/// What a reader has to know of a result: that it is of the residual surface, or why it may be off for other reasons than chance.
+/// What a reader has to know of a result: that it is of the residual surface, or why it may be off
+/// for other reasons than chance.
 struct StudyFlag {
   std::string name;  ///< "first_loading", "finite_size", "discretisation" or "few_spots"
   std::string text;  ///< a sentence for the user
 };
 
-/// Whether the mean over the first `surfaces` of an ensemble is looked at on its own, for a convergence curve and for the precision:
-/// every number from 2 to 128, beyond that 32 numbers in each doubling. Intervals for every number would take a time that grows
-/// with the square of the surfaces.
+/// Whether the mean over the first `surfaces` of an ensemble is looked at on its own, for a
+/// convergence curve and for the precision: every number from 2 to 128, beyond that 32 numbers in
+/// each doubling. Intervals for every number would take a time that grows with the square of the
+/// surfaces.
 bool is_milestone(std::size_t surfaces);
 
 /// A mean with its numerical error, which is no interval: levels, cells, stiffness ratio, seam.
@@ -51,10 +53,12 @@ struct StudyResult {
   /// Over the realisations; one surface has no interval.
   EnsembleMean decay_length(ContactModel model = ContactModel::bem) const;
   EnsembleMean decay_length_over_rms_height(ContactModel model = ContactModel::bem) const;
-  /// mean() of a column of ModelResult, such as "area_slope" or "law_bend". Throws InvalidInput for another name.
+  /// mean() of a column of ModelResult, such as "area_slope" or "law_bend". Throws InvalidInput for
+  /// another name.
   EnsembleMean fitted(std::string_view column, ContactModel model = ContactModel::bem) const;
 
-  /// Of a quantity of each pressure, in the order of pressures; contacts that did not converge take no part.
+  /// Of a quantity of each pressure, in the order of pressures; contacts that did not converge take
+  /// no part.
   std::vector<EnsembleMean> at_pressures(
       const std::function<double(const Realisation&, std::size_t)>& number) const;
   std::vector<EnsembleMean> curve(const NumberOf<ForceSample>& number,
@@ -64,22 +68,25 @@ struct StudyResult {
   std::vector<EnsembleMean> spots(const NumberOf<SpotStatistics>& number) const;
   /// A quantity of a model over that of the boundary elements on the same surface.
   std::vector<EnsembleMean> over_bem(const NumberOf<ForceSample>& number, ContactModel model) const;
-  /// A route to the loss of a model over the theorem on the boundary-element curve of the same surface.
+  /// A route to the loss of a model over the theorem on the boundary-element curve of the same
+  /// surface.
   std::vector<EnsembleMean> damping_over_bem(const NumberOf<DampingPoint>& number,
                                              ContactModel model) const;
   /// Those ratios of a model that files and answers have, by the names of their quantities.
   std::vector<std::pair<std::string, std::vector<EnsembleMean>>> comparison(
       ContactModel model) const;
 
-  /// DampingPoint::damping_constant at each pressure with its error: that of the surface, or, of n, the relative error of those that have
-  /// one, its scatter over √n, times the mean. The mean is NaN where the error is not smaller.
+  /// DampingPoint::damping_constant at each pressure with its error: that of the surface, or, of n,
+  /// the relative error of those that have one, its scatter over √n, times the mean. The mean is
+  /// NaN where the error is not smaller.
   std::vector<StatedMean> stated_damping(ContactModel model = ContactModel::bem) const;
 
   /// Minimum and maximum mean of DampingPoint::deviation over the pressures, NaN without any.
   std::pair<double, double> deviation_range(ContactModel model = ContactModel::bem) const;
   /// The numbers of surfaces of convergence(): the milestones, and all.
   std::vector<std::size_t> convergence_counts() const;
-  /// The mean of l/h_rms of the boundary elements over the first convergence_counts() realisations: how the mean converges.
+  /// The mean of l/h_rms of the boundary elements over the first convergence_counts() realisations:
+  /// how the mean converges.
   std::vector<EnsembleMean> convergence() const;
   /// How the intervals came about: one line.
   std::string interval_method() const;
@@ -97,13 +104,16 @@ struct RealisationReport {
 struct StudyRun {
   Progress on_progress = {};  ///< of the whole run
   std::function<void(const RealisationReport&)> on_realisation = {};
-  /// Realisations that it holds are not computed again; each that is computed is on the disk before its thread begins another.
+  /// Realisations that it holds are not computed again; each that is computed is on the disk before
+  /// its thread begins another.
   StudyParts* parts = nullptr;
-  /// Where it is given, nothing is computed: it receives the places, from 0 on over all points and seeds in their order, of the
-  /// realisations that `parts` lacks, and results are those of a whole run where there are none.
+  /// Where it is given, nothing is computed: it receives the places, from 0 on over all points and
+  /// seeds in their order, of the realisations that `parts` lacks, and results are those of a whole
+  /// run where there are none.
   std::vector<std::size_t>* missing = nullptr;
-  /// The processes that make the run together: each group spreads one surface after the other over its processes. All make the call, each
-  /// with its own on_progress, and get the same results. on_realisation and `parts` are of the first process alone.
+  /// The processes that make the run together: each group spreads one surface after the other over
+  /// its processes. All make the call, each with its own on_progress, and get the same results.
+  /// on_realisation and `parts` are of the first process alone.
   Groups groups = {};
 };
 
@@ -117,24 +127,30 @@ struct ShardOutcome {
   bool interrupted = false;
 };
 
-/// Computes the surfaces of a shard that the folder lacks, and leaves them there: any number of processes may do so at once, on any
-/// hosts that see the folder. run.parts is StudyParts::of_shard(). run_ensembles() with `missing` puts the result together, with the bits
-/// of one process. A precision ends no numbered shard early, as others hold the surfaces between; Shard::any() heeds it before each surface.
-/// Of Shard::any(), a surface is claimed by a file that is touched every few seconds. A claim is void when its process is gone, where
-/// that can be seen, or has not touched it for a minute by the clock of the file system.
-/// throws  InvalidInput for a configuration that cannot be run, and for parts none of which belongs to it; NotConverged and IoError as
-///         run_ensembles()
+/// Computes the surfaces of a shard that the folder lacks, and leaves them there: any number of
+/// processes may do so at once, on any hosts that see the folder. run.parts is
+/// StudyParts::of_shard(). run_ensembles() with `missing` puts the result together, with the bits
+/// of one process. A precision ends no numbered shard early, as others hold the surfaces between;
+/// Shard::any() heeds it before each surface. Of Shard::any(), a surface is claimed by a file that
+/// is touched every few seconds. A claim is void when its process is gone, where that can be seen,
+/// or has not touched it for a minute by the clock of the file system.
+/// throws  InvalidInput for a configuration that cannot be run, and for parts none of which belongs
+///         to it; NotConverged and IoError as run_ensembles()
 ShardOutcome run_shard(const StudyConfiguration& configuration, const Shard& shard,
                        const StudyRun& run);
 
-/// The ensembles of every point of the configuration's parameter grid, in the order of parameter_combinations(): every surface through
-/// analyse_realisation(), in parallel over surfaces. With a precision, a point ends at the first M >= min_realisations surfaces (in
-/// the order of the seeds, M a milestone) for which the 95 % intervals of l/h_rms and of κ of the boundary elements are narrower than ±precision of
-/// their means. The result has the same bits for every number of threads, processes and groups. A point that was not begun when the run was stopped is left out.
-/// A measured surface is treated as periodic after its plane is removed; the result carries a warning with
-/// the size of the step that this makes at the seam.
-/// throws  InvalidInput for a configuration that cannot be run, as one with a hardness, a relative error or interacting summits over
-///         several processes of a group, and for parts none of which belongs to it; NotConverged where fewer than four contacts of a sweep converged; IoError where a part cannot be written
+/// The ensembles of every point of the configuration's parameter grid, in the order of
+/// parameter_combinations(): every surface through analyse_realisation(), in parallel over
+/// surfaces. With a precision, a point ends at the first M >= min_realisations surfaces (in the
+/// order of the seeds, M a milestone) for which the 95 % intervals of l/h_rms and of κ of the
+/// boundary elements are narrower than ±precision of their means. The result has the same bits for
+/// every number of threads, processes and groups. A point that was not begun when the run was
+/// stopped is left out. A measured surface is treated as periodic after its plane is removed; the
+/// result carries a warning with the size of the step that this makes at the seam.
+/// throws  InvalidInput for a configuration that cannot be run, as one with a hardness, a relative
+///         error or interacting summits over several processes of a group, and for parts none of
+///         which belongs to it; NotConverged where fewer than four contacts of a sweep converged;
+///         IoError where a part cannot be written
 /// cost    the BEM sweep, for each surface; interacting summits cost about as much again
 std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
                                        const StudyRun& run = {});

@@ -12,9 +12,10 @@
 
 namespace salebra {
 
-/// What a reader wants to see of one surface of a study: its heights and where they touch, its spectrum and its distribution.
-/// Maps hold every stride-th point along either axis, at most picture_side of them: a sample of the points has the height
-/// distribution and, in the mean, the contact area of all of them, which averages over blocks have not.
+/// What a reader wants to see of one surface of a study: its heights and where they touch, its
+/// spectrum and its distribution. Maps hold every stride-th point along either axis, at most
+/// picture_side of them: a sample of the points has the height distribution and, in the mean, the
+/// contact area of all of them, which averages over blocks have not.
 struct SurfacePicture {
   static constexpr Index picture_side = 512;
 
@@ -39,8 +40,8 @@ struct SurfacePicture {
   std::vector<double> height, height_density;  ///< histogram, m and 1/m
 
   bool empty() const { return stride == 0; }
-  /// Marks the points that carry pressure under load number k, and takes the maps of one load. Of a surface that is spread over processes
-  /// each has its rows of these maps.
+  /// Marks the points that carry pressure under load number k, and takes the maps of one load. Of a
+  /// surface that is spread over processes each has its rows of these maps.
   void add_contact(std::int16_t k, const NormalContactState& state, const Surface& surface);
   /// Hands them to the first process. Collective.
   void gather(const Communicator& ranks);
@@ -79,9 +80,10 @@ constexpr void describe(Visitor&& visit, std::type_identity<SurfacePicture>) {
 /// One picture a study: of its first seed, or of the measured surface.
 bool wants_picture(const StudyConfiguration& configuration, std::uint64_t seed);
 
-/// Without contact as yet. The law of a generated surface is what was asked for, that of any other a power law through the range in
-/// which it is self-affine. The distribution is that of the points of the maps. A surface may be spread over processes; the first one has the
-/// picture. Collective. Cost: one FFT.
+/// Without contact as yet. The law of a generated surface is what was asked for, that of any other
+/// a power law through the range in which it is self-affine. The distribution is that of the points
+/// of the maps. A surface may be spread over processes; the first one has the picture. Collective.
+/// Cost: one FFT.
 SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& configuration);
 
 }  // namespace salebra

@@ -16,9 +16,10 @@ struct Check {
   bool passed() const;
 };
 
-/// Runs the solvers on problems with known solutions: Hertz's sphere, Westergaard's full contact, Greenwood–Williamson with
-/// exponential heights, the integrals J(k), the theorem against the closed forms, the moments of a generated surface.
-/// Cost: a few seconds. Throws Interrupted if progress says stop.
+/// Runs the solvers on problems with known solutions: Hertz's sphere, Westergaard's full contact,
+/// Greenwood–Williamson with exponential heights, the integrals J(k), the theorem against the
+/// closed forms, the moments of a generated surface. Cost: a few seconds. Throws Interrupted if
+/// progress says stop.
 std::vector<Check> verify_installation(const Progress& progress = {});
 
 }  // namespace salebra

@@ -5,8 +5,9 @@
 
 namespace salebra {
 
-/// Areal parameters by the definitions of ISO 25178-2, under their names there, of the surface as it is given: no S- or L-filter is
-/// applied, and form is removed by `detrended` alone. Means are over the defined points, heights count from their mean.
+/// Areal parameters by the definitions of ISO 25178-2, under their names there, of the surface as
+/// it is given: no S- or L-filter is applied, and form is removed by `detrended` alone. Means are
+/// over the defined points, heights count from their mean.
 struct ArealParameters {
   double Sa = 0;   ///< ⟨|h|⟩, m
   double Sq = 0;   ///< √⟨h²⟩, m
@@ -15,28 +16,30 @@ struct ArealParameters {
   double Sp = 0;   ///< highest peak, m
   double Sv = 0;   ///< deepest pit, > 0, m
   double Sz = 0;   ///< Sp + Sv, m
-  /// Shortest distance at which the autocorrelation (CorrelationMap) has fallen to 0.2 of its value at 0, over all directions
-  /// (720 of them, bilinear between lags), m. NaN where it does not fall so far within half the surface.
+  /// Shortest distance at which the autocorrelation (CorrelationMap) has fallen to 0.2 of its value
+  /// at 0, over all directions (720 of them, bilinear between lags), m. NaN where it does not fall
+  /// so far within half the surface.
   double Sal = 0;
   double Str = 0;  ///< Sal over the longest such distance, 0 … 1; NaN where that is unknown
-  /// Direction, from the x axis, of the greatest value of the angular spectrum ∫ q C dq (of 720 rays, bilinear between modes), in
-  /// [0, π) rad. A lay runs across it. NaN if points are undefined or all heights equal.
+  /// Direction, from the x axis, of the greatest value of the angular spectrum ∫ q C dq (of 720
+  /// rays, bilinear between modes), in [0, π) rad. A lay runs across it. NaN if points are
+  /// undefined or all heights equal.
   double Std = 0;
-  /// Root mean square gradient and developed area over its projection, less 1: means over the triangles that each cell of four points
-  /// is cut into by either of its diagonals.
+  /// Root mean square gradient and developed area over its projection, less 1: means over the
+  /// triangles that each cell of four points is cut into by either of its diagonals.
   double Sdq = 0;
   double Sdr = 0;
   double Sk = 0, Spk = 0, Svk = 0;  ///< core_parameters of the bearing curve, m
   double Smr1 = 0, Smr2 = 0;        ///< the same, 0 … 1
-  /// Peaks per area, 1/m², and their mean curvature, 1/m (NaN without peaks): significant_peaks that stand 5 % of Sz above their
-  /// saddle, as ISO's default has it.
+  /// Peaks per area, 1/m², and their mean curvature, 1/m (NaN without peaks): significant_peaks
+  /// that stand 5 % of Sz above their saddle, as ISO's default has it.
   double Spd = 0;
   double Spc = 0;
 };
 
-/// Throws InvalidInput as height_statistics and for fewer than 3 × 3 points. Of a surface that is spread over processes Sal, Str, Std, Sk to
-/// Smr2, Spd and Spc are NaN, which need it whole; collective.
-/// Cost: the correlation map, a power spectrum and two sorts.
+/// Throws InvalidInput as height_statistics and for fewer than 3 × 3 points. Of a surface that is
+/// spread over processes Sal, Str, Std, Sk to Smr2, Spd and Spc are NaN, which need it whole;
+/// collective. Cost: the correlation map, a power spectrum and two sorts.
 ArealParameters areal_parameters(const Surface& surface);
 
 }  // namespace salebra

@@ -6,17 +6,19 @@
 
 namespace salebra {
 
-/// Abbott and Firestone's bearing curve c(p): the height above which the part p of the surface lies, 0 <= p <= 1, falling. Each defined point
-/// stands for one cell: with heights z_0 >= z_1 >= … of N points, c((k + ½)/N) = z_k, straight between, level beyond the first
-/// and the last.
+/// Abbott and Firestone's bearing curve c(p): the height above which the part p of the surface
+/// lies, 0 <= p <= 1, falling. Each defined point stands for one cell: with heights z_0 >= z_1 >= …
+/// of N points, c((k + ½)/N) = z_k, straight between, level beyond the first and the last.
 class BearingCurve {
  public:
-  /// Throws InvalidInput as height_statistics. Cost: one sort of the heights; memory: a copy of them.
+  /// Throws InvalidInput as height_statistics. Cost: one sort of the heights; memory: a copy of
+  /// them.
   explicit BearingCurve(const Surface& surface);
 
   /// c(p), m; ISO 25178-2 Smc(p). Throws InvalidInput unless 0 <= p <= 1.
   double height(double area_fraction) const;
-  /// The part of the surface that lies above a height, m; ISO 25178-2 Smr(c). 0 above all, 1 below all heights.
+  /// The part of the surface that lies above a height, m; ISO 25178-2 Smr(c). 0 above all, 1 below
+  /// all heights.
   double area_fraction(double height) const;
   /// ∫ c dp from `from` to `to`, m: exact for the polygon.
   double integral(double from, double to) const;
@@ -28,9 +30,11 @@ class BearingCurve {
   std::vector<double> sums_;  ///< of z_0 … z_{k−1}
 };
 
-/// Core, peaks and valleys of a bearing curve by ISO 25178-2 (and ISO 13565-2). The core is the straight line fitted by least squares to
-/// the 40 % of the curve whose secant is flattest (the first of several); its heights at p = 0 and 1 are the upper and lower limit of
-/// the core, Sk apart. Spk and Svk are heights of the triangles over Smr1 and under 1 − Smr2 that have the area between curve and limit.
+/// Core, peaks and valleys of a bearing curve by ISO 25178-2 (and ISO 13565-2). The core is the
+/// straight line fitted by least squares to the 40 % of the curve whose secant is flattest (the
+/// first of several); its heights at p = 0 and 1 are the upper and lower limit of the core, Sk
+/// apart. Spk and Svk are heights of the triangles over Smr1 and under 1 − Smr2 that have the area
+/// between curve and limit.
 struct CoreParameters {
   double core_height = 0;    ///< Sk, m
   double peak_height = 0;    ///< Spk, m; 0 where nothing stands above the core
@@ -50,7 +54,8 @@ struct HeightHistogram {
   double width = 0;  ///< of a bin, m; 0, and an infinite density, if all heights are equal
 };
 
-/// bins   0: of width 2·(interquartile range)/N^(1/3) of Freedman and Diaconis (1981), 10 … 200 of them. One bin if all heights are
+/// bins   0: of width 2·(interquartile range)/N^(1/3) of Freedman and Diaconis (1981), 10 … 200 of
+///        them. One bin if all heights are
 /// equal. Throws InvalidInput for bins < 0.
 HeightHistogram height_histogram(const BearingCurve& curve, int bins = 0);
 

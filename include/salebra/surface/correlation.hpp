@@ -7,13 +7,15 @@
 
 namespace salebra {
 
-/// Means over all pairs of defined points at a distance vector r, up to half the surface along each axis (beyond that a surface that is
-/// not periodic has few pairs, and a periodic one repeats itself):
+/// Means over all pairs of defined points at a distance vector r, up to half the surface along each
+/// axis (beyond that a surface that is not periodic has few pairs, and a periodic one repeats
+/// itself):
 ///     autocorrelation  A(r) = ⟨(h(x) − ⟨h⟩)(h(x+r) − ⟨h⟩)⟩,  ⟨h⟩ the mean of all defined points
 ///     structure        S(r) = ⟨(h(x+r) − h(x))²⟩, also called height-height correlation function
-/// On a periodic complete surface S = 2(A(0) − A(r)). Elsewhere the pairs at r are not all points, and S is the sounder one of the two:
-/// it does not depend on the mean. SurfaceTopography's "autocorrelation" is S/2.
-/// Fields are (2·(nx/2)+1, ny/2+1): row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0; A and S are even in r.
+/// On a periodic complete surface S = 2(A(0) − A(r)). Elsewhere the pairs at r are not all points,
+/// and S is the sounder one of the two: it does not depend on the mean. SurfaceTopography's
+/// "autocorrelation" is S/2. Fields are (2·(nx/2)+1, ny/2+1): row nx/2 + i and column j hold r =
+/// (i·dx, j·dy), j >= 0; A and S are even in r.
 struct CorrelationMap {
   Grid2D grid;            ///< of the surface
   Field autocorrelation;  ///< m²; NaN where there is no pair
@@ -25,8 +27,9 @@ struct CorrelationMap {
   double lag_y(Index column) const { return static_cast<double>(column) * grid.dy(); }
 };
 
-/// Undefined points take no part. Throws InvalidInput as height_statistics. Cost: six real FFTs of 1.5 times the points along each axis
-/// that is not periodic; two of the grid for a periodic complete surface.
+/// Undefined points take no part. Throws InvalidInput as height_statistics. Cost: six real FFTs of
+/// 1.5 times the points along each axis that is not periodic; two of the grid for a periodic
+/// complete surface.
 CorrelationMap correlation_map(const Surface& surface);
 
 /// A and S over distance. Every entry holds at least one pair; the first is r = 0.
@@ -40,8 +43,8 @@ struct Correlation {
 /// Along one axis: the mean over all profiles, at multiples of the step.
 Correlation profile_correlation(const CorrelationMap& map, Axis axis);
 
-/// Mean over all directions, in rings whose limits are in the ratio 2^(1/bins_per_octave), weighted with the pairs, up to half the shorter
-/// side; empty rings are left out.
+/// Mean over all directions, in rings whose limits are in the ratio 2^(1/bins_per_octave), weighted
+/// with the pairs, up to half the shorter side; empty rings are left out.
 Correlation radial_correlation(const CorrelationMap& map, int bins_per_octave = 4);
 
 }  // namespace salebra

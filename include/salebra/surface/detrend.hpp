@@ -10,14 +10,18 @@ enum class Detrend {
   none,
   mean,       ///< the mean of the defined heights
   plane,      ///< the least-squares plane a + b·x + c·y through the defined heights
-  quadratic,  ///< the least-squares paraboloid, with x², xy and y²: the bow of a scanner or of a lens
-  // Flattening of a scan, whose fast axis is x, line by line. Both take the jumps and the drift between lines away, and with them the waves of
-  // the roughness itself that are longer than a line: statistics along y change, those along x do not. The first and the last line do not
-  // meet: continued periodically, the surface has a seam there, as any scan has.
-  /// Of each line its least-squares straight line, offset and slope. A feature that covers a part of a line shifts the rest of it.
+  quadratic,  ///< the least-squares paraboloid, with x², xy and y²: the bow of a scanner or of a
+              ///< lens
+  // Flattening of a scan, whose fast axis is x, line by line. Both take the jumps and the drift
+  // between lines away, and with them the waves of the roughness itself that are longer than a
+  // line: statistics along y change, those along x do not. The first and the last line do not meet:
+  // continued periodically, the surface has a seam there, as any scan has.
+  /// Of each line its least-squares straight line, offset and slope. A feature that covers a part
+  /// of a line shifts the rest of it.
   lines,
-  /// Of each line its offset alone, by which the median of its differences from the line before becomes zero; then the plane. A feature
-  /// shifts nothing unless its edge along y takes half of a line. A point is compared with the last one defined before it at its x.
+  /// Of each line its offset alone, by which the median of its differences from the line before
+  /// becomes zero; then the plane. A feature shifts nothing unless its edge along y takes half of a
+  /// line. A point is compared with the last one defined before it at its x.
   median_differences
 };
 
@@ -27,8 +31,9 @@ Detrend default_detrend(const Surface& surface);
 
 /// The surface less its trend. Undefined points stay undefined and take no part in the fit; where
 /// they, or a grid of one row, leave the trend undetermined, the smallest one that fits is
-/// subtracted. A surface that is spread over processes is not detrended line by line. Throws InvalidInput if the heights have not the
-/// shape of the grid or no height is defined. Cost: two passes; four with median_differences.
+/// subtracted. A surface that is spread over processes is not detrended line by line. Throws
+/// InvalidInput if the heights have not the shape of the grid or no height is defined. Cost: two
+/// passes; four with median_differences.
 Surface detrended(Surface surface, Detrend method);
 
 }  // namespace salebra

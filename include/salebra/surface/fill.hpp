@@ -5,12 +5,15 @@
 
 namespace salebra {
 
-/// The surface with its undefined points filled by the smoothest heights that fit: the discrete Laplace equation
+/// The surface with its undefined points filled by the smoothest heights that fit: the discrete
+/// Laplace equation
 ///     Σ (h_neighbour − h)/dx² + Σ (h_neighbour − h)/dy² = 0,
-/// over the neighbours that exist, with the defined heights held. Planes are continued exactly, no filled point lies above or below all
-/// that surround it, and a hole at the border ends there without slope across it. What is filled is smoother than the surface: it
-/// has no summits and takes power from short waves, so count the points first. A complete surface comes back as it is.
-/// Throws InvalidInput if no height is defined. Cost: one sparse Cholesky factorisation for the undefined points.
+/// over the neighbours that exist, with the defined heights held. Planes are continued exactly, no
+/// filled point lies above or below all that surround it, and a hole at the border ends there
+/// without slope across it. What is filled is smoother than the surface: it has no summits and
+/// takes power from short waves, so count the points first. A complete surface comes back as it is.
+/// Throws InvalidInput if no height is defined. Cost: one sparse Cholesky factorisation for the
+/// undefined points.
 Surface filled(Surface surface);
 
 }  // namespace salebra

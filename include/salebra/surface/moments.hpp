@@ -20,24 +20,26 @@ struct HeightStatistics {
 };
 
 /// Throws InvalidInput if the heights have not the shape of the grid, hold an infinity, or none of
-/// them is defined. Cost: two passes. Same bits for every number of threads and of processes over which a surface is spread; collective.
+/// them is defined. Cost: two passes. Same bits for every number of threads and of processes over
+/// which a surface is spread; collective.
 HeightStatistics height_statistics(const Surface& surface);
 
 /// Moments of a periodic surface from its spectrum (PHYSICS convention h_rms² = ∫C d²q):
 ///     m2_x = Σ q_x² |ĥ|²/N², m4_x = Σ q_x⁴ |ĥ|²/N² over the full spectrum, q = 0 left out,
 /// which are those of the trigonometric interpolant; a Nyquist mode counts once, with |q| = π/dx.
-/// Throws InvalidInput unless the surface is periodic and complete. Cost: transforms of all rows and columns. Of a surface spread over
-/// processes as height_statistics.
+/// Throws InvalidInput unless the surface is periodic and complete. Cost: transforms of all rows
+/// and columns. Of a surface spread over processes as height_statistics.
 SpectralMoments spectral_moments(const Surface& surface);
 
 /// Moments by finite differences of neighbouring points:
 ///     m2_x = ⟨((h_{i+1} − h_i)/dx)²⟩, m4_x = ⟨((h_{i+1} − 2h_i + h_{i−1})/dx²)²⟩,
 /// m4 a mean over all stencils on the grid (with wrap where the surface is periodic) that touch no
 /// undefined point, m2 over all points whose neighbours of both differences exist, so that the rms
-/// slope is the mean of |∇h|² over one set of points, as SurfaceTopography has it. Where the surface
-/// has structure at the scale of the grid they are smaller than the spectral moments: a mode of wave
-/// number q counts with (2 sin(q dx/2)/dx)² in place of q². Throws InvalidInput if an axis has fewer
-/// than three points or a moment has no stencil left. Cost: one pass. Of a surface spread over processes as height_statistics.
+/// slope is the mean of |∇h|² over one set of points, as SurfaceTopography has it. Where the
+/// surface has structure at the scale of the grid they are smaller than the spectral moments: a
+/// mode of wave number q counts with (2 sin(q dx/2)/dx)² in place of q². Throws InvalidInput if an
+/// axis has fewer than three points or a moment has no stencil left. Cost: one pass. Of a surface
+/// spread over processes as height_statistics.
 SpectralMoments difference_moments(const Surface& surface);
 
 /// spectral_moments of a periodic surface, difference_moments of any other.

@@ -11,15 +11,18 @@ struct Peak {
   Index ix = 0, iy = 0;
   double height = 0;  ///< m
   double prominence =
-      0;  ///< above the highest saddle that leads to a higher peak, m; infinite for the highest of all
+      0;  ///< above the highest saddle that leads to a higher peak, m; infinite for the highest of
+          ///< all
   /// −½(∂²h/∂x² + ∂²h/∂y²) by second differences, 1/m.
   double mean_curvature = 0;
 };
 
-/// The peaks that stand at least `min_prominence` (m, >= 0) above the saddle to a higher one: Wolf's pruning of hills, in the order of
-/// falling height. Eight neighbours; with wrap where the surface is periodic. Elsewhere points of the border count as hills but are not
-/// listed, having no curvature, nor are points beside undefined ones. Equal heights are told apart by their place.
-/// Throws InvalidInput for fewer than 3 × 3 points. Cost: one sort of all points; memory about four times the heights.
+/// The peaks that stand at least `min_prominence` (m, >= 0) above the saddle to a higher one:
+/// Wolf's pruning of hills, in the order of falling height. Eight neighbours; with wrap where the
+/// surface is periodic. Elsewhere points of the border count as hills but are not listed, having no
+/// curvature, nor are points beside undefined ones. Equal heights are told apart by their place.
+/// Throws InvalidInput for fewer than 3 × 3 points. Cost: one sort of all points; memory about four
+/// times the heights.
 std::vector<Peak> significant_peaks(const Surface& surface, double min_prominence);
 
 }  // namespace salebra

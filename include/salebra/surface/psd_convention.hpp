@@ -7,7 +7,8 @@
 
 namespace salebra {
 
-/// How a power spectral density is written down. L a square surface's side, dx its step; the same surface in each:
+/// How a power spectral density is written down. L a square surface's side, dx its step; the same
+/// surface in each:
 enum class PsdConvention {
   salebra,             ///< C over q in rad/m, m⁴:                     h_rms² = 2π ∫ q C dq
   surface_topography,  ///< (2π)² C over q in rad/m, m⁴:               h_rms² = (1/2π) ∫ q C dq
@@ -25,11 +26,13 @@ struct ConvertedPsd {
   std::string normalisation;    ///< what the mean square height is
 };
 
-/// Throws InvalidInput for Tamaas' integers where lx and ly differ, and for cycles in a sample where dx and dy do.
+/// Throws InvalidInput for Tamaas' integers where lx and ly differ, and for cycles in a sample
+/// where dx and dy do.
 ConvertedPsd converted(const RadialSpectrum& spectrum, const Grid2D& grid,
                        PsdConvention convention);
 
-/// Of profiles: C₁ with h_rms² = ∫C₁ dq over all q in salebra and Gwyddion; 2πC₁ with h_rms² = (1/π)∫C dq over q > 0 in SurfaceTopography.
+/// Of profiles: C₁ with h_rms² = ∫C₁ dq over all q in salebra and Gwyddion; 2πC₁ with h_rms² =
+/// (1/π)∫C dq over q > 0 in SurfaceTopography.
 /// Throws InvalidInput for the others, which have none.
 ConvertedPsd converted(const ProfilePsd& spectrum, PsdConvention convention);
 

@@ -8,12 +8,13 @@
 
 namespace salebra {
 
-/// Slope and curvature along one axis by finite differences over s = k steps, k from one step on, k+1 or about a tenth apart, as long as
-/// the stencil fits twice into the profile, as Sanner et al. (2022):
+/// Slope and curvature along one axis by finite differences over s = k steps, k from one step on,
+/// k+1 or about a tenth apart, as long as the stencil fits twice into the profile, as Sanner et al.
+/// (2022):
 ///     slope       (h(x+s) − h(x))/s,               over the distance s
 ///     curvature   (h(x+s) − 2h(x) + h(x−s))/s²,    over the distance 2s, the length of its stencil
-/// over all stencils that touch no undefined point, with wrap where the surface is periodic. An entry stands for the distance
-/// s of the slope; the curvature beside it belongs to 2s.
+/// over all stencils that touch no undefined point, with wrap where the surface is periodic. An
+/// entry stands for the distance s of the slope; the curvature beside it belongs to 2s.
 struct ScaleDependence {
   std::vector<double> spacing;        ///< s, m
   std::vector<double> profile_slope;  ///< √⟨slope²⟩ = √S(s)/s of the structure function
@@ -22,8 +23,9 @@ struct ScaleDependence {
   std::vector<Index> stencils;            ///< of the curvature
 };
 
-/// Throws InvalidInput if the heights have not the shape of the grid or hold no complete stencil of three neighbours along the axis.
-/// Cost: one pass over memory, with about 40 over each profile of 1000 points. Of a surface spread over processes as height_statistics.
+/// Throws InvalidInput if the heights have not the shape of the grid or hold no complete stencil of
+/// three neighbours along the axis. Cost: one pass over memory, with about 40 over each profile of
+/// 1000 points. Of a surface spread over processes as height_statistics.
 ScaleDependence scale_dependence(const Surface& surface, Axis axis);
 
 /// Wavelengths below which a measured surface is the instrument's rather than its own.
@@ -35,8 +37,9 @@ struct ReliabilityOptions {
 
 struct ReliabilityLimit {
   double pixel = 0;  ///< 2·max(dx, dy): no grid holds shorter waves, m
-  /// Least stencil length 2s from which on no curvature along x or y is below −safety_factor/tip_radius: a tip cannot see sharper peaks.
-  /// 0 where even the grid itself shows none, infinity where all scales do. m
+  /// Least stencil length 2s from which on no curvature along x or y is below
+  /// −safety_factor/tip_radius: a tip cannot see sharper peaks. 0 where even the grid itself shows
+  /// none, infinity where all scales do. m
   std::optional<double> tip = {};
   std::optional<double> resolution = {};  ///< as given, m
 

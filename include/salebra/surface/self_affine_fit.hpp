@@ -12,21 +12,24 @@ struct IntervalEstimate {
   bool found() const { return value == value; }
 };
 
-/// The self-affine model of a surface: a plateau down to the roll-off wavelength, a power law C ∝ q^{−2(1+H)} down to the shortest
-/// wavelength, nothing below.
+/// The self-affine model of a surface: a plateau down to the roll-off wavelength, a power law C ∝
+/// q^{−2(1+H)} down to the shortest wavelength, nothing below.
 struct SelfAffineFit {
   HurstEstimate hurst;
-  /// λ_r, m. NaN unless a plateau is seen: a law without one is less likely by more than the limit of the interval.
+  /// λ_r, m. NaN unless a plateau is seen: a law without one is less likely by more than the limit
+  /// of the interval.
   IntervalEstimate rolloff;
-  /// λ_s, m. NaN unless the spectrum ends within the lattice, falling to less than a thousandth of the law within four modes.
+  /// λ_s, m. NaN unless the spectrum ends within the lattice, falling to less than a thousandth of
+  /// the law within four modes.
   IntervalEstimate short_cutoff;
 };
 
-/// H as estimate_hurst. The roll-off is that of greatest quasi-likelihood, plateau and slope being free, over all modes up to the end of the
-/// fitted range (of a windowed spectrum without its three longest waves); its interval holds what a likelihood-ratio test at 5 % does
-/// not reject, powers being exponentially distributed and correlated as the window has it. The shortest wavelength lies between
-/// the last mode that has power and the first that has none; a window spreads power by some modes, up to four of which the interval allows for.
-/// Cost: as estimate_hurst.
+/// H as estimate_hurst. The roll-off is that of greatest quasi-likelihood, plateau and slope being
+/// free, over all modes up to the end of the fitted range (of a windowed spectrum without its three
+/// longest waves); its interval holds what a likelihood-ratio test at 5 % does not reject, powers
+/// being exponentially distributed and correlated as the window has it. The shortest wavelength
+/// lies between the last mode that has power and the first that has none; a window spreads power by
+/// some modes, up to four of which the interval allows for. Cost: as estimate_hurst.
 SelfAffineFit fit_self_affine(const PowerSpectrum& spectrum);
 
 }  // namespace salebra

@@ -10,13 +10,15 @@ namespace salebra {
 
 /// Two-dimensional power spectral density of a surface in the convention
 ///     C(q) = (2π)⁻² ∫⟨h(0)h(x)⟩ e^{−iq·x} d²x,   h_rms² = ∫C d²q,   q in rad/m,
-/// on the half-spectrum of wave vectors (i, j), j = 0 … ny/2; C(−q) = C(q). The mean height is left out. That of a surface which is spread
-/// over processes is spread by columns. What is made of it has the same bits for every number of processes, and is collective.
+/// on the half-spectrum of wave vectors (i, j), j = 0 … ny/2; C(−q) = C(q). The mean height is left
+/// out. That of a surface which is spread over processes is spread by columns. What is made of it
+/// has the same bits for every number of processes, and is collective.
 struct PowerSpectrum {
   Grid2D grid;
   Field psd;              ///< C, (nx, ny/2+1) or (nx, columns().count()), m⁴
   bool windowed = false;  ///< a window made the heights fade out at the edges
-  /// How many neighbouring modes count as one in a mean, since the window mixes them: ⟨w⁴⟩/⟨w²⟩²; 1 without a window.
+  /// How many neighbouring modes count as one in a mean, since the window mixes them: ⟨w⁴⟩/⟨w²⟩²; 1
+  /// without a window.
   double correlated_modes = 1;
   Communicator ranks = {};  ///< the processes that hold its columns
 
@@ -28,23 +30,29 @@ struct PowerSpectrum {
   double cell() const;                 ///< d²q of one mode, (2π)²/(lx ly), m⁻²
 };
 
-/// What the heights are multiplied by before they are transformed, ξ = (i+½)/nx and η = (j+½)/ny from edge to edge. A window takes the
-/// leakage of the steps between opposite edges out of the spectrum.
+/// What the heights are multiplied by before they are transformed, ξ = (i+½)/nx and η = (j+½)/ny
+/// from edge to edge. A window takes the leakage of the steps between opposite edges out of the
+/// spectrum.
 enum class Window {
   automatic,  ///< none for a periodic surface, hann for any other
   none,       ///< 1
   hann,       ///< v(ξ)·v(η), v(ξ) = ½(1 − cos 2πξ)
-  blackman,  ///< the same with v(ξ) = 0.42 − 0.5 cos 2πξ + 0.08 cos 4πξ: less leakage, less resolution
-  radial_hann,  ///< ½(1 + cos 2πr/min(lx, ly)) in the inscribed circle and 0 outside, r from point (nx/2, ny/2), as SurfaceTopography has it
+  blackman,  ///< the same with v(ξ) = 0.42 − 0.5 cos 2πξ + 0.08 cos 4πξ: less leakage, less
+             ///< resolution
+  radial_hann,  ///< ½(1 + cos 2πr/min(lx, ly)) in the inscribed circle and 0 outside, r from point
+                ///< (nx/2, ny/2), as SurfaceTopography has it
 };
 
-/// C of a periodic surface is exact on its modes: Σ C d²q = h_rms². Under a window the weighted mean is subtracted, and C is divided
-/// by ⟨w²⟩, so that the expectation of a short-waved C is kept, and Σ C d²q = ⟨w²(h − ⟨wh⟩/⟨w⟩)²⟩/⟨w²⟩; tilt should be subtracted before.
-/// Throws InvalidInput unless the surface is complete. Cost: one FFT; 12 bytes for each point, and over processes 8 more. Collective.
+/// C of a periodic surface is exact on its modes: Σ C d²q = h_rms². Under a window the weighted
+/// mean is subtracted, and C is divided by ⟨w²⟩, so that the expectation of a short-waved C is
+/// kept, and Σ C d²q = ⟨w²(h − ⟨wh⟩/⟨w⟩)²⟩/⟨w²⟩; tilt should be subtracted before.
+/// Throws InvalidInput unless the surface is complete. Cost: one FFT; 12 bytes for each point, and
+/// over processes 8 more. Collective.
 PowerSpectrum power_spectrum(const Surface& surface, Window window = Window::automatic);
 
-/// Power spectral density of profiles along one axis, C₁(q) = ∫C dq_y, so that h_rms² = ∫C₁ dq over −∞ < q < ∞: mean of
-/// |dx Σ w h e^{−iqx}|²/(2π l ⟨w²⟩) over all profiles, each less its (weighted) mean.
+/// Power spectral density of profiles along one axis, C₁(q) = ∫C dq_y, so that h_rms² = ∫C₁ dq over
+/// −∞ < q < ∞: mean of |dx Σ w h e^{−iqx}|²/(2π l ⟨w²⟩) over all profiles, each less its (weighted)
+/// mean.
 struct ProfilePsd {
   std::vector<double> wavenumber;  ///< 2πk/l, k = 1 … n/2, rad/m
   std::vector<double> psd;         ///< C₁, m³
@@ -57,8 +65,8 @@ struct ProfilePsd {
       const;  ///< dq = 2π/l, rad/m; ⟨h²⟩ of the profiles less their means = Σ modes·C₁·dq/profiles
 };
 
-/// radial_hann is as hann here. Throws InvalidInput unless the surface is complete. The surface may be spread over processes. Collective.
-/// Cost: transforms of all profiles.
+/// radial_hann is as hann here. Throws InvalidInput unless the surface is complete. The surface may
+/// be spread over processes. Collective. Cost: transforms of all profiles.
 ProfilePsd profile_psd(const Surface& surface, Axis axis, Window window = Window::automatic);
 
 /// C averaged over rings of wave vectors. Every bin holds at least one mode.
@@ -68,8 +76,9 @@ struct RadialSpectrum {
   std::vector<Index> modes;  ///< in the bin, of the full spectrum; h_rms² = Σ modes·C·d²q
 };
 
-/// Rings whose limits are in the ratio 2^(1/bins_per_octave), from the longest wave on; empty ones are left out. All modes are in:
-/// beyond π/max(dx, dy) only those in the corners of the lattice remain.
+/// Rings whose limits are in the ratio 2^(1/bins_per_octave), from the longest wave on; empty ones
+/// are left out. All modes are in: beyond π/max(dx, dy) only those in the corners of the lattice
+/// remain.
 RadialSpectrum radial_spectrum(const PowerSpectrum& spectrum, int bins_per_octave = 4);
 
 /// Hurst exponent of the self-affine range of a surface, C ∝ q^{−2(1+H)}, with its 95 % interval.
@@ -84,15 +93,17 @@ struct HurstEstimate {
   bool found() const { return modes > 0; }
 };
 
-/// The range is the middle of up to three pieces (plateau, power law, and a tail of other slope: noise, or what a tip or filter
-/// left) that describe ln C of the radial spectrum up to π/max(dx, dy) best by Bayes' information criterion, deviations of
-/// 10 % in C being forgiven; bins without power end it, and a bin at either limit is left out. In it, ln C = a − 2(1+H) ln q is
-/// fitted to all modes by maximum quasi-likelihood, the power of a mode being exponentially distributed about C (as for a Gaussian
-/// surface). The interval is Student's, from the scatter of the bins about the fit: it holds the statistical error, correlation of
-/// windowed modes and bins that are off a power law, but not the choice of the range.
-/// Of a windowed spectrum the three longest waves are left out, into which the window mixes their neighbours.
-/// No range (less than a factor of three in q, or H outside −0.25 … 1.5) is a result with NaN, not an error.
-/// Cost: some ten passes over the modes of the range.
+/// The range is the middle of up to three pieces (plateau, power law, and a tail of other slope:
+/// noise, or what a tip or filter left) that describe ln C of the radial spectrum up to π/max(dx,
+/// dy) best by Bayes' information criterion, deviations of 10 % in C being forgiven; bins without
+/// power end it, and a bin at either limit is left out. In it, ln C = a − 2(1+H) ln q is fitted to
+/// all modes by maximum quasi-likelihood, the power of a mode being exponentially distributed about
+/// C (as for a Gaussian surface). The interval is Student's, from the scatter of the bins about the
+/// fit: it holds the statistical error, correlation of windowed modes and bins that are off a power
+/// law, but not the choice of the range. Of a windowed spectrum the three longest waves are left
+/// out, into which the window mixes their neighbours. No range (less than a factor of three in q,
+/// or H outside −0.25 … 1.5) is a result with NaN, not an error. Cost: some ten passes over the
+/// modes of the range.
 HurstEstimate estimate_hurst(const PowerSpectrum& spectrum);
 
 }  // namespace salebra

@@ -19,11 +19,12 @@
 #include "interop/contact.hpp"
 #include "interop/damping.hpp"
 
-/// Values as bytes and back, for pickle and for ==: every member of a struct in the order of its declaration. One function walks a
-/// value for both directions.
+/// Values as bytes and back, for pickle and for ==: every member of a struct in the order of its
+/// declaration. One function walks a value for both directions.
 namespace salebra::python {
 
-/// What stands for any member when those of an aggregate are counted. Not for an optional: it would be made of this in two ways.
+/// What stands for any member when those of an aggregate are counted. Not for an optional: it would
+/// be made of this in two ways.
 struct AnyMember {
   template <class T>
   requires(!requires(T value) { value.has_value(); }) operator T() const;
@@ -142,7 +143,8 @@ constexpr bool is_variant<std::variant<T...>> = true;
 template <class Archive, class T>
 void archive(Archive& through, T& value);
 
-/// A count of things of `size` bytes at least; a reader that has no such number left says so before anything is allocated.
+/// A count of things of `size` bytes at least; a reader that has no such number left says so before
+/// anything is allocated.
 template <class Archive>
 std::size_t archive_count(Archive& through, std::size_t count, std::size_t size) {
   through.raw(&count, sizeof count);
@@ -223,7 +225,8 @@ void archive(Archive& through, T& value) {
   } else if constexpr (std::is_base_of_v<Eigen::DenseBase<Plain>, Plain>) {
     archive_field(through, own);
   } else if constexpr (is_function<Plain> || std::is_same_v<Plain, Communicator>) {
-    // Who is told of the progress and which processes are at work belongs to a call, not to the value.
+    // Who is told of the progress and which processes are at work belongs to a call, not to the
+    // value.
   } else if constexpr (std::is_same_v<Plain, StudyResult>) {
     // Its bootstrap has no value of its own, and keeps the members from being counted.
     auto& [configuration, grid, contact_scale, pressures, realisations, warnings, flags,

@@ -10,9 +10,10 @@
 namespace salebra::python {
 namespace {
 
-// Eigen's storage of a dynamic array. There is no way in Eigen to let an Array use memory that it did not allocate; the library takes
-// surfaces as Arrays; and an array of 4096² heights is not to be copied for each call. So the three words are set here, checked
-// below, and put back before Eigen could free what it does not own.
+// Eigen's storage of a dynamic array. There is no way in Eigen to let an Array use memory that it
+// did not allocate; the library takes surfaces as Arrays; and an array of 4096² heights is not to
+// be copied for each call. So the three words are set here, checked below, and put back before
+// Eigen could free what it does not own.
 struct Storage {
   double* data;
   Index rows, columns;
@@ -118,7 +119,8 @@ nb::object empty_like(const Numbers& numbers, double*& data, std::size_t& size) 
 namespace nanobind::detail {
 
 bool as_array(handle source, const char* type, bool contiguous, object& array) noexcept {
-  // numpy reads texts, None and what has no numbers as objects or fails; none of them is an argument of ours.
+  // numpy reads texts, None and what has no numbers as objects or fails; none of them is an
+  // argument of ours.
   if (source.is_none() || PyUnicode_Check(source.ptr()) || PyBytes_Check(source.ptr()))
     return false;
   const auto convert = [&]() -> PyObject* {  // the type of what is raised, none where all is well
@@ -143,7 +145,8 @@ bool as_array(handle source, const char* type, bool contiguous, object& array) n
   };
   PyObject* raised = convert();
   if (raised == PyExc_KeyboardInterrupt) {
-    // Nothing can be raised from here: a Ctrl-C that came just now waits until the call looks for it.
+    // Nothing can be raised from here: a Ctrl-C that came just now waits until the call looks for
+    // it.
     raised = convert();
     PyErr_SetInterrupt();
   }

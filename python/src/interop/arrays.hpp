@@ -10,7 +10,8 @@
 #include <string_view>
 #include <vector>
 
-/// NumPy arrays and the library's fields: views both ways, no copies of what is C-contiguous float64.
+/// NumPy arrays and the library's fields: views both ways, no copies of what is C-contiguous
+/// float64.
 namespace salebra::python {
 
 namespace nb = nanobind;
@@ -21,7 +22,8 @@ using Flags1 = nb::ndarray<nb::numpy, bool, nb::ndim<1>, nb::device::cpu>;
 using Flags2 = nb::ndarray<nb::numpy, bool, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Counts1 = nb::ndarray<nb::numpy, std::int64_t, nb::ndim<1>, nb::device::cpu>;
 
-/// What Python gave for a field: anything that numpy.asarray understands. A C-contiguous float64 array is not copied.
+/// What Python gave for a field: anything that numpy.asarray understands. A C-contiguous float64
+/// array is not copied.
 struct FieldArgument {
   nb::object array;  ///< numpy.ndarray, two-dimensional, C-contiguous, float64
   const double* data() const;
@@ -49,8 +51,9 @@ struct Numbers {
 template <class Function>
 nb::object for_each_number(const Numbers& numbers, const Function& function);
 
-/// A Field that lives in the memory of a NumPy array. The array must outlive the object, and the field must keep its size.
-/// Where the memory cannot be used as it is (not aligned as Eigen wants it), the field holds a copy.
+/// A Field that lives in the memory of a NumPy array. The array must outlive the object, and the
+/// field must keep its size. Where the memory cannot be used as it is (not aligned as Eigen wants
+/// it), the field holds a copy.
 class BorrowedField {
  public:
   explicit BorrowedField(const FieldArgument& argument);
@@ -66,7 +69,8 @@ class BorrowedField {
   bool borrowed_;
 };
 
-/// Lets a Field point to foreign memory, and forget it again. Returns false, and does nothing, where it cannot.
+/// Lets a Field point to foreign memory, and forget it again. Returns false, and does nothing,
+/// where it cannot.
 bool adopt_memory(Field& field, const double* data, Index rows, Index columns);
 void release_memory(Field& field);
 

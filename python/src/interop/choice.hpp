@@ -10,7 +10,8 @@
 #include <string_view>
 #include <utility>
 
-/// Enumerations of the library are texts in Python, such as boundary="free"; stubs tell them as typing.Literal.
+/// Enumerations of the library are texts in Python, such as boundary="free"; stubs tell them as
+/// typing.Literal.
 namespace salebra::python {
 
 namespace nb = nanobind;

@@ -7,7 +7,8 @@
 
 namespace salebra::python {
 
-/// Remembers that this session used what the keys of salebra._citations stand for. Called with the interpreter's lock.
+/// Remembers that this session used what the keys of salebra._citations stand for. Called with the
+/// interpreter's lock.
 void cite(std::initializer_list<const char*> keys);
 
 /// The keys in the order of their first use.

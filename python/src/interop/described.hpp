@@ -22,7 +22,8 @@ inline std::string described_text(const Quantity& quantity) {
 }
 inline std::string described_text(const auto& line) { return std::string(line.meaning) + "."; }
 
-/// A class with a read-only property for every line of the description of T: its name, its meaning and its unit.
+/// A class with a read-only property for every line of the description of T: its name, its meaning
+/// and its unit.
 template <Described T>
 nb::class_<T> described_class(nb::module_& module, const char* name, const char* meaning) {
   nb::class_<T> bound(module, name, meaning);

@@ -5,7 +5,8 @@
 namespace salebra::python {
 namespace {
 
-// Often enough for a person, too seldom to cost anything: taking the interpreter's lock may wait 5 ms for another thread.
+// Often enough for a person, too seldom to cost anything: taking the interpreter's lock may wait 5
+// ms for another thread.
 constexpr auto interval = std::chrono::milliseconds(100);
 
 }  // namespace

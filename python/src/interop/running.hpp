@@ -13,7 +13,8 @@
 #include <string>
 #include <utility>
 
-/// How long calls run: other Python threads go on, Ctrl-C stops them within a second, and progress is told.
+/// How long calls run: other Python threads go on, Ctrl-C stops them within a second, and progress
+/// is told.
 namespace salebra::python {
 
 namespace nb = nanobind;
@@ -26,12 +27,14 @@ struct Report {
   double residual = 0;
 };
 
-/// The argument `progress`: False, True for a bar of tqdm, or a function of a ProgressReport that returns False to stop.
+/// The argument `progress`: False, True for a bar of tqdm, or a function of a ProgressReport that
+/// returns False to stop.
 struct ProgressArgument {
   nb::object value = nb::bool_(false);
 };
 
-/// Makes a Progress of the argument. A Python error in it, Ctrl-C included, stops the work and is raised by rethrow().
+/// Makes a Progress of the argument. A Python error in it, Ctrl-C included, stops the work and is
+/// raised by rethrow().
 class ProgressBridge {
  public:
   /// Of several processes the first one shows a bar.
@@ -56,8 +59,8 @@ class ProgressBridge {
   std::chrono::steady_clock::time_point last_{};
 };
 
-/// work(Progress) without the interpreter's lock. Collective over `ranks`: where a Python error stopped the work in one process, the others
-/// throw Interrupted.
+/// work(Progress) without the interpreter's lock. Collective over `ranks`: where a Python error
+/// stopped the work in one process, the others throw Interrupted.
 template <class Work>
 auto interruptible(const ProgressArgument& argument, Work&& work, const Communicator& ranks = {}) {
   ProgressBridge bridge(argument, ranks);
@@ -79,7 +82,8 @@ auto interruptible(const ProgressArgument& argument, Work&& work, const Communic
   return std::move(*result);
 }
 
-/// A Progress for what a call without an argument `progress` leads to: Ctrl-C leaves the library as the Python exception that it is.
+/// A Progress for what a call without an argument `progress` leads to: Ctrl-C leaves the library as
+/// the Python exception that it is.
 Progress signals();
 
 /// work() without the interpreter's lock, for what takes seconds and cannot be stopped.

@@ -19,7 +19,8 @@
 
 namespace salebra::python {
 
-/// A Surface whose heights may live in a NumPy array. It stays where it is: copies would own what they do not.
+/// A Surface whose heights may live in a NumPy array. It stays where it is: copies would own what
+/// they do not.
 struct BoundSurface {
   Surface surface;
   nb::object array;  ///< that the heights live in; none where the surface owns them
@@ -56,7 +57,8 @@ void require_whole_if_spread(const Bound& bound, const char* purpose) {
 /// range(begin, end) of the rows that this process holds.
 nb::object range_of(const Share& rows);
 
-/// gather(root) of what has rows: itself where one process holds it, else what `whole` makes in that process, and None in the others.
+/// gather(root) of what has rows: itself where one process holds it, else what `whole` makes in
+/// that process, and None in the others.
 template <class Bound, class Whole>
 nb::object gather(nb::handle_t<Bound> self, int root, const Communicator& ranks, Whole&& whole) {
   if (ranks.alone()) {

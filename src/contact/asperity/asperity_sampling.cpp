@@ -67,7 +67,8 @@ MonteCarloCurve monte_carlo_curve(const SummitEnsemble& ensemble, const Material
   result.summits = static_cast<int>(expected);
   std::vector<double> descending = separations;
   std::ranges::sort(descending, std::ranges::greater{});
-  // Positions, separations and K_t come from the statistical model; what follows puts in the drawn sums.
+  // Positions, separations and K_t come from the statistical model; what follows puts in the drawn
+  // sums.
   result.mean = curve_at_separations(statistical, descending);
   result.mean.model = "greenwood-williamson-monte-carlo";
 

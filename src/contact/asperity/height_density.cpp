@@ -18,7 +18,8 @@ constexpr double relative_tolerance = 1e-12;
 // exp(−exponent) is lost beside 1 in double precision, with room for the powers of z − s before it.
 constexpr double negligible_exponent = 45;
 
-/// ∫ (z−h)^n φ(z) dz over [max(h, low), high] for a smooth φ, as 2∫ t^{2n+1} φ(h + t²) dt: even at n = −1/2 nothing is singular.
+/// ∫ (z−h)^n φ(z) dz over [max(h, low), high] for a smooth φ, as 2∫ t^{2n+1} φ(h + t²) dt: even at
+/// n = −1/2 nothing is singular.
 double shifted_moment(double exponent, double h, double low, double high,
                       const std::function<double(double)>& density) {
   const double from = std::sqrt(std::max(0.0, low - h)), to = std::sqrt(std::max(0.0, high - h));
@@ -38,7 +39,8 @@ double gaussian_moment(double exponent, double h) {
   if (exponent == 0) return std::erfc(h / std::numbers::sqrt2) / 2;
   // φ(z) falls from φ(0), or from φ(h) if h > 0, by exp(−negligible_exponent) at z = high.
   const double reach = std::sqrt(2 * negligible_exponent + std::max(h, 0.0) * std::max(h, 0.0));
-  // The factor φ(h) is taken out of the integrand, so that it does not underflow before the result does.
+  // The factor φ(h) is taken out of the integrand, so that it does not underflow before the result
+  // does.
   const double offset = std::max(h, 0.0) * std::max(h, 0.0) / 2;
   const double scaled = shifted_moment(exponent, h, -reach, reach,
                                        [&](double z) { return std::exp(offset - z * z / 2); });
@@ -117,7 +119,8 @@ double HeightDensity::quantile(double probability) const {
   const double width = next.height - below.height;
   const double rest = std::max(0.0, probability - cumulative_[i - 1]);
   const double gradient = (next.density - below.density) / width;
-  // The root of density·t + gradient·t²/2 = rest, in the form that does not cancel for either sign of the gradient.
+  // The root of density·t + gradient·t²/2 = rest, in the form that does not cancel for either sign
+  // of the gradient.
   const double root = std::sqrt(std::max(0.0, below.density * below.density + 2 * gradient * rest));
   const double sum = below.density + root;
   return below.height + (sum > 0 ? std::min(width, 2 * rest / sum) : 0.0);

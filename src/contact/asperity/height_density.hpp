@@ -14,7 +14,8 @@ class HeightDensity {
 
   /// ∫_s^∞ (z−s)^n φ(z) dz, m^n, for n >= −1/2 a multiple of 1/2. Relative error below 1e-10.
   double moment(double exponent, double separation) const;
-  /// z below which the fraction 0 < probability < 1 of all summits lies, for distributions other than Gaussian.
+  /// z below which the fraction 0 < probability < 1 of all summits lies, for distributions other
+  /// than Gaussian.
   double quantile(double probability) const;
   /// No summit lies above, or none that double precision could tell from none.
   double highest() const;

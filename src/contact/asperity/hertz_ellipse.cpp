@@ -11,7 +11,8 @@
 namespace salebra::detail {
 namespace {
 
-/// K(e) and D(e) = (K − E)/e² by Carlson's integrals, which do not cancel for a circle; complement = 1 − e² = (b/a)².
+/// K(e) and D(e) = (K − E)/e² by Carlson's integrals, which do not cancel for a circle; complement
+/// = 1 − e² = (b/a)².
 struct Integrals {
   double complement, first, difference;
 
@@ -26,13 +27,15 @@ struct Integrals {
 
 }  // namespace
 
-// The ellipse with semi-axes a >= b under p0√(1 − x²/a² − y²/b²) (Johnson, Contact Mechanics, 4.26–4.32):
+// The ellipse with semi-axes a >= b under p0√(1 − x²/a² − y²/b²) (Johnson, Contact Mechanics,
+// 4.26–4.32):
 //     δ = p0 b K/E*,  κ2/2 = p0 b D/(E* a²),  F = (2/3)p0πab,
 // hence a² = 2δD/(Kκ2), F = (2π/3)E* a δ/K, and b² = (1 − e²)a².
 HertzEllipse hertz_ellipse(double curvature1, double curvature2) {
   const double ratio = std::clamp(curvature2 / curvature1, 1e-3, 1.0);
   const double smaller = ratio * curvature1;
-  // ln(κ2/κ1) against ln(1 − e²) is nearly straight, of slope 3/4: secant steps converge from there.
+  // ln(κ2/κ1) against ln(1 − e²) is nearly straight, of slope 3/4: secant steps converge from
+  // there.
   const double target = std::log(ratio);
   auto miss = [&](double log_complement) {
     return std::log(Integrals(std::exp(log_complement)).curvature_ratio()) - target;

@@ -9,8 +9,9 @@ struct HertzEllipse {
   double force_radius, area_radius;
 };
 
-/// curvature1 >= curvature2 >= 0, curvature1 > 0. Exact (complete elliptic integrals) down to a ratio of 1e-3: a summit that is longer
-/// than that is a ridge whose ends the paraboloid does not know, and is taken to have that ratio.
+/// curvature1 >= curvature2 >= 0, curvature1 > 0. Exact (complete elliptic integrals) down to a
+/// ratio of 1e-3: a summit that is longer than that is a ridge whose ends the paraboloid does not
+/// know, and is taken to have that ratio.
 HertzEllipse hertz_ellipse(double curvature1, double curvature2);
 
 }  // namespace salebra::detail

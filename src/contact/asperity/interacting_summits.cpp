@@ -44,8 +44,8 @@ Hertz hertz(const detail::HertzCap& cap, double indentation) {
   return {2.0 / 3 * stiffness * depth, stiffness};
 }
 
-/// c for which caps at δ_i + c carry the load together. Newton's method from where one of them carries it alone: the sum is convex in
-/// c, so that no step overshoots.
+/// c for which caps at δ_i + c carry the load together. Newton's method from where one of them
+/// carries it alone: the sum is convex in c, so that no step overshoots.
 double common_shift(const std::vector<detail::HertzCap>& caps, const Values& indentation,
                     double load) {
   double shift = std::numeric_limits<double>::infinity();
@@ -67,7 +67,8 @@ double common_shift(const std::vector<detail::HertzCap>& caps, const Values& ind
   return shift;
 }
 
-/// The summits that carry load at the moment, with sums of their own: most solves concern only them.
+/// The summits that carry load at the moment, with sums of their own: most solves concern only
+/// them.
 struct Contacts {
   Members members;
   detail::PeriodicPointLoads kernel;
@@ -91,10 +92,11 @@ struct LinearSolution {
   bool converged = false;
 };
 
-/// Conjugate gradients on I + √D G √D, whose spectrum starts near 1, with Σx = 0 held by projection where asked for. root: √D > 0.
-/// Stops where two contacts so close to each other that a point force no longer describes them make it indefinite, with the descent
-/// direction reached until then. A separate loop, because the first direction is the result where the system is indefinite, and the
-/// projection acts on the residual, which the shift is read from.
+/// Conjugate gradients on I + √D G √D, whose spectrum starts near 1, with Σx = 0 held by projection
+/// where asked for. root: √D > 0. Stops where two contacts so close to each other that a point
+/// force no longer describes them make it indefinite, with the descent direction reached until
+/// then. A separate loop, because the first direction is the result where the system is indefinite,
+/// and the projection acts on the residual, which the shift is read from.
 LinearSolution linear_solve(Contacts& contacts, const Values& root, const Values& right,
                             double tolerance, bool hold_sum, const Watch& watch) {
   const std::size_t n = root.size();
@@ -354,7 +356,8 @@ AsperityContact InteractingSummits::contact_of(const State& state, const Progres
   Contacts& contacts = system.contacts_of(stiffness);
   Values roots;
   for (const std::uint32_t i : contacts.members) roots.push_back(std::sqrt(stiffness[i]));
-  // (D⁻¹ + G)P' = 1 and, once more differentiated, (D⁻¹ + G)P'' = ½(P'/D)²/δ, on the summits in contact.
+  // (D⁻¹ + G)P' = 1 and, once more differentiated, (D⁻¹ + G)P'' = ½(P'/D)²/δ, on the summits in
+  // contact.
   const Watch watch{progress ? progress : options_.on_progress};
   const auto first =
       linear_solve(contacts, roots, Values(roots.size(), 1.0), options_.tolerance, false, watch);

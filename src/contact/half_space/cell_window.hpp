@@ -20,7 +20,8 @@ CellWindow bounding_window(const ContactSet& cells);
 /// The window on which a set is solved: the whole grid where periodic; at least one cell.
 CellWindow loading_window(const ContactSet& contact, const Grid2D& grid, Boundary boundary);
 
-/// Throws InvalidInput unless the set has the grid's shape and, where periodic, a cell that is not in contact.
+/// Throws InvalidInput unless the set has the grid's shape and, where periodic, a cell that is not
+/// in contact.
 void require_contact(const ContactSet& contact, const Grid2D& grid, Boundary boundary);
 /// The same of a set whose rows are spread over processes. Collective.
 void require_spread_contact(const ContactSet& contact, const Grid2D& grid, const Share& rows,

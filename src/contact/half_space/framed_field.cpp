@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A field with a frame around it, which repeats the opposite edge, holds rows of other processes, or is zero.
+// A field with a frame around it, which repeats the opposite edge, holds rows of other processes,
+// or is zero.
 #include "framed_field.hpp"
 
 #include <algorithm>
@@ -8,7 +9,8 @@
 namespace salebra::detail {
 namespace {
 
-// Vectors of a tile, and of twice a tile on the finer grid, may end beyond the frame of the last row.
+// Vectors of a tile, and of twice a tile on the finer grid, may end beyond the frame of the last
+// row.
 constexpr Index slack = 4 * tile_width;
 
 }  // namespace

@@ -15,8 +15,9 @@ inline Index tiles_across(Index ny) { return (ny + tile_width - 1) / tile_width;
 // Appends the tiles of a row that are in use, one flag each.
 void append_tiles(const unsigned char* in_use, Index row, Index across, std::vector<Tile>& tiles);
 
-// A field (nx, ny) with a frame around it, so that a stencil needs no test for the edge: as many rows as the widest stencil reaches and
-// one more, for splines of the next coarser grid, and at least a tile at both sides.
+// A field (nx, ny) with a frame around it, so that a stencil needs no test for the edge: as many
+// rows as the widest stencil reaches and one more, for splines of the next coarser grid, and at
+// least a tile at both sides.
 template <class Real>
 class FramedField {
  public:
@@ -31,8 +32,8 @@ class FramedField {
   Real* row(Index row) const { return data_.get() + (row + rows_around) * stride_ + side_frame; }
 
   void clear();
-  // Puts the cells of the opposite edge into the frame, where the field repeats, and the rows of other processes, where it is spread over
-  // several. Collective.
+  // Puts the cells of the opposite edge into the frame, where the field repeats, and the rows of
+  // other processes, where it is spread over several. Collective.
   void fill_frame(Boundary boundary, const RowExchange& frame_rows);
 
  private:

@@ -34,8 +34,9 @@ typename Convolution2D<Real>::Shape shape_of(const Grid2D& grid, Boundary bounda
           fast_transform_size(2 * grid.ny - 1)};
 }
 
-// Transform of a kernel that is given by its value at the distance of (a, b) cells, even or odd along both axes, on the period of the
-// zero-padded convolution. Each process has rows 0 … period_x/2 of the transform along y, which is real or imaginary; columns are made of them.
+// Transform of a kernel that is given by its value at the distance of (a, b) cells, even or odd
+// along both axes, on the period of the zero-padded convolution. Each process has rows 0 …
+// period_x/2 of the transform along y, which is real or imaginary; columns are made of them.
 class KernelTransform {
  public:
   KernelTransform(Index period_x, Index period_y, Parity parity, const Communicator& ranks,
@@ -49,7 +50,8 @@ class KernelTransform {
         Modes modes(static_cast<std::size_t>(along_y.modes_y()));
         for (Index row = begin; row < end; ++row) {
           const Index a = rows_.begin() + row;
-          // Only distances below half a period are ever used. At half a period an odd kernel must be its own negative.
+          // Only distances below half a period are ever used. At half a period an odd kernel must
+          // be its own negative.
           fill(line, period_y / 2 + 1, [&](Index b) {
             return odd_ && (2 * a == period_x || 2 * b == period_y) ? 0 : kernel(a, b);
           });
@@ -127,8 +129,9 @@ struct WaveVector {
 
 namespace {
 
-// The corners' terms grow with the distance r and their sum falls with it: a part (r/cell)² of rounding, 1e-9 at 4096 cells. Far
-// away the integrands are smooth over the cell, and nine Gauss points leave 4e-4 (cell/r)⁶.
+// The corners' terms grow with the distance r and their sum falls with it: a part (r/cell)² of
+// rounding, 1e-9 at 4096 cells. Far away the integrands are smooth over the cell, and nine Gauss
+// points leave 4e-4 (cell/r)⁶.
 constexpr double far_cells = 32;
 
 CellIntegrals far_cell_integrals(double x, double y, double dx, double dy) {
@@ -289,14 +292,16 @@ template Convolution2D<double> tangential_compliance<double>(const Grid2D&, cons
                                                              Boundary, const Communicator&);
 
 double cell_compliance(const Grid2D& grid, double contact_modulus) {
-  // The mean of 2/(E*q) over the wave vectors that the grid has, |q_x| < π/dx, |q_y| < π/dy, as an integral.
+  // The mean of 2/(E*q) over the wave vectors that the grid has, |q_x| < π/dx, |q_y| < π/dy, as an
+  // integral.
   const double qx = pi / grid.dx(), qy = pi / grid.dy();
   const double integral = 4 * (corner_term(qx, qy) + corner_term(qy, qx));
   return 2 / contact_modulus * integral / (4 * qx * qy);
 }
 
 InverseStencil::InverseStencil(const Grid2D& grid) {
-  // |q|/2 sampled on a torus of 64 × 64 cells: far larger than the stencil, small enough to be free.
+  // |q|/2 sampled on a torus of 64 × 64 cells: far larger than the stencil, small enough to be
+  // free.
   constexpr int torus = 64;
   std::array<double, torus> cosine;
   for (int k = 0; k < torus; ++k)
@@ -322,7 +327,8 @@ InverseStencil::InverseStencil(const Grid2D& grid) {
   for (int i = -radius; i <= radius; ++i)
     for (int j = -radius; j <= radius; ++j)
       weights_[index(i, j)] = weights_[index(std::abs(i), std::abs(j))];
-  // Cutting may leave the transform negative somewhere (long cells): lift the centre until it is positive.
+  // Cutting may leave the transform negative somewhere (long cells): lift the centre until it is
+  // positive.
   double least = std::numeric_limits<double>::infinity();
   for (int a = 0; a <= torus / 2; ++a)
     for (int b = 0; b <= torus / 2; ++b) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stencils of the near-field ladder, fitted to a symbol, and the symbol that they leave for the coarser grid.
+// Stencils of the near-field ladder, fitted to a symbol, and the symbol that they leave for the
+// coarser grid.
 #include "ladder_design.hpp"
 
 #include <Eigen/Core>
@@ -67,7 +68,8 @@ std::array<double, frame + 1> row_of(const LadderStencil& stencil, const double*
   return factors;
 }
 
-// Two columns of a symbol for each one of the coarser grid, which look the same there: column k and period_y/2 − k.
+// Two columns of a symbol for each one of the coarser grid, which look the same there: column k and
+// period_y/2 − k.
 struct FoldedSymbol {
   Index period_x, period_y;
   Index first;   // of this process's columns on the coarser grid
@@ -124,12 +126,13 @@ QuarterSymbol coarsened(const Fine& fine, const LadderStencil& stencil) {
   return coarsened(fine, stencil, Share(fine.period_y / 4 + 1));
 }
 
-// The four frequencies that look the same on the coarser grid: what a stencil changes there, with C as good as it can be.
+// The four frequencies that look the same on the coarser grid: what a stencil changes there, with C
+// as good as it can be.
 struct Aliases {
   Eigen::Matrix<double, 4, Eigen::Dynamic> basis;  // of the weights, over W
   Eigen::Vector4d wanted, square;                  // g/W, u²
-  // Of D: what is left once C has taken its part, as a quadratic form, in the Frobenius norm: at most twice the largest eigenvalue, and
-  // least where it is with the C of the header.
+  // Of D: what is left once C has taken its part, as a quadratic form, in the Frobenius norm: at
+  // most twice the largest eigenvalue, and least where it is with the C of the header.
   double norm(const Eigen::Vector4d& d) const {
     const double taken = square.dot(d) / square.sum();
     return std::sqrt(std::max(0.0, d.squaredNorm() - taken * taken));

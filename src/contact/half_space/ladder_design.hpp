@@ -16,20 +16,23 @@ struct LadderStencil {
   double weight(int i, int j) const;
 };
 
-// One rung of a ladder G ≈ T + P C Pᵀ: T a stencil, P the interpolation of a cubic B-spline with taps (1 4 6 4 1)/8 along each axis
-// from a grid of half as many cells, C a convolution there, which is the G of the next rung.
+// One rung of a ladder G ≈ T + P C Pᵀ: T a stencil, P the interpolation of a cubic B-spline with
+// taps (1 4 6 4 1)/8 along each axis from a grid of half as many cells, C a convolution there,
+// which is the G of the next rung.
 struct LadderRung {
   LadderStencil stencil;
-  // Bound of |G^−½ (T + P C Pᵀ − G) G^−½| over the frequencies looked at. The errors of rungs add up at most.
+  // Bound of |G^−½ (T + P C Pᵀ − G) G^−½| over the frequencies looked at. The errors of rungs add
+  // up at most.
   double error = 0;
 };
 
 inline constexpr int most_rungs = 6;
 
-// Stencils for cells of dx × dy with dx dy = 1 and E* = 1, the widest first. Each minimises the largest error over the frequencies of a
-// grid of 512² cells: linear least squares with the best C, which is explicit, and weights raised where the error is large: Lawson's
-// algorithm, Rice and Usow (1968).
-// depth <= most_rungs. Cost: some milliseconds a rung, once for each ratio of sides and boundary.
+// Stencils for cells of dx × dy with dx dy = 1 and E* = 1, the widest first. Each minimises the
+// largest error over the frequencies of a grid of 512² cells: linear least squares with the best C,
+// which is explicit, and weights raised where the error is large: Lawson's algorithm, Rice and Usow
+// (1968). depth <= most_rungs. Cost: some milliseconds a rung, once for each ratio of sides and
+// boundary.
 std::vector<LadderRung> ladder_design(double dx_over_dy, Boundary boundary, int depth);
 
 // A symbol, even along both axes, on a quarter of its period: (period_x/2 + 1, period_y/2 + 1).
@@ -41,10 +44,11 @@ struct QuarterSymbol {
   std::size_t index(Index i, Index j) const { return static_cast<std::size_t>(i * columns() + j); }
 };
 
-// C for the stencil given, on half the period, which must be even; periods are those of the finer grid:
+// C for the stencil given, on half the period, which must be even; periods are those of the finer
+// grid:
 //     C(Q) = ¼ Σ_k u_k² D_k/(Σ_k u_k²)²,  u_k² = v_k²/W_k,  D_k = (g_k − T(θ_k))/W_k,  v = cos⁴(θ_x/2) cos⁴(θ_y/2)
-// over the four frequencies θ_k that look the same on the coarser grid, W_k = |g_k|. C(0) = (g(0) − T(0))/4, which takes a constant to
-// where G takes it.
+// over the four frequencies θ_k that look the same on the coarser grid, W_k = |g_k|. C(0) = (g(0) −
+// T(0))/4, which takes a constant to where G takes it.
 // Each process makes its columns and gets those of all. Collective.
 QuarterSymbol coarse_symbol(const NormalSymbol& fine, const LadderStencil& stencil,
                             const Communicator& ranks);

@@ -7,8 +7,9 @@
 
 namespace salebra::detail {
 
-// The pointwise passes of the near-field ladder, over tiles [begin, end) of a list; ladder_reference.hpp says in plain loops what each
-// does. One source is compiled for each vector width; no header with inline functions may be included there.
+// The pointwise passes of the near-field ladder, over tiles [begin, end) of a list;
+// ladder_reference.hpp says in plain loops what each does. One source is compiled for each vector
+// width; no header with inline functions may be included there.
 
 // A framed field: its first cell, the cells from one row to the next, and the cells of a row.
 struct FramedView {
@@ -16,7 +17,8 @@ struct FramedView {
   std::ptrdiff_t stride, ny;
 };
 
-// Cell (I, J) of a coarse grid lies at (2I − shift_x, 2J − shift_y) of the finer one; shifts are even.
+// Cell (I, J) of a coarse grid lies at (2I − shift_x, 2J − shift_y) of the finer one; shifts are
+// even.
 struct Shift {
   std::ptrdiff_t x, y;
 };

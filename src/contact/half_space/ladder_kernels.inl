@@ -32,7 +32,8 @@ SALEBRA_INLINE void store(const float* numbers, Length width, float* place) {
   }
 }
 
-// 0, 1, … of a register, so that the places of a shuffle can be written as a formula; both compilers ask for constants there.
+// 0, 1, … of a register, so that the places of a shuffle can be written as a formula; both
+// compilers ask for constants there.
 template <int... lane>
 struct Each {};
 template <int count, int... lane>
@@ -48,8 +49,8 @@ template <int first, int... lane>
 SALEBRA_INLINE Floats every_second(Floats low, Floats high, Each<lane...>) {
   return __builtin_shufflevector(low, high, (2 * lane + first)...);
 }
-// Those of `every` from its number `first` on, where `every` holds every second number; numbers parity and parity + 2 of what comes
-// after follow.
+// Those of `every` from its number `first` on, where `every` holds every second number; numbers
+// parity and parity + 2 of what comes after follow.
 template <int first, int parity, int... lane>
 SALEBRA_INLINE Floats onwards(Floats every, Floats after, Each<lane...>) {
   return __builtin_shufflevector(
@@ -90,7 +91,8 @@ void restriction(const Tile* tiles, Length begin, Length end, const FramedView& 
   }
 }
 
-// 16 cells of P coarse. Cell 2m of the row takes ⅛, ¾, ⅛ of the coarse cells m − 1, m, m + 1, cell 2m + 1 half of m and of m + 1.
+// 16 cells of P coarse. Cell 2m of the row takes ⅛, ¾, ⅛ of the coarse cells m − 1, m, m + 1, cell
+// 2m + 1 half of m and of m + 1.
 SALEBRA_INLINE void interpolated(const FramedView& coarse, const Shift& shift, const Tile& tile,
                                  float* result) {
   const Length x = tile.row + shift.x, y = tile.column + shift.y;

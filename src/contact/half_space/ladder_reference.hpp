@@ -7,8 +7,8 @@
 
 #include "ladder_kernels.hpp"
 
-// The ladder's kernels in their plainest form, cell by cell. The tests compare the fast kernels with these, and a reader begins here.
-// The solver never calls them.
+// The ladder's kernels in their plainest form, cell by cell. The tests compare the fast kernels
+// with these, and a reader begins here. The solver never calls them.
 namespace salebra::detail::reference {
 
 // Of the cubic B-spline at a distance of k cells of the finer grid.

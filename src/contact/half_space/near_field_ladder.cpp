@@ -10,26 +10,31 @@
 namespace salebra::detail {
 namespace {
 
-// The coarsest transform has at least this many points along its shorter side: a smaller one costs no less than what surrounds it.
+// The coarsest transform has at least this many points along its shorter side: a smaller one costs
+// no less than what surrounds it.
 constexpr Index least_period = 128;
 // Stencils worse than this make more exact transforms necessary than they save.
 constexpr double acceptable_error = 0.2;
-// Cells beyond the edge of an isolated patch that the splines of a coarser level reach, at each side.
+// Cells beyond the edge of an isolated patch that the splines of a coarser level reach, at each
+// side.
 constexpr Index reach = 2;
 
 FramedView view(const FramedField<float>& field) {
   return {field.row(0), field.stride(), field.ny()};
 }
 
-// The coarse cells I with |2I − x| <= 2: those that a spline takes cell x of the finer grid to, and from.
+// The coarse cells I with |2I − x| <= 2: those that a spline takes cell x of the finer grid to, and
+// from.
 Index first_reached(Index x) { return ((x + 1) >> 1) - 1; }
 Index last_reached(Index x) { return (x >> 1) + 1; }
 
-// A process that takes part in the coarsest transform has at least so many rows of it: fewer are sooner transformed than sent.
+// A process that takes part in the coarsest transform has at least so many rows of it: fewer are
+// sooner transformed than sent.
 constexpr Index least_coarsest_rows = 64;
 
-// The rows of the next coarser level, nx in all. Row I goes with row 2I − shift of the finer one, or with the row behind that where a
-// process begins between the two: kernels then count rows of both levels from 0 on.
+// The rows of the next coarser level, nx in all. Row I goes with row 2I − shift of the finer one,
+// or with the row behind that where a process begins between the two: kernels then count rows of
+// both levels from 0 on.
 Share coarser(const Share& finer, Index nx, Index shift) {
   const int ranks = finer.ranks().ranks();
   std::vector<Index> begins{0};
@@ -95,7 +100,8 @@ std::optional<NearFieldLadder> NearFieldLadder::make(const Grid2D& grid, const S
       nx /= 2;
       ny /= 2;
     } else {
-      // Cell `reach` of a coarser level lies at cell 0 of the grid, as cell `reach` of every level does.
+      // Cell `reach` of a coarser level lies at cell 0 of the grid, as cell `reach` of every level
+      // does.
       const Index finer_reach = k == 0 ? 0 : reach;
       nx = (nx + 1) / 2 + 2 * reach;
       ny = (ny + 1) / 2 + 2 * reach;

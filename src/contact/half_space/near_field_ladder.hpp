@@ -18,19 +18,21 @@ namespace salebra::detail {
 
 // A stand-in G~ for the normal compliance G where fields live on few tiles of a grid:
 //     G~ = T1 + P (T2 + P (… + P C Pᵀ …) Pᵀ) Pᵀ,
-// stencils T on the tiles in use, level below level, cubic B-splines P between them, and a transform C on a grid 2^depth times coarser each
-// way. (1 − eps) G <= G~ <= (1 + eps) G as quadratic forms, eps <= error(): a solve with G~ about an exact gap contracts the error by
-// eps/(1 − eps), whatever the grid, the load or the contact set (docs/theory.md).
+// stencils T on the tiles in use, level below level, cubic B-splines P between them, and a
+// transform C on a grid 2^depth times coarser each way. (1 − eps) G <= G~ <= (1 + eps) G as
+// quadratic forms, eps <= error(): a solve with G~ about an exact gap contracts the error by eps/(1
+// − eps), whatever the grid, the load or the contact set (docs/theory.md).
 //
-// In float. G~ is symmetric up to rounding, and its result has the same bits for every number of threads and processes. One object may run
-// in one thread at a time. Memory: 8/3 bytes for each cell of the grid.
+// In float. G~ is symmetric up to rounding, and its result has the same bits for every number of
+// threads and processes. One object may run in one thread at a time. Memory: 8/3 bytes for each
+// cell of the grid.
 //
-// Over several processes a row of a level belongs to the process of the row of the finer level that it lies on. An application sends the
-// frame of each level, and the rows of the coarsest.
+// Over several processes a row of a level belongs to the process of the row of the finer level that
+// it lies on. An application sends the frame of each level, and the rows of the coarsest.
 class NearFieldLadder {
  public:
-  // None where the grid is too small for it, or has no stencils that are good enough: cells longer than about 1:2, or a period that
-  // does not halve.
+  // None where the grid is too small for it, or has no stencils that are good enough: cells longer
+  // than about 1:2, or a period that does not halve.
   // rows: those of the grid that each process holds.
   static std::optional<NearFieldLadder> make(const Grid2D& grid, const Share& rows,
                                              const NormalSymbol& symbol, double contact_modulus,
@@ -39,12 +41,12 @@ class NearFieldLadder {
   int depth() const { return static_cast<int>(levels_.size()); }
   double error() const { return error_; }
 
-  // The tiles of the grid that hold the source and where the result is wanted: (rows of this process, tiles per row), 1 where a tile is in
-  // use. Collective.
+  // The tiles of the grid that hold the source and where the result is wanted: (rows of this
+  // process, tiles per row), 1 where a tile is in use. Collective.
   void list_tiles(const std::vector<unsigned char>& in_use);
 
-  // Everything that one application needs on the coarser levels. source: on the tiles in use, else zero; its frame is filled here.
-  // Collective.
+  // Everything that one application needs on the coarser levels. source: on the tiles in use, else
+  // zero; its frame is filled here. Collective.
   void descend(FramedField<float>& source);
   // G~x on tiles [begin, end) of one row, all in use, into its cells.
   void collect(const Tile* tiles, Index begin, Index end, float* row) const;
@@ -72,7 +74,8 @@ class NearFieldLadder {
   Index ny_ = 0;
   std::array<float, 49> stencil_ = {};  // T1
   std::vector<Level> levels_;           // the coarsest last
-  // The transform of the coarsest, whose rows are shared by whole blocks, and their way there and back.
+  // The transform of the coarsest, whose rows are shared by whole blocks, and their way there and
+  // back.
   Share coarsest_rows_;
   std::optional<Convolution2D<float>> coarsest_;
   std::optional<RowExchange> to_coarsest_, from_coarsest_;

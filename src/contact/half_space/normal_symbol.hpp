@@ -7,14 +7,15 @@
 
 namespace salebra::detail {
 
-// The transform of normal_compliance() and its period, which is the grid itself or, of a free contact, the grid with empty cells. Of a
-// free one it takes longer than the convolution that is made of it: one in float and one in double share it.
+// The transform of normal_compliance() and its period, which is the grid itself or, of a free
+// contact, the grid with empty cells. Of a free one it takes longer than the convolution that is
+// made of it: one in float and one in double share it.
 struct NormalSymbol {
   Index period_x = 0, period_y = 0;
   // Of a free contact in the columns of this process alone, those of a convolution of its rows.
   Convolution2D<double>::Symbol value;
-  // Of a free contact any columns, collectively: (places.count(), period_x/2 + 1), column_at(place) for each place of this process. Empty
-  // for a periodic one, which has its value in every column.
+  // Of a free contact any columns, collectively: (places.count(), period_x/2 + 1), column_at(place)
+  // for each place of this process. Empty for a periodic one, which has its value in every column.
   std::function<Field(const Share& places, const std::function<Index(Index place)>& column_at)>
       columns;
 };

@@ -13,11 +13,13 @@ namespace {
 
 using std::numbers::pi;
 
-// erfc(4.5) = 2e-10 is dropped beyond the cut-off, and as much of the spectrum erfc(q/2α) beyond q = 9α.
+// erfc(4.5) = 2e-10 is dropped beyond the cut-off, and as much of the spectrum erfc(q/2α) beyond q
+// = 9α.
 constexpr double short_reach = 4.5;
 constexpr double neighbours = 40;  // balances the pairs against the grid
-// The grid resolves waves `oversampling` times as short as the spectrum has. The window is `width` nodes wide; what it aliases is
-// worst where the spectrum has next to nothing left, so that sums come out ten times as good as it is there.
+// The grid resolves waves `oversampling` times as short as the spectrum has. The window is `width`
+// nodes wide; what it aliases is worst where the spectrum has next to nothing left, so that sums
+// come out ten times as good as it is there.
 constexpr double oversampling = 1.5;
 constexpr Index width = 10;
 const double window_exponent = 0.97 * pi * double(width) * (1 - 1 / (2 * oversampling));
@@ -37,7 +39,8 @@ double window(double nodes) {
   return rest > 0 ? std::exp(window_exponent * (std::sqrt(rest) - 1)) : 0;
 }
 
-/// ∫ window(x) cos(kx) dx, k in radians a node: the trapezoidal rule in t = sin θ, whose error is exp(−β) as the jump at the ends is.
+/// ∫ window(x) cos(kx) dx, k in radians a node: the trapezoidal rule in t = sin θ, whose error is
+/// exp(−β) as the jump at the ends is.
 double window_transform(double k) {
   constexpr int panels = 64;
   double sum = 0;
@@ -116,7 +119,8 @@ void PeriodicPointLoads::set_symbol() {
 }
 
 void PeriodicPointLoads::find_pairs(const std::vector<PlanePoint>& points, double cutoff) {
-  // Cells at least as wide as the cut-off: neighbours lie in the 3 × 3 cells around. Fewer than three cells a side would be visited twice.
+  // Cells at least as wide as the cut-off: neighbours lie in the 3 × 3 cells around. Fewer than
+  // three cells a side would be visited twice.
   const auto cells = [&](double period) {
     return std::max<Index>(1, static_cast<Index>(std::floor(period / cutoff)));
   };
@@ -160,7 +164,8 @@ void PeriodicPointLoads::find_pairs(const std::vector<PlanePoint>& points, doubl
   }
 }
 
-/// at_row(nodes, weight along x, weights along y, how many) for each run of nodes in a row under the window of a point.
+/// at_row(nodes, weight along x, weights along y, how many) for each run of nodes in a row under
+/// the window of a point.
 template <class AtRow>
 void PeriodicPointLoads::visit(std::size_t point, const AtRow& at_row) {
   const Window& window = windows_[point];

@@ -14,12 +14,15 @@ struct PlanePoint {
   double x, y;
 };
 
-/// Displacements of a half-space under point forces that repeat with the periods lx, ly, relative to the mean plane:
+/// Displacements of a half-space under point forces that repeat with the periods lx, ly, relative
+/// to the mean plane:
 ///     u_i = Σ_j G(x_i − x_j) P_j,   G = (1/(lx ly)) Σ_{q≠0} (2/q) exp(iq·x)   for E* = 1,
-/// the force's own 1/(πr) left out at its own place (what its images do there stays). By Ewald's split 1/r = erfc(αr)/r + erf(αr)/r:
-/// neighbours in a list, the rest on a grid through a smooth window and an FFT (the "exponential of semicircle" of Barnett, Magland,
-/// af Klinteberg, SIAM J. Sci. Comput. 41 (2019) C479), to some 1e-9 of the greatest displacement.
-/// Symmetric. Cost of apply: N log N, about 0.5 µs a point; of construction ten times as much; memory about 1 kB a point.
+/// the force's own 1/(πr) left out at its own place (what its images do there stays). By Ewald's
+/// split 1/r = erfc(αr)/r + erf(αr)/r: neighbours in a list, the rest on a grid through a smooth
+/// window and an FFT (the "exponential of semicircle" of Barnett, Magland, af Klinteberg, SIAM J.
+/// Sci. Comput. 41 (2019) C479), to some 1e-9 of the greatest displacement. Symmetric. Cost of
+/// apply: N log N, about 0.5 µs a point; of construction ten times as much; memory about 1 kB a
+/// point.
 class PeriodicPointLoads {
  public:
   /// Points anywhere; they are wrapped. At least one.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Included once for each instruction set, with SALEBRA_SIMD naming it: a stencil applied to the 16 cells of a tile.
+// Included once for each instruction set, with SALEBRA_SIMD naming it: a stencil applied to the 16
+// cells of a tile.
 #include "tile.hpp"
 
 #ifndef SALEBRA_INLINE
@@ -8,7 +9,8 @@
 
 namespace salebra::detail::SALEBRA_SIMD {
 
-// A vector type wider than the registers compiles to code that is several times slower than no vectors at all.
+// A vector type wider than the registers compiles to code that is several times slower than no
+// vectors at all.
 #if defined(__AVX512F__)
 inline constexpr int register_bytes = 64;
 #elif defined(__AVX__)
@@ -17,11 +19,12 @@ inline constexpr int register_bytes = 32;
 inline constexpr int register_bytes = 16;
 #endif
 
-// Σ weight(i, j) x(i, j) over |i|, |j| <= radius around each of 16 cells of a framed field. The weights, (2 radius + 1)², are symmetric
-// about both axes.
+// Σ weight(i, j) x(i, j) over |i|, |j| <= radius around each of 16 cells of a framed field. The
+// weights, (2 radius + 1)², are symmetric about both axes.
 #if defined(__AVX512F__)
-// From whole cache lines: rows above and below are added before they are weighted, and neighbours in a row come from two registers by
-// one permutation, which is cheaper than a load that crosses a line.
+// From whole cache lines: rows above and below are added before they are weighted, and neighbours
+// in a row come from two registers by one permutation, which is cheaper than a load that crosses a
+// line.
 template <class Real, int radius>
 struct StencilLoop {
   typedef Real Vector __attribute__((vector_size(register_bytes)));

@@ -6,11 +6,13 @@
 
 namespace salebra::detail {
 
-// What the pointwise passes over a contact share. No inline functions here: sources for several vector widths include it.
+// What the pointwise passes over a contact share. No inline functions here: sources for several
+// vector widths include it.
 
 inline constexpr int tile_width = 16;
 inline constexpr int frame = 3;  // cells around a framed field: the radius of the widest stencil
-// The frame to the left and right is as wide as a tile, so that tiles of a framed field begin on cache lines.
+// The frame to the left and right is as wide as a tile, so that tiles of a framed field begin on
+// cache lines.
 inline constexpr int side_frame = tile_width;
 
 // A run of 16 cells of one row.

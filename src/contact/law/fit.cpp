@@ -89,9 +89,10 @@ PressureWindow window_of(const std::vector<Point>& points) {
           .points = static_cast<int>(points.size())};
 }
 
-/// Weighted least squares y = mean_y + b u + c v with u = ū − mean and v = u² made orthogonal to 1 and u in the weighted sums, so that
-/// no term disturbs the others and no large sums cancel. Each error is that of independent values of y with one variance s²,
-/// whatever the weights: for a term φ of the orthogonal ones
+/// Weighted least squares y = mean_y + b u + c v with u = ū − mean and v = u² made orthogonal to 1
+/// and u in the weighted sums, so that no term disturbs the others and no large sums cancel. Each
+/// error is that of independent values of y with one variance s², whatever the weights: for a term
+/// φ of the orthogonal ones
 ///     Var = s² Σw²φ²/(Σwφ²)²,   s² = Σw r²/(Σw − Σ_φ Σw²φ²/Σwφ²),
 /// which for equal weights are the textbook's.
 struct Regression {

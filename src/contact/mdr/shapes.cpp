@@ -84,8 +84,8 @@ class RoundedPunchProfile final : public IndenterProfile {
   double height(double r) const override {
     return r > flat_ ? (r - flat_) * (r - flat_) / (2 * edge_) : 0;
   }
-  // With t = √(x² − b²)/b: g = (b x/R)(t − arctan t), g' = (b/R)(2t − arctan t) and ∫g = (b³/R)[t³/3 + t/2 − (1 +
-  // t²)arctan(t)/2].
+  // With t = √(x² − b²)/b: g = (b x/R)(t − arctan t), g' = (b/R)(2t − arctan t) and ∫g =
+  // (b³/R)[t³/3 + t/2 − (1 + t²)arctan(t)/2].
   double image(double x) const override {
     const double t = reduced(x);
     return flat_ * x / edge_ * (t > 0.3 ? t - std::atan(t) : arctan_series(t, 0));

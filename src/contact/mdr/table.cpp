@@ -20,7 +20,8 @@ constexpr std::array<double, 4> gauss_node{0.1834346424956498, 0.525532409916329
 constexpr std::array<double, 4> gauss_weight{0.3626837833783620, 0.3137066458778873,
                                              0.2223810344533745, 0.1012285362903763};
 
-// The image g(x) = x ∫_0^x f'(r)/√(x² − r²) dr of a profile of cubic pieces, with its slope and its integral.
+// The image g(x) = x ∫_0^x f'(r)/√(x² − r²) dr of a profile of cubic pieces, with its slope and its
+// integral.
 class Image {
  public:
   struct Point {
@@ -43,8 +44,9 @@ class Image {
   const detail::MonotoneHermite& profile() const { return f_; }
 
   Point at(double x) const {
-    // On a piece of half width h whose middle is 4h or more from the singularity at x, Gauss's points are exact to 64/15 (4 + √15)^{−16} =
-    // 2e-14 (Trefethen, Approximation Theory and Approximation Practice, theorem 19.3), and their radii do not depend on x.
+    // On a piece of half width h whose middle is 4h or more from the singularity at x, Gauss's
+    // points are exact to 64/15 (4 + √15)^{−16} = 2e-14 (Trefethen, Approximation Theory and
+    // Approximation Practice, theorem 19.3), and their radii do not depend on x.
     const std::size_t far = static_cast<std::size_t>(
         std::upper_bound(clear_.begin(), clear_.end(), x) - clear_.begin());
     double value = 0, slope = 0, integral = 0;

@@ -14,13 +14,15 @@ namespace salebra::detail {
 
 using Branches = Eigen::ArrayXd;  ///< a number for each term of the series
 
-/// How the branches change while the spring is stretched at a constant rate: y → decay y + gain Δw, with the mean mean_decay y + mean_gain Δw.
+/// How the branches change while the spring is stretched at a constant rate: y → decay y + gain Δw,
+/// with the mean mean_decay y + mean_gain Δw.
 struct Stretching {
   Branches decay, gain, mean_gain;
   const Branches& mean_decay() const { return gain; }
 };
 
-/// A spring of relaxed stiffness 1 with Maxwell branches: q = w + Σ r_i y_i, y_i' = w' − y_i/τ_i, r_i = G_i/G∞.
+/// A spring of relaxed stiffness 1 with Maxwell branches: q = w + Σ r_i y_i, y_i' = w' − y_i/τ_i,
+/// r_i = G_i/G∞.
 class MaxwellSpring {
  public:
   explicit MaxwellSpring(const PronySeries& prony);
@@ -61,7 +63,8 @@ class MaxwellSpring {
   Branches recovered(const Branches& y, double duration) const {
     return from_modes(to_modes(y) * mode_decay(duration));
   }
-  /// As matrices: of the branches, and of their anchors z_i = w − y_i, where w = Σ r_i z_i/(1 + Σ r).
+  /// As matrices: of the branches, and of their anchors z_i = w − y_i, where w = Σ r_i z_i/(1 + Σ
+  /// r).
   Eigen::MatrixXd recovery(double duration) const {
     return from_modes_ * mode_decay(duration).matrix().asDiagonal() * to_modes_;
   }
@@ -89,7 +92,8 @@ struct SpringPath {
   std::vector<Branches> mode_decay;
 };
 
-/// Springs between two radii: the flat end of a profile is one, the rest stand at the middles of equal cells.
+/// Springs between two radii: the flat end of a profile is one, the rest stand at the middles of
+/// equal cells.
 struct SpringLayout {
   struct Cell {
     double middle, edge;  // where it stands, and where its level is met: the rim of a flat end
@@ -105,7 +109,8 @@ class NormalSpring {
   NormalSpring(const MaxwellSpring& spring, double level)
       : spring_(spring), level_(level), y_(Branches::Zero(spring.terms())), modes_(y_) {}
 
-  /// From anchors w − y_i of the branches: in contact where the indenter is below the surface that they have without force.
+  /// From anchors w − y_i of the branches: in contact where the indenter is below the surface that
+  /// they have without force.
   void start(double indentation, const Branches& anchors) {
     const double depth = indentation - level_, free = spring_.free_displacement_of_anchors(anchors);
     closed_ = depth > free;
@@ -122,13 +127,15 @@ class NormalSpring {
   double force(double indentation) const {
     return closed_ ? spring_.force(indentation - level_, y_) : 0;
   }
-  /// Height of the indenter over the surface without force, < 0 in contact; continuous in the level.
+  /// Height of the indenter over the surface without force, < 0 in contact; continuous in the
+  /// level.
   double clearance(double indentation) const {
     return closed_ ? -force(indentation) / spring_.unrelaxed_stiffness()
                    : displacement(indentation) - (indentation - level_);
   }
 
-  /// Through one step of the path; calls on_part(closed, share of the step, work of the force) for each part between touch and release.
+  /// Through one step of the path; calls on_part(closed, share of the step, work of the force) for
+  /// each part between touch and release.
   template <class OnPart>
   void advance(const SpringPath& path, std::size_t step, OnPart&& on_part);
 

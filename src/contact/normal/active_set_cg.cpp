@@ -15,7 +15,8 @@ namespace {
 
 // Cells closer to contact than this part of h_rms are worked on; later, when little moves, fewer.
 constexpr double widest_margin = 0.1, narrowest_margin = 0.03;
-// A gap that no result needs is kept up to so far from the expected plane: the widest margin, and as much for the plane's own change.
+// A gap that no result needs is kept up to so far from the expected plane: the widest margin, and
+// as much for the plane's own change.
 constexpr double kept_reach = 0.2;
 // The set of free cells changes when its violations exceed this part of the last step …
 constexpr double usual_threshold = 0.5;
@@ -103,11 +104,13 @@ Convolution2D<double>& ActiveSetCg<Real>::exact_compliance() {
   }
 }
 
-// Its spectrum is where the tiles are while the iterations do without it, and then in memory of its own.
+// Its spectrum is where the tiles are while the iterations do without it, and then in memory of its
+// own.
 template <class Real>
 Convolution2D<Real>& ActiveSetCg<Real>::dense_compliance() {
   if (on_ladder_ || tiles_.empty()) {
-    // With room for that of the exact check, which is twice as large and comes later: memory counts once it is touched.
+    // With room for that of the exact check, which is twice as large and comes later: memory counts
+    // once it is touched.
     compliance_.keep_spectrum_in(pool(2 * compliance_.spectrum_bytes()));
     spectrum_in_pool_ = true;
   }
@@ -126,7 +129,8 @@ CurvatureSums ActiveSetCg<Real>::take_direction(double z_mean, double beta, doub
                                        })));
 }
 
-// A row of the pressure for a transform. Only tiles in use carry load, and others are not read; before there are any, all are.
+// A row of the pressure for a transform. Only tiles in use carry load, and others are not read;
+// before there are any, all are.
 template <class Real>
 template <class Number>
 const Number* ActiveSetCg<Real>::pressure_of(const Run& run, Index row, Number* room) const {
@@ -152,7 +156,8 @@ const Number* ActiveSetCg<Real>::pressure_of(const Run& run, Index row, Number* 
 // g = Gp − h, and what follows from it; g is kept near the plane only unless `whole`.
 template <class Real>
 ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact, bool whole) {
-  // Σp(g − plane) is offset by an approximate plane against cancellation; the true one is known only after the pass.
+  // Σp(g − plane) is offset by an approximate plane against cancellation; the true one is known
+  // only after the pass.
   const double near = run.load_given() ? run.level : run.target.value;
   const double kept_below = whole || std::isfinite(run.target.bound)
                                 ? std::numeric_limits<double>::infinity()
@@ -209,7 +214,8 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact, bool whole) {
   return result;
 }
 
-// One step of CG, and the change of the free set that it calls for. Returns false where no free cell is left.
+// One step of CG, and the change of the free set that it calls for. Returns false where no free
+// cell is left.
 template <class Real>
 bool ActiveSetCg<Real>::iterate(Run& run) {
   if (!(run.count > 0)) return false;
@@ -281,7 +287,8 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
   return true;
 }
 
-// p within its bounds and at its load, g = Gp − h and e_c over all cells, and the tiles that they call for.
+// p within its bounds and at its load, g = Gp − h and e_c over all cells, and the tiles that they
+// call for.
 template <class Real>
 void ActiveSetCg<Real>::refresh(Run& run, bool last) {
   collect_pressure(run);
@@ -347,7 +354,8 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
     if (fresh_needed || gives_way) refresh(run, gives_way);
     if (run.finished) break;
     if (gives_way) {
-      // Where no cell is free, or the set flutters, a slower method finishes; a coarse level is left as it is.
+      // Where no cell is free, or the set flutters, a slower method finishes; a coarse level is
+      // left as it is.
       if (limits.exact)
         gradient_projection(exact_compliance(), grid_, rows_, boundary_, heights_, rms_height_,
                             target, limits, p, g, run.outcome);

@@ -35,10 +35,12 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-// Minimises ½p·Gp − p·h over 0 <= p <= bound on one grid: conjugate gradients on the free cells, preconditioned by
-// InverseStencil, that are restarted by a fresh residual only, not when the set of free cells changes. Search directions and their images are Real;
-// p and g are double, and a result is accepted on a residual computed afresh over all cells. The iteration is a separate loop, not
-// tangential/conjugate_gradients.hpp: an iteration reads and writes each tile in three fused passes, and its cost is memory traffic.
+// Minimises ½p·Gp − p·h over 0 <= p <= bound on one grid: conjugate gradients on the free cells,
+// preconditioned by InverseStencil, that are restarted by a fresh residual only, not when the set
+// of free cells changes. Search directions and their images are Real; p and g are double, and a
+// result is accepted on a residual computed afresh over all cells. The iteration is a separate
+// loop, not tangential/conjugate_gradients.hpp: an iteration reads and writes each tile in three
+// fused passes, and its cost is memory traffic.
 //
 // The pressure is in any unit that makes `compliance` give metres.
 template <class Real>
@@ -47,8 +49,9 @@ class ActiveSetCg {
   ActiveSetCg(const Grid2D& grid, double contact_modulus, Boundary boundary, const Heights& heights,
               double rms_height)
       : ActiveSetCg(grid, Share(grid.nx), contact_modulus, boundary, heights, rms_height) {}
-  // Over the processes of a share of the rows: fields, and tiles, are those of the rows of this process, and each call is collective.
-  // All decisions follow from sums that have the same bits everywhere, so that no process leaves the others waiting.
+  // Over the processes of a share of the rows: fields, and tiles, are those of the rows of this
+  // process, and each call is collective. All decisions follow from sums that have the same bits
+  // everywhere, so that no process leaves the others waiting.
   ActiveSetCg(const Grid2D& grid, const Share& rows, double contact_modulus, Boundary boundary,
               const Heights& heights, double rms_height);
 
@@ -56,14 +59,16 @@ class ActiveSetCg {
   ActiveSetOutcome solve(const ContactTarget& target, const ActiveSetLimits& limits, double* p,
                          double* g);
 
-  // Σq with Gq = 1 on the cells where 0 < p < bound and q = 0 elsewhere: the load that a unit of rigid approach adds.
-  // `pressure`, where given, receives q.
+  // Σq with Gq = 1 on the cells where 0 < p < bound and q = 0 elsewhere: the load that a unit of
+  // rigid approach adds. `pressure`, where given, receives q.
   PunchOutcome punch_load(const double* p, double bound, const PunchLimits& limits,
                           Field* pressure = nullptr);
 
-  // Makes a set of cells ready for invert(): ix·ny + iy of the rows of this process, in row order. False where the ladder cannot be used.
+  // Makes a set of cells ready for invert(): ix·ny + iy of the rows of this process, in row order.
+  // False where the ladder cannot be used.
   bool hold(const std::vector<Index>& cells);
-  // q ≈ G⁻¹u on the cells of hold(), with G~ in place of G: CG until a step gains less than this part of all that was gained.
+  // q ≈ G⁻¹u on the cells of hold(), with G~ in place of G: CG until a step gains less than this
+  // part of all that was gained.
   void invert(const double* u, double step_ends, double* q, PunchOutcome& outcome);
 
  private:
@@ -112,7 +117,8 @@ class ActiveSetCg {
     return parallel::sum_blocks(rows_, body, points());
   }
 
-  // Passes over the tiles: over slabs of their list, or over those of a block of rows where there is a sum.
+  // Passes over the tiles: over slabs of their list, or over those of a block of rows where there
+  // is a sum.
   template <class Body>
   void for_tiles(const Body& body) const {
     parallel::for_slabs(static_cast<Index>(tiles_.size()), body, tile_points());
@@ -124,9 +130,10 @@ class ActiveSetCg {
         tile_points());
   }
 
-  // Gx, or G~x on the ladder, of a field x that lives on the tiles: spread(begin, end, row) writes the tiles [begin, end) of a row into
-  // it, collect(begin, end, row) takes them from the row of Gx and returns its sums. Row by row of this process, those of rows without
-  // tiles being Sums{}. On the ladder x is spread over the residual, which is made anew before it is read again.
+  // Gx, or G~x on the ladder, of a field x that lives on the tiles: spread(begin, end, row) writes
+  // the tiles [begin, end) of a row into it, collect(begin, end, row) takes them from the row of Gx
+  // and returns its sums. Row by row of this process, those of rows without tiles being Sums{}. On
+  // the ladder x is spread over the residual, which is made anew before it is read again.
   template <class Sums, class Spread, class Collect>
   std::vector<Sums> displace(const Spread& spread, const Collect& collect) {
     std::vector<Sums> sums(static_cast<std::size_t>(rows_.count()));

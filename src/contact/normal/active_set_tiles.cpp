@@ -10,9 +10,10 @@
 namespace salebra::detail {
 namespace {
 
-// Of the first tiles, which are the most. Measured on one core (docs/performance.md): the ladder is as fast as a transform of 512² where
-// about a third of the points are in tiles, of 1024² at some more than half of them, and of 2048² where all are; what surrounds the stencils
-// weighs less on large grids.
+// Of the first tiles, which are the most. Measured on one core (docs/performance.md): the ladder is
+// as fast as a transform of 512² where about a third of the points are in tiles, of 1024² at some
+// more than half of them, and of 2048² where all are; what surrounds the stencils weighs less on
+// large grids.
 double worthwhile_share(double points) {
   const double doublings = 0.5 * std::log2(points / (512.0 * 512.0));
   return doublings < -0.1 ? 0 : 0.35 * std::pow(1.7, std::max(doublings, 0.0));
@@ -56,15 +57,17 @@ template <class Real>
 std::byte* ActiveSetCg<Real>::pool(std::size_t bytes) {
   if (bytes > pool_size_) {
     pool_.reset();  // free first, to avoid holding both
-    // With room for a contact that grows: new pages would have to be cleared, and what is never touched takes no memory.
+    // With room for a contact that grows: new pages would have to be cleared, and what is never
+    // touched takes no memory.
     pool_size_ = bytes + bytes / 2;
     pool_ = large_array<std::byte>(pool_size_);
   }
   return pool_.get();
 }
 
-// The tiles that are in use, with room for what is stored tile after tile. There is no direction yet: to carry the last one over to the new
-// tiles costs more iterations than it saves, since it belongs to the residual before.
+// The tiles that are in use, with room for what is stored tile after tile. There is no direction
+// yet: to carry the last one over to the new tiles costs more iterations than it saves, since it
+// belongs to the residual before.
 template <class Real>
 void ActiveSetCg<Real>::list_tiles() {
   tiles_.clear();
@@ -90,8 +93,8 @@ void ActiveSetCg<Real>::list_tiles() {
   choose_operator();
 }
 
-// The ladder where few tiles are in use: its work goes with their number, that of a transform does not. Chosen once in a solve, since a
-// change costs more than it saves.
+// The ladder where few tiles are in use: its work goes with their number, that of a transform does
+// not. Chosen once in a solve, since a change costs more than it saves.
 template <class Real>
 void ActiveSetCg<Real>::choose_operator() {
   if constexpr (std::is_same_v<Real, float>) {
@@ -113,7 +116,8 @@ void ActiveSetCg<Real>::choose_operator() {
   }
 }
 
-// The tiles of all cells that carry pressure or are closer to the plane than margin·h_rms, and the free cells in them.
+// The tiles of all cells that carry pressure or are closer to the plane than margin·h_rms, and the
+// free cells in them.
 template <class Real>
 void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
   const double near = run.level + margin * rms_height_, bound = run.target.bound;
@@ -175,7 +179,8 @@ void ActiveSetCg<Real>::collect_pressure(Run& run) {
   if (run.load_given() && !scaled) correct_load(run.target, run.p);
 }
 
-// p of the tiles within its bounds, times a factor, in the dense array. Between two refreshes nothing reads it from there.
+// p of the tiles within its bounds, times a factor, in the dense array. Between two refreshes
+// nothing reads it from there.
 template <class Real>
 void ActiveSetCg<Real>::unpack_pressure(const Run& run, double scale) const {
   for_tiles([&](Index begin, Index end) {
@@ -199,13 +204,15 @@ void ActiveSetCg<Real>::begin_set(Run& run, const std::vector<SetSums>& parts) {
   for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, run.level); });
 }
 
-// Fills the frame of the residual, so that the stencil sees the periodic images and the rows of other processes.
+// Fills the frame of the residual, so that the stencil sees the periodic images and the rows of
+// other processes.
 template <class Real>
 void ActiveSetCg<Real>::frame_residual() {
   r_.fill_frame(boundary_, frame_rows_);
 }
 
-// The correction that puts p on the tiles back to the load, given Σp over the cells below the bound.
+// The correction that puts p on the tiles back to the load, given Σp over the cells below the
+// bound.
 template <class Real>
 LoadCorrection ActiveSetCg<Real>::correction_over_tiles(const Run& run, double pressure) const {
   const double load = run.target.value * static_cast<double>(grid_.points()),

@@ -15,7 +15,8 @@ struct Heights {
   double operator[](Index k) const { return values[k] - zero; }
 };
 
-// What is prescribed: the mean pressure, or the level λ of the contact plane (gap = g − λ with g = Gp − h).
+// What is prescribed: the mean pressure, or the level λ of the contact plane (gap = g − λ with g =
+// Gp − h).
 struct ContactTarget {
   enum class Kind { mean_pressure, level } kind = Kind::mean_pressure;
   double value = 0;
@@ -24,18 +25,20 @@ struct ContactTarget {
   bool load_given() const { return kind == Kind::mean_pressure; }
 };
 
-// Part of the transform's points that may be in tiles in use where the near-field ladder takes the place of transforms; 0: it never does.
-// Its work goes with the tiles, that of a transform does not. No value: what is faster, as measured (active_set_tiles.cpp).
+// Part of the transform's points that may be in tiles in use where the near-field ladder takes the
+// place of transforms; 0: it never does. Its work goes with the tiles, that of a transform does
+// not. No value: what is faster, as measured (active_set_tiles.cpp).
 using LadderShare = std::optional<double>;
 
 struct PunchLimits {
-  // Stop when the load grew by less than this part of itself in two iterations running. The load is a maximum over q: its error is
-  // the square of the error of q.
+  // Stop when the load grew by less than this part of itself in two iterations running. The load is
+  // a maximum over q: its error is the square of the error of q.
   double relative_gain = 1e-11;
   int max_iterations = 1000;
   std::function<bool(int iteration)> keep_going = {};
   LadderShare ladder_share = {};
-  // On the ladder a round of CG ends, and the residual is computed afresh, when a step gains less than this part of what the round gained.
+  // On the ladder a round of CG ends, and the residual is computed afresh, when a step gains less
+  // than this part of what the round gained.
   double round_ends = 1e-4;
 };
 
@@ -54,17 +57,20 @@ struct ActiveSetLimits {
   double tolerance = 1e-10;  // of e_c
   int max_iterations = 1000;
   bool exact =
-      true;  // accept on a residual in double precision; false: a start for a finer level, a few refreshes will do
+      // accept on a residual in double precision; false: a start for a finer level, a few refreshes
+      // will do
+      true;
   std::function<bool(int iteration, double residual)> keep_going = {};
-  // After an iteration where the root says that one is due, p holds the present pressure within its bounds while take_checkpoint() runs,
-  // which may change it.
+  // After an iteration where the root says that one is due, p holds the present pressure within its
+  // bounds while take_checkpoint() runs, which may change it.
   std::function<bool()> checkpoint_due = {};
   std::function<void()> take_checkpoint = {};
-  // When e_c has not halved in this many iterations, CG restarts with another threshold, and at last gives way to
-  // gradient_projection().
+  // When e_c has not halved in this many iterations, CG restarts with another threshold, and at
+  // last gives way to gradient_projection().
   int patience = 40;
   LadderShare ladder_share = {};
-  // About where the contact plane will be, where it is not prescribed; it saves work and changes no result.
+  // About where the contact plane will be, where it is not prescribed; it saves work and changes no
+  // result.
   std::optional<double> expected_level = {};
 };
 
@@ -75,7 +81,8 @@ struct ActiveSetOutcome {
   int fft_count = 0;
   int exact_fft_count = 0;  // of them in double precision, where the inner loop is not
   int ladder_count = 0;     // applications of the near-field ladder in place of a transform
-  // For profiles: seconds in transforms, of them in exact ones, on the ladder, and the cells of the tiles summed over the iterations.
+  // For profiles: seconds in transforms, of them in exact ones, on the ladder, and the cells of the
+  // tiles summed over the iterations.
   double fft_seconds = 0, exact_fft_seconds = 0, ladder_seconds = 0;
   double active_cells = 0, resting_cells = 0;
   bool converged = false;
@@ -88,9 +95,10 @@ struct ContactResidual {
   double residual = 0;  // e_c
 };
 
-// e_c = Σp|g − plane|/(Σp·h_rms), with the plane at the least g (load given) or at the level given; a gap below the latter adds
-// its depth. Saturated cells may lie below the plane, so they count only where they stand above it.
-// p and g are those of the rows of this process, the result that of all. Collective.
+// e_c = Σp|g − plane|/(Σp·h_rms), with the plane at the least g (load given) or at the level given;
+// a gap below the latter adds its depth. Saturated cells may lie below the plane, so they count
+// only where they stand above it. p and g are those of the rows of this process, the result that of
+// all. Collective.
 ContactResidual contact_residual(const Grid2D& grid, const Share& rows, const ContactTarget& target,
                                  double rms_height, const double* p, const double* g);
 

@@ -40,12 +40,14 @@ class Sets {
 
 constexpr Index none = -1;
 
-/// Contact cells of a row that follow one another: columns begin … end − 1, of one part of the contact.
+/// Contact cells of a row that follow one another: columns begin … end − 1, of one part of the
+/// contact.
 struct Run {
   Index begin = 0, end = 0, part = 0;
 };
 
-/// What a process has found in its rows. Parts are its connected cells, in the order of their first cells.
+/// What a process has found in its rows. Parts are its connected cells, in the order of their first
+/// cells.
 struct Found {
   Index parts = 0, edges_across_x = 0, edges_across_y = 0;
   std::vector<Run> first, last;    // of the first and of the last row
@@ -55,7 +57,8 @@ struct Found {
 };
 
 Found find_parts(const Field& pressure, bool periodic, Index block_rows) {
-  // Contact cells are numbered row by row. Each row is compared with the one before it; an edge of the contact lies between unlike cells.
+  // Contact cells are numbered row by row. Each row is compared with the one before it; an edge of
+  // the contact lies between unlike cells.
   using Row = std::vector<Index>;  // the number of each cell, or none
   Found found;
   Sets sets;

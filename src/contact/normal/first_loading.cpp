@@ -56,7 +56,8 @@ FirstLoading sink_in(Field& heights, const Field& displacement, const NormalCont
 constexpr double load_tolerance = 1e-3;
 constexpr int most_loadings = 20;
 
-/// The highest load of an oscillation about a contact of the residual surface, without further flow; none where the contact is full.
+/// The highest load of an oscillation about a contact of the residual surface, without further
+/// flow; none where the contact is full.
 std::optional<NormalContactState> at_top(const Surface& residual, double contact_modulus,
                                          double nominal_pressure, double normal_amplitude,
                                          const Field& start, NormalContactOptions options) {

@@ -42,7 +42,8 @@ class Descent {
     g_ = image_ - (heights_ - zero_);
   }
 
-  // One step along the projection of p − step·gradient. Returns false where no such step descends: p is the solution.
+  // One step along the projection of p − step·gradient. Returns false where no such step descends:
+  // p is the solution.
   bool project_gradient() {
     if (!(step_ > 0)) step_ = first_step();
     for (int trial = 0; trial < most_backtracks; ++trial) {
@@ -63,8 +64,9 @@ class Descent {
     return false;
   }
 
-  // Preconditioned CG on the cells strictly between their bounds, until a bound is met or little is gained. A separate loop, because
-  // the last step ends at a bound and p and g change with each step, within bounds.
+  // Preconditioned CG on the cells strictly between their bounds, until a bound is met or little is
+  // gained. A separate loop, because the last step ends at a bound and p and g change with each
+  // step, within bounds.
   void descend_on_face(int most) {
     const Field mask = (p_ > 0 && p_ < target_.bound).cast<double>();
     const double count = sum(mask);
@@ -123,7 +125,8 @@ class Descent {
     p_ = (p_ + multiple * direction).max(0.0).min(target_.bound);
     g_ += multiple * image_;
   }
-  // At given load a constant may be taken off; the level of the free cells leaves the least to cancel.
+  // At given load a constant may be taken off; the level of the free cells leaves the least to
+  // cancel.
   Field gradient() const {
     if (!target_.load_given()) return g_ - target_.value;
     const Field free = (p_ > 0 && p_ < target_.bound).cast<double>();
@@ -131,7 +134,8 @@ class Descent {
     return g_ - (count > 0 ? sum(free * g_) / count : least(g_));
   }
 
-  // A step that would undo the gradient in one cell of the stencil: a scale, corrected by the first trials.
+  // A step that would undo the gradient in one cell of the stencil: a scale, corrected by the first
+  // trials.
   double first_step() const { return inverse_.weight(0, 0); }
 
   double room_along(const Field& direction) const {
@@ -144,7 +148,8 @@ class Descent {
     return rows_.ranks().least_of(room);
   }
 
-  // The nearest point within the bounds, and at the load where that is given: clamp(x + shift) with the right shift.
+  // The nearest point within the bounds, and at the load where that is given: clamp(x + shift) with
+  // the right shift.
   Field projected(const Field& x) const {
     if (!target_.load_given()) return x.max(0.0).min(target_.bound);
     const double load = target_.value * cells_, lowest = least(x);

@@ -34,10 +34,12 @@ struct LoadCorrection {
   }
 };
 
-// The correction that gives the load asked, found from sums_of(correction). Pressures below the bound are scaled, and cells at the bound
-// stay there: a scale a little below 1 would free them all, with gaps far from the plane. Where that would have to halve or more than
-// double what is below, all are scaled; where most loaded cells are at the bound, all are shifted. The sums are concave, so that
-// Newton's method cannot fail once it is below the load, where its first step leads.
+// The correction that gives the load asked, found from sums_of(correction). Pressures below the
+// bound are scaled, and cells at the bound stay there: a scale a little below 1 would free them
+// all, with gaps far from the plane. Where that would have to halve or more than double what is
+// below, all are scaled; where most loaded cells are at the bound, all are shifted. The sums are
+// concave, so that Newton's method cannot fail once it is below the load, where its first step
+// leads.
 template <class SumsOf>
 LoadCorrection correction_for_load(double load, double bound, const SumsOf& sums_of) {
   constexpr double rounding = 1e-14;

@@ -18,7 +18,8 @@ Index halved(Index n) {
   return n % 2 == 0 ? n / 2 : fast_transform_size(n / 2);
 }
 
-// A process that takes part on a coarse grid has at least so many rows: fewer are sooner computed than sent.
+// A process that takes part on a coarse grid has at least so many rows: fewer are sooner computed
+// than sent.
 constexpr Index least_coarse_rows = 64;
 
 RowExchange::Edge edge_of(Boundary boundary) {
@@ -39,7 +40,8 @@ Place place(Index k, Index from, Index to) {
   return {position / from, static_cast<double>(position % from) / static_cast<double>(from)};
 }
 
-// Four-point interpolation at one place: linear and cubic (Lagrange) weights of the points base − 1 … base + 2.
+// Four-point interpolation at one place: linear and cubic (Lagrange) weights of the points base − 1
+// … base + 2.
 struct Weights {
   Index base;
   std::array<Index, 4> point;  // where these are, repeated or clamped

@@ -15,12 +15,14 @@ struct MultigridLevel {
   Heights heights;
 };
 
-// Halves the grid while it has more than 64² cells, by point sampling where it divides and by interpolation where it does not.
-// levels.front() is the finest; there are at most `most`. Collective.
+// Halves the grid while it has more than 64² cells, by point sampling where it divides and by
+// interpolation where it does not. levels.front() is the finest; there are at most `most`.
+// Collective.
 std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const Share& rows,
                                              const Heights& heights, Boundary boundary, int most);
 
-// A start for the finer level: bilinear pressure, then one pointwise step towards the gap that the cubic displacement predicts,
+// A start for the finer level: bilinear pressure, then one pointwise step towards the gap that the
+// cubic displacement predicts,
 //     p = max(p_c − step·(u_c − h), 0),   u_c = g_c + h_c − level.
 // Fields hold the rows of this process. Collective.
 void prolong(const MultigridLevel& coarse, const Field& coarse_pressure, const Field& coarse_gap,

@@ -31,7 +31,8 @@ using detail::MultigridLevel;
 constexpr double coarse_tolerance = 1e-3;
 // Part of a full Jacobi step that the prolongation takes.
 constexpr double prediction = 0.6;
-// Saturated cells of a start that was rounded to float stay so: freed, they cost more iterations than the start saves.
+// Saturated cells of a start that was rounded to float stay so: freed, they cost more iterations
+// than the start saves.
 constexpr double full_from = 1 - double(std::numeric_limits<float>::epsilon());
 
 // What the targets need of the heights, counted downwards from the highest point.
@@ -126,7 +127,8 @@ void check(const Surface& surface, double contact_modulus, const NormalContactOp
                  surface.ranks);
 }
 
-// Heights stay in metres; pressures are counted in E*/(cell size), which makes Gp a number of order p whatever the units.
+// Heights stay in metres; pressures are counted in E*/(cell size), which makes Gp a number of order
+// p whatever the units.
 struct Scaled {
   Grid2D grid;           // in cell sizes
   double pressure_unit;  // Pa
@@ -142,7 +144,8 @@ struct Solution {
   ActiveSetOutcome outcome;
 };
 
-// Mean height below zero: the mean gap at first touch, but for the summit that a coarse grid may lack.
+// Mean height below zero: the mean gap at first touch, but for the summit that a coarse grid may
+// lack.
 double mean_depth_of(const MultigridLevel& level) {
   const double sum = parallel::sum_blocks(
       level.rows,
@@ -210,8 +213,9 @@ Solution solve_nested(const Scaled& scaled, const Share& rows, const Heights& he
     ActiveSetCg<Real> solver(level.grid, level.rows, 1, options.boundary, level.heights,
                              rms_height);
     ContactTarget target_here = target;
-    // The mean height of a coarse grid is another one. At the same level it may be beyond full contact, where no pressure is a solution
-    // and CG runs away: a start for the finer grid has its mean gap instead.
+    // The mean height of a coarse grid is another one. At the same level it may be beyond full
+    // contact, where no pressure is a solution and CG runs away: a start for the finer grid has its
+    // mean gap instead.
     if (k > 0 && !target.load_given() && options.boundary == Boundary::periodic)
       target_here.value += mean_depth_of(level) - mean_depth;
     solution.outcome =
@@ -248,7 +252,8 @@ NormalContactState state_of(Solution&& solution, const ContactTarget& target, co
                sums.pressure += pressure;
                sums.contact += pressure > 0 ? 1 : 0;
                sums.work += pressure * (gap + below_summit[k]);
-               // A saturated cell sinks in: what is below the plane there is plastic flow, not a gap.
+               // A saturated cell sinks in: what is below the plane there is plastic flow, not a
+               // gap.
                const bool flows = pressure >= target.bound;
                gap = flows ? 0 : gap - outcome.level;
                pressure = flows ? hardness : pressure * scaled.pressure_unit;
@@ -307,7 +312,8 @@ NormalContactState press(const Surface& surface, double contact_modulus, const D
   const ContactTarget target{kind, load_given ? value / scaled.pressure_unit : value,
                              options.hardness / scaled.pressure_unit};
   const Heights heights{surface.heights.data(), depths.highest};
-  // A flat punch has no roughness to compare a gap with, and its problem is linear: the displacement is the length.
+  // A flat punch has no roughness to compare a gap with, and its problem is linear: the
+  // displacement is the length.
   const double displacement =
       load_given ? value / contact_modulus * std::sqrt(surface.grid.area()) : value;
   const double length = depths.rms > 0 ? depths.rms : displacement;

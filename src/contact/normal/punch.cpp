@@ -19,7 +19,8 @@ namespace salebra {
 namespace detail {
 namespace {
 
-// The load is a maximum over q, so its error is the square of the error of q: a loose solve is enough for a sharp load.
+// The load is a maximum over q, so its error is the square of the error of q: a loose solve is
+// enough for a sharp load.
 constexpr int gains_in_a_row = 2;
 // A preconditioner needs no more: 99 % of what can be gained takes ten to twenty steps.
 constexpr int most_inner_steps = 100;
@@ -34,7 +35,8 @@ void ActiveSetCg<Real>::begin_punch() {
   for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, 0); });
 }
 
-// One step of CG; returns by how much it lowered ½q·Gq − q·u, twice. curvature: <t, w> of the last direction, replaced.
+// One step of CG; returns by how much it lowered ½q·Gq − q·u, twice. curvature: <t, w> of the last
+// direction, replaced.
 template <class Real>
 double ActiveSetCg<Real>::punch_step(double& curvature, PunchOutcome& outcome) {
   const auto a = arrays(std::numeric_limits<double>::infinity());
@@ -92,9 +94,10 @@ void ActiveSetCg<Real>::invert(const double* u, double step_ends, double* q,
   for (std::size_t k = 0; k < places_.size(); ++k) q[k] = p_[places_[k]];
 }
 
-// CG as in solve(), on a set of cells that does not change: minimises ½q·Gq − Σq. The load is then taken from
-// 2Σq − q·Gq in double precision, whose error is quadratic in that of q. On the ladder CG goes in rounds, each about an exact residual:
-// what is left to gain falls by (eps/(1 − eps))² or more from round to round.
+// CG as in solve(), on a set of cells that does not change: minimises ½q·Gq − Σq. The load is then
+// taken from 2Σq − q·Gq in double precision, whose error is quadratic in that of q. On the ladder
+// CG goes in rounds, each about an exact residual: what is left to gain falls by (eps/(1 − eps))²
+// or more from round to round.
 template <class Real>
 PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const PunchLimits& limits,
                                            Field* pressure) {
@@ -241,8 +244,9 @@ template PunchOutcome ActiveSetCg<double>::punch_load(const double*, double, con
 
 namespace {
 
-// The cells where 0 < p < bound pressed in as one piece. Alone on a half-space, they need no more of the grid than they span; where
-// several processes hold them, the rows of the grid stay with the processes that have them.
+// The cells where 0 < p < bound pressed in as one piece. Alone on a half-space, they need no more
+// of the grid than they span; where several processes hold them, the rows of the grid stay with the
+// processes that have them.
 PunchStiffness press_punch(const Field& p, double bound, const Grid2D& grid,
                            const Communicator& ranks, double contact_modulus, Boundary boundary,
                            Precision precision, const detail::PunchLimits& limits,
@@ -265,7 +269,8 @@ PunchStiffness press_punch(const Field& p, double bound, const Grid2D& grid,
     *punch_pressure = Field::Zero(p.rows(), p.cols());
     punch_pressure->block(window.x0, window.y0, q.rows(), window.ny) = q * (contact_modulus / cell);
   }
-  // With lengths in cells and E* = 1, Σq counts forces in E*·(cell size)² for an approach of one cell size.
+  // With lengths in cells and E* = 1, Σq counts forces in E*·(cell size)² for an approach of one
+  // cell size.
   return {.normal_stiffness = outcome.load * contact_modulus * cell,
           .iterations = outcome.iterations,
           .fft_count = outcome.fft_count,

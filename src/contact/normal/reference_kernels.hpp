@@ -7,8 +7,9 @@
 
 #include "tile_kernels.hpp"
 
-// The tile kernels in their plainest form, cell by cell: what tile_kernels.inl computes, without its vectors, lanes and prefetches.
-// The tests compare the fast kernels with these, and a reader begins here. The solver never calls them.
+// The tile kernels in their plainest form, cell by cell: what tile_kernels.inl computes, without
+// its vectors, lanes and prefetches. The tests compare the fast kernels with these, and a reader
+// begins here. The solver never calls them.
 namespace salebra::detail::reference {
 
 // One cell of a tile: its place in a packed array, in the framed residual, and in its row.
@@ -109,7 +110,8 @@ StepSums step(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t en
     const bool saturated = clipped >= a.bound;
     sums.outside += beyond * beyond;
     sums.clipped += std::abs(beyond);
-    // A held cell is wrong where its gap asks for a change: below the plane without load, above it at the bound.
+    // A held cell is wrong where its gap asks for a change: below the plane without load, above it
+    // at the bound.
     const double wrong = saturated ? std::max(g - level, 0.0) : std::max(level - g, 0.0);
     sums.wrong += (1 - m) * wrong * wrong;
     if (saturated) {
@@ -126,7 +128,8 @@ StepSums step(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t en
   return sums;
 }
 
-// A free cell stays free while its pressure is within its bounds; a held one becomes free where its gap has the wrong sign.
+// A free cell stays free while its pressure is within its bounds; a held one becomes free where its
+// gap has the wrong sign.
 inline bool becomes_free(bool free, double p, double g, double level, double bound) {
   if (free) return p >= 0 && p <= bound;
   return p > 0 ? g > level : g < level;

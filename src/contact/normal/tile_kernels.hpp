@@ -7,16 +7,17 @@
 
 namespace salebra::detail {
 
-// The pointwise passes of the active-set solver; reference_kernels.hpp says in plain loops what each of them does. They walk tiles:
-// runs of 16 cells of one row that hold contact or are close to it, since short runs of any length do not vectorise. One source is
-// compiled for each vector width; no header with inline functions may be included there, because the linker could then give code for a
-// wide machine to a narrow one.
+// The pointwise passes of the active-set solver; reference_kernels.hpp says in plain loops what
+// each of them does. They walk tiles: runs of 16 cells of one row that hold contact or are close to
+// it, since short runs of any length do not vectorise. One source is compiled for each vector
+// width; no header with inline functions may be included there, because the linker could then give
+// code for a wide machine to a narrow one.
 
 inline constexpr int stencil_size = (2 * frame + 1) * (2 * frame + 1);
 
-// A field is either framed, or tile after tile (packed) with zeros where a row ends within a tile. Directions and their images are
-// packed too: as whole fields they would be the half of what an iteration reads and writes. The transform spreads and collects
-// them row by row.
+// A field is either framed, or tile after tile (packed) with zeros where a row ends within a tile.
+// Directions and their images are packed too: as whole fields they would be the half of what an
+// iteration reads and writes. The transform spreads and collects them row by row.
 template <class Real>
 struct TileArrays {
   const Tile* tiles;
@@ -31,7 +32,9 @@ struct TileArrays {
   Real* z;                       // packed: preconditioned residual, and what truncate() changes
   Real* m;  // packed: 1 on free cells, where g = level is wanted; 0 where p is held at a bound
   unsigned char*
-      quiet;  // of each tile: 1 where no cell is free or loaded, and then t is zero, and r from the next residual() on
+      // of each tile: 1 where no cell is free or loaded, and then t is zero, and r from the next
+      // residual() on
+      quiet;
   const Real* stencil;  // stencil_size weights, symmetric about both axes
   double bound;         // largest pressure allowed; may be infinite
 };
@@ -75,12 +78,14 @@ struct GapRow {
   double bound;          // largest pressure allowed
   double plane;          // close to the contact plane
   double
-      kept_below;  // g is written on tiles whose `nearest` is below this: what is far away is not read again
+      // g is written on tiles whose `nearest` is below this: what is far away is not read again
+      kept_below;
   double* g;        // u − (heights − zero)
   double* nearest;  // of each tile: its least g; −∞ where a cell of it carries load
 };
 
-// begin and end count tiles. Where a row is given they are the tiles of that row, and it holds its ny cells.
+// begin and end count tiles. Where a row is given they are the tiles of that row, and it holds its
+// ny cells.
 template <class Real>
 struct TileKernels {
   // r = m(g − level)
@@ -100,7 +105,8 @@ struct TileKernels {
   // Frees held cells whose gap has the wrong sign, holds free cells whose pressure left its bounds.
   SetSums (*change_set)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                         double level);
-  // The same, and p becomes min(scale·max(p, 0) + shift, bound), or the bound where it is full_from or more, z the change of p.
+  // The same, and p becomes min(scale·max(p, 0) + shift, bound), or the bound where it is full_from
+  // or more, z the change of p.
   void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double level,
                    double scale, double shift, double full_from);
   // z into the row

@@ -8,7 +8,8 @@ namespace salebra::detail::SALEBRA_SIMD {
 
 using Size = std::ptrdiff_t;
 
-// One partial sum for each cell of a tile: adding them up at the end only keeps the loops free of horizontal sums.
+// One partial sum for each cell of a tile: adding them up at the end only keeps the loops free of
+// horizontal sums.
 struct Lanes {
   double value[tile_width] = {};
   double sum() const {
@@ -31,7 +32,8 @@ struct FullWidth {
   constexpr operator Size() const { return tile_width; }
 };
 
-// The residual is read in strides that the prefetcher does not predict: prefetch this many tiles ahead.
+// The residual is read in strides that the prefetcher does not predict: prefetch this many tiles
+// ahead.
 inline constexpr Size ahead = 16;
 
 // What a pass reads of the residual: nothing, its own cells, or all that the stencil reaches.
@@ -50,8 +52,8 @@ struct Place {
   Size packed, framed, column;
 };
 
-// Calls body(place, width) for each tile; width is a constant for all but the last of a row. quiet_body likewise, where the tile is
-// quiet.
+// Calls body(place, width) for each tile; width is a constant for all but the last of a row.
+// quiet_body likewise, where the tile is quiet.
 template <Reads reads, class Real, class Body, class QuietBody>
 SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, const Body& body,
                               const QuietBody& quiet_body) {
@@ -82,7 +84,8 @@ SALEBRA_INLINE void for_active_tiles(const TileArrays<Real>& a, Size begin, Size
   for_tiles<reads>(a, begin, end, body, [](const Place&, auto) {});
 }
 
-// Whether any of a tile's numbers is not +0, from their bits: the test of each number would not vectorise.
+// Whether any of a tile's numbers is not +0, from their bits: the test of each number would not
+// vectorise.
 template <class Number, class Width>
 SALEBRA_INLINE bool any(const Number* tile, Width width) {
   unsigned long long bits = 0;
@@ -262,7 +265,8 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
           misfit.sum(),  signed_misfit.sum(), saturated.sum(), lowest};
 }
 
-// 1 for a cell that is free from now on, else 0; in numbers, because mixed tests of float and double do not vectorise.
+// 1 for a cell that is free from now on, else 0; in numbers, because mixed tests of float and
+// double do not vectorise.
 SALEBRA_INLINE double freed(double free, double p, double g, double level, double bound) {
   const double above = p < 0 ? 0.0 : 1.0, stays = p > bound ? 0.0 : above;
   const double open = g > level ? 1.0 : 0.0, closed = g < level ? 1.0 : 0.0;

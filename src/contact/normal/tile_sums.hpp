@@ -9,7 +9,8 @@
 
 namespace salebra::detail {
 
-// Sums of kernels over parts of the grid, brought together. Not in tile_kernels.hpp, which has no inline functions.
+// Sums of kernels over parts of the grid, brought together. Not in tile_kernels.hpp, which has no
+// inline functions.
 
 inline void add(PreconditionSums& total, const PreconditionSums& part) {
   total.z += part.z;
@@ -66,7 +67,8 @@ Sums total_of(const std::vector<Sums>& parts) {
   return total;
 }
 
-// The sums of the rows of this process, added within each block of parallel.hpp, and those of all processes. Collective.
+// The sums of the rows of this process, added within each block of parallel.hpp, and those of all
+// processes. Collective.
 template <class Sums>
 std::vector<Sums> by_blocks(const Share& share, const std::vector<Sums>& rows) {
   const auto size = static_cast<std::size_t>(parallel::block_rows(share.rows()));

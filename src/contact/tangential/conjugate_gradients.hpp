@@ -19,8 +19,9 @@ struct CgOutcome {
 //   stop(|misfit|², iterations)  before each step; true ends it
 //   dot(a, b)                    Σ a_i b_i
 //   x, misfit                    the guess and b − Ax on entry; both are up to date on return
-// β = −<z, Ad>/<d, Ad> makes the new direction conjugate to the last one d even where precondition() is not linear.
-// ActiveSetCg, gradient_projection and InteractingSummits have separate loops; each says why.
+// β = −<z, Ad>/<d, Ad> makes the new direction conjugate to the last one d even where
+// precondition() is not linear. ActiveSetCg, gradient_projection and InteractingSummits have
+// separate loops; each says why.
 template <class Apply, class Precondition, class Stop, class Dot>
 CgOutcome conjugate_gradients(const Apply& apply, const Precondition& precondition,
                               const Stop& stop, const Dot& dot, std::vector<double>& x,

@@ -36,8 +36,9 @@ struct CoupledContact::Parts {
 
   double force() const { return surface.grid.cell_area() * sliding.pressure().sum(); }
 
-  // The same rigid approach above a surface that the tractions have displaced by `sunk`; cells `out` stay out of the contact, so that
-  // the others carry what these would. Their gap may be below 0.
+  // The same rigid approach above a surface that the tractions have displaced by `sunk`; cells
+  // `out` stay out of the contact, so that the others carry what these would. Their gap may be
+  // below 0.
   NormalContactState press(double approach, const Field& sunk, Field guess,
                            const ContactSet& out) const {
     Surface lowered{surface.grid, surface.heights - sunk, surface.periodic, surface.origin};
@@ -80,7 +81,8 @@ CoupledContact::~CoupledContact() = default;
 CoupledReport CoupledContact::advance(double indentation, const TangentialMove& move) {
   Parts& p = *parts_;
   const double force_before = p.force();
-  // While the contact is small, so are the displacements that the coupling makes: sweeps end only if the solves resolve them.
+  // While the contact is small, so are the displacements that the coupling makes: sweeps end only
+  // if the solves resolve them.
   const double scale =
       std::hypot(move.x, move.y) + std::abs(p.dundurs) * std::max(indentation, 0.0);
   if (scale > 0) p.sliding.set_motion_scale(std::min(p.options.sliding.motion_scale, scale));
@@ -90,7 +92,8 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   increment.traction = p.sliding.traction();
   Field gap;
   bool solved = false;
-  // Without a limit a cell at the edge carries traction or not, and may do so in turn: one that has left once too often stays out.
+  // Without a limit a cell at the edge carries traction or not, and may do so in turn: one that has
+  // left once too often stays out.
   constexpr int patience = 8;
   ContactSet barred = ContactSet::Constant(p.surface.grid.nx, p.surface.grid.ny, false);
   while (report.sweeps < p.options.max_sweeps) {
@@ -112,7 +115,8 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
     report.change = total > 0 ? change / total : 0;
     report.interrupted = state.interrupted || increment.report.interrupted;
     ++report.sweeps;
-    // Round-off of the last digits apart, nothing that is less than the solvers' own error can be asked for.
+    // Round-off of the last digits apart, nothing that is less than the solvers' own error can be
+    // asked for.
     if (report.interrupted || report.change < p.options.tolerance) break;
   }
   report.converged = solved && report.change < p.options.tolerance && !report.interrupted;

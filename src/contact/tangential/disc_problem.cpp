@@ -101,7 +101,8 @@ std::vector<double> DiscProblem::newton_direction(const Iterate& iterate, const 
   std::vector<double> solution(unknowns, 0.0), misfit(unknowns), scale(count());
   for (std::size_t i = 0; i < unknowns; ++i) misfit[i] = -iterate.gradient[i];
   project_on(face, misfit);
-  // The stencil is the inverse of K, not of K + Λ: where the curvature Λ prevails, the inverse is 1/Λ.
+  // The stencil is the inverse of K, not of K + Λ: where the curvature Λ prevails, the inverse is
+  // 1/Λ.
   for (std::size_t k = 0; k < count(); ++k)
     scale[k] = 1 / std::sqrt(1 + cell_stiffness_ * face.curvature[k]);
   const double stencil_scale = cell_stiffness_ / system_.preconditioner().diagonal();

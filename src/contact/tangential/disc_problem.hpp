@@ -9,28 +9,32 @@
 
 namespace salebra::detail {
 
-/// minimise ½ τ·Kτ − τ·v with |τ_i| <= limit_i, the quadratic programme of PartialSlipSolver, on the points of a contact set.
-/// A vector is (components × points); with one component the discs are intervals.
+/// minimise ½ τ·Kτ − τ·v with |τ_i| <= limit_i, the quadratic programme of PartialSlipSolver, on
+/// the points of a contact set. A vector is (components × points); with one component the discs are
+/// intervals.
 class DiscProblem {
  public:
   /// limits: for each point, > 0, Pa, may be infinite. stiffness_scale: E of K ≈ 2/(E q), Pa.
   DiscProblem(ContactSystem& system, const PointList& points, std::vector<double> limits,
               std::vector<double> targets, double stiffness_scale);
 
-  /// From a guess, which need not be feasible, to residual < tolerance, m. On return `gradient` is Kτ − v.
+  /// From a guess, which need not be feasible, to residual < tolerance, m. On return `gradient` is
+  /// Kτ − v.
   PartialSlipReport solve(double tolerance, int max_iterations, const Progress& progress,
                           std::vector<double>& tractions, std::vector<double>& gradient);
 
-  /// Whether a point slips: |τ − κg| exceeds its limit. (|τ| itself may be short of a limit that has grown by less than the
-  /// tolerance since the guess.)
+  /// Whether a point slips: |τ − κg| exceeds its limit. (|τ| itself may be short of a limit that
+  /// has grown by less than the tolerance since the guess.)
   bool slips(const std::vector<double>& tractions, const std::vector<double>& gradient,
              std::size_t point) const;
 
-  /// Takes only projected gradient steps, which is slow and always converges: the Newton steps' fallback, for tests of it.
+  /// Takes only projected gradient steps, which is slow and always converges: the Newton steps'
+  /// fallback, for tests of it.
   void use_gradient_steps_only() { newton_ = false; }
 
  private:
-  // What a Newton step may change: everything in free points, the direction of traction in bound ones.
+  // What a Newton step may change: everything in free points, the direction of traction in bound
+  // ones.
   struct Face {
     std::vector<char> bound;        // per point
     std::vector<double> normal;     // τ/|τ| of bound points

@@ -47,7 +47,8 @@ PartialSlipReport PartialSlipSolver::solve(const Field& limit, const TangentialF
   if (points.size() == 0) {
     report.converged = true;
   } else {
-    // K̂ = (2π/q)(c1 + c2 …) lies between the values along and across the wave; 2/(E q) with their mean.
+    // K̂ = (2π/q)(c1 + c2 …) lies between the values along and across the wave; 2/(E q) with their
+    // mean.
     const Material& material = workspace.material();
     const double stiffness_scale =
         1 / (std::numbers::pi * (material.cerruti_isotropic + material.cerruti_directed / 2));

@@ -35,8 +35,9 @@ Field limit_of(const Field& pressure, double friction) {
   return (pressure > 0).select(Field::Constant(pressure.rows(), pressure.cols(), friction), 0.0);
 }
 
-// For how much of an increment the entering cells were in contact, 0 … 1: half of it on average. Near the edge of a contact p² grows in
-// proportion to the indentation, so that the part is c p² where that is less than 1.
+// For how much of an increment the entering cells were in contact, 0 … 1: half of it on average.
+// Near the edge of a contact p² grows in proportion to the indentation, so that the part is c p²
+// where that is less than 1.
 Field part_in_contact(const Field& pressure, const ContactSet& entering) {
   const Field squared = entering.select(pressure.square(), 0.0);
   const double count = static_cast<double>(entering.count());
@@ -98,7 +99,8 @@ TangentialField SlidingContact::displacement_under(const ContactSet& loaded,
   return displacement;
 }
 
-// Half of the increment with the cells that are in contact already: where it takes those that enter in its middle.
+// Half of the increment with the cells that are in contact already: where it takes those that enter
+// in its middle.
 TangentialField SlidingContact::displacement_halfway(const TangentialMove& move,
                                                      const TangentialField& shift,
                                                      const ContactSet& entering,

@@ -19,8 +19,8 @@ struct UnitMotion {
   StickReport report;
 };
 
-// K_ij/(area of a cell) = e_i·τ_j, e_i being 1 on component `moved` of the points, plus τ_i·(e_j − Kτ_j), which makes the error of
-// unfinished iterates quadratic.
+// K_ij/(area of a cell) = e_i·τ_j, e_i being 1 on component `moved` of the points, plus τ_i·(e_j −
+// Kτ_j), which makes the error of unfinished iterates quadratic.
 double stiffness_of(detail::ContactSystem& system, const detail::PointList& points, int moved,
                     const UnitMotion& i, const UnitMotion& j) {
   const std::vector<double> ones(points.cell.size(), 1.0);

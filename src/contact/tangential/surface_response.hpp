@@ -20,7 +20,8 @@ namespace salebra::detail {
 /// Σ a_i b_i, with the same bits for every thread count.
 double dot(const std::vector<double>& a, const std::vector<double>& b);
 
-/// Cells of a set in row order, as positions in the window and in the preconditioner's framed window: of the rows of this process.
+/// Cells of a set in row order, as positions in the window and in the preconditioner's framed
+/// window: of the rows of this process.
 struct PointList {
   std::vector<Index> cell;        ///< ix·ny + iy in the fields
   std::vector<Index> windowed;    ///< ix·ny + iy in the window
@@ -29,13 +30,14 @@ struct PointList {
   Index size() const { return static_cast<Index>(cell.size()); }
 };
 
-/// Which displacements of which tractions: shear along one axis with the other component of traction absent and the other component of
-/// displacement not asked for, or both components.
+/// Which displacements of which tractions: shear along one axis with the other component of
+/// traction absent and the other component of displacement not asked for, or both components.
 enum class Traction { along_x, along_y, tangential };
 
-/// Displacements of the surface of a half-space under tractions in cells, on a window: the whole grid where periodic, any rectangle
-/// where free. A component of a vector of points is contiguous. Over the processes of a share of the window's rows each has the points of
-/// its rows, and calls are collective.
+/// Displacements of the surface of a half-space under tractions in cells, on a window: the whole
+/// grid where periodic, any rectangle where free. A component of a vector of points is contiguous.
+/// Over the processes of a share of the window's rows each has the points of its rows, and calls
+/// are collective.
 class SurfaceResponse {
  public:
   SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,
@@ -54,8 +56,8 @@ class SurfaceResponse {
   int fft_count_ = 0;
 };
 
-/// Approximate inverse of each component of a response: InverseStencil on the points of a contact set alone, which costs nothing
-/// where there is no contact.
+/// Approximate inverse of each component of a response: InverseStencil on the points of a contact
+/// set alone, which costs nothing where there is no contact.
 class StencilPreconditioner {
  public:
   StencilPreconditioner(const Grid2D& grid, Boundary boundary, const CellWindow& window,
@@ -94,13 +96,15 @@ class ContactSystem {
   StencilPreconditioner& preconditioner() { return preconditioner_; }
   /// cells: the whole grid, or of a window that is the whole grid the rows of this process.
   PointList points(const ContactSet& cells) const;
-  /// Σ a_i b_i of so many components over the points of all processes, with the same bits for every number of threads and processes.
+  /// Σ a_i b_i of so many components over the points of all processes, with the same bits for every
+  /// number of threads and processes.
   double dot(const PointList& points, const double* a, const double* b, int components) const;
 
-  /// Conjugate gradients from the guess in `tractions`; stops at rms(u − Kτ) < tolerance, in m. Preconditioned by SetInverse for each
-  /// component: Cerruti's response has Σ(1−ν_i)/(G_i q) and Σ1/(G_i q) as eigenvalues, so that the condition number is
-  /// their ratio, 1/(1 − ν), but for what the error of SetInverse adds. Where there is no ladder, by the stencil.
-  /// On return residual is in m, and `misfit` (components × points) holds u − Kτ.
+  /// Conjugate gradients from the guess in `tractions`; stops at rms(u − Kτ) < tolerance, in m.
+  /// Preconditioned by SetInverse for each component: Cerruti's response has Σ(1−ν_i)/(G_i q) and
+  /// Σ1/(G_i q) as eigenvalues, so that the condition number is their ratio, 1/(1 − ν), but for
+  /// what the error of SetInverse adds. Where there is no ladder, by the stencil. On return
+  /// residual is in m, and `misfit` (components × points) holds u − Kτ.
   StickReport solve(const PointList& points, const std::vector<double>& displacements,
                     double tolerance, int max_iterations, const Progress& progress,
                     std::vector<double>& tractions, std::vector<double>& misfit);

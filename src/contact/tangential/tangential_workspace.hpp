@@ -13,7 +13,8 @@ namespace salebra::detail {
 
 void require_tangential(const Material& material);
 
-/// What the solvers with and without slip share: the kernels, kept between calls, and the way from fields to vectors of points.
+/// What the solvers with and without slip share: the kernels, kept between calls, and the way from
+/// fields to vectors of points.
 class TangentialWorkspace {
  public:
   /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.

@@ -67,7 +67,8 @@ TEST_CASE("Drawn heights have the moments of their density", "[sampling]") {
     }
     return std::pair{mean, square};
   };
-  // Standard errors: 1/200 of the deviation for the mean, √(⟨z⁴⟩ − ⟨z²⟩²)/200 for the square. Four of them.
+  // Standard errors: 1/200 of the deviation for the mean, √(⟨z⁴⟩ − ⟨z²⟩²)/200 for the square. Four
+  // of them.
   const auto gaussian = moments(SummitDistribution::gaussian);
   CHECK(gaussian.first == Approx(0).margin(0.02));
   CHECK(gaussian.second == Approx(1).margin(0.03));

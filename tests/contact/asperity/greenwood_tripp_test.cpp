@@ -40,7 +40,8 @@ TEST_CASE("Two rough sides are an integral of one over the offset of their summi
   const SummitEnsemble first{.density = 5, .radius = 0.7, .summit_rms = 0.2};
   const SummitEnsemble second{.density = 8, .radius = 1.9, .summit_rms = 0.35};
   const GreenwoodTripp contact(first, second, soft, 1);
-  // A pair at the offset r is one summit of the summed height on a plane that is r²/(2(R1+R2)) farther away.
+  // A pair at the offset r is one summit of the summed height on a plane that is r²/(2(R1+R2))
+  // farther away.
   const double radii = first.radius + second.radius;
   const StatisticalSummits at_offset({.density = first.density * second.density,
                                       .radius = first.radius * second.radius / radii,

@@ -16,7 +16,8 @@ namespace {
 
 const Material soft = Material::of_contact_modulus(1.0, 0.3);
 
-/// E* = R = η = A0 = σ_s = 1: F = (4/3) F_{3/2}(h), K = 2 F_{1/2}, F'' = F_{−1/2}, A_c = π F_1 in GW's notation.
+/// E* = R = η = A0 = σ_s = 1: F = (4/3) F_{3/2}(h), K = 2 F_{1/2}, F'' = F_{−1/2}, A_c = π F_1 in
+/// GW's notation.
 StatisticalSummits unit_summits(SummitDistribution distribution) {
   return {{.density = 1, .radius = 1, .summit_rms = 1, .distribution = distribution}, soft, 1};
 }
@@ -30,7 +31,8 @@ double normal(std::mt19937_64& random) {
   return radius * std::cos(2 * pi * uniform(random));
 }
 
-/// Gaussian isotropic surface of unit square and unit variance, with C(q) constant for |q| <= 2π·modes: α = 2.
+/// Gaussian isotropic surface of unit square and unit variance, with C(q) constant for |q| <=
+/// 2π·modes: α = 2.
 Surface flat_spectrum_surface(Index points, Index modes, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   RealFft2D<double> fft(points, points);
@@ -54,7 +56,8 @@ Surface flat_spectrum_surface(Index points, Index modes, std::uint64_t seed) {
 }  // namespace
 
 TEST_CASE("Gaussian heights give the integrals F_n(h) of Greenwood and Williamson", "[gw]") {
-  // Γ(n+1)/√(2π) exp(−h²/4) D_{−n−1}(h), parabolic cylinder functions to 30 digits (mpmath); h, then n = −1/2, 1/2, 1, 3/2.
+  // Γ(n+1)/√(2π) exp(−h²/4) D_{−n−1}(h), parabolic cylinder functions to 30 digits (mpmath); h,
+  // then n = −1/2, 1/2, 1, 3/2.
   const double table[][5] = {
       {-6, 0.4127955286824271, 2.44074445142828, 6.000000000156357, 14.8508644729109},
       {-2, 0.7960233788176752, 1.356640598139381, 2.00849070261683, 3.111292885687599},
@@ -72,7 +75,8 @@ TEST_CASE("Gaussian heights give the integrals F_n(h) of Greenwood and Williamso
        3.954799087029981e-200}};
   const StatisticalSummits summits = unit_summits(SummitDistribution::gaussian);
   for (const auto& row : table) {
-    // The header promises 1e-10; the quadrature aims at 1e-12, and exp(−h²/2) adds h² times the round-off.
+    // The header promises 1e-10; the quadrature aims at 1e-12, and exp(−h²/2) adds h² times the
+    // round-off.
     const AsperityContact contact = summits.at(row[0]);
     CHECK(contact.curvature == Approx(row[1]).epsilon(2e-12));
     CHECK(contact.normal_stiffness == Approx(2 * row[2]).epsilon(2e-12));
@@ -83,7 +87,8 @@ TEST_CASE("Gaussian heights give the integrals F_n(h) of Greenwood and Williamso
 }
 
 TEST_CASE("The curvature of Gaussian heights is a Bessel function", "[gw]") {
-  // F_{−1/2}(h) = ½√(h/π) exp(−h²/4) K_{1/4}(h²/4): a route without any integral, at h off the table.
+  // F_{−1/2}(h) = ½√(h/π) exp(−h²/4) K_{1/4}(h²/4): a route without any integral, at h off the
+  // table.
   const StatisticalSummits summits = unit_summits(SummitDistribution::gaussian);
   const double h = GENERATE(0.013, 0.7, 1.9, 5.3);
   const double exact =
@@ -95,7 +100,8 @@ TEST_CASE("K = −dF/ds and F'' = −dK/ds for both height densities, deep and f
   const auto distribution = GENERATE(SummitDistribution::gaussian, SummitDistribution::exponential);
   const StatisticalSummits summits = unit_summits(distribution);
   const double separation = GENERATE(-30.0, -3.0, -0.4, 0.3, 3.0);
-  // Fourth-order central difference: error step⁴ = 1e-8 times a fifth derivative of the order of F, round-off 1e-12/step.
+  // Fourth-order central difference: error step⁴ = 1e-8 times a fifth derivative of the order of F,
+  // round-off 1e-12/step.
   const double step = 1e-2;
   auto slope = [&](auto&& f) {
     return (8 * (f(separation + step) - f(separation - step)) -
@@ -168,8 +174,9 @@ TEST_CASE("Moments of a flat spectrum give the summits that its surfaces have", 
     square += statistics.rms_height * statistics.rms_height / surfaces;
     curvature += 1 / statistics.mean_radius / surfaces;
   }
-  // 350 summits on each of four surfaces: σ_s is known to 1/√(2·1400) = 2 %, the mean height to σ_s/√1400 = 2 % of σ_s,
-  // the density better than the Poisson value of 3 %. Three standard errors, and 1 % for 16 cells a wave.
+  // 350 summits on each of four surfaces: σ_s is known to 1/√(2·1400) = 2 %, the mean height to
+  // σ_s/√1400 = 2 % of σ_s, the density better than the Poisson value of 3 %. Three standard
+  // errors, and 1 % for 16 cells a wave.
   CHECK(density == Approx(theory.density).epsilon(0.08));
   CHECK(height == Approx(theory.mean_height).margin(0.07 * theory.summit_rms));
   CHECK(std::sqrt(square) == Approx(theory.summit_rms).epsilon(0.07));
@@ -199,8 +206,9 @@ TEST_CASE("Given summits drawn from a density agree with the integral over it", 
   const StatisticalSummits drawn(
       {.density = count, .radius = radius, .summit_rms = 1, .mean_height = 3}, soft, 1);
   const AsperityContact sum = given.at(separation), expected = drawn.at(separation);
-  // A sum of `count` equal variables f(z): its variance is count·⟨f²⟩ at most. ⟨f²⟩ of force and stiffness are the
-  // polynomial moments ∫(z−s)³φ and ∫(z−s)φ. Four standard errors; the mean of the drawn heights moves s by 1/√count more.
+  // A sum of `count` equal variables f(z): its variance is count·⟨f²⟩ at most. ⟨f²⟩ of force and
+  // stiffness are the polynomial moments ∫(z−s)³φ and ∫(z−s)φ. Four standard errors; the mean of
+  // the drawn heights moves s by 1/√count more.
   const double s = separation, tail = std::erfc(s / std::sqrt(2.0)) / 2,
                density = std::exp(-s * s / 2) / std::sqrt(2 * pi);
   const double first = density - s * tail,
@@ -267,7 +275,8 @@ TEST_CASE("A table of a GW curve is the GW law", "[gw]") {
   std::vector<double> separations;
   for (int i = 0; i <= 40; ++i) separations.push_back(0.1 * i);
   const TabulatedLaw table(curve_at_separations(exact.model(), separations), exact.modulus_ratio());
-  // Cubic in ln F with exact slopes: error h⁴/384 times the fourth derivative of ln F, which is below 1/2.
+  // Cubic in ln F with exact slopes: error h⁴/384 times the fourth derivative of ln F, which is
+  // below 1/2.
   for (double indentation : {-3.456, -2.1, -0.77})
     CHECK(table.force(indentation) == Approx(exact.force(indentation)).epsilon(2e-7));
 }
@@ -292,8 +301,8 @@ TEST_CASE("A tabulated density is integrated exactly", "[gw]") {
   CHECK(triangle.force(2) == 0);
   CHECK(triangle.force(triangle.separation_of(1e-3)) == Approx(1e-3).epsilon(1e-12));
 
-  // A Gaussian sampled every σ/50 is interpolated with a mean error of φ''/50²/12, which makes F''/50²/12 of F: 2.4e-4 F
-  // at s = 2.
+  // A Gaussian sampled every σ/50 is interpolated with a mean error of φ''/50²/12, which makes
+  // F''/50²/12 of F: 2.4e-4 F at s = 2.
   ensemble.table.clear();
   for (int i = -400; i <= 400; ++i) ensemble.table.push_back({0.02 * i, std::exp(-0.0002 * i * i)});
   const StatisticalSummits table(ensemble, soft, 1);
@@ -310,8 +319,9 @@ TEST_CASE("A tabulated density is integrated exactly", "[gw]") {
 }
 
 TEST_CASE("An elliptical summit is Hertz's ellipse", "[gw]") {
-  // For axes b/a = 0.9, 0.5, 0.1: κ2/κ1, then κ1 times the radii of a sphere with the same force and with the same area, from the
-  // potential integrals of the ellipsoidal pressure by quadrature (mpmath).
+  // For axes b/a = 0.9, 0.5, 0.1: κ2/κ1, then κ1 times the radii of a sphere with the same force
+  // and with the same area, from the potential integrals of the ellipsoidal pressure by quadrature
+  // (mpmath).
   const double table[][3] = {{1, 1, 1},
                              {0.85379937586943844, 1.083363009906183, 1.081861206408608},
                              {0.35177164228418607, 1.763326782966357, 1.661759926413666},

@@ -18,8 +18,9 @@ namespace {
 const double modulus = 2.5;
 const Material soft = Material::of_contact_modulus(modulus, 0.3);
 
-/// (1/A) Σ_{q≠0} (2/q) exp(iq·r), by Ewald's method in its plainest form: both sums over a square of lattice points, with the split
-/// where they converge alike. At r = 0 the image at r = 0 is replaced by the limit of −erf(αr)/r.
+/// (1/A) Σ_{q≠0} (2/q) exp(iq·r), by Ewald's method in its plainest form: both sums over a square
+/// of lattice points, with the split where they converge alike. At r = 0 the image at r = 0 is
+/// replaced by the limit of −erf(αr)/r.
 double periodic_kernel(double x, double y, double lx, double ly) {
   const double split = std::sqrt(pi / (lx * ly));
   double sum = -2 * std::sqrt(pi) / (split * lx * ly);
@@ -78,7 +79,8 @@ TEST_CASE("Every summit is in equilibrium with all the others", "[interacting]")
       depth -= state.loads[j] / modulus *
                periodic_kernel(summits[i].x - summits[j].x, summits[i].y - summits[j].y, lx, ly);
     const double load = 4.0 / 3 * modulus * std::sqrt(0.02) * std::pow(std::max(depth, 0.0), 1.5);
-    // Solver 1e-10 and grid 1e-9 of the greatest displacement, which is of the order of the greatest depth.
+    // Solver 1e-10 and grid 1e-9 of the greatest displacement, which is of the order of the
+    // greatest depth.
     CHECK(state.loads[i] == Approx(load).margin(1e-7));
     in_contact += state.loads[i] > 0;
   }
@@ -94,7 +96,8 @@ TEST_CASE("K and F'' are derivatives of the interacting force", "[interacting]")
   const AsperityContact contact = model.at(separation);
   REQUIRE(contact.converged);
   const AsperityContact closer = model.at(separation - step), farther = model.at(separation + step);
-  // No summit touches or leaves between the three: the differences are smooth, with errors of step².
+  // No summit touches or leaves between the three: the differences are smooth, with errors of
+  // step².
   REQUIRE(closer.contacts == farther.contacts);
   CHECK(contact.normal_stiffness ==
         Approx((closer.force - farther.force) / (2 * step)).epsilon(1e-6));
@@ -103,7 +106,8 @@ TEST_CASE("K and F'' are derivatives of the interacting force", "[interacting]")
 }
 
 TEST_CASE("Sparse summits do not feel each other", "[interacting]") {
-  // The interaction is of the order of Σ P/(πE*L): with L a thousand times the contact radius it is 1e-3 of δ at most.
+  // The interaction is of the order of Σ P/(πE*L): with L a thousand times the contact radius it is
+  // 1e-3 of δ at most.
   const std::vector<Summit> summits = random_summits(10, 1e-4, 1e2);
   const InteractingSummits interacting(summits, soft, square(1e2));
   const DeterministicSummits independent(summits, soft, 1e4);
@@ -112,8 +116,8 @@ TEST_CASE("Sparse summits do not feel each other", "[interacting]") {
 }
 
 TEST_CASE("Sparse elliptical summits have the area of Hertz's ellipses", "[interacting]") {
-  // As above: what the neighbours press out is 1e-3 of δ at most. The area of an ellipse of axes in the ratio of these curvatures is
-  // a tenth less than that of the force's circle.
+  // As above: what the neighbours press out is 1e-3 of δ at most. The area of an ellipse of axes in
+  // the ratio of these curvatures is a tenth less than that of the force's circle.
   std::vector<Summit> summits = random_summits(10, 1e-4, 1e2);
   for (Summit& summit : summits) summit.curvature2 /= 8;
   const InteractingSummits interacting(summits, soft, square(1e2), 0, 1, SummitShape::elliptical);
@@ -152,7 +156,8 @@ TEST_CASE("Interaction moves the force-gap curve of summits to that of boundary 
 }
 
 TEST_CASE("The sums for thousands of summits agree with the plain ones", "[interacting]") {
-  // More points than fit one cell of neighbours: the cell lists and the grid both work, on a rectangle.
+  // More points than fit one cell of neighbours: the cell lists and the grid both work, on a
+  // rectangle.
   std::vector<Summit> summits = random_summits(2500, 1e-3, 9);
   for (Summit& summit : summits) summit.y /= 3;
   const InteractingSummits model(summits, soft, {4, 4, 9, 3});
@@ -175,7 +180,8 @@ TEST_CASE("The sums for thousands of summits agree with the plain ones", "[inter
       CHECK(depth < 1e-8 * deepest);
       continue;
     }
-    // The solver's 1e-10 and the 1e-9 that the sums promise, of displacements that are below the greatest depth.
+    // The solver's 1e-10 and the 1e-9 that the sums promise, of displacements that are below the
+    // greatest depth.
     CHECK(state.indentation[i] == Approx(depth).margin(3e-9 * deepest).epsilon(0));
     CHECK(state.loads[i] ==
           Approx(4.0 / 3 * modulus * std::sqrt(1e-3) * std::pow(state.indentation[i], 1.5)));

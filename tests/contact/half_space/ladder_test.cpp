@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The near-field ladder: its stencils against the exact symbol, its kernels against plain loops, the operator against transforms.
+// The near-field ladder: its stencils against the exact symbol, its kernels against plain loops,
+// the operator against transforms.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -30,8 +31,9 @@ double transform_of(const LadderStencil& stencil, double x, double y) {
 
 double spline(double x, double y) { return std::pow(std::cos(x / 2) * std::cos(y / 2), 4); }
 
-// G~ of the whole ladder on the frequencies that look the same on its coarsest grid, as a dense matrix with G taken out on both sides:
-// G^−½ G~ G^−½ − 1, from the definition of G~ and not from that of its stencils' fit. Frequencies are θ + 2π(a, b)/2^depth.
+// G~ of the whole ladder on the frequencies that look the same on its coarsest grid, as a dense
+// matrix with G taken out on both sides: G^−½ G~ G^−½ − 1, from the definition of G~ and not from
+// that of its stencils' fit. Frequencies are θ + 2π(a, b)/2^depth.
 Eigen::MatrixXd relative_error(const std::vector<LadderRung>& rungs, int depth, double dx,
                                double theta_x, double theta_y) {
   const int copies = 1 << depth;
@@ -39,7 +41,8 @@ Eigen::MatrixXd relative_error(const std::vector<LadderRung>& rungs, int depth, 
     const auto folded = [](double t) { return std::remainder(t, 2 * pi); };
     return 2 / std::hypot(folded(x) / dx, folded(y) * dx);
   };
-  // C of the coarsest grid by the formula of the header, from g of the level before, alias by alias.
+  // C of the coarsest grid by the formula of the header, from g of the level before, alias by
+  // alias.
   struct Level {
     double value, metric;
   };
@@ -57,7 +60,8 @@ Eigen::MatrixXd relative_error(const std::vector<LadderRung>& rungs, int depth, 
       }
     return {moved / (4 * squares * squares), 4 * squares};
   };
-  // G~ between two aliases: equal up to level k, they meet in T of all levels up to k and in C if they meet at all.
+  // G~ between two aliases: equal up to level k, they meet in T of all levels up to k and in C if
+  // they meet at all.
   const Eigen::Index size = copies * copies;
   Eigen::MatrixXd stand_in = Eigen::MatrixXd::Zero(size, size);
   const auto frequency = [&](Eigen::Index k) {
@@ -182,8 +186,8 @@ Grid2D cells(Index nx, Index ny, double dx = 1, double dy = 1) {
 }  // namespace
 
 TEST_CASE("The ladder's stencils keep within their spectral error at any frequency") {
-  // The design looks at a grid of frequencies and at a bound of the error; the random frequencies here lie between, where the error
-  // is no larger by more than a few per cent of itself.
+  // The design looks at a grid of frequencies and at a bound of the error; the random frequencies
+  // here lie between, where the error is no larger by more than a few per cent of itself.
   const auto square = ladder_design(1, Boundary::periodic, 4);
   for (const int depth : {1, 2, 3}) {
     const double error = spectral_error(square, depth, 1, 60);
@@ -197,8 +201,9 @@ TEST_CASE("The ladder's stencils keep within their spectral error at any frequen
 }
 
 TEST_CASE("The ladder's stencils are as good as the best known of their size") {
-  // 7 × 7 and then 5 × 5 with the cubic B-spline, fitted to the largest eigenvalue by another program: 0.026, 0.008, 0.005, 0.004.
-  // Here the Frobenius norm is made small in its place, which costs up to two fifths.
+  // 7 × 7 and then 5 × 5 with the cubic B-spline, fitted to the largest eigenvalue by another
+  // program: 0.026, 0.008, 0.005, 0.004. Here the Frobenius norm is made small in its place, which
+  // costs up to two fifths.
   const auto rungs = ladder_design(1, Boundary::periodic, 4);
   const std::array best = {0.026, 0.008, 0.005, 0.004};
   for (std::size_t k = 0; k < best.size(); ++k) CHECK(rungs[k].error < 1.4 * best[k]);
@@ -229,7 +234,8 @@ TEST_CASE("The ladder's kernels of every vector width do what the plain ones do"
   };
   std::array<float, 25> small{};
   std::array<float, 49> wide{};
-  // Symmetric about both axes, as the ladder's are: the widest kernels add opposite neighbours before they are weighted.
+  // Symmetric about both axes, as the ladder's are: the widest kernels add opposite neighbours
+  // before they are weighted.
   const auto fill_stencil = [&](auto& stencil, int radius) {
     for (int i = 0; i <= radius; ++i)
       for (int j = 0; j <= radius; ++j) {
@@ -302,7 +308,8 @@ TEST_CASE("On any tiles the ladder is the compliance up to its spectral error") 
     Grid2D grid;
     Boundary boundary;
   };
-  // Squares, rectangles, sizes that no tile divides, odd sizes where the period is not the grid, isolated patches.
+  // Squares, rectangles, sizes that no tile divides, odd sizes where the period is not the grid,
+  // isolated patches.
   for (const auto& [grid, boundary] :
        {Case{cells(256, 256), Boundary::periodic}, Case{cells(512, 264), Boundary::periodic},
         Case{cells(300, 500), Boundary::periodic},
@@ -317,7 +324,8 @@ TEST_CASE("On any tiles the ladder is the compliance up to its spectral error") 
       const Field field = x.field(), stand_in = x.image(*ladder);
       Field exact = exact_image(field, grid, boundary);
       const double quadratic = (field * exact).sum(), found = (field * stand_in).sum();
-      // Random numbers spread over all frequencies: they see some mean of the error, not the largest.
+      // Random numbers spread over all frequencies: they see some mean of the error, not the
+      // largest.
       CHECK(std::abs(found - quadratic) < ladder->error() * quadratic);
 
       // Between two fields on the same tiles it is symmetric, up to the rounding of float.
@@ -332,9 +340,10 @@ TEST_CASE("On any tiles the ladder is the compliance up to its spectral error") 
 }
 
 TEST_CASE("Wave by wave the operator is what its stencils and splines say") {
-  // The mirror images of these waves are no aliases of them on the coarse grids, and x·G~x is one number, which follows from the rungs
-  // without grids or tiles. All stencils, both splines and C take part. Float rounds to some 1e-7. A centre of T2 that is off by 1 %
-  // changes the number by up to 1e-3.
+  // The mirror images of these waves are no aliases of them on the coarse grids, and x·G~x is one
+  // number, which follows from the rungs without grids or tiles. All stencils, both splines and C
+  // take part. Float rounds to some 1e-7. A centre of T2 that is off by 1 % changes the number by
+  // up to 1e-3.
   for (const int depth : {2, 3}) {
     const Index n = 128 << depth;
     const Grid2D grid = cells(n, n);
@@ -363,7 +372,8 @@ TEST_CASE("Wave by wave the operator is what its stencils and splines say") {
 }
 
 TEST_CASE("A ladder with new tiles forgets what was on the old ones") {
-  // As in a solve, where a refresh drops tiles: what is left on a coarser level would act on all cells through the last transform.
+  // As in a solve, where a refresh drops tiles: what is left on a coarser level would act on all
+  // cells through the last transform.
   for (const auto boundary : {Boundary::periodic, Boundary::free}) {
     const Grid2D grid = cells(512, 512);
     auto used = ladder_for(grid, boundary), fresh = ladder_for(grid, boundary);
@@ -375,7 +385,8 @@ TEST_CASE("A ladder with new tiles forgets what was on the old ones") {
 }
 
 TEST_CASE("Smooth loads sink in as the half-space does") {
-  // Waves of 8 cells and more: what the stencils and splines do to them is far below the largest error, which belongs to the shortest.
+  // Waves of 8 cells and more: what the stencils and splines do to them is far below the largest
+  // error, which belongs to the shortest.
   for (const auto boundary : {Boundary::periodic, Boundary::free}) {
     const Grid2D grid = cells(512, 512);
     auto ladder = ladder_for(grid, boundary);
@@ -401,7 +412,8 @@ TEST_CASE("A constant pressure has no displacement where the mean is the referen
   REQUIRE(ladder);
   TiledField x(grid, 1, 1);
   for (Index i = 0; i < grid.nx; ++i) std::fill_n(x.source.row(i), grid.ny, 1.0f);
-  // Against the displacement of one cell under the same pressure, 1.12: rounding of float in sums of some hundred numbers.
+  // Against the displacement of one cell under the same pressure, 1.12: rounding of float in sums
+  // of some hundred numbers.
   CHECK(x.image(*ladder).abs().maxCoeff() < 2e-4);
 }
 

@@ -20,7 +20,8 @@ ForceCurve curve_of(const std::vector<double>& x, const std::vector<double>& log
   return curve;
 }
 
-// Anscombe, The American Statistician 27 (1973) 17: the first set is linear with noise, the second a parabola without.
+// Anscombe, The American Statistician 27 (1973) 17: the first set is linear with noise, the second
+// a parabola without.
 const std::vector<double> anscombe_x{10, 8, 13, 9, 11, 14, 6, 4, 12, 7, 5};
 const std::vector<double> anscombe_linear{8.04, 6.95, 7.58,  8.81, 8.33, 9.96,
                                           7.24, 4.26, 10.84, 4.82, 5.68};
@@ -32,7 +33,8 @@ const std::vector<double> anscombe_parabola{9.14, 8.14, 8.74, 8.77, 9.26, 8.10,
 TEST_CASE("The fit is the published regression of Anscombe's first set", "[fit]") {
   const ExponentialFit fit =
       fit_exponential(curve_of(anscombe_x, anscombe_linear), {}, FitWeights::equal);
-  // Slope 0.500091, intercept 3.000091, standard error 0.117906, R² 0.666542 (to the digits printed); t(9) = 2.262157.
+  // Slope 0.500091, intercept 3.000091, standard error 0.117906, R² 0.666542 (to the digits
+  // printed); t(9) = 2.262157.
   CHECK(1 / fit.decay_length == Approx(0.500091).epsilon(2e-6));
   CHECK(std::log(fit.reference_pressure) == Approx(3.000091).epsilon(1e-6));
   CHECK(fit.r_squared == Approx(0.666542).epsilon(2e-6));
@@ -132,14 +134,16 @@ TEST_CASE("The 95 % interval covers the truth in 95 % of noisy curves, whatever 
     covered += fit.decay_length_low <= 0.5 && 0.5 <= fit.decay_length_high;
     refuted += test_exponential(curve, {}, weights).refuted();
   }
-  // Binomial: 950 ± 7 and 50 ± 7; the normal quantile 1.96 in place of Student's 2.45 would cover 902. Student's distribution is
-  // exact for equal weights; for the others it is as good as their unequal weights leave it, a per cent here.
+  // Binomial: 950 ± 7 and 50 ± 7; the normal quantile 1.96 in place of Student's 2.45 would cover
+  // 902. Student's distribution is exact for equal weights; for the others it is as good as their
+  // unequal weights leave it, a per cent here.
   CHECK(covered == Approx(950).margin(24));
   CHECK(refuted == Approx(50).margin(24));
 }
 
 TEST_CASE("Spacing weights make l a property of the curve, not of where it was sampled", "[fit]") {
-  // ln p = −ū − ū²/10 on 0 … 2: the line closest to ū² in the mean square has the slope 0 + 2, so that 1/l = 1.2.
+  // ln p = −ū − ū²/10 on 0 … 2: the line closest to ū² in the mean square has the slope 0 + 2, so
+  // that 1/l = 1.2.
   auto curve_at = [](int samples, double grading) {
     std::vector<double> x, log_pressure;
     for (int i = 0; i < samples; ++i) {
@@ -153,7 +157,8 @@ TEST_CASE("Spacing weights make l a property of the curve, not of where it was s
     return std::abs(1 / fit_exponential(curve_at(samples, grading), {}, weights).decay_length -
                     1.2);
   };
-  // Evenly spread samples of a parabola are exact by symmetry; others have the second order of the trapezoidal rule.
+  // Evenly spread samples of a parabola are exact by symmetry; others have the second order of the
+  // trapezoidal rule.
   CHECK(error(51, 1, FitWeights::spacing) < 1e-12);
   CHECK(error(401, 2, FitWeights::spacing) < 1e-5);
   CHECK(error(51, 2, FitWeights::spacing) / error(101, 2, FitWeights::spacing) ==
@@ -197,7 +202,8 @@ TEST_CASE("The interval of a weighted fit follows from how it answers each value
 }
 
 TEST_CASE("Force weights are those of errors of one size in p", "[fit]") {
-  // The normal equations with weights p², solved for the slope without the fit's own way of going about it.
+  // The normal equations with weights p², solved for the slope without the fit's own way of going
+  // about it.
   const std::vector<double> gaps{0, 0.7, 1.1, 2.5, 3}, log_pressure{0.1, -0.6, -1.3, -2.2, -3.2};
   std::vector<double> x;
   double s0 = 0, s1 = 0, s2 = 0, t0 = 0, t1 = 0;
@@ -258,7 +264,8 @@ TEST_CASE("The window decides which samples count", "[fit]") {
 }
 
 TEST_CASE("The sensitivity is the range of fits over parts of the window", "[fit]") {
-  // Two straight pieces of slopes 1 and 2: the runs of at least three out of five samples reach each of them.
+  // Two straight pieces of slopes 1 and 2: the runs of at least three out of five samples reach
+  // each of them.
   const ForceCurve curve = curve_of({1, 2, 3, 4, 5}, {1, 2, 3, 5, 7});
   const WindowSensitivity sensitivity = window_sensitivity(curve);
   CHECK(sensitivity.windows == 6);
@@ -293,7 +300,8 @@ TEST_CASE("The sensitivity weighs as the fit does", "[fit]") {
 
 TEST_CASE("With four samples the bend has one degree of freedom, and Cauchy's probability",
           "[fit]") {
-  // Four even places: c = Σvy/Σv² with v = (1, −1, −1, 1), and the residual is along (−1, 3, −3, 1)/√20.
+  // Four even places: c = Σvy/Σv² with v = (1, −1, −1, 1), and the residual is along (−1, 3, −3,
+  // 1)/√20.
   const std::vector<double> y{1, 2.2, 2.9, 4.4};
   const double bend = (y[0] - y[1] - y[2] + y[3]) / 4;
   const double residual = (-y[0] + 3 * y[1] - 3 * y[2] + y[3]) / std::sqrt(20);

@@ -179,7 +179,8 @@ TEST_CASE("Outside the contact the surface is Hertz's, and far away a point forc
     // The closed form itself cancels: (r/a)⁴ ulp of 1.
     CHECK(law.surface_displacement(indentation, r) == Approx(hertz).epsilon(1e-10));
   }
-  // u_z = F/(πE*r); Hertz's pressure has no dipole, so that the next term is (a/r)² times a number of order 1.
+  // u_z = F/(πE*r); Hertz's pressure has no dipole, so that the next term is (a/r)² times a number
+  // of order 1.
   const IndenterLaw cone(cone_profile(0.1), Material::of_moduli(1e9, 0.8e9));
   const double far = 1e3 * cone.contact_radius(indentation);
   CHECK(cone.surface_displacement(indentation, far) ==
@@ -192,7 +193,8 @@ TEST_CASE("The pressure carries the force, for every profile", "[mdr]") {
     CAPTURE(shape.name);
     const IndenterLaw law(shape.profile, material);
     const double indentation = 2e-6, a = law.contact_radius(indentation);
-    // r = a sin ψ: the edge's root is smooth in ψ; at the axis p is at most logarithmic or r^{−0.3}.
+    // r = a sin ψ: the edge's root is smooth in ψ; at the axis p is at most logarithmic or
+    // r^{−0.3}.
     const double force = midpoint(
         [&](double angle) {
           const double r = a * std::sin(angle);
@@ -232,7 +234,8 @@ TEST_CASE("A table of a profile converges to it", "[mdr]") {
   CHECK(law.force(1e-7) == Approx(smooth.force(1e-7)).epsilon(1e-3));
   CHECK(profile->contact_radius(profile->image(1.1e-3)) == Approx(1.1e-3).epsilon(1e-12));
   CHECK(profile->image_error(1.5e-3) < 1e-3);
-  // Every other point of an even number misses the last one, which the coarser table needs all the same.
+  // Every other point of an even number misses the last one, which the coarser table needs all the
+  // same.
   CHECK(table(80)->image_error(largest) < 1e-3);
   CHECK_THROWS_WITH(law.force(1e-3), Catch::Contains("deeper"));
   CHECK_THROWS_WITH(law.indentation_of(1e6), Catch::Contains("force"));
@@ -240,7 +243,8 @@ TEST_CASE("A table of a profile converges to it", "[mdr]") {
 
 TEST_CASE("The image of a table of a parabola is that of the paraboloid, wherever the edge is",
           "[mdr]") {
-  // A parabola is interpolated exactly. Widths of the pieces vary by 8, so that wide ones lie below narrow ones and above.
+  // A parabola is interpolated exactly. Widths of the pieces vary by 8, so that wide ones lie below
+  // narrow ones and above.
   std::vector<double> radii{0}, heights{0};
   for (int i = 0; i < 90; ++i) {
     radii.push_back(radii.back() + 1e-5 * (i % 10 == 3 ? 8 : 1));
@@ -248,7 +252,8 @@ TEST_CASE("The image of a table of a parabola is that of the paraboloid, whereve
   }
   const TabulatedProfile table(radii, heights);
   const auto exact = paraboloid_profile(0.01);
-  // Quadrature leaves 2e-14; slopes at the nodes come from differences of heights, some 100 of which make the profile.
+  // Quadrature leaves 2e-14; slopes at the nodes come from differences of heights, some 100 of
+  // which make the profile.
   for (int i = 1; i <= 400; ++i) {
     const double x = table.largest_radius() * i / 400.;
     CAPTURE(x);

@@ -82,7 +82,8 @@ TEST_CASE("A contact that grows has the force of the correspondence principle", 
 
 TEST_CASE("One rise and fall is Ting's solution: force, contact radius and the end of contact",
           "[viscoelastic]") {
-  // δ = vt up to T, v(2T − t) after it. Ting (1966): the edge at t is that of the time t1 at which it passed on its way out,
+  // δ = vt up to T, v(2T − t) after it. Ting (1966): the edge at t is that of the time t1 at which
+  // it passed on its way out,
   //     ∫_{t1}^t E(t − s) δ'(s) ds = 0,    F = ∫_0^{t1} E(t − s) dF_el(δ(s))/E*∞,
   // in closed form for the standard linear solid.
   const double rate = 1e-4, turn = 0.05;
@@ -139,8 +140,9 @@ TEST_CASE(
     "Repeated contact: each spring is that of a fine integration, and the half-space's "
     "inequalities hold",
     "[viscoelastic]") {
-  // Several unlike rises and falls: the indenter meets a surface that has not recovered. q falls with x and the gap of the foundation is
-  // >= 0, hence p >= 0 within one circle and no penetration outside it, by the transforms of docs/theory.md, section 9.
+  // Several unlike rises and falls: the indenter meets a surface that has not recovered. q falls
+  // with x and the gap of the foundation is >= 0, hence p >= 0 within one circle and no penetration
+  // outside it, by the transforms of docs/theory.md, section 9.
   const auto indentation = [](double t) {
     return 3e-6 * (0.4 + std::sin(40 * t) + 0.7 * std::sin(97 * t + 1) + 0.3 * t);
   };

@@ -89,8 +89,8 @@ TEST_CASE("The corrected area of a coarse grid is that of a fine one", "[spots]"
     corrected += coarse.corrected_area_fraction;
     exact += fine.corrected_area_fraction;
   }
-  // The counted area is 10 % too large. Some 25 contacts of 10 to 50 cells leave the corrected one uncertain by their shapes on
-  // the grid: the correction must remove two thirds of the error.
+  // The counted area is 10 % too large. Some 25 contacts of 10 to 50 cells leave the corrected one
+  // uncertain by their shapes on the grid: the correction must remove two thirds of the error.
   CHECK(counted > 1.05 * exact);
   CHECK(std::abs(corrected - exact) < (counted - exact) / 3);
 }
@@ -99,7 +99,8 @@ TEST_CASE("Spots of a pressure that is spread have the bits of one process", "[s
   const Grid2D grid = GENERATE(Grid2D{64, 64, 1, 1}, Grid2D{96, 50, 1.5, 1}, Grid2D{101, 64, 1, 1},
                                Grid2D{16, 16, 1, 1});
   const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
-  // Few cells in contact, and so many that the largest spots wind through all rows (0.593 percolate).
+  // Few cells in contact, and so many that the largest spots wind through all rows (0.593
+  // percolate).
   const double part = GENERATE(0.1, 0.6, 0.65);
   std::mt19937 engine(static_cast<unsigned>(grid.nx));
   Field pressure(grid.nx, grid.ny);

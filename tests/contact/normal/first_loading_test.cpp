@@ -47,7 +47,8 @@ TEST_CASE("Below the hardness nothing flows, and the surface keeps its bits", "[
   const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
   const Surface surface = rough();
   const double amplitude = GENERATE(0.0, 1.0) * 0.01 * rms_height(surface);
-  // An oscillation by a hundredth of the rms height raises the largest pressure by less than a fifth.
+  // An oscillation by a hundredth of the rms height raises the largest pressure by less than a
+  // fifth.
   const auto options = contact(boundary, 1.2 * largest_elastic_pressure(boundary));
   const ResidualSurface residual =
       after_first_loading(surface, contact_modulus, pressure, options, amplitude);
@@ -72,7 +73,8 @@ TEST_CASE("A first loading that flows less and less ends in the elastic contact"
   const ResidualSurface residual = after_first_loading(surface, contact_modulus, pressure, options);
   REQUIRE(residual.converged);
   CHECK(residual.first_loading.yielded());
-  // The few cells at the limit give way by their own compliance, about a cell size times the pressure that they lose over E*.
+  // The few cells at the limit give way by their own compliance, about a cell size times the
+  // pressure that they lose over E*.
   CHECK(residual.first_loading.max_plastic_depth <
         4 * step * largest / contact_modulus * surface.grid.dx());
   CHECK(residual.first_loading.mean_plastic_depth <
@@ -101,8 +103,8 @@ TEST_CASE("The residual surface carries the first load by elasticity alone", "[f
   const auto unloading =
       press_to_pressure(residual.surface, contact_modulus, pressure, elastic(options));
   REQUIRE(unloading.converged);
-  // e_c is a mean of gaps where there is contact: the energy, second order in the error of the pressure, is good to it, pressures to
-  // its root, 1e-6. Gaps follow the displacement.
+  // e_c is a mean of gaps where there is contact: the energy, second order in the error of the
+  // pressure, is good to it, pressures to its root, 1e-6. Gaps follow the displacement.
   CHECK(((unloading.pressure - loaded.pressure).abs().maxCoeff() < 1e-4 * options.hardness));
   CHECK(((unloading.gap - loaded.gap).abs().maxCoeff() < 1e-6 * rms_height(surface)));
   CHECK(unloading.force == Approx(loaded.force).epsilon(1e-10));
@@ -164,7 +166,8 @@ TEST_CASE("An oscillation about the first load stays below the hardness", "[firs
                                 elastic(options));
   };
   const auto top = largest_pressure(moved);
-  // The load of the oscillation is found to a thousandth; a pressure at the hardness grows no faster than a few times the load.
+  // The load of the oscillation is found to a thousandth; a pressure at the hardness grows no
+  // faster than a few times the load.
   CHECK(top.mean_pressure == Approx(moved.first_loading.pressure).epsilon(1e-3));
   CHECK(top.pressure.maxCoeff() < 1.005 * options.hardness);
   CHECK(largest_pressure(still).pressure.maxCoeff() > 1.03 * options.hardness);
@@ -192,7 +195,8 @@ TEST_CASE("A load that the hardness cannot carry is refused", "[first_loading]")
 
 namespace {
 
-/// A paraboloid loaded to `load` times the force at which its centre reaches the hardness, and the forces of its unloading curve.
+/// A paraboloid loaded to `load` times the force at which its centre reaches the hardness, and the
+/// forces of its unloading curve.
 struct Unloading {
   double force = 0, radius = 0, indentation = 0;  // at the first load; radius by K = 2E*a
   std::vector<double> share, forces;              // of the indentation; N
@@ -202,7 +206,8 @@ struct Unloading {
     const double side = 1e-3, body_radius = 1e-2;
     const Grid2D grid{points, points, side, side};
     const Surface surface = paraboloid_surface(grid, body_radius, off_grid_center(grid));
-    // The contact fills half of the side whatever the load, by Hertz or with the uniform pressure H = p0/∛load.
+    // The contact fills half of the side whatever the load, by Hertz or with the uniform pressure H
+    // = p0/∛load.
     const double contact_radius = 0.25 * side / std::max(1.0, std::sqrt(2.0 / 3 * std::cbrt(load)));
     const double hertz = 4 * contact_modulus * std::pow(contact_radius, 3) / (3 * body_radius);
     force = hertz;
@@ -230,8 +235,9 @@ struct Unloading {
 
 TEST_CASE("A sphere unloads as the flattened sphere of its load and contact radius",
           "[first_loading]") {
-  // Johnson, section 6.4: Hertz with the curvature 1/R' = 3F/(4E*a³), hence δ = 3F/(4E*a). He takes the pressures of the first loading
-  // for Hertz's; the flatter they are, the less they press in the middle.
+  // Johnson, section 6.4: Hertz with the curvature 1/R' = 3F/(4E*a³), hence δ = 3F/(4E*a). He takes
+  // the pressures of the first loading for Hertz's; the flatter they are, the less they press in
+  // the middle.
   struct Case {
     double load, tolerance;
   };
@@ -247,8 +253,9 @@ TEST_CASE("A sphere unloads as the flattened sphere of its load and contact radi
 }
 
 TEST_CASE("A sphere far beyond first flow unloads from a uniform pressure", "[first_loading]") {
-  // The residual profile is the displacement under the pressure H on a circle. By the method of dimensionality reduction,
-  // g(x) = (2H/E*)(a − √(a² − x²)) and F(c) = 2E*∫_0^c (g(c) − g(x)) dx = 2H[a² asin(c/a) − c√(a² − c²)] at δ = g(c).
+  // The residual profile is the displacement under the pressure H on a circle. By the method of
+  // dimensionality reduction, g(x) = (2H/E*)(a − √(a² − x²)) and F(c) = 2E*∫_0^c (g(c) − g(x)) dx =
+  // 2H[a² asin(c/a) − c√(a² − c²)] at δ = g(c).
   const Unloading curve(64, 1e4);
   const double a = std::sqrt(curve.force / (pi * curve.hardness));
   const double indentation = 2 * curve.hardness * a / contact_modulus;

@@ -66,7 +66,8 @@ TEST_CASE("Love's and Cerruti's integrals keep their digits at any distance", "[
   for (const double r : {31.0, 33.0, 100.0, 1e3, 1e5}) {
     const double x = r * c, y = r * s;
     const auto cell = cell_integrals(x, y, 1, 1);
-    // Taylor's series over a square of side 1, ∬f = f + ∇²f/24 + (f_xxxx + f_yyyy)/1920 + f_xxyy/576, of sixth order next.
+    // Taylor's series over a square of side 1, ∬f = f + ∇²f/24 + (f_xxxx + f_yyyy)/1920 +
+    // f_xxyy/576, of sixth order next.
     const double fourth = (9 - 90 * c * c + 105 * std::pow(c, 4)) / 1920 +
                           (9 - 90 * s * s + 105 * std::pow(s, 4)) / 1920 +
                           (105 * c * c * s * s - 12) / 576;
@@ -84,7 +85,8 @@ TEST_CASE("Love's and Cerruti's integrals keep their digits at any distance", "[
 }
 
 TEST_CASE("A cell's own displacement is Love's value at the centre of a square", "[half_space]") {
-  // (4/π) ln(1 + √2)/E* for a square of side 1 under unit pressure (Johnson, Contact Mechanics, section 3.6).
+  // (4/π) ln(1 + √2)/E* for a square of side 1 under unit pressure (Johnson, Contact Mechanics,
+  // section 3.6).
   CHECK(cell_integrals(0, 0, 1, 1).inverse_distance ==
         Approx(4 * std::log(1 + std::sqrt(2.0))).epsilon(1e-14));
   CHECK(cell_integrals(0, 0, 1, 1).xx == Approx(cell_integrals(0, 0, 1, 1).yy).epsilon(1e-14));
@@ -178,13 +180,15 @@ TEST_CASE(
   INFO("force " << coarse.force << ' ' << fine.force << ", approach " << coarse.approach << ' '
                 << fine.approach << ", peak " << coarse.peak << ' ' << fine.peak << ", radius "
                 << coarse.radius << ' ' << fine.radius);
-  // Pressures constant over cells, met at their centres: second order inside; the edge, where p falls like a square root over one
-  // cell, adds the same order. Measured from 16 to 256 cells: 1.85, 1.88, 1.92, 1.95 for the force.
+  // Pressures constant over cells, met at their centres: second order inside; the edge, where p
+  // falls like a square root over one cell, adds the same order. Measured from 16 to 256 cells:
+  // 1.85, 1.88, 1.92, 1.95 for the force.
   CHECK(order(coarse.force, fine.force) == Approx(1.9).margin(0.15));
   CHECK(order(coarse.approach, fine.approach) == Approx(1.9).margin(0.15));
   CHECK(order(coarse.peak, fine.peak) > 1.8);
   CHECK(fine.force < 1e-4);
-  // Cells count whole, and those that the edge cuts carry load: an eighth of a cell too much on each side.
+  // Cells count whole, and those that the edge cuts carry load: an eighth of a cell too much on
+  // each side.
   CHECK(order(coarse.radius, fine.radius) == Approx(1.0).margin(0.15));
   CHECK(fine.radius * contact_radius < 0.25 * side / 128);
 }
@@ -221,10 +225,12 @@ TEST_CASE("A flat square punch is linear: its force is its stiffness times its i
     CHECK(back.indentation == Approx(indentation).epsilon(1e-8));
     return value / (contact_modulus * side);
   };
-  // Collocation at cell centres converges at first order to the edge singularity: one Richardson step.
+  // Collocation at cell centres converges at first order to the edge singularity: one Richardson
+  // step.
   const double coarse = stiffness(32), fine = stiffness(64), extrapolated = 2 * fine - coarse;
   INFO(coarse << ' ' << fine << ' ' << extrapolated);
-  // π/(4πε0) times the capacity of a square plate, 0.36679 × 4πε0 × side: electrostatics has the same kernel.
+  // π/(4πε0) times the capacity of a square plate, 0.36679 × 4πε0 × side: electrostatics has the
+  // same kernel.
   CHECK(extrapolated == Approx(0.36679 * pi).epsilon(1e-3));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contacts and punches that iterate on the near-field ladder, against those that iterate with transforms.
+// Contacts and punches that iterate on the near-field ladder, against those that iterate with
+// transforms.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -95,25 +96,28 @@ TEST_CASE("A contact takes six or seven exact transforms, and is the one that tr
     CHECK(ladder.outcome.fft_count <= most_pairs);
     CHECK(exact.outcome.ladder_count == 0);
     CHECK(exact.outcome.fft_count > most_pairs);
-    // e_c bounds the misfit of gaps where there is pressure; two solutions to 1e-8 differ in energy by no more than some 1e-8, and in
-    // pressures by the root of that.
+    // e_c bounds the misfit of gaps where there is pressure; two solutions to 1e-8 differ in energy
+    // by no more than some 1e-8, and in pressures by the root of that.
     const double difference = std::sqrt((ladder.pressure - exact.pressure).square().sum() /
                                         exact.pressure.square().sum());
     CHECK(difference < 1e-3);
     CHECK(ladder.pressure.mean() == Approx(exact.pressure.mean()).epsilon(1e-6));
     CHECK(std::abs(ladder.area() - exact.area()) < 1e-3 * exact.area() + 2.0 / 65536);
-    // Float serves until e_c is 2e-6; from there to 1e-8 a refresh in double gains a factor of 20 or more.
+    // Float serves until e_c is 2e-6; from there to 1e-8 a refresh in double gains a factor of 20
+    // or more.
     CHECK(ladder.outcome.exact_fft_count <= 3);
     ++contacts;
     ladder_pairs += ladder.outcome.fft_count;
     applications += ladder.outcome.ladder_count;
     transform_pairs += exact.outcome.fft_count;
   }
-  // A refresh gains a factor of 20 to 30, so four or five lead from the e_c of a usual start, 0.05, to 1e-8; the first gap is one more. 5.6
-  // pairs a contact are measured. One superfluous refresh in each contact exceeds the limit.
+  // A refresh gains a factor of 20 to 30, so four or five lead from the e_c of a usual start, 0.05,
+  // to 1e-8; the first gap is one more. 5.6 pairs a contact are measured. One superfluous refresh
+  // in each contact exceeds the limit.
   CHECK(ladder_pairs <= 6 * contacts);
-  // A refresh comes as soon as the error of the ladder is what is left, so that no steps are lost: 0.94 applications for each pair of the
-  // transforms are measured, and 1.22 where refreshes wait for an estimate of 1e-4 of the last e_c.
+  // A refresh comes as soon as the error of the ladder is what is left, so that no steps are lost:
+  // 0.94 applications for each pair of the transforms are measured, and 1.22 where refreshes wait
+  // for an estimate of 1e-4 of the last e_c.
   CHECK(applications < 1.1 * transform_pairs);
 }
 
@@ -123,7 +127,8 @@ TEST_CASE("The tolerance is met by an exact gap in double, however far the ladde
     const Solved ladder = solve(surface, Boundary::periodic, pressed(0.02), tolerance, 1.0);
     REQUIRE(ladder.outcome.converged);
     CHECK(ladder.outcome.exact_fft_count > 0);
-    // Three and four pairs are measured for 1e-3 and 1e-6. Where a refresh in double waits until e_c is 2e-6, 1e-3 takes seven.
+    // Three and four pairs are measured for 1e-3 and 1e-6. Where a refresh in double waits until
+    // e_c is 2e-6, 1e-3 takes seven.
     if (tolerance > 1e-8) CHECK(ladder.outcome.fft_count <= 5);
     // Found again by another transform, whose rounding is far below.
     auto compliance = normal_compliance<double>(surface.grid, 1, Boundary::periodic);
@@ -138,8 +143,8 @@ TEST_CASE("The tolerance is met by an exact gap in double, however far the ladde
 }
 
 TEST_CASE("Tiles that come into contact only after a refresh are on the ladder too") {
-  // A start far from the solution: all pressure is on one patch, and sinks the summits around it below the plane. The first tiles are those
-  // of the patch, and the contact is elsewhere.
+  // A start far from the solution: all pressure is on one patch, and sinks the summits around it
+  // below the plane. The first tiles are those of the patch, and the contact is elsewhere.
   const Surface surface = unit_cells(256, 256, 5);
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
   const Heights heights{surface.heights.data(), surface.heights.maxCoeff()};
@@ -155,7 +160,8 @@ TEST_CASE("Tiles that come into contact only after a refresh are on the ladder t
           solver.solve({ContactTarget::Kind::level, depth * rms}, limits, p.data(), g.data());
       CHECK(outcome.converged);
       CHECK(outcome.ladder_count > 0);
-      // As from any start: seven are measured. With the tiles of the patch alone there are 28 and more, or no end.
+      // As from any start: seven are measured. With the tiles of the patch alone there are 28 and
+      // more, or no end.
       CHECK(outcome.fft_count <= 8);
     }
 }
@@ -227,8 +233,8 @@ TEST_CASE("A punch takes three exact transforms on the ladder and has the same s
 }
 
 TEST_CASE("Where exact residuals in float gain no more, a punch leaves the ladder and ends") {
-  // Rounding of a float residual, 1e-7, leaves its square to gain, 1e-14. Asked for less, each further round on the ladder gains as much as
-  // the one before. Without new residuals CG ends.
+  // Rounding of a float residual, 1e-7, leaves its square to gain, 1e-14. Asked for less, each
+  // further round on the ladder gains as much as the one before. Without new residuals CG ends.
   const Surface surface = unit_cells(512, 512, 9);
   const Solved contact = solve(surface, Boundary::periodic, pressed(0.1), 1e-8, 0.0);
   PunchLimits limits;
@@ -245,8 +251,9 @@ TEST_CASE("Where exact residuals in float gain no more, a punch leaves the ladde
 TEST_CASE(
     "Between exact residuals the ladder contracts the error of a punch as its spectral error "
     "says") {
-  // The first round solves G~ q = 1 on the set. The error in the metric of G~ falls by eps/(1 − eps) at least, and what is left to gain by
-  // its square. The metric of G differs from that of G~ by a factor 1 ± eps, which is within the slack that the bound has for a contact.
+  // The first round solves G~ q = 1 on the set. The error in the metric of G~ falls by eps/(1 −
+  // eps) at least, and what is left to gain by its square. The metric of G differs from that of G~
+  // by a factor 1 ± eps, which is within the slack that the bound has for a contact.
   const Surface surface = unit_cells(512, 512, 10);
   for (const double load : {0.005, 0.02, 0.1}) {
     const Solved contact = solve(surface, Boundary::periodic, pressed(load), 1e-6, 0.0);
@@ -260,7 +267,8 @@ TEST_CASE(
         normal_symbol(surface.grid, 1, Boundary::periodic, surface.share()), 1, Boundary::periodic);
     REQUIRE(ladder);
     const double contraction = std::pow(ladder->error() / (1 - ladder->error()), 2);
-    // A gain asked for that one round must reach, because what is left by the bound is below it; solved to 1e-4 within the round.
+    // A gain asked for that one round must reach, because what is left by the bound is below it;
+    // solved to 1e-4 within the round.
     limits.relative_gain = 1.01 * contraction;
     limits.round_ends = 1e-8;
     limits.ladder_share = 1.0;

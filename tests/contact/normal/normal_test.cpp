@@ -34,7 +34,8 @@ double residual_of(const NormalContactState& state, const Surface& surface) {
 
 TEST_CASE("Contact agrees with Polonsky and Keer's solver in cells, mean gap and energy",
           "[normal]") {
-  // Even, odd and prime grids, rectangles, cells that are not square, rough and smooth at the scale of a cell.
+  // Even, odd and prime grids, rectangles, cells that are not square, rough and smooth at the scale
+  // of a cell.
   const auto [grid, roughness] = GENERATE(
       std::pair{Grid2D{96, 80, 1.2e-3, 0.8e-3}, RoughnessOfTest{}},
       std::pair{Grid2D{81, 81, 1e-3, 1e-3}, RoughnessOfTest{.hurst = 0.3, .cutoff = 2, .seed = 2}},
@@ -109,7 +110,8 @@ TEST_CASE("The mean height and a translation by whole cells change nothing", "[n
   const auto plain = press_to_pressure(surface, contact_modulus, pressure, tight(1e-14, precision));
   const auto same = [&](const NormalContactState& state) {
     REQUIRE(state.converged);
-    // Both are within 1e-14 in energy of one solution; with equal cells of contact the problem is linear and gaps follow to 1e-10.
+    // Both are within 1e-14 in energy of one solution; with equal cells of contact the problem is
+    // linear and gaps follow to 1e-10.
     CHECK(state.mean_gap == Approx(plain.mean_gap).epsilon(1e-10));
     CHECK(state.indentation == Approx(plain.indentation).epsilon(1e-10));
     CHECK(state.elastic_energy == Approx(plain.elastic_energy).epsilon(1e-10));
@@ -208,7 +210,8 @@ TEST_CASE("The mean gap of a sinusoid converges to Westergaard's at second order
                    [&](double x, double) { return amplitude * std::cos(2 * pi * x / wavelength); });
     double sum = 0;
     for (const double load : {0.1, 0.3, 0.7}) {
-      // dū/dp = (λ/πE*) ln sin²(πa/λ) for strips of width 2a, sin²(πa/λ) = p/p_full, and ū = A at first touch.
+      // dū/dp = (λ/πE*) ln sin²(πa/λ) for strips of width 2a, sin²(πa/λ) = p/p_full, and ū = A at
+      // first touch.
       const double exact = amplitude * (1 - load * (1 - std::log(load)));
       const auto state = press_to_pressure(surface, contact_modulus, load * full, tight());
       REQUIRE(state.converged);
@@ -219,7 +222,8 @@ TEST_CASE("The mean gap of a sinusoid converges to Westergaard's at second order
   const double coarse = error(64), fine = error(2048);
   INFO("errors " << coarse << ' ' << fine);
   CHECK(fine < 1e-5);
-  // Where the edge lies within its cell scatters the error; over five doublings and three loads the order shows (1.9).
+  // Where the edge lies within its cell scatters the error; over five doublings and three loads the
+  // order shows (1.9).
   CHECK(std::log2(coarse / fine) / 5 > 1.6);
 }
 
@@ -235,7 +239,8 @@ TEST_CASE("The punch stiffness is the derivative of the force by the mean gap", 
   REQUIRE((closer.converged && apart.converged));
   const double stiffness =
       normal_stiffness(middle, surface.grid, contact_modulus, tight(1e-12, precision));
-  // While no cell enters or leaves, F(ū) is linear; the forces carry the error of e_c over a step of 2e-7.
+  // While no cell enters or leaves, F(ū) is linear; the forces carry the error of e_c over a step
+  // of 2e-7.
   CHECK(stiffness == Approx((closer.force - apart.force) / (2 * step)).epsilon(1e-4));
 }
 
@@ -327,8 +332,8 @@ TEST_CASE("Whatever the limit of iterations, converged says the truth", "[normal
     CHECK(state.iterations <= limit);
     CHECK(state.mean_pressure == Approx(pressure).epsilon(1e-10));
     CHECK(held.mean_gap == Approx(full.mean_gap).epsilon(1e-10));
-    // The residual is not an estimate: it is what another transform finds in the pressures. With the approach given, gaps count
-    // from there and not from the least one, which can only add.
+    // The residual is not an estimate: it is what another transform finds in the pressures. With
+    // the approach given, gaps count from there and not from the least one, which can only add.
     CHECK(state.residual == Approx(residual_of(state, surface)).epsilon(1e-3));
     CHECK(held.residual > 0.999 * residual_of(held, surface));
     for (const auto* each : {&state, &held}) {

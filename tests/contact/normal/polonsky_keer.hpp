@@ -36,8 +36,9 @@ inline Field half_space_displacement(const Field& pressure, const Grid2D& grid,
   return displacement;
 }
 
-// The constrained conjugate gradients of Polonsky and Keer (1999), as the paper states them: steepest descent after each
-// change of the contact set by overlap, no preconditioner, no levels. Slow and simple: the second route to every result.
+// The constrained conjugate gradients of Polonsky and Keer (1999), as the paper states them:
+// steepest descent after each change of the contact set by overlap, no preconditioner, no levels.
+// Slow and simple: the second route to every result.
 inline PolonskyKeerResult polonsky_keer(const Surface& surface, double contact_modulus,
                                         double nominal_pressure, double tolerance,
                                         int max_iterations = 20000) {

@@ -78,7 +78,8 @@ TEST_CASE("Punches, steps, single cells and full contact converge, by pressure a
 
 TEST_CASE("A contact is found by its mean gap where coarse grids have another mean height",
           "[normal]") {
-  // Coarse grids take the higher points alone. At the level of this plane they would be beyond full contact.
+  // Coarse grids take the higher points alone. At the level of this plane they would be beyond full
+  // contact.
   const auto [lowered, least, most] =
       GENERATE(std::tuple{0.1, 0.99, 0.999}, std::tuple{1.0, 0.4, 0.6});
   Surface surface = rough_surface({128, 128, 1, 1}, {.seed = 7});
@@ -114,7 +115,8 @@ TEST_CASE("A single point and constant heights are in full contact under any pre
       CHECK(state.converged);
       CHECK(state.contact_area_fraction == 1);
       CHECK(state.pressure.mean() == Approx(pressure).epsilon(1e-12));
-      // Uniform where the cell repeats; alone, a flat punch is pressed hardest at its edges. e_c is an energy: gaps are of the order of its root.
+      // Uniform where the cell repeats; alone, a flat punch is pressed hardest at its edges. e_c is
+      // an energy: gaps are of the order of its root.
       CHECK(state.gap.abs().maxCoeff() < 10 * std::sqrt(options.tolerance) * pressure);
       if (boundary == Boundary::periodic || n == 1) CHECK((state.pressure == pressure).all());
     }

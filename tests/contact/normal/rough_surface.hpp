@@ -12,7 +12,8 @@
 
 namespace salebra::test {
 
-// A fixed congruential generator: these surfaces must be the same for ever, whatever becomes of the generators library.
+// A fixed congruential generator: these surfaces must be the same for ever, whatever becomes of the
+// generators library.
 class Lcg {
  public:
   explicit Lcg(std::uint64_t seed) : state_(seed * 2 + 1) { uniform(); }
@@ -33,7 +34,8 @@ struct RoughnessOfTest {
   std::uint64_t seed = 1;
 };
 
-// Filtered white noise on any grid: power q^(−2−2H) above the roll-off, constant below, nothing above the cut-off.
+// Filtered white noise on any grid: power q^(−2−2H) above the roll-off, constant below, nothing
+// above the cut-off.
 inline Surface rough_surface(const Grid2D& grid, const RoughnessOfTest& roughness = {}) {
   Surface surface{grid, Field(grid.nx, grid.ny), true, "test"};
   Lcg random(roughness.seed);

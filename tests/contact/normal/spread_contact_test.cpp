@@ -17,8 +17,9 @@
 #include "ranks_in_threads.hpp"
 #include "rough_surface.hpp"
 
-// One contact over several processes: every number has the bits of one process, since sums go by blocks of rows and transforms by
-// rows and columns that are the same everywhere. Hence no tolerance is needed.
+// One contact over several processes: every number has the bits of one process, since sums go by
+// blocks of rows and transforms by rows and columns that are the same everywhere. Hence no
+// tolerance is needed.
 
 using namespace salebra;
 using salebra::testing::run_ranks;
@@ -240,8 +241,8 @@ TEST_CASE("A force curve with both stiffnesses over processes has the bits of on
   options.contact.boundary = boundary;
   options.stick = true;
   const std::vector<double> pressures{1e-3, 4e-3};
-  // K and K_t of an isolated contact are solved on the cells that it spans, over processes on the whole grid: to the tolerance of
-  // 1e-11 of the gain for K, and of the square of 1e-3 for K_t.
+  // K and K_t of an isolated contact are solved on the cells that it spans, over processes on the
+  // whole grid: to the tolerance of 1e-11 of the gain for K, and of the square of 1e-3 for K_t.
   const auto same = [&](double a, double b, double tolerance) {
     return boundary == Boundary::periodic ? same_bits(a, b) : std::abs(a - b) <= tolerance * a;
   };
@@ -373,7 +374,8 @@ TEST_CASE("A sweep that one process stops ends in all of them with the same load
   options.contact.on_progress = [&](const ProgressReport&) { return ++calls > 0; };
   const std::vector<double> pressures{1e-3, 2e-3, 4e-3};
   REQUIRE(sweep_pressures(surface, material, pressures, options).samples.size() == 3);
-  // Within a contact, within each of the two stiffness solves, and between two loads; the last call follows the last load.
+  // Within a contact, within each of the two stiffness solves, and between two loads; the last call
+  // follows the last load.
   for (int stop = 1; stop < calls; stop += 3) {
     CAPTURE(stop, calls);
     std::vector<std::size_t> loads(3);

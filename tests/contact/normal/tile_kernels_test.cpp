@@ -34,9 +34,11 @@ std::vector<Width> widths() {
 
 constexpr std::ptrdiff_t rows = 9, ny = 53, tiles_per_row = 4;
 
-// Tiles of a few rows, the last of each narrower, with all kinds of cells: free and held, without load, within bounds and beyond them.
-// p and g have 25 bits, so that arithmetic in float would show; r, t, w and the weights have so few that products and the sums of the
-// stencil are exact, whatever their order and whether or not operations are fused: every array must then be equal in all bits.
+// Tiles of a few rows, the last of each narrower, with all kinds of cells: free and held, without
+// load, within bounds and beyond them. p and g have 25 bits, so that arithmetic in float would
+// show; r, t, w and the weights have so few that products and the sums of the stencil are exact,
+// whatever their order and whether or not operations are fused: every array must then be equal in
+// all bits.
 template <class Real>
 struct Tiles {
   std::vector<Tile> tiles;
@@ -65,7 +67,8 @@ struct Tiles {
     row.assign(ny, 0);
     quiet.assign(tiles.size(), 0);
     for (Real& value : row) value = coarse();
-    // Symmetric about both axes, as InverseStencil's is: the widest kernels add opposite neighbours before they are weighted.
+    // Symmetric about both axes, as InverseStencil's is: the widest kernels add opposite neighbours
+    // before they are weighted.
     for (int i = 0; i <= frame; ++i)
       for (int j = 0; j <= frame; ++j) {
         const Real weight = static_cast<Real>(whole(16)) / 8;
@@ -133,8 +136,9 @@ struct Tiles {
   }
 };
 
-// A sum of n <= rows·ny = 477 terms, none above 16², taken in another order differs by less than n·ε·Σ|term| = 477 · 1.1e-16 · 477 · 256
-// = 6e-9. A fault changes it by the term of a cell, of which few are below 1e-3.
+// A sum of n <= rows·ny = 477 terms, none above 16², taken in another order differs by less than
+// n·ε·Σ|term| = 477 · 1.1e-16 · 477 · 256 = 6e-9. A fault changes it by the term of a cell, of
+// which few are below 1e-3.
 bool close(double a, double b) { return a == b || std::abs(a - b) <= 1e-8; }
 
 bool equal(const PreconditionSums& a, const PreconditionSums& b) {
@@ -199,7 +203,8 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
     return equal(f.change_set(a.arrays(), 0, a.count(), level),
                  s.change_set(b.arrays(), 0, b.count(), level));
   });
-  // Scaled only, shifted, and scaled with the cells left alone that are at their bound, or beyond half of it.
+  // Scaled only, shifted, and scaled with the cells left alone that are at their bound, or beyond
+  // half of it.
   struct Correction {
     double scale, shift, full_from;
   };
@@ -222,7 +227,8 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
     return equal(f.add_displacement(a.arrays(), begin, end, a.row.data()),
                  s.add_displacement(b.arrays(), begin, end, b.row.data()));
   });
-  // Any 53 numbers will do as heights; p as it is: within bounds and beyond. Read everywhere or on some tiles; all gaps kept, or near ones.
+  // Any 53 numbers will do as heights; p as it is: within bounds and beyond. Read everywhere or on
+  // some tiles; all gaps kept, or near ones.
   std::array<unsigned char, tiles_per_row> some{};
   some[0] = some[tiles_per_row - 1] = 1;
   for (const unsigned char* in_use : std::array<const unsigned char*, 2>{nullptr, some.data()})

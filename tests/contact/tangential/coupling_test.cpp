@@ -48,10 +48,12 @@ CoupledContact pressed(const Surface& surface, const Material& material, double 
   return contact;
 }
 
-// Mossakovskii's bonded punch: its line load is g(t) = E*δ cos(θ ln((a + t)/(a − t)))/√(1 − β²), θ = artanh(β)/π, which gives
-// F = 2E*aδ artanh(β)/β. A paraboloid that grows its contact without slip is a succession of such punches (Mossakovskii 1963, Spence
-// 1968): with U = (2/π)∫_0^a g/(E*δ)/√(r² − t²)dt outside the punch (tractions add nothing there, by symmetry),
-// r²/2R = ∫_0^r (1 − U(r/a)) dδ(a) has the solution δ = a²/(4RI), I = ½ − (2/π)∫_0^1 g(x)J(x)dx, J = ½[asin x/x³ − √(1−x²)/x²].
+// Mossakovskii's bonded punch: its line load is g(t) = E*δ cos(θ ln((a + t)/(a − t)))/√(1 − β²), θ
+// = artanh(β)/π, which gives F = 2E*aδ artanh(β)/β. A paraboloid that grows its contact without
+// slip is a succession of such punches (Mossakovskii 1963, Spence 1968): with U = (2/π)∫_0^a
+// g/(E*δ)/√(r² − t²)dt outside the punch (tractions add nothing there, by symmetry), r²/2R = ∫_0^r
+// (1 − U(r/a)) dδ(a) has the solution δ = a²/(4RI), I = ½ − (2/π)∫_0^1 g(x)J(x)dx, J = ½[asin x/x³
+// − √(1−x²)/x²].
 double bonded_over_hertz_at_indentation(double beta) {
   const double theta = std::atanh(beta) / pi;
   double sum = 0;
@@ -101,7 +103,8 @@ TEST_CASE("Normal and tangential displacements are each other's reciprocals", "[
 }
 
 TEST_CASE("A wave of pressure draws the surface to its crests", "[coupling]") {
-  // Plane strain under p cos qx, one body: u_x = −(1 − 2ν)(1 + ν)/E · p/q sin qx (Johnson 1985, section 13.2).
+  // Plane strain under p cos qx, one body: u_x = −(1 − 2ν)(1 + ν)/E · p/q sin qx (Johnson 1985,
+  // section 13.2).
   const double poisson = 0.2, young = contact_modulus * (1 - poisson * poisson);
   const Grid2D grid{24, 20, 1.3e-3, 1e-3};
   NormalTangentialCoupling coupling(
@@ -135,7 +138,8 @@ TEST_CASE("The free kernel is the integral of the point solution over a cell", "
   }
   CHECK(std::abs(cell_gradient_integral(0, 1e-5, dx, dy)) < 1e-20);
 
-  // One loaded cell: a point force from afar, with Johnson's sign: the surface sinks in front of a tangential load.
+  // One loaded cell: a point force from afar, with Johnson's sign: the surface sinks in front of a
+  // tangential load.
   const Grid2D grid{40, 30, 40 * dx, 30 * dy};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.2);
   NormalTangentialCoupling coupling(grid, coupling_constant(material), Boundary::free);
@@ -164,7 +168,8 @@ TEST_CASE("A bonded flat punch is stiffer than a smooth one by artanh(beta)/beta
     return bonded.normal_force() / smooth.normal_force() / (std::atanh(beta) / beta) - 1;
   };
   const double coarse = ratio(24), fine = ratio(48);
-  // The singular edge oscillates within a distance that no grid resolves; with the grid it goes away all the same.
+  // The singular edge oscillates within a distance that no grid resolves; with the grid it goes
+  // away all the same.
   CHECK(std::abs(fine) < 0.01);
   CHECK(std::abs(fine) < 0.7 * std::abs(coarse));
 }
@@ -179,7 +184,8 @@ TEST_CASE("A paraboloid that does not slip is Spence's", "[coupling]") {
     const Surface surface = paraboloid_surface(grid, radius, off_grid_center(grid));
     const CoupledContact bonded = pressed(surface, material, infinite, indentation, increments);
     REQUIRE(bonded.converged());
-    // The surface of the softer body is drawn inwards (A wave of pressure …); what holds it are tractions outwards.
+    // The surface of the softer body is drawn inwards (A wave of pressure …); what holds it are
+    // tractions outwards.
     const Field& traction = bonded.sliding().traction().x;
     double moment = 0;
     for (Index ix = 0; ix < n; ++ix)
@@ -188,7 +194,8 @@ TEST_CASE("A paraboloid that does not slip is Spence's", "[coupling]") {
     const double hertz = 4.0 / 3 * contact_modulus * std::sqrt(radius) * std::pow(indentation, 1.5);
     return bonded.normal_force() / hertz;
   };
-  // Measured for ν = 0: 1.0524 with 12 increments at 24², 1.0533 with 24; exact 1.0529. A contact without coupling has 1.
+  // Measured for ν = 0: 1.0524 with 12 increments at 24², 1.0533 with 24; exact 1.0529. A contact
+  // without coupling has 1.
   CHECK(ratio(24, 12) == Approx(exact).epsilon(0.003));
   CHECK(ratio(24, 24) == Approx(exact).epsilon(0.002));
 }

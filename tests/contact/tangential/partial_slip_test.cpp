@@ -64,8 +64,8 @@ Solution solve(const Field& limit, const Grid2D& grid, const Material& material,
 }  // namespace
 
 TEST_CASE("A sphere that is pushed sideways is Cattaneo's and Mindlin's", "[slip]") {
-  // With tractions along the motion alone the solution is exact at every Poisson's ratio: F_x = μF[1 − (1 − q)^{3/2}],
-  // q = G*x/(μE*δ), and the cells within a√(1 − q) stick.
+  // With tractions along the motion alone the solution is exact at every Poisson's ratio: F_x =
+  // μF[1 − (1 − q)^{3/2}], q = G*x/(μE*δ), and the cells within a√(1 − q) stick.
   const double poisson = GENERATE(0.0, 0.3, 0.5), q = GENERATE(0.3, 0.9);
   const double radius = 0.35e-3, indentation = 1.5e-5, friction = 0.4;
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
@@ -98,7 +98,8 @@ TEST_CASE("A sphere that is pushed sideways is Cattaneo's and Mindlin's", "[slip
 }
 
 TEST_CASE("Poisson's ratio turns the direction of slip, and hardly changes the force", "[slip]") {
-  // Cattaneo and Mindlin let all points slip along the force. At ν > 0 that is not the direction of their displacement.
+  // Cattaneo and Mindlin let all points slip along the force. At ν > 0 that is not the direction of
+  // their displacement.
   const Grid2D grid{64, 64, 1e-3, 1e-3};
   const double radius = 0.35e-3, peak = 3e7, friction = 0.4, q = 0.9;
   const Field limit = friction * hertz_pressure(grid, radius, peak);
@@ -146,7 +147,8 @@ TEST_CASE("Partial slip on islands obeys Coulomb's law in every cell", "[slip]")
   CHECK(report.slipping > 50);
   CHECK(contact.count() - report.slipping > 50);
   const TangentialField moved = solver.displacement(contact, traction, contact);
-  // In units of the scale: the solver bounds the rms of what is here checked in each cell of some 700.
+  // In units of the scale: the solver bounds the rms of what is here checked in each cell of some
+  // 700.
   const double close = 100 * tolerance * scale;
   for (Index ix = 0; ix < grid.nx; ++ix)
     for (Index iy = 0; iy < grid.ny; ++iy) {
@@ -179,7 +181,8 @@ TEST_CASE("Without a limit it is the stick solve, and far beyond it the whole co
   CHECK((free.traction.x - stuck.x).abs().maxCoeff() < 1e-7 * stuck.x.abs().maxCoeff());
   CHECK((free.traction.y - stuck.y).abs().maxCoeff() < 1e-7 * stuck.x.abs().maxCoeff());
 
-  // Motion along (4, 3)/5, a hundred times what would stick: the tractions point along it as nearly.
+  // Motion along (4, 3)/5, a hundred times what would stick: the tractions point along it as
+  // nearly.
   const Solution sliding =
       solve(pressure, grid, material, uniform(grid, 4e-3, 3e-3), 1e-5, options);
   REQUIRE(sliding.report.converged);
@@ -223,8 +226,8 @@ TEST_CASE("The fallback finds the same tractions, and an unfinished solve says s
 }
 
 TEST_CASE("The residual of a partial-slip solve is in units of the scale", "[slip]") {
-  // Without tractions every cell that sticks misses its whole displacement, of length 5e-9 m: 1e-3 of the scale. That is within the
-  // tolerance, so that nothing is solved.
+  // Without tractions every cell that sticks misses its whole displacement, of length 5e-9 m: 1e-3
+  // of the scale. That is within the tolerance, so that nothing is solved.
   const Grid2D grid{16, 16, 1e-3, 1e-3};
   const Field pressure = hertz_pressure(grid, 3e-4, 1e6);
   PartialSlipSolver solver(grid, Material::of_contact_modulus(contact_modulus, 0.3),

@@ -14,8 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Cells whose centres lie in an ellipse about the middle of the grid, shifted by (0.31, 0.17) of a cell: a centre on the grid
-// makes the error of the area jump with n.
+// Cells whose centres lie in an ellipse about the middle of the grid, shifted by (0.31, 0.17) of a
+// cell: a centre on the grid makes the error of the area jump with n.
 ContactSet ellipse(const Grid2D& grid, double semi_axis_x, double semi_axis_y) {
   ContactSet contact(grid.nx, grid.ny);
   for (Index ix = 0; ix < grid.nx; ++ix)
@@ -41,9 +41,9 @@ ContactSet islands(const Grid2D& grid) {
   return contact;
 }
 
-// Mindlin (1949): the tractions of a stuck ellipse are F_x/(2πab√(1 − x²/a² − y²/b²)). In Fourier space their displacement is
-// u_x = (F_x/8π) ∫_0^{2π} [Σ1/G − Σ(ν/G) cos²φ]/√(a²cos²φ + b²sin²φ) dφ, here by the complete elliptic integrals.
-// a is the semi-axis along the motion.
+// Mindlin (1949): the tractions of a stuck ellipse are F_x/(2πab√(1 − x²/a² − y²/b²)). In Fourier
+// space their displacement is u_x = (F_x/8π) ∫_0^{2π} [Σ1/G − Σ(ν/G) cos²φ]/√(a²cos²φ + b²sin²φ)
+// dφ, here by the complete elliptic integrals. a is the semi-axis along the motion.
 double ellipse_stiffness(double a, double b, double inverse_shear, double poisson_over_shear) {
   if (a == b) return 8 * a / (2 * inverse_shear - poisson_over_shear);
   const double longer = std::max(a, b), shorter = std::min(a, b);
@@ -78,7 +78,8 @@ TEST_CASE("A stuck circular contact has K_t = 2G*a at any Poisson's ratio", "[st
     CHECK(std::abs(k.xy) < 1e-3 * k.xx);
     return std::abs((k.xx + k.yy) / 2 / (2 * material.tangential_modulus * radius) - 1);
   };
-  // The edge is resolved to a cell: first order. Two doublings, since the area of the cells jumps about that of the circle.
+  // The edge is resolved to a cell: first order. Two doublings, since the area of the cells jumps
+  // about that of the circle.
   const double coarse = error(32), fine = error(128);
   CHECK(fine < 4e-3);
   CHECK(std::log2(coarse / fine) / 2 == Approx(1.0).margin(0.3));
@@ -151,7 +152,8 @@ TEST_CASE("Exchanging x and y exchanges the stiffnesses", "[stick]") {
   CHECK(t.yy == Approx(k.xx).epsilon(1e-11));
   CHECK(t.xy == Approx(k.xy).epsilon(1e-9));
   CHECK(std::abs(k.xy) > 1e-4 * k.xx);  // or the last line shows nothing
-  // The stiffness in any direction is positive, and freeing the lateral displacement can only soften.
+  // The stiffness in any direction is positive, and freeing the lateral displacement can only
+  // soften.
   StickOptions lateral_free = options;
   lateral_free.hold_lateral = false;
   const StickStiffness soft = stick_stiffness(contact, grid, material, lateral_free);
@@ -172,7 +174,8 @@ TEST_CASE("A periodic cell stiffens an isolated contact by a compliance that fal
     const double periodic = stick_stiffness(contact, grid, material, {.tolerance = 1e-9}).xx;
     return 1 / free - 1 / periodic;
   };
-  // Next order: (a/L)³ against a/L, under one per cent at L = 8a. The kernels also differ within a cell, equally for both.
+  // Next order: (a/L)³ against a/L, under one per cent at L = 8a. The kernels also differ within a
+  // cell, equally for both.
   const double first = difference(64), second = difference(128), third = difference(256);
   CHECK((first - second) / (second - third) == Approx(2.0).epsilon(0.02));
 }
@@ -289,7 +292,8 @@ TEST_CASE("A sweep takes K_t from stick solves on its contact sets", "[stick]") 
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     const NormalContactState state = press_to_pressure(surface, contact_modulus, pressures[k]);
     const StickStiffness direct = stick_stiffness(contact_set(state), grid, material);
-    // A sweep ends its stick solves early: K_t is a maximum, and its error the square of that of the tractions, 1e-3, at worst ten times.
+    // A sweep ends its stick solves early: K_t is a maximum, and its error the square of that of
+    // the tractions, 1e-3, at worst ten times.
     CHECK(stuck.samples[k].tangential_stiffness == Approx(direct.xx).epsilon(1e-5));
     CHECK(stuck.samples[k].normal_stiffness == plain.samples[k].normal_stiffness);
     // Ridges along y: stiffer across them than a round contact would be.
@@ -299,9 +303,10 @@ TEST_CASE("A sweep takes K_t from stick solves on its contact sets", "[stick]") 
 
 TEST_CASE("The steps of a stick solve do not grow with the grid where it is on the ladder",
           "[stick]") {
-  // With the exact inverse of the normal response the condition number is 1/(1 − ν) = 1.43, each step gains a factor of 11, and 1e-6 takes
-  // six. The inverse has an error of a tenth in the norm of G, which costs up to half as many again. The stencil takes 13 at 128², which
-  // has no ladder, and more on larger grids.
+  // With the exact inverse of the normal response the condition number is 1/(1 − ν) = 1.43, each
+  // step gains a factor of 11, and 1e-6 takes six. The inverse has an error of a tenth in the norm
+  // of G, which costs up to half as many again. The stencil takes 13 at 128², which has no ladder,
+  // and more on larger grids.
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   for (const Index n : {256, 512, 1024}) {
     const Grid2D grid{n, n, 1e-3, 1e-3};
@@ -314,8 +319,9 @@ TEST_CASE("The steps of a stick solve do not grow with the grid where it is on t
 }
 
 TEST_CASE("A stiffness is converged where both of its solves are", "[stick]") {
-  // A row of cells may take a step more in one direction than in the other. With one step less than the slower solve needs, the faster
-  // one still converges, which must not hide that the slower one, here the first, has not.
+  // A row of cells may take a step more in one direction than in the other. With one step less than
+  // the slower solve needs, the faster one still converges, which must not hide that the slower
+  // one, here the first, has not.
   const Grid2D grid{64, 64, 1e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const ContactSet lying = ellipse(grid, 4.5e-4, 1.5e-5), standing = lying.transpose();

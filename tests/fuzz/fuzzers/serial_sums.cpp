@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What readers share with the rest of sums and loops over slabs, without OpenMP, for which clang would need a library of its own.
+// What readers share with the rest of sums and loops over slabs, without OpenMP, for which clang
+// would need a library of its own.
 #include <salebra/base/parallel.hpp>
 
 namespace salebra::parallel {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The runner of HDF5 readings in the fuzzers. A process for each input costs ten milliseconds under sanitizers, hence one child stands
-// ready, reads input after input, and is replaced when it dies; what it survives is read once more in the fuzzer, which sees the code
-// that it reaches. What it died of is told apart: HDF5's own memory errors are why the program reads in a child, and the input is
-// refused as there; an error in our code ends the fuzzer.
+// The runner of HDF5 readings in the fuzzers. A process for each input costs ten milliseconds under
+// sanitizers, hence one child stands ready, reads input after input, and is replaced when it dies;
+// what it survives is read once more in the fuzzer, which sees the code that it reaches. What it
+// died of is told apart: HDF5's own memory errors are why the program reads in a child, and the
+// input is refused as there; an error in our code ends the fuzzer.
 #include <poll.h>
 #include <sanitizer/asan_interface.h>
 #include <sanitizer/common_interface_defs.h>
@@ -41,7 +42,8 @@ char* report() {
 
 void keep_report(const char* text) { std::strncpy(report(), text, (1 << 16) - 1); }
 
-/// Whether one of the three innermost functions of a stack, of which two may be the sanitizer's and the C library's, is of the HDF5 library.
+/// Whether one of the three innermost functions of a stack, of which two may be the sanitizer's and
+/// the C library's, is of the HDF5 library.
 bool is_of_hdf5(std::string_view stack) {
   const auto library = stack.find("libhdf5");
   return library < stack.find("    #3 ");
@@ -134,7 +136,8 @@ class Child {
 };
 
 void run_twice(const Hdf5Reading& reading) {
-  // A fuzzer gives every input to one reader in one file: the file that the child began with is that of every later call.
+  // A fuzzer gives every input to one reader in one file: the file that the child began with is
+  // that of every later call.
   static Child child;
   const std::filesystem::path& file = reading.file;
   if (!child.stands()) {

@@ -4,7 +4,8 @@
 #include <salebra/base/fft.hpp>
 #include <salebra/contact/half_space/material.hpp>
 
-// Touches a header-only type, a compiled function of salebra::salebra, and FFTW behind salebra::base.
+// Touches a header-only type, a compiled function of salebra::salebra, and FFTW behind
+// salebra::base.
 int main() {
   const auto material = salebra::Material::of_contact_modulus(115e9, 0.3);
   salebra::Field field = salebra::Field::Constant(4, 4, 1.0);

@@ -3,7 +3,8 @@
 #include <cstdio>
 #include <salebra/generators/random_phase.hpp>
 
-// A generated surface without the rest of salebra: random phase gives the lattice's rms height to round-off.
+// A generated surface without the rest of salebra: random phase gives the lattice's rms height to
+// round-off.
 int main() {
   const salebra::Grid2D grid{32, 32, 1e-3, 1e-3};
   const salebra::SelfAffineSpectrum spectrum(

@@ -2,7 +2,8 @@
 #include <cstdio>
 #include <salebra/study/verification.hpp>
 
-// salebra::study stands on every other library, hence this links all that is installed, and each solver runs once.
+// salebra::study stands on every other library, hence this links all that is installed, and each
+// solver runs once.
 int main() {
   int failures = 0;
   for (const salebra::Check& check : salebra::verify_installation()) {

@@ -6,19 +6,20 @@
 
 namespace salebra {
 
-/// How an isotropic surface is stretched. With an isotropic correlation length ℓ, the stretched surface has the correlation lengths
-/// along·ℓ and across·ℓ.
+/// How an isotropic surface is stretched. With an isotropic correlation length ℓ, the stretched
+/// surface has the correlation lengths along·ℓ and across·ℓ.
 struct Anisotropy {
   double along = 1;   ///< > 0
   double across = 1;  ///< > 0
   double angle = 0;   ///< from the x axis to the direction of `along`, rad
 
-  /// Peklenik's number γ, the ratio of the correlation lengths along and across the lay: 1 isotropic, > 1 lay in the direction
-  /// of `along`.
+  /// Peklenik's number γ, the ratio of the correlation lengths along and across the lay: 1
+  /// isotropic, > 1 lay in the direction of `along`.
   double peklenik() const { return along / across; }
 };
 
-/// The spectrum of an isotropic surface stretched along two perpendicular directions e₁, e₂, with its rms height kept:
+/// The spectrum of an isotropic surface stretched along two perpendicular directions e₁, e₂, with
+/// its rms height kept:
 ///     C(q) = along·across·C_iso(|(along·q₁, across·q₂)|),  q_i = q·e_i.
 class AnisotropicSpectrum final : public Spectrum {
  public:

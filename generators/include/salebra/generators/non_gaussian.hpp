@@ -17,27 +17,31 @@ struct NonGaussianOptions {
   int max_iterations = 200;  ///< >= 1
   /// Stop when an iteration lowers the mismatch by less than this part of it; 0 … 1.
   double tolerance = 1e-3;
-  /// "non-gaussian", many times an iteration; step: iterations done. A stop before the first has begun throws Interrupted.
+  /// "non-gaussian", many times an iteration; step: iterations done. A stop before the first has
+  /// begun throws Interrupted.
   Progress on_progress = {};
 };
 
 struct NonGaussianSurface {
   Surface surface;
   int iterations = 0;
-  /// √(Σ(|a| − a_target)²/Σa_target²) over all modes of the surface with the exact heights. It ends above 0: what is left is what the
-  /// pair of distribution and spectrum cannot have at once on this grid.
+  /// √(Σ(|a| − a_target)²/Σa_target²) over all modes of the surface with the exact heights. It ends
+  /// above 0: what is left is what the pair of distribution and spectrum cannot have at once on
+  /// this grid.
   double spectrum_mismatch = 0;
   bool converged = false;  ///< the mismatch has stopped falling
   /// The progress callback said stop; the surface is that of the last iteration that was finished.
   bool interrupted = false;
 };
 
-/// A periodic surface with a given spectrum and a given height distribution, by the iterated amplitude-adjusted Fourier transform
-/// of Schreiber and Schmitz (1996): in turn, heights are replaced by those of the distribution in the same order, and
-/// mode amplitudes by those of the spectrum with the same phases. It starts from random_phase of the seed, whose mode powers are the
-/// target, and has the rms height of that surface. Same bits for every thread count; since ranks depend on all points, a
-/// finer grid is another surface. The grid cuts the tails: N points reach the quantiles 1/(2N) and 1 − 1/(2N).
-/// Errors as random_phase, of the memory that non_gaussian_memory says. Cost: two real FFTs and a sort of all points for an iteration.
+/// A periodic surface with a given spectrum and a given height distribution, by the iterated
+/// amplitude-adjusted Fourier transform of Schreiber and Schmitz (1996): in turn, heights are
+/// replaced by those of the distribution in the same order, and mode amplitudes by those of the
+/// spectrum with the same phases. It starts from random_phase of the seed, whose mode powers are
+/// the target, and has the rms height of that surface. Same bits for every thread count; since
+/// ranks depend on all points, a finer grid is another surface. The grid cuts the tails: N points
+/// reach the quantiles 1/(2N) and 1 − 1/(2N). Errors as random_phase, of the memory that
+/// non_gaussian_memory says. Cost: two real FFTs and a sort of all points for an iteration.
 NonGaussianSurface non_gaussian(const Grid2D& grid, const Spectrum& spectrum,
                                 const HeightDistribution& distribution, std::uint64_t seed,
                                 const NonGaussianOptions& options = {});

@@ -17,8 +17,8 @@ struct Profile {
   double dx() const { return length / static_cast<double>(heights.size()); }
 };
 
-/// Power spectral density of a random profile, C₁(q) = (2π)⁻¹ ∫⟨h(0)h(x)⟩ e^{−iqx} dx for −∞ < q < ∞, so that h_rms² = ∫C₁ dq. The mode of
-/// wave number i has the mean power C₁(q)·2π/length.
+/// Power spectral density of a random profile, C₁(q) = (2π)⁻¹ ∫⟨h(0)h(x)⟩ e^{−iqx} dx for −∞ < q <
+/// ∞, so that h_rms² = ∫C₁ dq. The mode of wave number i has the mean power C₁(q)·2π/length.
 class ProfileSpectrum {
  public:
   virtual ~ProfileSpectrum() = default;
@@ -26,7 +26,8 @@ class ProfileSpectrum {
   virtual double density(double q) const = 0;
   /// C₁ vanishes beyond this, rad/m.
   virtual double highest_wavenumber() const = 0;
-  /// ∫C₁ dq, ∫q²C₁ dq, ∫q⁴C₁ dq as moments along x; those along y are 0, so that rms_slope() is √⟨h'²⟩.
+  /// ∫C₁ dq, ∫q²C₁ dq, ∫q⁴C₁ dq as moments along x; those along y are 0, so that rms_slope() is
+  /// √⟨h'²⟩.
   virtual SpectralMoments moments() const = 0;
   virtual std::string description() const = 0;
 
@@ -36,8 +37,9 @@ class ProfileSpectrum {
   void require_carried_by(Index points, double length) const;
 };
 
-/// Self-affine profile: C₁ = C0 from q_L to q_r, C0 (q/q_r)^{−(1+2H)} up to q_s. A cut through an isotropic self-affine surface of the same H has
-/// this law between its cut-offs, but not near them. Parameters, limits and errors as SelfAffineSpectrum; rms_slope is √⟨h'²⟩.
+/// Self-affine profile: C₁ = C0 from q_L to q_r, C0 (q/q_r)^{−(1+2H)} up to q_s. A cut through an
+/// isotropic self-affine surface of the same H has this law between its cut-offs, but not near
+/// them. Parameters, limits and errors as SelfAffineSpectrum; rms_slope is √⟨h'²⟩.
 class SelfAffineProfileSpectrum final : public ProfileSpectrum {
  public:
   explicit SelfAffineProfileSpectrum(const SelfAffineParameters& parameters);
@@ -54,7 +56,8 @@ class SelfAffineProfileSpectrum final : public ProfileSpectrum {
   double plateau_;
 };
 
-/// A Gaussian random profile, keyed by seed and wave number as filtered_noise is, from a stream of random numbers of its own.
+/// A Gaussian random profile, keyed by seed and wave number as filtered_noise is, from a stream of
+/// random numbers of its own.
 Profile filtered_noise_profile(Index points, double length, const ProfileSpectrum& spectrum,
                                std::uint64_t seed);
 

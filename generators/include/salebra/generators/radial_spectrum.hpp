@@ -10,11 +10,13 @@ namespace salebra {
 /// Any function C(|q|) between two wave numbers, and 0 outside of them.
 class FunctionSpectrum final : public IsotropicSpectrum {
  public:
-  /// density   C(q) >= 0 in m⁴ for lowest <= q <= highest, rad/m; called from several threads at once
+  /// density   C(q) >= 0 in m⁴ for lowest <= q <= highest, rad/m; called from several threads at
+  ///           once
   /// lowest    >= 0; 0 for all long waves of a cell
   /// name      for provenance
-  /// Throws InvalidInput unless 0 <= lowest < highest, and where the density is negative or not finite at a point where it is asked
-  /// for the moments, which are integrated here: adaptive Simpson's rule, relative error about 1e-10 for a smooth function.
+  /// Throws InvalidInput unless 0 <= lowest < highest, and where the density is negative or not
+  /// finite at a point where it is asked for the moments, which are integrated here: adaptive
+  /// Simpson's rule, relative error about 1e-10 for a smooth function.
   FunctionSpectrum(std::function<double(double q)> density, double lowest, double highest,
                    std::string name);
 
@@ -46,12 +48,13 @@ class TabulatedSpectrum final : public IsotropicSpectrum {
   std::vector<double> wavenumbers_, densities_;
 };
 
-/// ⟨h(0)h(r)⟩ = rms_height² exp(−r²/ℓ²): C = rms_height² ℓ²/(4π) exp(−q²ℓ²/4), cut off where it has fallen by e³⁶.
+/// ⟨h(0)h(r)⟩ = rms_height² exp(−r²/ℓ²): C = rms_height² ℓ²/(4π) exp(−q²ℓ²/4), cut off where it has
+/// fallen by e³⁶.
 FunctionSpectrum gaussian_correlation_spectrum(double rms_height, double correlation_length);
 
-/// ⟨h(0)h(r)⟩ = rms_height² exp(−r/ℓ): C ∝ (1 + q²ℓ²)^{−3/2}, a self-affine spectrum of Hurst exponent 1/2 with a smooth roll-off.
-/// Its slope grows without limit with the shortest wavelength, hence short_cutoff, and C is scaled so that what is left has the rms
-/// height asked.
+/// ⟨h(0)h(r)⟩ = rms_height² exp(−r/ℓ): C ∝ (1 + q²ℓ²)^{−3/2}, a self-affine spectrum of Hurst
+/// exponent 1/2 with a smooth roll-off. Its slope grows without limit with the shortest wavelength,
+/// hence short_cutoff, and C is scaled so that what is left has the rms height asked.
 FunctionSpectrum exponential_correlation_spectrum(double rms_height, double correlation_length,
                                                   double short_cutoff);
 

@@ -4,8 +4,9 @@
 #include <optional>
 #include <salebra/base/grid.hpp>
 
-/// Surfaces given by a formula. A single body is a hill whose highest point has the height 0, all other heights being negative; it is
-/// not periodic. Lengths in m, angles in rad. Each throws InvalidInput unless the grid is valid and the lengths are > 0. Cost: one pass.
+/// Surfaces given by a formula. A single body is a hill whose highest point has the height 0, all
+/// other heights being negative; it is not periodic. Lengths in m, angles in rad. Each throws
+/// InvalidInput unless the grid is valid and the lengths are > 0. Cost: one pass.
 namespace salebra {
 
 /// A point of the plane, m.
@@ -17,8 +18,9 @@ struct PlanePoint {
 /// Where the axis of a body stands; none: the middle of the grid, (lx/2, ly/2).
 using ShapeCenter = std::optional<PlanePoint>;
 
-/// The middle of the grid moved by (0.31, 0.17) of a cell. A body that is symmetric to the grid has a contact area that jumps by many
-/// cells at a time; off the grid the area-dependent error is 5–20 times smaller (docs/theory.md, section 7).
+/// The middle of the grid moved by (0.31, 0.17) of a cell. A body that is symmetric to the grid has
+/// a contact area that jumps by many cells at a time; off the grid the area-dependent error is 5–20
+/// times smaller (docs/theory.md, section 7).
 PlanePoint off_grid_center(const Grid2D& grid);
 
 /// h = −r²/(2 radius).
@@ -48,17 +50,20 @@ Surface ridge_surface(const Grid2D& grid, double radius, const ShapeCenter& cent
 Surface flat_punch_surface(const Grid2D& grid, double radius, double depth,
                            const ShapeCenter& center = {});
 
-/// A standing cylinder with a rounded edge: h = 0 for r <= flat_radius, −(r − flat_radius)²/(2 edge_radius) outside.
+/// A standing cylinder with a rounded edge: h = 0 for r <= flat_radius, −(r − flat_radius)²/(2
+/// edge_radius) outside.
 Surface rounded_punch_surface(const Grid2D& grid, double flat_radius, double edge_radius,
                               const ShapeCenter& center = {});
 
-/// count_x × count_y equal pyramids side by side, h = −tan(angle)·max(|x|, |y|) from the axis of each. Periodic. Each stands in the
-/// middle of its rectangle lx/count_x × ly/count_y; `shift` moves them all.
+/// count_x × count_y equal pyramids side by side, h = −tan(angle)·max(|x|, |y|) from the axis of
+/// each. Periodic. Each stands in the middle of its rectangle lx/count_x × ly/count_y; `shift`
+/// moves them all.
 Surface pyramids_surface(const Grid2D& grid, Index count_x, Index count_y, double angle,
                          const PlanePoint& shift = {});
 
-/// h = amplitude · cos(2π waves_x (x − shift.x)/lx) · cos(2π waves_y (y − shift.y)/ly). Periodic. waves_y = 0 gives straight waves,
-/// few waves_y beside many waves_x elongated hills. Throws unless waves_x, waves_y >= 0 have four points a wave or more and are not both 0.
+/// h = amplitude · cos(2π waves_x (x − shift.x)/lx) · cos(2π waves_y (y − shift.y)/ly). Periodic.
+/// waves_y = 0 gives straight waves, few waves_y beside many waves_x elongated hills. Throws unless
+/// waves_x, waves_y >= 0 have four points a wave or more and are not both 0.
 Surface sinusoid_surface(const Grid2D& grid, double amplitude, Index waves_x, Index waves_y,
                          const PlanePoint& shift = {});
 

@@ -12,15 +12,18 @@ namespace salebra {
 
 /// Power spectral density of a random surface,
 ///     C(q) = (2π)⁻² ∫⟨h(0)h(x)⟩ e^{−iq·x} d²x,   so that h_rms² = ∫C d²q.
-/// On a grid of size lx × ly, the mode of wave vector (i, j), q = 2π(i/lx, j/ly), has the mean power C(q)·(2π)²/(lx ly).
+/// On a grid of size lx × ly, the mode of wave vector (i, j), q = 2π(i/lx, j/ly), has the mean
+/// power C(q)·(2π)²/(lx ly).
 class Spectrum {
  public:
   virtual ~Spectrum() = default;
 
-  /// C(q), m⁴; q_x, q_y in rad/m. Even: C(−q) = C(q). Not asked at q = 0, since a surface has zero mean.
+  /// C(q), m⁴; q_x, q_y in rad/m. Even: C(−q) = C(q). Not asked at q = 0, since a surface has zero
+  /// mean.
   virtual double density(double qx, double qy) const = 0;
-  /// densities[k] = density((first + k)·step_x, qy): the row of wave vectors that generators ask for. Where the wave vector is 0 it
-  /// may be anything. An override serves speed and must agree with density to rounding.
+  /// densities[k] = density((first + k)·step_x, qy): the row of wave vectors that generators ask
+  /// for. Where the wave vector is 0 it may be anything. An override serves speed and must agree
+  /// with density to rounding.
   virtual void density_row(Index first, double step_x, double qy,
                            std::span<double> densities) const;
   /// C vanishes for |q| beyond this, rad/m.
@@ -30,16 +33,18 @@ class Spectrum {
   /// One line for provenance.
   virtual std::string description() const = 0;
 
-  /// Moments that surfaces on this grid have in the mean: the same integrals as sums over the modes that the grid carries, without
-  /// the zero mode; a mode on a Nyquist line counts once.
-  /// progress: "moments"; a stop throws Interrupted. ranks: processes that share the sum, collectively; it has the same bits for every
-  /// number of them.
-  /// Throws as require_carried_by. Cost: one evaluation of C for each pair of modes within highest_wavenumber.
+  /// Moments that surfaces on this grid have in the mean: the same integrals as sums over the modes
+  /// that the grid carries, without the zero mode; a mode on a Nyquist line counts once.
+  /// progress: "moments"; a stop throws Interrupted. ranks: processes that share the sum,
+  /// collectively; it has the same bits for every number of them.
+  /// Throws as require_carried_by. Cost: one evaluation of C for each pair of modes within
+  /// highest_wavenumber.
   SpectralMoments lattice_moments(const Grid2D& grid, const Progress& progress = {},
                                   const Communicator& ranks = {}) const;
 
-  /// Throws InvalidInput where the cells are larger than half the shortest wavelength, so that the grid would fold short waves
-  /// into long ones, or where the shortest wavelength does not fit into the cell at all.
+  /// Throws InvalidInput where the cells are larger than half the shortest wavelength, so that the
+  /// grid would fold short waves into long ones, or where the shortest wavelength does not fit into
+  /// the cell at all.
   void require_carried_by(const Grid2D& grid) const;
 };
 
@@ -66,13 +71,15 @@ struct SelfAffineParameters {
 ///     C = C0                        q_L <= q < q_r
 ///     C = C0 (q/q_r)^{−2(1+H)}      q_r <= q <= q_s
 ///     C = 0                         elsewhere.
-/// C0 is set so that the *continuum* has the rms height (or slope) asked. It does not depend on the grid, hence long waves are the
-/// same at every resolution; what a given cell has of it, some of the longest waves being left out or counted whole, is
-/// lattice_moments(grid). A wave on a limit belongs to the spectrum, to a relative tolerance of 1e-9 for the rounding of 2π/λ.
+/// C0 is set so that the *continuum* has the rms height (or slope) asked. It does not depend on the
+/// grid, hence long waves are the same at every resolution; what a given cell has of it, some of
+/// the longest waves being left out or counted whole, is lattice_moments(grid). A wave on a limit
+/// belongs to the spectrum, to a relative tolerance of 1e-9 for the rounding of 2π/λ.
 class SelfAffineSpectrum final : public IsotropicSpectrum {
  public:
-  /// Throws InvalidInput that names the parameter unless 0 < H <= 1, λ_L >= λ_r >= λ_s > 0, one of λ_L and λ_r is given, and exactly
-  /// one of rms_height and rms_slope is given and > 0. λ_L > λ_s or a plateau is needed: a spectrum of zero width has no power.
+  /// Throws InvalidInput that names the parameter unless 0 < H <= 1, λ_L >= λ_r >= λ_s > 0, one of
+  /// λ_L and λ_r is given, and exactly one of rms_height and rms_slope is given and > 0. λ_L > λ_s
+  /// or a plateau is needed: a spectrum of zero width has no power.
   explicit SelfAffineSpectrum(const SelfAffineParameters& parameters);
 
   double radial_density(double q) const override;

@@ -26,7 +26,8 @@ struct HeightDensityPoint {
 
 /// A statistical ensemble of equal spherical caps whose heights z are distributed as φ(z):
 ///     gaussian      exp(−z²/2σ_s²)/(√(2π)σ_s); z = 0 is the mean plane of the summits
-///     exponential   exp(−z/σ_s)/σ_s for z >= 0; z = 0 is the plane of the lowest summits, σ_s below their mean
+///     exponential   exp(−z/σ_s)/σ_s for z >= 0; z = 0 is the plane of the lowest summits, σ_s
+///                   below their mean
 ///     tabulated     as `table` says
 struct SummitEnsemble {
   double density = 0;  ///< η, 1/m²
@@ -39,13 +40,17 @@ struct SummitEnsemble {
   std::vector<HeightDensityPoint> table = {};  ///< heights increasing, at least two
 };
 
-/// The ensemble of a Gaussian isotropic surface, from its profile moments m0, m2, m4 by Nayak (1971) and McCool (1986):
-///     η = m4/(6√3 π m2), R = (3/8)√(π/m4), σ_s² = (1 − 0.8968/α) m0, mean height 4√(m0/(πα)), α = m0 m4/m2².
-/// moment0 m², moment2 –, moment4 1/m². Throws InvalidInput unless they are > 0 with α >= 1, which holds for any surface.
+/// The ensemble of a Gaussian isotropic surface, from its profile moments m0, m2, m4 by Nayak
+/// (1971) and McCool (1986):
+///     η = m4/(6√3 π m2), R = (3/8)√(π/m4), σ_s² = (1 − 0.8968/α) m0, mean height 4√(m0/(πα)), α =
+///     m0 m4/m2².
+/// moment0 m², moment2 –, moment4 1/m². Throws InvalidInput unless they are > 0 with α >= 1, which
+/// holds for any surface.
 SummitEnsemble summit_ensemble(double moment0, double moment2, double moment4);
 
-/// The ensemble with the density, mean radius, and mean and standard deviation of the heights of summits that were counted.
-/// mean_plane: mean of the surface's heights, m, from the same zero as the summits' heights.
+/// The ensemble with the density, mean radius, and mean and standard deviation of the heights of
+/// summits that were counted. mean_plane: mean of the surface's heights, m, from the same zero as
+/// the summits' heights.
 SummitEnsemble summit_ensemble(const SummitStatistics& statistics, double mean_plane = 0);
 
 /// Sums over the summits in contact. K = −dF/ds and F'' = d²F/ds², since δ = const − s.
@@ -83,16 +88,18 @@ class AsperityModel {
     return at(separation).normal_stiffness;
   }
   virtual double curvature(double separation) const { return at(separation).curvature; }
-  /// s at which F, K or K' is not smooth: where summits of given height touch, or where the height density begins or bends.
+  /// s at which F, K or K' is not smooth: where summits of given height touch, or where the height
+  /// density begins or bends.
   virtual std::vector<double> break_separations() const { return {}; }
 
   /// s at which the summits carry the force > 0, N: a bracketed root, exact to round-off.
   virtual double separation_of(double force) const;
   /// δ = first_touch − s: from first touch for given summits, −s for a statistical ensemble.
   double indentation(double separation) const { return common_.first_touch - separation; }
-  /// ū = s + mean_height, the distance of the smooth plane from the *undeformed* mean plane of the surface: the theory does
-  /// not know how far the material between the summits moves, so that ū is too small by the mean displacement of
-  /// the surface, which matters where the contact area is no longer small.
+  /// ū = s + mean_height, the distance of the smooth plane from the *undeformed* mean plane of the
+  /// surface: the theory does not know how far the material between the summits moves, so that ū is
+  /// too small by the mean displacement of the surface, which matters where the contact area is no
+  /// longer small.
   double mean_gap(double separation) const { return separation + common_.mean_height; }
   const Common& common() const { return common_; }
 
@@ -101,12 +108,13 @@ class AsperityModel {
 };
 
 /// N = ηA0∫_s^∞φ, A_c = πRηA0∫(z−s)φ, F = (4/3)E*√R ηA0∫(z−s)^{3/2}φ, K = 2E*√R ηA0∫(z−s)^{1/2}φ,
-/// F'' = E*√R ηA0∫(z−s)^{−1/2}φ. Closed forms for tabulated heights and for exponential ones with s >= 0; else GSL
-/// quadrature over t = √(z−s), in which no integrand is singular, with a relative error below 1e-10.
+/// F'' = E*√R ηA0∫(z−s)^{−1/2}φ. Closed forms for tabulated heights and for exponential ones with s
+/// >= 0; else GSL quadrature over t = √(z−s), in which no integrand is singular, with a relative
+/// error below 1e-10.
 class StatisticalSummits final : public AsperityModel {
  public:
-  /// Throws InvalidInput unless density, radius, summit_rms, nominal_area and E* are > 0, or where the table of a tabulated
-  /// density is not one.
+  /// Throws InvalidInput unless density, radius, summit_rms, nominal_area and E* are > 0, or where
+  /// the table of a tabulated density is not one.
   StatisticalSummits(const SummitEnsemble& ensemble, const Material& material, double nominal_area);
   ~StatisticalSummits() override;
   AsperityContact at(double separation) const override;
@@ -132,12 +140,13 @@ enum class SummitShape {
 
 /// Deterministic ensemble: each summit of one surface with its own height and radius,
 ///     F = Σ(4/3)E*√R_i (z_i−s)^{3/2} and so on, over the summits with z_i > s.
-/// s counts from the mean of the summit heights. F'' is infinite where a summit just touches; its integral is not.
-/// Cost: one pass over the summits in contact.
+/// s counts from the mean of the summit heights. F'' is infinite where a summit just touches; its
+/// integral is not. Cost: one pass over the summits in contact.
 class DeterministicSummits final : public AsperityModel {
  public:
-  /// mean_plane: mean of the surface's heights, m, from the same zero as the summits'. nominal_area: of the
-  /// region that was searched for summits. Throws InvalidInput for no summits or a curvature that is not > 0.
+  /// mean_plane: mean of the surface's heights, m, from the same zero as the summits'.
+  /// nominal_area: of the region that was searched for summits. Throws InvalidInput for no summits
+  /// or a curvature that is not > 0.
   DeterministicSummits(const std::vector<Summit>& summits, const Material& material,
                        double nominal_area, double mean_plane = 0,
                        double rms_height = ForceSample::unknown,
@@ -156,8 +165,9 @@ class DeterministicSummits final : public AsperityModel {
 ForceSample force_sample(const AsperityModel& model, double separation,
                          const AsperityContact& contact);
 
-/// Samples at the given separations (m, any order) or pressures (Pa, > 0, any order), from the lowest force to the highest;
-/// every quantity but K_t without G* is filled in, δ and ū as AsperityModel defines them.
+/// Samples at the given separations (m, any order) or pressures (Pa, > 0, any order), from the
+/// lowest force to the highest; every quantity but K_t without G* is filled in, δ and ū as
+/// AsperityModel defines them.
 ForceCurve curve_at_separations(const AsperityModel& model, const std::vector<double>& separations);
 ForceCurve curve_at_pressures(const AsperityModel& model, const std::vector<double>& pressures);
 

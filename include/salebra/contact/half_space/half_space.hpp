@@ -8,11 +8,13 @@
 
 namespace salebra {
 
-/// periodic: the cell repeats for ever, and the mean of every displacement over it is zero (the far field is the reference).
-/// free: one loaded patch on an infinite half-space, displacement zero far away.
+/// periodic: the cell repeats for ever, and the mean of every displacement over it is zero (the far
+/// field is the reference). free: one loaded patch on an infinite half-space, displacement zero far
+/// away.
 enum class Boundary { periodic, free };
 
-/// Integrals over a rectangle dx × dy centred at the origin, seen from (x, y); ξ, η, r run from its points to (x, y).
+/// Integrals over a rectangle dx × dy centred at the origin, seen from (x, y); ξ, η, r run from its
+/// points to (x, y).
 struct CellIntegrals {
   double inverse_distance =
       0;          ///< ∬ 1/r, m: Love (1929), the normal displacement under uniform pressure
@@ -20,8 +22,9 @@ struct CellIntegrals {
   double yy = 0;  ///< ∬ η²/r³, m
   double xy = 0;  ///< ∬ ξη/r³, m
 };
-/// From the primitives ξ asinh(η/|ξ|) + η asinh(ξ/|η|), its second term, its first term, and −r at the four corners; beyond 32 cells,
-/// where those cancel each other, by Gauss's quadrature. Relative error below 1e-12 for squares at any distance.
+/// From the primitives ξ asinh(η/|ξ|) + η asinh(ξ/|η|), its second term, its first term, and −r at
+/// the four corners; beyond 32 cells, where those cancel each other, by Gauss's quadrature.
+/// Relative error below 1e-12 for squares at any distance.
 CellIntegrals cell_integrals(double x, double y, double dx, double dy);
 
 /// Normal displacement of a pressure field, u = Gp:
@@ -32,19 +35,23 @@ template <class Real>
 Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus, Boundary boundary,
                                       const Communicator& ranks = {});
 
-/// Tangential displacement (u_x, u_y) of shear tractions (τ_x, τ_y), with Cerruti's constants c1, c2 of the material:
-///     periodic  û_x = (2π/q) [(c1 + c2 − c2 q_x²/q²) τ̂_x − (c2 q_x q_y/q²) τ̂_y], mean zero; u_y by exchange
+/// Tangential displacement (u_x, u_y) of shear tractions (τ_x, τ_y), with Cerruti's constants c1,
+/// c2 of the material:
+///     periodic  û_x = (2π/q) [(c1 + c2 − c2 q_x²/q²) τ̂_x − (c2 q_x q_y/q²) τ̂_y], mean zero; u_y
+///               by exchange
 ///     free      u_x = ∬ [(c1/r + c2 ξ²/r³) τ_x + (c2 ξη/r³) τ_y], zero-padded
 /// throws InvalidInput where the material does not know its Cerruti constants
 template <class Real>
 Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& material,
                                           Boundary boundary, const Communicator& ranks = {});
 
-/// Displacement of a cell under a unit pressure on itself alone, m/Pa: a scale, not exact for the periodic kernel.
+/// Displacement of a cell under a unit pressure on itself alone, m/Pa: a scale, not exact for the
+/// periodic kernel.
 double cell_compliance(const Grid2D& grid, double contact_modulus);
 
-/// Approximate inverse of normal_compliance that needs no transform: |q|/2 (E* = 1) cut to the 7 × 7 cells around each point.
-/// Masked to a contact set it keeps CG at one transform pair an iteration and saves about 60 % of the iterations.
+/// Approximate inverse of normal_compliance that needs no transform: |q|/2 (E* = 1) cut to the 7 ×
+/// 7 cells around each point. Masked to a contact set it keeps CG at one transform pair an
+/// iteration and saves about 60 % of the iterations.
 class InverseStencil {
  public:
   static constexpr int radius = 3;
@@ -54,8 +61,8 @@ class InverseStencil {
   explicit InverseStencil(const Grid2D& grid);
   /// Weight of the neighbour (i, j), −radius <= i, j <= radius; 1/m.
   double weight(int i, int j) const { return weights_[index(i, j)]; }
-  /// z = M S M r with M the cells where mask > 0: z is zero elsewhere. All fields hold the rows of this process; neighbours wrap where
-  /// periodic. Collective.
+  /// z = M S M r with M the cells where mask > 0: z is zero elsewhere. All fields hold the rows of
+  /// this process; neighbours wrap where periodic. Collective.
   void apply(const Share& rows, const Field& mask, const Field& r, Boundary boundary,
              Field& z) const;
 

@@ -18,19 +18,22 @@ struct ElasticBody {
 struct Material {
   double contact_modulus = 0;     ///< E*, Pa
   double tangential_modulus = 0;  ///< G*, Pa; NaN where only E* was given
-  /// Cerruti's constants, which give the tangential displacement of a shear traction (docs/theory.md, section 5), 1/Pa.
+  /// Cerruti's constants, which give the tangential displacement of a shear traction
+  /// (docs/theory.md, section 5), 1/Pa.
   double cerruti_isotropic = 0;  ///< Σ (1−ν_i)/(2π G_i)
   double cerruti_directed = 0;   ///< Σ ν_i/(2π G_i)
 
-  /// G*/E*. Throws InvalidInput naming tangential_modulus where G* is not known: there is no default.
+  /// G*/E*. Throws InvalidInput naming tangential_modulus where G* is not known: there is no
+  /// default.
   double modulus_ratio() const;
 
-  /// Throws InvalidInput unless young > 0 and −1 < poisson <= 0.5 of each body, at least one of them not rigid.
+  /// Throws InvalidInput unless young > 0 and −1 < poisson <= 0.5 of each body, at least one of
+  /// them not rigid.
   static Material of_bodies(const ElasticBody& first, const ElasticBody& second = {});
   /// One elastic body with E* = E/(1−ν²) against a rigid one: G* = 2E*(1−ν)/(2−ν).
   static Material of_contact_modulus(double contact_modulus, double poisson);
-  /// E* and G* as given. The Cerruti constants are those of one elastic body with that G*/E*, hence a ratio outside
-  /// [2/3, 4/3] (ν from 0.5 to −1) leaves them NaN.
+  /// E* and G* as given. The Cerruti constants are those of one elastic body with that G*/E*, hence
+  /// a ratio outside [2/3, 4/3] (ν from 0.5 to −1) leaves them NaN.
   static Material of_moduli(double contact_modulus, double tangential_modulus);
   /// Normal contact only: G* and the Cerruti constants are NaN, modulus_ratio() throws.
   static Material of_contact_modulus(double contact_modulus);

@@ -16,21 +16,24 @@ struct PressureWindow {
   bool contains(double pressure, double slack = 0) const {
     return pressure >= pressure_min * (1 - slack) && pressure <= pressure_max * (1 + slack);
   }
-  /// A load of 2 MPa comes back as a sum over cells: its last digit must not put it outside a window of 2 MPa.
+  /// A load of 2 MPa comes back as a sum over cells: its last digit must not put it outside a
+  /// window of 2 MPa.
   static constexpr double round_off = 1e-9;
 };
 
 /// What a sample counts for in the least squares of ln p.
 enum class FitWeights {
-  /// The length of ū that it stands for, half way to its neighbours. The sum of squares is then ∫(ln p − a + ū/l)² dū by the
-  /// trapezoidal rule, so that l is a property of the curve and its window and not of how the loads were spread: what a computed
-  /// curve needs, whose residuals are the misfit of the law and no noise.
+  /// The length of ū that it stands for, half way to its neighbours. The sum of squares is then
+  /// ∫(ln p − a + ū/l)² dū by the trapezoidal rule, so that l is a property of the curve and its
+  /// window and not of how the loads were spread: what a computed curve needs, whose residuals are
+  /// the misfit of the law and no noise.
   spacing,
   equal,  ///< one: for values whose relative errors are alike
   force   ///< p²: for values whose absolute errors are alike, such as those of a load cell
 };
 
-/// p = reference_pressure · exp(−ū/decay_length), weighted least squares in ln p over a window, with Student-t 95 % limits.
+/// p = reference_pressure · exp(−ū/decay_length), weighted least squares in ln p over a window,
+/// with Student-t 95 % limits.
 struct ExponentialFit {
   double decay_length = 0;      ///< l, m
   double decay_length_low = 0;  ///< 95 % limits, m
@@ -41,18 +44,22 @@ struct ExponentialFit {
   double decay_length_over_rms_height = ForceSample::unknown;
 };
 
-/// Fits the samples whose pressure lies in [pressure_min, pressure_max], limits included to 1e-9; without a window, those with
-/// ū between 1 and 2.5 h_rms, where the law is at its best, or all samples if h_rms is unknown. Samples that did not converge, have
-/// no mean gap or no pressure > 0 are left out. window.points of the argument is not used; that of the result counts the samples.
-/// Where the 95 % interval of the slope reaches zero, decay_length_high is infinite.
-/// The interval holds for independent errors of ln p with one variance, whatever the weights. The residuals of a computed curve are the
-/// misfit of the law: its interval means nothing, and test_exponential has the range of the local l instead.
-/// Throws InvalidInput for fewer than three points, equal gaps, or a pressure that does not fall with ū.
+/// Fits the samples whose pressure lies in [pressure_min, pressure_max], limits included to 1e-9;
+/// without a window, those with ū between 1 and 2.5 h_rms, where the law is at its best, or all
+/// samples if h_rms is unknown. Samples that did not converge, have no mean gap or no pressure > 0
+/// are left out. window.points of the argument is not used; that of the result counts the samples.
+/// Where the 95 % interval of the slope reaches zero, decay_length_high is infinite. The interval
+/// holds for independent errors of ln p with one variance, whatever the weights. The residuals of a
+/// computed curve are the misfit of the law: its interval means nothing, and test_exponential has
+/// the range of the local l instead.
+/// Throws InvalidInput for fewer than three points, equal gaps, or a pressure that does not fall
+/// with ū.
 ExponentialFit fit_exponential(const ForceCurve& curve,
                                const std::optional<PressureWindow>& window = {},
                                FitWeights weights = FitWeights::spacing);
 
-/// Whether ln p bends: ln p = a + b ū + c ū² over the window of fit_exponential and with its weights, and Student's t-test of c = 0.
+/// Whether ln p bends: ln p = a + b ū + c ū² over the window of fit_exponential and with its
+/// weights, and Student's t-test of c = 0.
 struct ExponentialTest {
   double quadratic = 0;             ///< c, 1/m²; > 0 where l grows with ū
   double standard_error = 0;        ///< of c, 1/m²
@@ -61,8 +68,8 @@ struct ExponentialTest {
   double decay_length_farthest = 0;  ///< at the largest, m
   PressureWindow window;
 
-  /// The law is refuted at this level. A computed curve has next to no noise, so that any bend is significant: how much it
-  /// matters is the difference of the two decay lengths.
+  /// The law is refuted at this level. A computed curve has next to no noise, so that any bend is
+  /// significant: how much it matters is the difference of the two decay lengths.
   bool refuted(double level = 0.05) const { return significance < level; }
 };
 
@@ -71,8 +78,9 @@ ExponentialTest test_exponential(const ForceCurve& curve,
                                  const std::optional<PressureWindow>& window = {},
                                  FitWeights weights = FitWeights::spacing);
 
-/// How much the fit owes to its window: the least and the largest decay length of fit_exponential over every run of consecutive
-/// samples in the window that holds at least half of them, and at least three.
+/// How much the fit owes to its window: the least and the largest decay length of fit_exponential
+/// over every run of consecutive samples in the window that holds at least half of them, and at
+/// least three.
 struct WindowSensitivity {
   double decay_length_min = 0;  ///< m
   double decay_length_max = 0;  ///< m
@@ -84,7 +92,8 @@ WindowSensitivity window_sensitivity(const ForceCurve& curve,
                                      const std::optional<PressureWindow>& window = {},
                                      FitWeights weights = FitWeights::spacing);
 
-/// l(ū) = −dū/d ln p at the midpoints between consecutive samples; those that fit_exponential leaves out take no part.
+/// l(ū) = −dū/d ln p at the midpoints between consecutive samples; those that fit_exponential
+/// leaves out take no part.
 struct LocalDecayLength {
   std::vector<double> mean_gap;      ///< m
   std::vector<double> decay_length;  ///< m

@@ -7,10 +7,11 @@
 
 namespace salebra {
 
-/// Force–indentation law of a contact: all that the damping problem needs to know of it (docs/theory.md, section 7).
-/// Indentation δ grows with approach. A law is immutable and may be shared between threads.
-/// Units: m, N, N/m, N/m². Evaluation outside [lowest_indentation, highest_indentation] throws InvalidInput that names the
-/// range; below first touch, laws that define it return 0.
+/// Force–indentation law of a contact: all that the damping problem needs to know of it
+/// (docs/theory.md, section 7). Indentation δ grows with approach. A law is immutable and may be
+/// shared between threads. Units: m, N, N/m, N/m². Evaluation outside [lowest_indentation,
+/// highest_indentation] throws InvalidInput that names the range; below first touch, laws that
+/// define it return 0.
 class ContactLaw {
  public:
   /// modulus_ratio: G*/E* > 0, which turns K into K_t.
@@ -25,11 +26,12 @@ class ContactLaw {
   virtual double tangential_curvature(double indentation) const;  ///< K_t'(δ)
   virtual double lowest_indentation() const;   ///< −∞ unless the law is a table
   virtual double highest_indentation() const;  ///< +∞ unless the law is a table
-  /// Inverse of force(): δ with F(δ) = force > 0. Throws InvalidInput where the law does not reach that force.
+  /// Inverse of force(): δ with F(δ) = force > 0. Throws InvalidInput where the law does not reach
+  /// that force.
   virtual double indentation_of(double force) const = 0;
 
-  /// Indentations at which F, K, K_t or one of their first derivatives jumps, increasing, as far as the law knows them: quadratures over δ
-  /// converge fast between them.
+  /// Indentations at which F, K, K_t or one of their first derivatives jumps, increasing, as far as
+  /// the law knows them: quadratures over δ converge fast between them.
   virtual std::vector<double> break_points() const;
 
   double modulus_ratio() const { return modulus_ratio_; }
@@ -54,7 +56,8 @@ class PowerLaw final : public ContactLaw {
   double coefficient_, exponent_;
 };
 
-/// F = F0 exp(δ/l), δ counted from where F = F0: the law of nominally flat rough surfaces, F ∝ exp(−ū/l).
+/// F = F0 exp(δ/l), δ counted from where F = F0: the law of nominally flat rough surfaces, F ∝
+/// exp(−ū/l).
 class ExponentialLaw final : public ContactLaw {
  public:
   ExponentialLaw(double reference_force, double decay_length, double modulus_ratio);
@@ -68,13 +71,13 @@ class ExponentialLaw final : public ContactLaw {
   double reference_force_, decay_length_;
 };
 
-/// A curve, computed or read from a file. ln F against δ is interpolated by one monotone cubic, whose slopes at the nodes are K/F where
-/// every sample has K and four-point differences otherwise; K = F' and K' = F'' are its exact derivatives, of order 4, 3 and 2
-/// in the spacing of the samples (K' jumps at the samples). K_t: where every sample has one, ln K_t is interpolated likewise and
-/// modulus_ratio is not used; otherwise (G*/E*)K.
-/// δ is the samples' indentation, or −ū where any of them lacks it: the laws differ by a shift of δ only.
-/// Samples that did not converge or have F = 0 are left out. Throws InvalidInput for fewer than four usable samples or F not
-/// growing with δ.
+/// A curve, computed or read from a file. ln F against δ is interpolated by one monotone cubic,
+/// whose slopes at the nodes are K/F where every sample has K and four-point differences otherwise;
+/// K = F' and K' = F'' are its exact derivatives, of order 4, 3 and 2 in the spacing of the samples
+/// (K' jumps at the samples). K_t: where every sample has one, ln K_t is interpolated likewise and
+/// modulus_ratio is not used; otherwise (G*/E*)K. δ is the samples' indentation, or −ū where any of
+/// them lacks it: the laws differ by a shift of δ only. Samples that did not converge or have F = 0
+/// are left out. Throws InvalidInput for fewer than four usable samples or F not growing with δ.
 class TabulatedLaw final : public ContactLaw {
  public:
   TabulatedLaw(const ForceCurve& curve, double modulus_ratio);

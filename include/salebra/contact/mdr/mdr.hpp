@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-/// Method of dimensionality reduction: an axisymmetric contact as a one-dimensional elastic foundation,
-/// Popov and Heß (2015).
+/// Method of dimensionality reduction: an axisymmetric contact as a one-dimensional elastic
+/// foundation, Popov and Heß (2015).
 namespace salebra {
 
 /// A number with the estimate of its error.
@@ -19,9 +19,9 @@ struct Estimate {
   double error = 0;
 };
 
-/// Eq. (3): g(x) = |x| ∫_0^{|x|} f'(r)/√(x² − r²) dr = |x| ∫_0^{π/2} f'(|x| sin φ) dφ, by adaptive quadrature in φ,
-/// where the singularity is gone. slope: f'(r), r >= 0; breaks: radii at which f' is not smooth, increasing. Cost: 20
-/// to 1000 evaluations of f'.
+/// Eq. (3): g(x) = |x| ∫_0^{|x|} f'(r)/√(x² − r²) dr = |x| ∫_0^{π/2} f'(|x| sin φ) dφ, by adaptive
+/// quadrature in φ, where the singularity is gone. slope: f'(r), r >= 0; breaks: radii at which f'
+/// is not smooth, increasing. Cost: 20 to 1000 evaluations of f'.
 Estimate mdr_transform(const std::function<double(double)>& slope, double x,
                        std::span<const double> breaks = {});
 
@@ -30,14 +30,15 @@ Estimate mdr_inverse(const std::function<double(double)>& image, double r,
                      std::span<const double> breaks = {});
 
 /// Stress of a line load q(x) = q(−x) of the foundation, Eq. (17):
-///     σ(r) = −(1/π) ∫_r^∞ q'(x)/√(x² − r²) dx = (1/π) [q(a)/√(a² − r²) − ∫_r^a q'(x)/√(x² − r²) dx],
+///     σ(r) = −(1/π) ∫_r^∞ q'(x)/√(x² − r²) dx = (1/π) [q(a)/√(a² − r²) − ∫_r^a q'(x)/√(x² − r²)
+///     dx],
 /// where q jumps to 0 at the edge a. q_z = E*(δ − g) gives p(r), q_x gives τ(r). 0 for r >= a.
 /// slope: q'(x) for 0 < x < a, at most integrably singular at the breaks.
 Estimate line_load_stress(const std::function<double(double)>& slope, double edge_value,
                           double edge, double r, std::span<const double> breaks = {});
 
-/// An axisymmetric indenter z = f(r), f(0) = 0, and its image g(x) of Eq. (3). Immutable. Lengths in m.
-/// Evaluated at x, r >= 0 up to largest_radius(); beyond: InvalidInput.
+/// An axisymmetric indenter z = f(r), f(0) = 0, and its image g(x) of Eq. (3). Immutable. Lengths
+/// in m. Evaluated at x, r >= 0 up to largest_radius(); beyond: InvalidInput.
 class IndenterProfile {
  public:
   virtual ~IndenterProfile() = default;
@@ -47,18 +48,21 @@ class IndenterProfile {
   virtual double image_integral(double x) const = 0;  ///< ∫_0^x g dx
   /// Radius of the flat end, g = 0 within: a contact is never smaller.
   virtual double flat_radius() const { return 0; }
-  /// Where the profile ends: beyond it, f = ∞ (a punch) or is not known (a table, the equator of a sphere).
+  /// Where the profile ends: beyond it, f = ∞ (a punch) or is not known (a table, the equator of a
+  /// sphere).
   virtual double largest_radius() const { return std::numeric_limits<double>::infinity(); }
-  /// Whether the contact stops growing at largest_radius() (the side of a punch) or leaves what is known.
+  /// Whether the contact stops growing at largest_radius() (the side of a punch) or leaves what is
+  /// known.
   virtual bool has_side() const { return false; }
   /// Radii at which f' is not smooth.
   virtual std::vector<double> breaks() const { return {}; }
-  /// Contact radius a with g(a) = indentation > 0. Throws InvalidInput beyond the largest radius of a profile without
-  /// a side.
+  /// Contact radius a with g(a) = indentation > 0. Throws InvalidInput beyond the largest radius of
+  /// a profile without a side.
   virtual double contact_radius(double indentation) const;
 };
 
-/// f = r tanθ: g = (π/2) tanθ |x|, Eqs (4), (5). angle: θ between the cone's surface and the plane, 0 < θ < π/2, rad.
+/// f = r tanθ: g = (π/2) tanθ |x|, Eqs (4), (5). angle: θ between the cone's surface and the plane,
+/// 0 < θ < π/2, rad.
 std::unique_ptr<IndenterProfile> cone_profile(double angle);
 /// f = r²/2R: g = x²/R.
 std::unique_ptr<IndenterProfile> paraboloid_profile(double radius);
@@ -71,13 +75,14 @@ std::unique_ptr<IndenterProfile> flat_punch_profile(double radius);
 /// Flat end with rounded edge: f = 0 for r < flat_radius, (r − b)²/2R beyond, R = edge_radius.
 std::unique_ptr<IndenterProfile> rounded_punch_profile(double flat_radius, double edge_radius);
 
-/// A profile measured or computed at radii r_i: f between them by a monotone cubic, its image by exact quadrature of
-/// each piece.
+/// A profile measured or computed at radii r_i: f between them by a monotone cubic, its image by
+/// exact quadrature of each piece.
 class TabulatedProfile final : public IndenterProfile {
  public:
-  /// radii: from 0, strictly increasing; heights: rising from their first value, which is taken as 0; at least seven
-  /// points. Throws InvalidInput that names the row otherwise, and where the points are so few that leaving out every
-  /// other one changes the image by more than 20 % in the outer three quarters.
+  /// radii: from 0, strictly increasing; heights: rising from their first value, which is taken as
+  /// 0; at least seven points. Throws InvalidInput that names the row otherwise, and where the
+  /// points are so few that leaving out every other one changes the image by more than 20 % in the
+  /// outer three quarters.
   TabulatedProfile(std::vector<double> radii, std::vector<double> heights);
   ~TabulatedProfile() override;
   double height(double r) const override;
@@ -88,7 +93,8 @@ class TabulatedProfile final : public IndenterProfile {
   double largest_radius() const override;
   std::vector<double> breaks() const override;
   double contact_radius(double indentation) const override;
-  /// Relative change of g(x) when every other point is left out: an upper estimate of the interpolation error.
+  /// Relative change of g(x) when every other point is left out: an upper estimate of the
+  /// interpolation error.
   double image_error(double x) const;
 
  private:

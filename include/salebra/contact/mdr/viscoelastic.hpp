@@ -6,7 +6,8 @@
 #include <span>
 #include <vector>
 
-/// Axisymmetric contact of a linearly viscoelastic half-space with a rigid indenter, by the method of dimensionality reduction.
+/// Axisymmetric contact of a linearly viscoelastic half-space with a rigid indenter, by the method
+/// of dimensionality reduction.
 namespace salebra {
 
 /// One term G exp(−t/τ) of a Prony series.
@@ -15,13 +16,15 @@ struct PronyTerm {
   double relaxation_time = 0;  ///< τ > 0, s
 };
 
-/// Shear relaxation modulus of an isotropic material, G(t) = G∞ + Σ G_i exp(−t/τ_i): one term is the standard linear solid, none is
-/// elastic. Poisson's ratio is taken as constant; 1/2 is the incompressible material.
+/// Shear relaxation modulus of an isotropic material, G(t) = G∞ + Σ G_i exp(−t/τ_i): one term is
+/// the standard linear solid, none is elastic. Poisson's ratio is taken as constant; 1/2 is the
+/// incompressible material.
 struct PronySeries {
   double relaxed_modulus = 0;  ///< G∞ > 0, Pa
   std::vector<PronyTerm> terms;
 
-  /// The series of one body against a rigid one, from E* and G* of the relaxed state: 1 − ν = g/(2 − g), g = G*/E*, and G∞ = E*(1 − ν)/2.
+  /// The series of one body against a rigid one, from E* and G* of the relaxed state: 1 − ν = g/(2
+  /// − g), g = G*/E*, and G∞ = E*(1 − ν)/2.
   static PronySeries of_body(const Material& relaxed, std::vector<PronyTerm> terms);
 
   double unrelaxed_modulus() const;  ///< G(0) = G∞ + Σ G_i, Pa
@@ -42,15 +45,19 @@ struct ViscoelasticIndentation {
       spring_displacement;  ///< w(x) at the last sample, m, > δ − g(x) outside the contact
 };
 
-/// A body at rest, never touched before, is indented along δ(t), straight between the samples. Each spring of the foundation obeys
+/// A body at rest, never touched before, is indented along δ(t), straight between the samples. Each
+/// spring of the foundation obeys
 ///     q = E*∞ [w + Σ (G_i/G∞) y_i],    y_i' = w' − y_i/τ_i;
-/// in contact w = δ − g(x) and q >= 0; it leaves where q falls to 0, then recovers with q = 0, and is met again where δ − g(x) reaches w.
-/// Exact for every path of any axisymmetric profile with rising image, for positive terms (docs/theory.md, section 9). Growing
-/// contacts are those of the correspondence principle, Lee and Radok (1960), and one rise and fall is the solution of Ting (1966).
+/// in contact w = δ − g(x) and q >= 0; it leaves where q falls to 0, then recovers with q = 0, and
+/// is met again where δ − g(x) reaches w. Exact for every path of any axisymmetric profile with
+/// rising image, for positive terms (docs/theory.md, section 9). Growing contacts are those of the
+/// correspondence principle, Lee and Radok (1960), and one rise and fall is the solution of Ting
+/// (1966).
 /// law          of the relaxed body: E* = 2G∞/(1 − ν); only the ratios G_i/G∞ of the series enter
-/// time         s, strictly increasing; indentation: m, as many, at least two; δ < 0 is above the body, and δ > 0 at the first sample is reached
-///              at once
-/// springs      over the largest contact radius; both errors are of second order, in the steps and in the springs
+/// time         s, strictly increasing; indentation: m, as many, at least two; δ < 0 is above the
+///              body, and δ > 0 at the first sample is reached at once
+/// springs      over the largest contact radius; both errors are of second order, in the steps and
+///              in the springs
 /// throws       InvalidInput for arguments that are not so, and where δ leaves the profile
 /// cost         samples × springs × terms
 ViscoelasticIndentation viscoelastic_indentation(const IndenterLaw& law, const PronySeries& prony,

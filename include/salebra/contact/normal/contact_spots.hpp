@@ -16,16 +16,18 @@ struct ContactSpots {
   std::vector<ContactSpot> spots;    ///< largest area first
   double contact_area_fraction = 0;  ///< cells with p > 0 over all cells
   double perimeter = 0;              ///< of all spots, along cell edges, m
-  /// A/A0 without the cells that a boundary element solution counts in excess along the edges of contacts,
+  /// A/A0 without the cells that a boundary element solution counts in excess along the edges of
+  /// contacts,
   ///     A = A_cells − (π − 1 + ln 2)/24 · Σ (perimeter edges × cell width across them)
   /// by Yastrebov et al. (2017). Never below 0.
   double corrected_area_fraction = 0;
 };
 
-/// Spots of a pressure field (nx, ny), Pa; neighbours wrap for Boundary::periodic, while at a free boundary the
-/// edge of the grid is an edge of the contact. Throws InvalidInput unless pressure has the shape of the grid.
-/// ranks  the processes that share the rows of the pressure. Each gets the spots of all of it, with the same bits for every number of
-///        processes; collective
+/// Spots of a pressure field (nx, ny), Pa; neighbours wrap for Boundary::periodic, while at a free
+/// boundary the edge of the grid is an edge of the contact. Throws InvalidInput unless pressure has
+/// the shape of the grid.
+/// ranks  the processes that share the rows of the pressure. Each gets the spots of all of it, with
+///        the same bits for every number of processes; collective
 /// Cost: two passes, and 32 bytes for each contact cell.
 ContactSpots contact_spots(const Field& pressure, const Grid2D& grid,
                            Boundary boundary = Boundary::periodic, const Communicator& ranks = {});

@@ -4,15 +4,16 @@
 #include <limits>
 #include <salebra/contact/normal/normal.hpp>
 
-/// A first loading during which the highest parts of a surface flow, and the surface that it leaves. Pressures rise to the hardness H
-/// and no further. Where p = H, the surface sinks in by
+/// A first loading during which the highest parts of a surface flow, and the surface that it
+/// leaves. Pressures rise to the hardness H and no further. Where p = H, the surface sinks in by
 ///     w = h − max h + δ − Gp >= 0,   0 elsewhere,
-/// with G and p of press_to_pressure() and the indentation δ. The residual heights h − w meet the conditions of an elastic contact
-/// under the same pressures. Unloading, and every later cycle below the first load, is therefore the elastic contact of the residual
-/// surface: what presses surfaces takes it in place of the first one. Reloading follows the unloading curve, up to the first load.
-/// The bodies are elastic and perfectly plastic: nothing hardens, and what sinks in does not pile up beside the contact. The model is that
-/// of Almqvist et al. (2007); Johnson (1985), section 6.4, has
-/// the unloading of a sphere.
+/// with G and p of press_to_pressure() and the indentation δ. The residual heights h − w meet the
+/// conditions of an elastic contact under the same pressures. Unloading, and every later cycle
+/// below the first load, is therefore the elastic contact of the residual surface: what presses
+/// surfaces takes it in place of the first one. Reloading follows the unloading curve, up to the
+/// first load. The bodies are elastic and perfectly plastic: nothing hardens, and what sinks in
+/// does not pile up beside the contact. The model is that of Almqvist et al. (2007); Johnson
+/// (1985), section 6.4, has the unloading of a sphere.
 namespace salebra {
 
 /// What a first loading did. NaN: there was none.
@@ -34,7 +35,8 @@ struct ResidualSurface {
   bool interrupted = false;  ///< the progress callback said stop
 };
 
-/// The surface that is left after a contact with a hardness, at any load. Heights of cells below the hardness keep their bits.
+/// The surface that is left after a contact with a hardness, at any load. Heights of cells below
+/// the hardness keep their bits.
 /// state    of this surface, modulus and options, by press_to_pressure() or press_to_indentation()
 /// throws   InvalidInput for a state of another grid
 /// cost     one transform pair in double; 24 bytes a cell
@@ -42,13 +44,17 @@ ResidualSurface residual_surface(Surface surface, double contact_modulus,
                                  const NormalContactState& state,
                                  const NormalContactOptions& options);
 
-/// The surface that is left after a first loading to a nominal pressure, and by an oscillation of the indentation about it.
+/// The surface that is left after a first loading to a nominal pressure, and by an oscillation of
+/// the indentation about it.
 /// options            with the hardness; infinite: nothing flows
-/// normal_amplitude   u_z >= 0, m. The first loading ends at the largest load of the oscillation. That is the load of its residual surface at
-///                    an indentation larger by u_z, found by repetition to a thousandth of itself. Where u_z makes the contact of a
-///                    periodic surface full, no oscillation has a loss, and the first loading ends at the nominal pressure.
-/// throws             InvalidInput before any work as press_to_pressure(), for a hardness that is not above the mean pressure too, and
-///                    during the work where the largest mean pressure of the oscillation is not below the hardness
+/// normal_amplitude   u_z >= 0, m. The first loading ends at the largest load of the oscillation.
+///                    That is the load of its residual surface at an indentation larger by u_z,
+///                    found by repetition to a thousandth of itself. Where u_z makes the contact of
+///                    a periodic surface full, no oscillation has a loss, and the first loading
+///                    ends at the nominal pressure.
+/// throws             InvalidInput before any work as press_to_pressure(), for a hardness that is
+///                    not above the mean pressure too, and during the work where the largest mean
+///                    pressure of the oscillation is not below the hardness
 /// cost               one contact; with an amplitude six to ten, which start from each other
 ResidualSurface after_first_loading(Surface surface, double contact_modulus,
                                     double nominal_pressure, const NormalContactOptions& options,

@@ -14,24 +14,28 @@ namespace salebra {
 enum class Precision { mixed, full };
 
 struct NormalContactOptions {
-  /// Stop at e_c = Σp(g − g_min)/(Σp · h_rms) < tolerance, checked densely in double precision; 1e-14 … 1e-1. For a flat punch h_rms
-  /// is replaced by the indentation, or by pressure·√area/E*.
+  /// Stop at e_c = Σp(g − g_min)/(Σp · h_rms) < tolerance, checked densely in double precision;
+  /// 1e-14 … 1e-1. For a flat punch h_rms is replaced by the indentation, or by pressure·√area/E*.
   double tolerance = 1e-10;
   int max_iterations = 1000;  ///< on the finest level, >= 1
   Boundary boundary = Boundary::periodic;
   Precision precision = Precision::mixed;
-  /// Largest pressure that the bodies carry, Pa: perfectly plastic cells saturate there and sink in without further load.
+  /// Largest pressure that the bodies carry, Pa: perfectly plastic cells saturate there and sink in
+  /// without further load.
   double hardness = std::numeric_limits<double>::infinity();
-  /// Start of the iteration, of the shape of the heights, Pa, >= 0, instead of one from coarser grids. It must outlive the call.
+  /// Start of the iteration, of the shape of the heights, Pa, >= 0, instead of one from coarser
+  /// grids. It must outlive the call.
   const Field* initial_pressure = nullptr;
   Progress on_progress = {};
-  /// Called between iterations on the finest grid with the present pressure, of the shape of the heights, Pa, from which a later call may
-  /// start: by every process at the same iteration, of a sweep by several threads. Results keep their bits. It throws on all or on none.
+  /// Called between iterations on the finest grid with the present pressure, of the shape of the
+  /// heights, Pa, from which a later call may start: by every process at the same iteration, of a
+  /// sweep by several threads. Results keep their bits. It throws on all or on none.
   std::function<void(const Field& pressure)> on_checkpoint = {};
   double checkpoint_every = 600;  ///< s of the root's clock, >= 0; 0: after each iteration
 };
 
-/// Result of a normal contact. Unless converged, the numbers describe the last iterate and must not be used as the answer.
+/// Result of a normal contact. Unless converged, the numbers describe the last iterate and must not
+/// be used as the answer.
 struct NormalContactState {
   Field pressure;            ///< (nx, ny) or the rows of this process, Pa, >= 0
   Field gap;                 ///< the same, m, >= 0 up to the tolerance; 0 where pressure saturates
@@ -54,35 +58,42 @@ struct NormalContactState {
 /// Cells with p > 0.
 ContactSet contact_set(const NormalContactState& state);
 
-/// Frictionless contact of a rigid rough surface with an elastic half-space, for a given nominal pressure:
+/// Frictionless contact of a rigid rough surface with an elastic half-space, for a given nominal
+/// pressure:
 ///     minimise ½p·Gp − p·h, 0 <= p <= hardness, mean p = nominal_pressure;  û(q) = 2 p̂(q)/(E*|q|), û(0) = 0 (periodic)
-/// by nested conjugate gradients on the contact set with a preconditioner that needs no transform. It departs from the usual
-/// constrained CG of Polonsky and Keer (1999) in that CG is not restarted when the set changes. On large grids of which the contact and
-/// its neighbourhood are a small part, the iterations apply a ladder of stencils in place of G, and exact transforms only renew the gap.
-/// A surface may be spread over several processes: the call is then collective, and all numbers have the same bits as in one process.
+/// by nested conjugate gradients on the contact set with a preconditioner that needs no transform.
+/// It departs from the usual constrained CG of Polonsky and Keer (1999) in that CG is not restarted
+/// when the set changes. On large grids of which the contact and its neighbourhood are a small
+/// part, the iterations apply a ladder of stencils in place of G, and exact transforms only renew
+/// the gap. A surface may be spread over several processes: the call is then collective, and all
+/// numbers have the same bits as in one process.
 /// contact_modulus   E* > 0, Pa;   nominal_pressure > 0, Pa, below the hardness
 /// throws            InvalidInput before any work; non-convergence is returned, not thrown
-/// cost              15 to 100 iterations of one transform pair each, or of one application of the ladder and 5 to 7 pairs in all;
-///                   50 to 75 bytes a cell with heights and result, the more the larger the contact (docs/performance.md)
+/// cost              15 to 100 iterations of one transform pair each, or of one application of the
+///                   ladder and 5 to 7 pairs in all; 50 to 75 bytes a cell with heights and result,
+///                   the more the larger the contact (docs/performance.md)
 NormalContactState press_to_pressure(const Surface& surface, double contact_modulus,
                                      double nominal_pressure,
                                      const NormalContactOptions& options = {});
 
-/// The same contact for a given mean gap ū in (0, max h − mean h): the inverse of press_to_pressure.
-/// Periodic and elastic contacts only: a free one has no mean gap, and hardness makes the gap depend on more than the approach.
-/// Cost: as press_to_pressure, but 3 to 20 times as many iterations where more than 0.99 of the cells touch.
+/// The same contact for a given mean gap ū in (0, max h − mean h): the inverse of
+/// press_to_pressure. Periodic and elastic contacts only: a free one has no mean gap, and hardness
+/// makes the gap depend on more than the approach. Cost: as press_to_pressure, but 3 to 20 times as
+/// many iterations where more than 0.99 of the cells touch.
 NormalContactState press_to_mean_gap(const Surface& surface, double contact_modulus,
                                      double mean_gap, const NormalContactOptions& options = {});
 
-/// The same contact for a rigid approach from first touch, > 0, m; below max h − mean h for periodic contacts.
+/// The same contact for a rigid approach from first touch, > 0, m; below max h − mean h for
+/// periodic contacts.
 NormalContactState press_to_indentation(const Surface& surface, double contact_modulus,
                                         double indentation,
                                         const NormalContactOptions& options = {});
 
-/// Normal stiffness K = dF/dδ of the contact set {0 < p < hardness} of a state, by one linear solve with the set held: N/m.
-/// punch_pressure, where given, receives dp/dδ of the cells, Pa/m (left alone where K is not found by a solve).
-/// +infinity for a periodic cell in full contact, NaN where the solve did not converge within max_iterations or was interrupted.
-/// Cost: as many iterations as the contact took, with one transform pair each, or on the ladder with three pairs in all.
+/// Normal stiffness K = dF/dδ of the contact set {0 < p < hardness} of a state, by one linear solve
+/// with the set held: N/m. punch_pressure, where given, receives dp/dδ of the cells, Pa/m (left
+/// alone where K is not found by a solve). +infinity for a periodic cell in full contact, NaN where
+/// the solve did not converge within max_iterations or was interrupted. Cost: as many iterations as
+/// the contact took, with one transform pair each, or on the ladder with three pairs in all.
 double normal_stiffness(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
                         const NormalContactOptions& options = {}, Field* punch_pressure = nullptr);
 

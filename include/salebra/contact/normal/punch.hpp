@@ -16,21 +16,24 @@ struct PunchOptions {
   Progress on_progress = {};
 };
 
-/// Normal stiffness K = dF/dδ of a contact set: a flat punch of that shape. normal_stiffness() is the same for a state's elastic cells.
+/// Normal stiffness K = dF/dδ of a contact set: a flat punch of that shape. normal_stiffness() is
+/// the same for a state's elastic cells.
 struct PunchStiffness {
   double normal_stiffness = 0;  ///< N/m
   int iterations = 0;
   int fft_count = 0;
   int ladder_count = 0;  ///< applications of the near-field ladder, each in place of a pair
   double residual =
-      0;  ///< rms error of the displacement over the set, relative; that of K is of the order of its square
+      0;  ///< rms error of the displacement over the set, relative; that of K is of the order of
+          ///< its square
   bool converged = false;    ///< K settled to the square of the tolerance, or to 1e-14
   bool interrupted = false;  ///< the progress callback said stop
 };
 
 /// pressure, where given, receives that of a unit approach, Pa/m.
-/// Throws InvalidInput for a bad grid or option, and if every cell of a periodic grid is in contact.
-/// Cost: one transform pair an iteration, in float, and one in double; on the ladder (press_to_pressure()) three pairs in all.
+/// Throws InvalidInput for a bad grid or option, and if every cell of a periodic grid is in
+/// contact. Cost: one transform pair an iteration, in float, and one in double; on the ladder
+/// (press_to_pressure()) three pairs in all.
 PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
                                double contact_modulus, const PunchOptions& options = {},
                                Field* pressure = nullptr);

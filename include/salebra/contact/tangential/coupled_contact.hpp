@@ -12,7 +12,8 @@ namespace salebra {
 struct CoupledContactOptions {
   SlidingContactOptions sliding = {};
   NormalContactOptions contact = {};  ///< its boundary must be that of sliding.stick
-  /// β/(πE*), 1/Pa, such as coupling_constant() of the two bodies; default: coupling_constant(material).
+  /// β/(πE*), 1/Pa, such as coupling_constant() of the two bodies; default:
+  /// coupling_constant(material).
   std::optional<double> coupling_constant = {};
   /// Stop the sweeps where (Σ|Δp| + Σ|Δτ|)/Σp < tolerance from one to the next; 1e-12 … 1e-1.
   double tolerance = 1e-6;
@@ -37,10 +38,11 @@ struct CoupledState {
   bool converged = true;   ///< every increment did
 };
 
-/// A rough contact with friction and with the coupling of normal and tangential directions (Dundurs' β), which history leads from one
-/// state to the next. In each increment a normal solve on the heights lowered by u_z[τ] and a partial-slip solve with the displacement
-/// u_t[p] follow each other until nothing changes (Panagiotopoulos); the error falls by about β² a sweep or faster.
-/// With β = 0 it is SlidingContact on the pressures of press_to_indentation, in two sweeps.
+/// A rough contact with friction and with the coupling of normal and tangential directions
+/// (Dundurs' β), which history leads from one state to the next. In each increment a normal solve
+/// on the heights lowered by u_z[τ] and a partial-slip solve with the displacement u_t[p] follow
+/// each other until nothing changes (Panagiotopoulos); the error falls by about β² a sweep or
+/// faster. With β = 0 it is SlidingContact on the pressures of press_to_indentation, in two sweeps.
 class CoupledContact {
  public:
   /// Throws InvalidInput for a bad surface, material or option.
@@ -50,12 +52,13 @@ class CoupledContact {
   CoupledContact& operator=(CoupledContact&&) noexcept;
   ~CoupledContact();
 
-  /// To a rigid approach, m, counted from the first touch of the undeformed bodies, while the body moves tangentially.
-  /// Cost: sweeps × (a warm normal solve and one or two partial-slip solves).
+  /// To a rigid approach, m, counted from the first touch of the undeformed bodies, while the body
+  /// moves tangentially. Cost: sweeps × (a warm normal solve and one or two partial-slip solves).
   CoupledReport advance(double indentation, const TangentialMove& move = {});
 
   CoupledState state() const;
-  /// Continues from the state of a contact with the same surface, material and options. Throws InvalidInput for another grid.
+  /// Continues from the state of a contact with the same surface, material and options. Throws
+  /// InvalidInput for another grid.
   void restore(CoupledState state);
 
   /// Pressures, tractions, slip and losses.
@@ -65,9 +68,10 @@ class CoupledContact {
   /// ½∫(p u_z + τ·u_t) dA with all displacements, J
   double stored_energy() const;
   double normal_work() const;  ///< ∫F dδ since the start by the trapezoidal rule, J
-  /// Of normal_work(), what the rule counts for cells that touch in a part of an increment only, while their gap closes or opens, J:
-  /// ½Σ∫p g. Work less this, stored energy and losses balance to the tolerance of the sweeps. It vanishes with the increments unless
-  /// cells part at a finite pressure.
+  /// Of normal_work(), what the rule counts for cells that touch in a part of an increment only,
+  /// while their gap closes or opens, J: ½Σ∫p g. Work less this, stored energy and losses balance
+  /// to the tolerance of the sweeps. It vanishes with the increments unless cells part at a finite
+  /// pressure.
   double gap_work() const;
   bool converged() const;  ///< every increment and every solve in it did
   bool interrupted() const;

@@ -8,31 +8,37 @@
 
 namespace salebra {
 
-/// How a partial-slip solve ended. Unless converged, what it computed must not be used as the answer.
+/// How a partial-slip solve ended. Unless converged, what it computed must not be used as the
+/// answer.
 struct PartialSlipReport {
   int steps = 0;       ///< Newton steps: changes of the sticking and slipping parts
   int iterations = 0;  ///< of conjugate gradients, in all steps
   int fft_count = 0;   ///< forward-and-backward pairs of scalar fields
-  /// rms over the contact set of the projected gradient |τ − P(τ − κg)|/κ, in units of the scale: g = Kτ − v, P the projection on
-  /// the discs, κ the stiffness of a cell. It is the displacement error where a cell sticks, and 0 only at the solution.
+  /// rms over the contact set of the projected gradient |τ − P(τ − κg)|/κ, in units of the scale: g
+  /// = Kτ − v, P the projection on the discs, κ the stiffness of a cell. It is the displacement
+  /// error where a cell sticks, and 0 only at the solution.
   double residual = 0;
   Index slipping = 0;  ///< cells that slip
   bool converged = false;
   bool interrupted = false;  ///< the progress callback said stop
 };
 
-/// Coulomb friction on a contact set, one step in time: which tractions does a move of the body leave?
-/// Given v, the displacement that each cell would have if it stuck, and the limit μp, the tractions obey
+/// Coulomb friction on a contact set, one step in time: which tractions does a move of the body
+/// leave? Given v, the displacement that each cell would have if it stuck, and the limit μp, the
+/// tractions obey
 ///     |τ| <= μp;    u = Kτ;    slip s = v − u = 0 where |τ| < μp;    τ = μp s/|s| where s is not 0,
-/// with Cerruti's response K of StickSolver: the body, sliding by s over the surface, drags it along. This is the solution of
+/// with Cerruti's response K of StickSolver: the body, sliding by s over the surface, drags it
+/// along. This is the solution of
 ///     minimise ½ τ·Kτ − τ·v   subject to |τ_i| <= limit_i in each cell (a disc; an interval with hold_lateral off),
-/// which is unique. An infinite limit sticks. Solved by Newton steps on the part that is free (sticking cells, and the direction of
-/// traction in slipping ones, with the curvature of their circles) with preconditioned conjugate gradients inside, each followed by a
-/// projection on the discs and accepted if the energy falls; a projected gradient step with a line search where it does not.
-/// Memory and threads: as StickSolver.
+/// which is unique. An infinite limit sticks. Solved by Newton steps on the part that is free
+/// (sticking cells, and the direction of traction in slipping ones, with the curvature of their
+/// circles) with preconditioned conjugate gradients inside, each followed by a projection on the
+/// discs and accepted if the energy falls; a projected gradient step with a line search where it
+/// does not. Memory and threads: as StickSolver.
 class PartialSlipSolver {
  public:
-  /// StickOptions::tolerance bounds PartialSlipReport::residual; max_iterations those of conjugate gradients in a solve.
+  /// StickOptions::tolerance bounds PartialSlipReport::residual; max_iterations those of conjugate
+  /// gradients in a solve.
   /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.
   PartialSlipSolver(const Grid2D& grid, const Material& material, const StickOptions& options = {});
   PartialSlipSolver(PartialSlipSolver&&) noexcept;
@@ -44,18 +50,21 @@ class PartialSlipSolver {
   /// scale         > 0, m: the displacement that the tolerance refers to
   /// traction      holds a first guess (an empty field: none) and is overwritten, 0 off the contact
   /// slip          is overwritten: v − Kτ in cells that slip, m, 0 in the others
-  /// Throws InvalidInput if every cell of a periodic grid is in contact: it has no finite stiffness.
-  /// Cost: 4 to 8 Newton steps, 30 to 80 pairs of vector fields; a handful where nothing begins to slip.
+  /// Throws InvalidInput if every cell of a periodic grid is in contact: it has no finite
+  /// stiffness. Cost: 4 to 8 Newton steps, 30 to 80 pairs of vector fields; a handful where nothing
+  /// begins to slip.
   PartialSlipReport solve(const Field& limit, const TangentialField& displacement, double scale,
                           TangentialField& traction, TangentialField& slip);
 
-  /// Displacements in the cells of `where` under tractions on `loaded`; 0 in the other cells. Cost: 2 FFT pairs.
+  /// Displacements in the cells of `where` under tractions on `loaded`; 0 in the other cells. Cost:
+  /// 2 FFT pairs.
   TangentialField displacement(const ContactSet& loaded, const TangentialField& traction,
                                const ContactSet& where);
 
   /// Prepares the window for every set within `largest`, so that none of them has to rebuild it.
   void reserve(const ContactSet& largest);
-  /// The window as a set, to be reserved by another solver that has to give the same bits; empty before the first solve.
+  /// The window as a set, to be reserved by another solver that has to give the same bits; empty
+  /// before the first solve.
   ContactSet prepared() const;
 
  private:

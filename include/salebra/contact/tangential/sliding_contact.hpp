@@ -11,7 +11,8 @@ namespace salebra {
 struct SlidingContactOptions {
   /// μ >= 0: |τ| <= μp in every cell; infinite: full stick.
   double friction_coefficient = std::numeric_limits<double>::infinity();
-  /// m, > 0: the tangential displacement that the tolerance of `stick` refers to, such as the range of the motion.
+  /// m, > 0: the tangential displacement that the tolerance of `stick` refers to, such as the range
+  /// of the motion.
   double motion_scale = 1;
   StickOptions stick = {.tolerance = 1e-8};
 };
@@ -30,7 +31,8 @@ struct SlidingState {
   TangentialField displacement;  ///< of the cells in contact, `shift` included, m
   Field loss;                    ///< since the start, J in each cell
   ContactSet
-      prepared;  ///< cells within which no contact rebuilds the kernels, whose rounding depends on it
+      prepared;  ///< cells within which no contact rebuilds the kernels, whose rounding depends on
+                 ///< it
   double motion_scale = 1;  ///< that of the increments to come, m
   Index slipping = 0;       ///< cells at their limit after the last increment
   double work = 0;          ///< ∫F dx since the start, J
@@ -40,17 +42,21 @@ struct SlidingState {
   long fft_count = 0;
 };
 
-/// A rough contact with friction that remembers: where each of its cells has been drawn to. It goes from one state of rest to the next
-/// by increments (a new field of pressures and a move of the body, at once), each solved implicitly by PartialSlipSolver:
-///     stay      a cell that sticks keeps its displacement relative to the body; one that slips has |τ| = μp along its slip
+/// A rough contact with friction that remembers: where each of its cells has been drawn to. It goes
+/// from one state of rest to the next by increments (a new field of pressures and a move of the
+/// body, at once), each solved implicitly by PartialSlipSolver:
+///     stay      a cell that sticks keeps its displacement relative to the body; one that slips has
+///               |τ| = μp along its slip
 ///     leave     p = 0 and so τ = 0; at finite μ the cell slips while its pressure goes
-///     enter     a cell enters on the way, with the displacement that the others have given it by then, and sticks to the body from
-///               there. The entries of an increment are spread over it in the order of their pressures: if all were at the middle, the
-///               last ones would slip that ought to stick
-/// An increment is exact in the sense of Cattaneo and Mindlin, however large, while the slipping part only grows in it; a smooth path
-/// is followed at second order. (Pressures and motion in turn, as a stuck contact allows, would be of first order: a body that moves
-/// back while its load falls then ratchets.) Energies are sums over increments by the trapezoidal rule, in which work, stored energy
-/// and losses balance to the solver's tolerance.
+///     enter     a cell enters on the way, with the displacement that the others have given it by
+///               then, and sticks to the body from there. The entries of an increment are spread
+///               over it in the order of their pressures: if all were at the middle, the last ones
+///               would slip that ought to stick
+/// An increment is exact in the sense of Cattaneo and Mindlin, however large, while the slipping
+/// part only grows in it; a smooth path is followed at second order. (Pressures and motion in turn,
+/// as a stuck contact allows, would be of first order: a body that moves back while its load falls
+/// then ratchets.) Energies are sums over increments by the trapezoidal rule, in which work, stored
+/// energy and losses balance to the solver's tolerance.
 class SlidingContact {
  public:
   /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.
@@ -70,8 +76,8 @@ class SlidingContact {
     PartialSlipReport report;
   };
   /// Where an increment would lead.
-  /// shift   tangential displacement of the surface by causes other than τ (the coupling to the pressures) at the end; nullptr: as
-  ///         it was
+  /// shift   tangential displacement of the surface by causes other than τ (the coupling to the
+  ///         pressures) at the end; nullptr: as it was
   /// guess   an earlier attempt to begin from
   Increment attempt(const Field& pressure, const TangentialMove& move,
                     const TangentialField* shift = nullptr, const Increment* guess = nullptr);
@@ -79,18 +85,21 @@ class SlidingContact {
   /// attempt and accept.
   PartialSlipReport advance(const Field& pressure, const TangentialMove& move = {});
 
-  /// The state after endless sliding along (direction.x, direction.y) at these pressures: τ = μp that way in every cell, lateral slip
-  /// having died away. Sets work and losses to 0. Cost: 2 FFT pairs. Throws InvalidInput where μ is infinite or the direction is 0.
+  /// The state after endless sliding along (direction.x, direction.y) at these pressures: τ = μp
+  /// that way in every cell, lateral slip having died away. Sets work and losses to 0. Cost: 2 FFT
+  /// pairs. Throws InvalidInput where μ is infinite or the direction is 0.
   void slide(const Field& pressure, const TangentialMove& direction);
 
   /// Another motion_scale for the increments to come, > 0, m.
   void set_motion_scale(double scale);
 
-  /// Prepares the kernels for every contact within `largest`, so that none of them has to rebuild them.
+  /// Prepares the kernels for every contact within `largest`, so that none of them has to rebuild
+  /// them.
   void reserve(const ContactSet& largest);
 
   SlidingState state() const;
-  /// Goes on from the state of a contact with the same grid, material and options. Throws InvalidInput for another grid.
+  /// Goes on from the state of a contact with the same grid, material and options. Throws
+  /// InvalidInput for another grid.
   void restore(SlidingState state);
 
   const Field& pressure() const { return state_.pressure; }
@@ -104,10 +113,12 @@ class SlidingContact {
   double tangential_energy() const;  ///< ½∫τ·u dA, the shift included, J
   /// ∫F dx since the start, J; in an increment, a cell that enters counts from its entry.
   double work() const { return state_.work; }
-  /// Friction's ∫τ·ds since the start, (nx, ny), J in each cell: by slip and, where a cell leaves with a traction, by its release.
+  /// Friction's ∫τ·ds since the start, (nx, ny), J in each cell: by slip and, where a cell leaves
+  /// with a traction, by its release.
   const Field& loss() const { return state_.loss; }
-  /// Of the sum of loss(), what cells had left in the increment in which they opened, J: all of it at μ = ∞; at finite μ it
-  /// vanishes with the increments, since a cell slips to zero before it opens.
+  /// Of the sum of loss(), what cells had left in the increment in which they opened, J: all of it
+  /// at μ = ∞; at finite μ it vanishes with the increments, since a cell slips to zero before it
+  /// opens.
   double released_energy() const { return state_.released; }
   bool converged() const { return state_.converged; }  ///< every increment did
   bool interrupted() const { return interrupted_; }

@@ -11,17 +11,19 @@
 namespace salebra {
 
 struct StickOptions {
-  /// Stop at rms(u − u_given over the contact set) < tolerance · scale; K is a minimum of the energy, so that its relative
-  /// error is of the order of the square. 1e-14 … 1e-1
+  /// Stop at rms(u − u_given over the contact set) < tolerance · scale; K is a minimum of the
+  /// energy, so that its relative error is of the order of the square. 1e-14 … 1e-1
   double tolerance = 1e-6;
   int max_iterations = 1000;  ///< of each solve, >= 1
   Boundary boundary = Boundary::periodic;
-  /// The displacement across the motion is held at 0 too. false: the traction across it is 0 instead.
+  /// The displacement across the motion is held at 0 too. false: the traction across it is 0
+  /// instead.
   bool hold_lateral = true;
   Progress on_progress = {};
 };
 
-/// How a linear solve on a contact set ended. Unless converged, what it computed must not be used as the answer.
+/// How a linear solve on a contact set ended. Unless converged, what it computed must not be used
+/// as the answer.
 struct StickReport {
   int iterations = 0;
   int fft_count = 0;     ///< forward-and-backward pairs of scalar fields
@@ -33,14 +35,17 @@ struct StickReport {
 };
 
 /// Full stick on a contact set: which tractions move its cells as one piece?
-/// The tractions satisfy Σ_A K τ = u on the cells of A and are 0 off it, with Cerruti's response of two half-spaces
+/// The tractions satisfy Σ_A K τ = u on the cells of A and are 0 off it, with Cerruti's response of
+/// two half-spaces
 ///     û_x = Σ_i [1/(G_i q)] [(1 − ν_i q_x²/q²) τ̂_x − (ν_i q_x q_y/q²) τ̂_y],  û_y by exchange, û(0) = 0      (periodic)
 ///     u_x = Σ_i 1/(2πG_i) ∬{[(1−ν_i)/r + ν_i x²/r³] τ_x + ν_i xy/r³ τ_y},  summed over the cells' corners    (free)
-/// by conjugate gradients. The preconditioner inverts the normal response on A by the near-field ladder (docs/theory.md, "Fewer
-/// transforms"). Grids without a ladder have a 7 × 7 stencil of |q|. Displacements of a periodic half-space count from its mean plane. The coupling to the normal direction (∝ 1 − 2ν) is neglected.
-/// Kernels and transforms are kept between calls: sets that fit into the window of an earlier one cost no set-up.
-/// One object may be used by one thread at a time. Memory: 45 to 65 bytes a cell, of the padded window
-/// where free, and twice as much where half of the cells are in contact.
+/// by conjugate gradients. The preconditioner inverts the normal response on A by the near-field
+/// ladder (docs/theory.md, "Fewer transforms"). Grids without a ladder have a 7 × 7 stencil of |q|.
+/// Displacements of a periodic half-space count from its mean plane. The coupling to the normal
+/// direction (∝ 1 − 2ν) is neglected. Kernels and transforms are kept between calls: sets that fit
+/// into the window of an earlier one cost no set-up. One object may be used by one thread at a
+/// time. Memory: 45 to 65 bytes a cell, of the padded window where free, and twice as much where
+/// half of the cells are in contact.
 class StickSolver {
  public:
   /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.
@@ -49,14 +54,17 @@ class StickSolver {
   StickSolver& operator=(StickSolver&&) noexcept;
   ~StickSolver();
 
-  /// Tractions on `contact` that give `displacement` there (its values elsewhere are not read). `traction` holds a first guess
-  /// (an empty field: none) and is overwritten, 0 off the contact. scale > 0, m: the displacement that the tolerance refers to.
-  /// With hold_lateral off, only the x components count: motion is along x.
-  /// Throws InvalidInput if every cell of a periodic grid is in contact: it has no finite stiffness.
+  /// Tractions on `contact` that give `displacement` there (its values elsewhere are not read).
+  /// `traction` holds a first guess (an empty field: none) and is overwritten, 0 off the contact.
+  /// scale > 0, m: the displacement that the tolerance refers to. With hold_lateral off, only the x
+  /// components count: motion is along x.
+  /// Throws InvalidInput if every cell of a periodic grid is in contact: it has no finite
+  /// stiffness.
   StickReport solve(const ContactSet& contact, const TangentialField& displacement, double scale,
                     TangentialField& traction);
 
-  /// Displacements in the cells of `where` under tractions on `loaded`; 0 in the other cells. Cost: 2 FFT pairs.
+  /// Displacements in the cells of `where` under tractions on `loaded`; 0 in the other cells. Cost:
+  /// 2 FFT pairs.
   TangentialField displacement(const ContactSet& loaded, const TangentialField& traction,
                                const ContactSet& where);
 
@@ -80,10 +88,11 @@ struct StickStiffness {
   bool converged = false;
 };
 
-/// K_t of a contact set by two stick solves. With hold_lateral off each is a motion with no force across it, and xy = 0.
-/// The stiffness of one direction alone (yy = xy = NaN) costs half: `along_x_only`.
-/// guess: traction along the motion, for a unit motion, to start from, such as G*/E* times the pressure of a punch; empty: none.
-/// ranks: processes that hold the set by rows, as those of a NormalContactState; the call is then collective.
+/// K_t of a contact set by two stick solves. With hold_lateral off each is a motion with no force
+/// across it, and xy = 0. The stiffness of one direction alone (yy = xy = NaN) costs half:
+/// `along_x_only`. guess: traction along the motion, for a unit motion, to start from, such as
+/// G*/E* times the pressure of a punch; empty: none. ranks: processes that hold the set by rows, as
+/// those of a NormalContactState; the call is then collective.
 StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options = {},
                                bool along_x_only = false, const Field& guess = {},
