@@ -79,6 +79,9 @@ async function pictureOf(id, plot) {
 
 const scaled = (values, factor) => values.map((v) => (known(v) ? v * factor : null));
 
+/** Error bars of a trace in the units of its axis, as its values are. */
+const scaledBars = (bars, factor) => ({...bars, ...Object.fromEntries(["array", "arrayminus"].filter((arm) => bars[arm]).map((arm) => [arm, scaled(bars[arm], factor)]))});
+
 /** Labels of a logarithmic axis: plain numbers while they are short, powers of ten only where there are many decades. */
 function logarithmicTicks(values) {
   const there = values.filter((v) => known(v) && v > 0);
@@ -117,6 +120,7 @@ function draw(spec, state, plot, legend, figure) {
   const traces = content.series.map((series) => {
     const {label, group, ...trace} = series;
     const hidden = state.hidden.has(group ?? label);
+    for (const letter of ["x", "y"]) if (trace[`error_${letter}`]) trace[`error_${letter}`] = scaledBars(trace[`error_${letter}`], factorOf(trace, letter));
     return {
       ...trace, name: plotText(label ?? ""), visible: !hidden, x: scaled(Array.from(trace.x), factorOf(trace, "x")),
       y: scaled(Array.from(trace.y), factorOf(trace, "y")), ...(trace.text ? {hovertemplate: "%{text}<extra></extra>", hoverinfo: "text"} : {}),

@@ -53,6 +53,47 @@ async function checkFigures(page, name, expected) {
   check(!/undefined|NaN|\[object|Infinity|‹|›|_\{/.test(text), `${name}: shows ${text.match(/.{0,40}(undefined|NaN|\[object|Infinity|‹|›|_\{).{0,40}/)?.[0]}`);
 }
 
+/**
+ * Error bars are to the values that they stand on as the numbers of the same figure are, whatever the unit of the axis: either side of a
+ * bar is a column's error, or the distance from its mean to its low and high. Returns how many of the bars stand on an axis with a prefix.
+ */
+async function checkBars(page, name) {
+  const figures = await page.evaluate(() => [...document.querySelectorAll("figure")].map((figure) => {
+    const download = window.download;
+    let text = "";
+    window.download = (file, type, content) => { text = content; };
+    figure.querySelector(".csv").click();
+    window.download = download;
+    const traces = figure.querySelector(".plot").data.flatMap((trace) => ["x", "y"].filter((letter) => trace[`error_${letter}`])
+      .map((letter) => ({name: trace.name, values: trace[letter], above: trace[`error_${letter}`].array, below: trace[`error_${letter}`].arrayminus ?? trace[`error_${letter}`].array})));
+    return {id: figure.id, text, traces};
+  }));
+  let prefixed = 0;
+  for (const {id, text, traces} of figures) {
+    const [heads, ...rows] = parsed(text);
+    const column = (head) => rows.map((row) => (row[heads.indexOf(head)] ? Number(row[heads.indexOf(head)]) : NaN));
+    for (const {name: trace, values, above, below} of traces) {
+      // The column that the values are, but for the unit; numbers of a page have seven digits.
+      const near = (a, b) => Math.abs(a - b) <= 1e-6 * Math.abs(b);
+      const there = values.map((_, i) => i).filter((i) => values[i] !== null);
+      const same = heads.filter((head) => there.length && there.every((i) => near(values[i] / column(head)[i], values[there[0]] / column(head)[there[0]])));
+      check(same.length === 1, `${name}: the curve ${trace} of ${id} has the values of ${same.length ? same : "no column"}`);
+      if (same.length !== 1) continue;
+      const means = column(same[0]), factor = values[there[0]] / means[there[0]];
+      const other = (word) => heads.find((head) => head.includes(`_${word}`) && head.replace(`_${word}`, "") === same[0]);
+      const [low, high, error] = ["low", "high", "error"].map((word) => (other(word) ? column(other(word)) : []));
+      const bars = there.flatMap((i) => [[above[i], error[i] ?? high[i] - means[i]], [below[i], error[i] ?? means[i] - low[i]]]
+        .map(([bar, width]) => [bar / values[i], width / means[i]])).filter(([drawn]) => drawn > 0);
+      check(bars.length > 0, `${name}: ${id}, ${trace}: no bar is longer than 0`);
+      // The difference of two numbers of seven digits has fewer.
+      const wrong = bars.find(([drawn, told]) => !(Math.abs(drawn - told) <= 1e-6));
+      check(!wrong, `${name}: ${id}, ${trace}: a bar is ${wrong?.[0]} of its value, the numbers say ${wrong?.[1]}`);
+      if (factor !== 1) prefixed += bars.length;
+    }
+  }
+  return prefixed;
+}
+
 /** Every button and switch has a name, headings do not skip a level, ids are unique. */
 async function checkStructure(page, name) {
   const found = await page.evaluate(() => {
@@ -100,6 +141,8 @@ const full = await open("full.html", {viewport: {width: 1280, height: 900}, colo
 await checkFigures(full, "full.html", everyFigure);
 await checkStructure(full, "full.html");
 await checkContrast(full, "full.html");
+const prefixed = await checkBars(full, "full.html");
+check(prefixed > 0, "full.html: no error bar stands on an axis with a prefix, for which the bars are checked");
 await full.screenshot({path: join(folder, "full-1280.png"), fullPage: true});
 
 // The switches change the axes and only them.
@@ -236,6 +279,7 @@ for (const [name, ids] of [["full.html", everyFigure], ["study.html", everyFigur
 // Another point of a parameter grid.
 const grid = await open("grid.html", {viewport: {width: 1280, height: 900}});
 await checkFigures(grid, "grid.html", ["overview", ...everyFigure]);
+await checkBars(grid, "grid.html");
 const first = await grid.evaluate(() => document.querySelector("#conclusion .value + .detail").textContent);
 await grid.selectOption("#point", "1");
 await checkFigures(grid, "grid.html, second point", ["overview", ...everyFigure]);
