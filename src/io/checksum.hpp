@@ -29,6 +29,14 @@ class Checksum {
   }
 
   std::uint64_t size() const { return size_; }
+  /// In 64 bits, of the bytes so far and their number.
+  std::uint64_t value() const {
+    Checksum whole = *this;
+    whole.take_word();
+    whole.word_ = size_;
+    whole.take_word();
+    return whole.state_;
+  }
   bool operator==(const Checksum&) const = default;
 
  private:

@@ -4,7 +4,6 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -15,13 +14,20 @@
 #include <type_traits>
 
 #include "case_run.hpp"
+#include "io/checksum.hpp"
 #include "io/input_file.hpp"
 #include "io/sidecar.hpp"
 
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view magic = "salebra realisation 7\n";
+constexpr std::string_view magic = "salebra realisation 8\n";
+
+std::uint64_t checksum(std::string_view bytes) {
+  Checksum sum;
+  sum.add(bytes);
+  return sum.value();
+}
 
 /// Appends the bytes of numbers, and of lists and texts after their lengths.
 class Writer {
@@ -118,14 +124,14 @@ static_assert(describes_all<Realisation>() && describes_all<Grid2D>() &&
 std::uint64_t checksum_of(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return 0;
   const InputFile input(file);
-  std::uint64_t sum = 0;
+  Checksum sum;
   std::string block(std::size_t{1} << 20, '\0');
   for (off_t at = 0;;) {
     const ssize_t count = pread(input.descriptor(), block.data(), block.size(), at);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw IoError(file.string() + ": cannot be read; check the disk");
-    if (count == 0) return sum;
-    sum = checksum(std::string_view(block.data(), static_cast<std::size_t>(count)), sum);
+    if (count == 0) return sum.value();
+    sum.add(std::string_view(block.data(), static_cast<std::size_t>(count)));
     at += count;
   }
 }
@@ -137,23 +143,6 @@ std::string header(std::uint64_t key, std::uint64_t length, std::uint64_t sum) {
 }
 
 }  // namespace
-
-std::uint64_t checksum(std::string_view bytes, std::uint64_t before) {
-  static const auto table = [] {
-    constexpr std::uint64_t polynomial = 0xc96c5795d7870f42;  // ECMA-182, bits reversed
-    std::array<std::uint64_t, 256> entries;
-    for (std::uint64_t i = 0; i < 256; ++i) {
-      entries[i] = i;
-      for (int bit = 0; bit < 8; ++bit)
-        entries[i] = (entries[i] >> 1) ^ ((entries[i] & 1) ? polynomial : 0);
-    }
-    return entries;
-  }();
-  std::uint64_t sum = ~before;
-  for (const char byte : bytes)
-    sum = table[(sum ^ static_cast<unsigned char>(byte)) & 0xff] ^ (sum >> 8);
-  return ~sum;
-}
 
 std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t seed) {
   Writer writer;

@@ -10,10 +10,6 @@
 
 namespace salebra::detail {
 
-/// CRC-64/XZ: any error of up to 64 bits in a row is found. before: that of the bytes that precede
-/// them.
-std::uint64_t checksum(std::string_view bytes, std::uint64_t before = 0);
-
 /// A number for everything that decides the realisation: the point's configuration, the seed, and
 /// the program's version. What does not (other seeds, precision, comments) is not in it.
 /// Of everything that decides the result of a study with these points.
