@@ -5,15 +5,18 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/cycle.hpp>
 #include <salebra/results/cycle_checkpoint.hpp>
 #include <salebra/results/words.hpp>
+
+#include "io/checksum.hpp"
 
 namespace salebra {
 namespace {
@@ -114,27 +117,87 @@ class StateReader {
     const std::optional<double> found = reader_.number_attribute(group_, name);
     require(found.has_value(), reader_.file().string(), name,
             "is missing; remove the damaged file");
+    // The conversion of others is undefined.
+    constexpr double most = std::min<double>(std::numeric_limits<Count>::max(), 1LL << 53);
+    require(std::abs(*found) <= most, reader_.file().string(), name,
+            "is out of range; remove the damaged file");
     value = static_cast<Count>(*found);
   }
   void operator()(const char* name, double& value, const char*, const char*) {
     value = reader_.number(path(name));
+    require_finite(std::isfinite(value), name);
   }
   void operator()(const char* name, Field& values, const char*, const char*) {
-    if (reader_.has(path(name))) values = reader_.field(path(name));
+    if (reader_.has(path(name))) values = field(name);
   }
   void operator()(const char* name, ContactSet& set, const char*) {
-    if (reader_.has(path(name))) set = reader_.field(path(name)) > 0.5;
+    if (reader_.has(path(name))) set = field(name) > 0.5;
   }
-  void operator()(const std::string& name, TangentialField& field, const char*, const char*) {
-    field = {reader_.field(path(name + "_x")), reader_.field(path(name + "_y"))};
+  void operator()(const std::string& name, TangentialField& components, const char*,
+                  const std::string&) {
+    components = {field(name + "_x"), field(name + "_y")};
   }
 
  private:
   std::string path(const std::string& name) const { return group_ + "/" + name; }
+  void require_finite(bool finite, const std::string& name) const {
+    require(finite, reader_.file().string(), name,
+            "has values that are not finite; remove the damaged file");
+  }
+  Field field(const std::string& name) const {
+    Field values = reader_.field(path(name));
+    require_finite(values.isFinite().all(), name);
+    return values;
+  }
 
   const ResultReader& reader_;
   std::string group_;
 };
+
+// Of everything that describe_cycle() and describe_body() visit, and the samples.
+class StateChecksum {
+ public:
+  void add(const CycleState& state) {
+    number(static_cast<double>(state.body.index()));
+    describe_cycle(state, *this);
+    std::visit([&](const auto& body) { describe_body(body, *this); }, state.body);
+    for (const CycleSample& sample : state.samples)
+      describe([&](double CycleSample::*member, const Quantity&) { number(sample.*member); },
+               std::type_identity<CycleSample>{});
+  }
+
+  template <std::integral Count>
+  void operator()(const char*, Count value) {
+    number(static_cast<double>(value));
+  }
+  void operator()(const char*, double value, const char*, const char*) { number(value); }
+  void operator()(const char*, const Field& values, const char*, const char*) { array(values); }
+  void operator()(const char*, const ContactSet& set, const char*) { array(set); }
+  void operator()(const std::string&, const TangentialField& field, const char*,
+                  const std::string&) {
+    array(field.x);
+    array(field.y);
+  }
+
+  std::string text() const { return fmt::format("{:016x}", bytes_.value()); }
+
+ private:
+  void number(double value) { bytes_.add({reinterpret_cast<const char*>(&value), sizeof value}); }
+  template <class Array>
+  void array(const Array& values) {
+    number(static_cast<double>(values.rows()));
+    bytes_.add({reinterpret_cast<const char*>(values.data()),
+                static_cast<std::size_t>(values.size()) * sizeof *values.data()});
+  }
+
+  detail::Checksum bytes_;
+};
+
+std::string checksum_of(std::span<const CycleState> states) {
+  StateChecksum sum;
+  for (const CycleState& state : states) sum.add(state);
+  return sum.text();
+}
 
 // In the order of CycleState::body.
 constexpr std::array kinds{"stuck", "frictional", "coupled"};
@@ -182,7 +245,7 @@ CycleState read_state(const ResultReader& reader, const std::string& kind) {
 CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
                              const Oscillation& motion, double mean_indentation,
                              const CycleOptions& options) {
-  CycleSettings settings{{"version", std::string(version())}, {"arithmetic", arithmetic()}};
+  CycleSettings settings{{"arithmetic", arithmetic()}};
   const auto add = [&](const char* name, double value) {
     settings.emplace_back(name, fmt::format("{}", value));
   };
@@ -218,13 +281,10 @@ CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
 }
 
 std::string fingerprint(const Field& values) {
-  // FNV-1a over the bits.
-  std::uint64_t hash = 14695981039346656037u;
-  for (Index k = 0; k < values.size(); ++k) {
-    auto bits = std::bit_cast<std::uint64_t>(values.data()[k]);
-    for (int byte = 0; byte < 8; ++byte, bits >>= 8) hash = (hash ^ (bits & 0xff)) * 1099511628211u;
-  }
-  return fmt::format("{:016x}", hash);
+  detail::Checksum sum;
+  sum.add({reinterpret_cast<const char*>(values.data()),
+           static_cast<std::size_t>(values.size()) * sizeof(double)});
+  return fmt::format("{:016x}", sum.value());
 }
 
 void write_cycle_checkpoint(const std::filesystem::path& file, std::span<const CycleState> states,
@@ -232,6 +292,7 @@ void write_cycle_checkpoint(const std::filesystem::path& file, std::span<const C
   ResultFile output(file, provenance, {.overwrite = true});
   ResultGroup agreed = output.group("settings");
   for (const auto& [name, value] : settings) agreed.attribute(name, value);
+  agreed.attribute("checksum", checksum_of(states));
   for (const CycleState& state : states) write_state(output, state);
   output.commit();
 }
@@ -242,18 +303,23 @@ std::vector<CycleState> read_cycle_checkpoint(const std::filesystem::path& file,
   const auto holds = [&](const char* kind) { return reader.has(kind); };
   require(reader.has("settings") && std::ranges::any_of(kinds, holds), file.string(), "",
           "is no checkpoint of a cycle; name a file that a simulation left");
-  for (const auto& [name, value] : settings) {
-    const std::optional<std::string> then = reader.text_attribute("settings", name);
+  const auto require_same = [&](const char* group, const std::string& name,
+                                std::string_view value) {
+    const std::optional<std::string> then = reader.text_attribute(group, name);
     if (!then || *then != value)
       throw InvalidInput(file.string(),
                          fmt::format("{} was {} in the checkpoint and is {} now; resume with the "
                                      "settings of the first run or remove the file",
                                      name, then ? *then : "not there", value));
-  }
+  };
+  require_same("/", "version", version());
+  for (const auto& [name, value] : settings) require_same("settings", name, value);
   std::vector<CycleState> states;
   if (holds(kinds[0])) states.push_back(read_state<StuckState>(reader, kinds[0]));
   if (holds(kinds[1])) states.push_back(read_state<SlidingState>(reader, kinds[1]));
   if (holds(kinds[2])) states.push_back(read_state<CoupledState>(reader, kinds[2]));
+  require(reader.text_attribute("settings", "checksum") == checksum_of(states), file.string(), "",
+          "is damaged: its states do not match their checksum; remove it to begin the cycle anew");
   return states;
 }
 

@@ -14,8 +14,7 @@ namespace {
 salebra::CycleSettings settings_in(const std::filesystem::path& checkpoint) {
   const salebra::ResultReader reader(checkpoint);
   salebra::CycleSettings settings;
-  for (const char* name : {"version",
-                           "arithmetic",
+  for (const char* name : {"arithmetic",
                            "surface",
                            "nx",
                            "ny",

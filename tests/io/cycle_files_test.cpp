@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <hdf5.h>
+
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <regex>
@@ -216,6 +219,33 @@ TEST_CASE("A checkpoint of other settings, or what is none, is refused in one li
   CHECK_THROWS_WITH(read_cycle_checkpoint(scratch / "other.h5", {}),
                     Catch::Contains("is no checkpoint"));
   CHECK_THROWS_AS(read_cycle_checkpoint(scratch.file("text.h5", "no HDF5"), {}), InvalidInput);
+}
+
+TEST_CASE("A checkpoint of another version, or with a field that is not finite, is refused",
+          "[io]") {
+  const Scratch scratch;
+  const auto file = scratch / "cycle.h5";
+  CycleState state = states_of_a_cycle()[5];
+  write_cycle_checkpoint(file, std::vector{state}, {}, {});
+  CHECK(read_cycle_checkpoint(file, {}).size() == 1);
+  {
+    const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t attribute = H5Aopen(opened, "version", H5P_DEFAULT);
+    const hid_t type = H5Aget_type(attribute);
+    const char* other = "7.0";
+    REQUIRE(H5Awrite(attribute, type, &other) >= 0);
+    H5Tclose(type);
+    H5Aclose(attribute);
+    REQUIRE(H5Fclose(opened) >= 0);
+  }
+  CHECK_THROWS_WITH(
+      read_cycle_checkpoint(file, {}),
+      Contains("version was 7.0") && Contains("is " + std::string(version()) + " now"));
+
+  std::get<StuckState>(state.body).traction.x(3, 2) = std::nan("");
+  write_cycle_checkpoint(file, std::vector{state}, {}, {});
+  CHECK_THROWS_WITH(read_cycle_checkpoint(file, {}),
+                    Contains("traction_x has values that are not finite"));
 }
 
 TEST_CASE("The XDMF list names datasets that are there, with their sizes, and every point's place",

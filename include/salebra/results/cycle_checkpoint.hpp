@@ -12,7 +12,7 @@
 namespace salebra {
 
 /// What decides every bit of a simulated cycle, as names and texts: grid, surface, material,
-/// motion, steps, tolerances, version.
+/// motion, steps, tolerances, arithmetic. The version of the program is compared with them.
 using CycleSettings = std::vector<std::pair<std::string, std::string>>;
 
 /// Short fingerprint of a field's bits, for settings.
@@ -31,8 +31,8 @@ void write_cycle_checkpoint(const std::filesystem::path& file, std::span<const C
                             const CycleSettings& settings, const Provenance& provenance);
 
 /// The states of that file, bit for bit: stuck, frictional, coupled, as far as they are there.
-/// throws  InvalidInput naming the file for what is not a checkpoint, and naming the setting where
-///         one differs
+/// throws  InvalidInput naming the file for what is not a checkpoint or is damaged, by a checksum
+///         of the states, and naming the setting where one differs
 std::vector<CycleState> read_cycle_checkpoint(const std::filesystem::path& file,
                                               const CycleSettings& settings);
 
