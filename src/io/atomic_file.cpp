@@ -6,7 +6,6 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -14,7 +13,6 @@
 #include <salebra/io/text_file.hpp>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace salebra {
 namespace {
@@ -75,53 +73,27 @@ namespace {
                 "); nothing was written");
 }
 
-[[noreturn]] void fail_by_disk(const std::filesystem::path& target) {
-  throw IoError(target.string() +
-                ": the disk returns other bytes than were written; check the disk; nothing was "
-                "written");
-}
-
-/// Of so many bytes from there, fewer where the file ends before.
-Checksum checksum_on_disk(const std::filesystem::path& target, int descriptor, std::uint64_t place,
-                          std::uint64_t count) {
-  Checksum found;
-  std::vector<char> bytes(1 << 20);
-  for (ssize_t got = 1; got > 0 && found.size() < count;) {
-    const std::size_t wanted = std::min<std::uint64_t>(bytes.size(), count - found.size());
-    got = without_interruption([&] {
-      return pread(descriptor, bytes.data(), wanted, static_cast<off_t>(place + found.size()));
-    });
-    if (got < 0) fail_at(target, "be read back", errno);
-    found.add({bytes.data(), static_cast<std::size_t>(got)});
-  }
-  return found;
-}
-
 }  // namespace
 
-void FilePieces::write(std::uint64_t place, std::string_view bytes) {
-  pieces_.push_back({place, {}});
-  pieces_.back().bytes.add(bytes);
+void write_at(const std::filesystem::path& target, int descriptor, std::uint64_t place,
+              std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = without_interruption(
-        [&] { return pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(place)); });
-    if (written < 0) fail_at(target_, "be written", errno);
+        [&] { return pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(place)); });
+    if (written < 0) fail_at(target, "be written", errno);
     place += static_cast<std::uint64_t>(written);
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 
-void FilePieces::finish() const {
-  if (without_interruption([&] { return fsync(descriptor_); }) != 0)
-    fail_at(target_, "be written", errno);
-  for (const Piece& piece : pieces_)
-    if (checksum_on_disk(target_, descriptor_, piece.place, piece.bytes.size()) != piece.bytes)
-      fail_by_disk(target_);
+void flush(const std::filesystem::path& target, int descriptor) {
+  if (without_interruption([&] { return fsync(descriptor); }) != 0)
+    fail_at(target, "be written", errno);
 }
 
 OthersFile::OthersFile(const std::filesystem::path& temporary, const std::filesystem::path& target)
     : descriptor_(
-          without_interruption([&] { return open(temporary.c_str(), O_RDWR | O_CLOEXEC); })) {
+          without_interruption([&] { return open(temporary.c_str(), O_WRONLY | O_CLOEXEC); })) {
   if (descriptor_ < 0) fail_at(target, "be opened by each process", errno);
 }
 
@@ -135,7 +107,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target, const WriteOptions& 
         target.parent_path() / ("." + target.filename().string() + "." + std::to_string(getpid()) +
                                 "-" + std::to_string(attempt) + ".part");
     descriptor_ = without_interruption(
-        [&] { return open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
+        [&] { return open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
     if (descriptor_ < 0 && errno == ENAMETOOLONG)
       throw InvalidInput(target.string(),
                          "the name is too long for this file system; shorten it to 225 bytes");
@@ -150,7 +122,6 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(std::string_view bytes) {
-  written_.add(bytes);
   while (!bytes.empty()) {
     const ssize_t written =
         without_interruption([&] { return ::write(descriptor_, bytes.data(), bytes.size()); });
@@ -160,7 +131,6 @@ void AtomicFile::write(std::string_view bytes) {
 }
 
 void AtomicFile::reserve(std::uint64_t size) {
-  in_pieces_ = true;
   const auto length = static_cast<off_t>(size);
   if (without_interruption([&] { return ftruncate(descriptor_, length); }) != 0)
     fail("be written", errno);
@@ -171,16 +141,9 @@ void AtomicFile::reserve(std::uint64_t size) {
 }
 
 void AtomicFile::finish() {
-  if (without_interruption([&] { return fsync(descriptor_); }) != 0) fail("be written", errno);
-  if (!in_pieces_) read_back();
+  flush(target_, descriptor_);
   // After EINTR the descriptor is closed all the same, and what it wrote is on the disk.
   if (close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) fail("be closed", errno);
-}
-
-void AtomicFile::read_back() const {
-  // One byte more, by which a file that is too long is found.
-  if (checksum_on_disk(target_, descriptor_, 0, written_.size() + 1) != written_)
-    fail_by_disk(target_);
 }
 
 void AtomicFile::place() {

@@ -5,32 +5,16 @@
 #include <filesystem>
 #include <salebra/io/output.hpp>
 #include <string_view>
-#include <utility>
-#include <vector>
-
-#include "checksum.hpp"
 
 namespace salebra::detail {
 
-/// Bytes that are written to an open file at their places, and read back. Throws IoError naming the
-/// target, under which the file will be known.
-class FilePieces {
- public:
-  FilePieces(std::filesystem::path target, int descriptor)
-      : target_(std::move(target)), descriptor_(descriptor) {}
-  void write(std::uint64_t place, std::string_view bytes);
-  /// Flushes to the disk and compares what it returns with what was written.
-  void finish() const;
+/// Writes bytes to an open file at a place. Throws IoError naming the target, under which the file
+/// will be known.
+void write_at(const std::filesystem::path& target, int descriptor, std::uint64_t place,
+              std::string_view bytes);
 
- private:
-  struct Piece {
-    std::uint64_t place;
-    Checksum bytes;
-  };
-  std::filesystem::path target_;
-  int descriptor_;
-  std::vector<Piece> pieces_;
-};
+/// Flushes an open file to the disk. Throws as write_at() does.
+void flush(const std::filesystem::path& target, int descriptor);
 
 /// The temporary file of an AtomicFile of another process, open for writing. Throws IoError naming
 /// the target.
@@ -62,12 +46,11 @@ class AtomicFile {
 
   /// Appends.
   void write(std::string_view bytes);
-  /// For FilePieces in place of write(): makes the file so long, with room on the disk where the
+  /// For write_at() in place of write(): makes the file so long, with room on the disk where the
   /// file system can promise it.
   void reserve(std::uint64_t size);
   int descriptor() const { return descriptor_; }
-  /// Flushes to the disk, reads the bytes back and closes: what can fail for want of space or by a
-  /// fault of the disk.
+  /// Flushes to the disk and closes: what can fail for want of space or by a fault of the disk.
   void finish();
   /// Renames the finished file.
   void place();
@@ -78,13 +61,11 @@ class AtomicFile {
   }
 
  private:
-  void read_back() const;
   [[noreturn]] void fail(const char* doing, int error) const;
 
   std::filesystem::path target_, temporary_;
-  bool overwrite_, placed_ = false, in_pieces_ = false;
+  bool overwrite_, placed_ = false;
   int descriptor_ = -1;
-  Checksum written_;
 };
 
 }  // namespace salebra::detail

@@ -28,7 +28,6 @@ class Checksum {
     }
   }
 
-  std::uint64_t size() const { return size_; }
   /// In 64 bits, of the bytes so far and their number.
   std::uint64_t value() const {
     Checksum whole = *this;
@@ -37,7 +36,6 @@ class Checksum {
     whole.take_word();
     return whole.state_;
   }
-  bool operator==(const Checksum&) const = default;
 
  private:
   void take_word() {

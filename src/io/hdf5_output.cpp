@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstring>
 #include <numeric>
 #include <salebra/base/share.hpp>
 #include <salebra/base/version.hpp>
@@ -30,9 +29,6 @@ Types types_of(const std::int16_t*) { return {H5T_STD_I16LE, H5T_NATIVE_INT16}; 
 Types types_of(const std::int64_t*) { return {H5T_STD_I64LE, H5T_NATIVE_INT64}; }
 Types types_of(const std::uint64_t*) { return {H5T_STD_U64LE, H5T_NATIVE_UINT64}; }
 Types types_of(const std::int8_t*) { return {H5T_STD_I8LE, H5T_NATIVE_INT8}; }
-
-/// In place of a type of numbers.
-constexpr hid_t type_of_texts = -1;
 
 Type text_type(std::size_t size) {
   Type type(H5Tcopy(H5T_C_S1), "make a text type");
@@ -62,81 +58,6 @@ std::string_view image_of(hid_t file) {
   check(size > 0 ? H5Fget_vfd_handle(file, H5P_DEFAULT, reinterpret_cast<void**>(&bytes)) : -1,
         "read an HDF5 file in memory");
   return {static_cast<const char*>(*bytes), static_cast<std::size_t>(size)};
-}
-
-/// What HDF5 asks for an image that stays where it is and belongs to another: every copy is the
-/// image itself, and nothing is freed. The ready-made H5LTopen_file_image() of HDF5 1.10 does the
-/// same and leaks its notes of it.
-void* same_image(std::size_t, H5FD_file_image_op_t, void* image) { return image; }
-void* no_copy(void* to, const void* from, std::size_t, H5FD_file_image_op_t, void*) {
-  return to == from ? to : nullptr;
-}
-void* no_growth(void*, std::size_t, H5FD_file_image_op_t, void*) { return nullptr; }
-herr_t no_release(void*, H5FD_file_image_op_t, void*) { return 0; }
-void* same_notes(void* image) { return image; }
-herr_t no_notes_to_free(void*) { return 0; }
-
-/// A file that is read where its bytes lie. temporary: as of file_in_memory(); HDF5 takes two files
-/// in memory of one name for one file.
-File file_of_image(std::string_view bytes, const std::filesystem::path& temporary,
-                   const std::string& what) {
-  const Properties access(H5Pcreate(H5P_FILE_ACCESS), what);
-  check(H5Pset_fapl_core(access, increment, false), what);
-  void* image = const_cast<char*>(bytes.data());
-  H5FD_file_image_callbacks_t callbacks{same_image, no_copy,          no_growth, no_release,
-                                        same_notes, no_notes_to_free, image};
-  check(H5Pset_file_image_callbacks(access, &callbacks), what);
-  check(H5Pset_file_image(access, image, bytes.size()), what);
-  return {H5Fopen((temporary / "copy").c_str(), H5F_ACC_RDONLY, access), what};
-}
-
-Checksum checksum_of_numbers(hid_t dataset, hid_t type) {
-  Checksum sum;
-  std::vector<hsize_t> shape = shape_of(dataset);
-  if (shape.empty()) shape = {1};
-  const std::size_t row = H5Tget_size(type) * std::accumulate(shape.begin() + 1, shape.end(),
-                                                              hsize_t{1}, std::multiplies<>());
-  if (row == 0) return sum;
-  const std::string what = "read a dataset back";
-  const Space space(H5Dget_space(dataset), what);
-  const bool scalar = H5Sget_simple_extent_ndims(space) == 0;
-  constexpr std::size_t piece = 1 << 20;
-  std::vector<char> bytes;
-  std::vector<hsize_t> first(shape.size(), 0), part = shape;
-  for (; first[0] < shape[0]; first[0] += part[0]) {
-    part[0] = std::min<hsize_t>(std::max<std::size_t>(piece / row, 1), shape[0] - first[0]);
-    bytes.resize(row * part[0]);
-    const Space memory(H5Screate_simple(static_cast<int>(part.size()), part.data(), nullptr), what);
-    if (!scalar)
-      check(H5Sselect_hyperslab(space, H5S_SELECT_SET, first.data(), nullptr, part.data(), nullptr),
-            what);
-    check(H5Dread(dataset, type, memory, space, H5P_DEFAULT, bytes.data()), what);
-    sum.add({bytes.data(), bytes.size()});
-  }
-  return sum;
-}
-
-Checksum checksum_of(const std::vector<const char*>& texts) {
-  Checksum sum;
-  for (const char* text : texts) sum.add({text ? text : "", text ? std::strlen(text) + 1 : 1});
-  return sum;
-}
-
-Checksum checksum_of_texts(hid_t dataset, hid_t type) {
-  const Space space(H5Dget_space(dataset), "read labels back");
-  std::vector<const char*> texts(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-  if (texts.empty()) return {};
-  check(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()), "read labels back");
-  const Checksum sum = checksum_of(texts);
-  check(H5Dvlen_reclaim(type, space, H5P_DEFAULT, texts.data()), "read labels back");
-  return sum;
-}
-
-std::string path_of(hid_t dataset) {
-  const ssize_t length = H5Iget_name(dataset, nullptr, 0);
-  std::string path(static_cast<std::size_t>(std::max<ssize_t>(length, 0)), '\0');
-  check(static_cast<herr_t>(H5Iget_name(dataset, path.data(), path.size() + 1)), "name a dataset");
-  return path;
 }
 
 /// The dimension scales that a dataset lies on.
@@ -174,14 +95,15 @@ std::string_view bytes_of(const T* values, Index count) {
 }
 
 /// As float, without a copy of all.
-void write_rounded(FilePieces& pieces, std::uint64_t place, const Field& values) {
+void write_rounded(const std::filesystem::path& target, int descriptor, std::uint64_t place,
+                   const Field& values) {
   constexpr Index most = 1 << 18;
   std::vector<float> rounded;
   for (Index first = 0; first < values.size(); first += most) {
     const Index count = std::min(most, values.size() - first);
     rounded.assign(values.data() + first, values.data() + first + count);
-    pieces.write(place + static_cast<std::uint64_t>(first) * sizeof(float),
-                 bytes_of(rounded.data(), count));
+    write_at(target, descriptor, place + static_cast<std::uint64_t>(first) * sizeof(float),
+             bytes_of(rounded.data(), count));
   }
 }
 
@@ -294,8 +216,6 @@ Dataset Output::create(hid_t group, const std::string& name, const T* values,
     if (count > 0)
       check(H5Dwrite(dataset, types_of(values).memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values),
             "write " + name);
-    given_.push_back({path_of(dataset), types_of(values).memory, {}});
-    given_.back().values.add({reinterpret_cast<const char*>(values), count * sizeof(T)});
   }
   attribute(dataset, "units", label.units);
   attribute(dataset, "long_name", label.long_name);
@@ -360,7 +280,6 @@ void Output::text_scale(hid_t group, const std::string& name,
       "write " + name);
   if (count > 0)
     check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), "write " + name);
-  given_.push_back({path_of(dataset), type_of_texts, checksum_of(pointers)});
   attribute(dataset, "long_name", long_name);
   check(H5DSset_scale(dataset, name.c_str()), "write " + name);
 }
@@ -374,9 +293,7 @@ void Output::commit_alone() {
   const std::string name = target_.string();
   if (!root_.closed()) throw IoError("cannot close the root of " + name);
   check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write " + name);
-  const std::string_view image = image_of(file_);
-  require_given(file_of_image(image, atomic_->temporary(), "read back " + name));
-  atomic_->write(image);
+  atomic_->write(image_of(file_));
   if (!file_.closed() || failed_closes() != closed_before_) throw IoError("cannot close " + name);
   atomic_->commit();
 }
@@ -386,13 +303,11 @@ void Output::write_without_fields() {
   if (!root_.closed()) throw IoError("cannot close the root of " + name);
   check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write " + name);
   const std::uint64_t size = size_of(file_);
-  require_given(open_in(image_, size));
   atomic_->reserve(size);
-  FilePieces pieces(target_, atomic_->descriptor());
   for (const auto& [place, page] : image_.pages())
     if (place < size)
-      pieces.write(place, {page.data(), std::min<std::uint64_t>(page.size(), size - place)});
-  pieces.finish();
+      write_at(target_, atomic_->descriptor(), place,
+               {page.data(), std::min<std::uint64_t>(page.size(), size - place)});
   if (!file_.closed() || failed_closes() != closed_before_) throw IoError("cannot close " + name);
 }
 
@@ -413,7 +328,6 @@ void Output::commit_spread() {
     require(fields_.size() == spread_.size(), "result file", fields_.size(),
             "fields are given by one process, and others by another");
     const OthersFile file(temporary, target_);
-    FilePieces pieces(target_, file.descriptor());
     for (std::size_t k = 0; k < spread_.size(); ++k) {
       const auto& [place, rows, columns] = spread_[k];
       const Share share(ranks_, rows);
@@ -422,29 +336,16 @@ void Output::commit_spread() {
               "rows are not those of this process");
       const auto begin = static_cast<std::uint64_t>(share.begin() * columns);
       if (mine.size() > 0 && fields_[k].type == FieldType::float32)
-        write_rounded(pieces, place + begin * sizeof(float), mine);
+        write_rounded(target_, file.descriptor(), place + begin * sizeof(float), mine);
       else if (mine.size() > 0)
-        pieces.write(place + begin * sizeof(double), bytes_of(mine.data(), mine.size()));
+        write_at(target_, file.descriptor(), place + begin * sizeof(double),
+                 bytes_of(mine.data(), mine.size()));
     }
-    pieces.finish();
+    flush(target_, file.descriptor());
   });
   collectively(ranks_, [&] {
     if (atomic_) atomic_->commit();
   });
-}
-
-void Output::require_given(hid_t copy) const {
-  const std::string name = target_.string();
-  for (const Given& given : given_) {
-    const Dataset dataset(H5Dopen2(copy, given.dataset.c_str(), H5P_DEFAULT),
-                          "read back " + given.dataset + " of " + name);
-    const Checksum found = given.type == type_of_texts
-                               ? checksum_of_texts(dataset, text_type(H5T_VARIABLE))
-                               : checksum_of_numbers(dataset, given.type);
-    if (found != given.values)
-      throw IoError(name + ": its dataset " + given.dataset +
-                    " holds other values than it was given; nothing was written");
-  }
 }
 
 template Dataset Output::dataset(hid_t, const std::string&, const double*, std::size_t,

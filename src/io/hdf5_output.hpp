@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "atomic_file.hpp"
-#include "checksum.hpp"
 #include "hdf5_handle.hpp"
 #include "hdf5_sparse.hpp"
 
@@ -63,9 +62,8 @@ class Output {
   void text_scale(hid_t group, const std::string& name, const std::vector<std::string>& values,
                   const std::string& long_name);
 
-  /// Compares each dataset of the finished file with the values it was given, writes the file and
-  /// puts it in its place; nothing can be written afterwards. Collective: a failure of one process
-  /// is thrown on all, and nothing is left.
+  /// Writes the finished file and puts it in its place; nothing can be written afterwards.
+  /// Collective: a failure of one process is thrown on all, and nothing is left.
   void commit();
 
  private:
@@ -74,13 +72,6 @@ class Output {
   template <class T>
   Dataset create(hid_t group, const std::string& name, const T* values,
                  const std::vector<hsize_t>& shape, const Label& label, bool spread = false);
-  /// What a dataset was given.
-  struct Given {
-    std::string dataset;  ///< path from the root
-    hid_t type;           ///< of the values in memory
-    Checksum values;
-  };
-  void require_given(hid_t copy) const;
   void commit_alone();
   void commit_spread();
   void write_without_fields();
@@ -94,7 +85,6 @@ class Output {
   std::filesystem::path target_;
   Communicator ranks_;
   std::optional<AtomicFile> atomic_;  ///< of the root
-  std::vector<Given> given_;
   std::vector<Spread> spread_;  ///< of the root, until commit()
   struct Rows {
     const Field* values;

@@ -14,7 +14,6 @@ namespace {
 /// What a file access property list carries.
 struct Access {
   SparseImage* image;
-  std::uint64_t size;
 };
 
 struct SparseFile : DriverFile {
@@ -26,7 +25,6 @@ H5FD_t* open_sparse(const char*, unsigned, hid_t access, haddr_t) {
   auto* file = given ? new (std::nothrow) SparseFile() : nullptr;
   if (!file) return nullptr;
   file->image = given->image;
-  file->end = given->size;
   return file;
 }
 
@@ -85,11 +83,11 @@ H5FD_class_t sparse_driver_class() {
   return driver;
 }
 
-Properties access_to(SparseImage& image, std::uint64_t size) {
+Properties access_to(SparseImage& image) {
   static const H5FD_class_t driver = sparse_driver_class();
   static const hid_t id = H5FDregister(&driver);
   Properties access(H5Pcreate(H5P_FILE_ACCESS), "prepare a file");
-  const Access info{&image, size};
+  const Access info{&image};
   check(H5Pset_driver(access, id, &info), "prepare a file");
   return access;
 }
@@ -125,14 +123,8 @@ void SparseImage::read(std::uint64_t place, char* bytes, std::size_t count) cons
 
 File create_in(SparseImage& image) {
   // A name must be there. HDF5 would look for the folder of one that is relative.
-  return {H5Fcreate("/sparse", H5F_ACC_TRUNC, H5P_DEFAULT, access_to(image, 0)),
+  return {H5Fcreate("/sparse", H5F_ACC_TRUNC, H5P_DEFAULT, access_to(image)),
           "create an HDF5 file in memory"};
-}
-
-File open_in(const SparseImage& image, std::uint64_t size) {
-  // Read only: nothing is written into it.
-  return {H5Fopen("/sparse", H5F_ACC_RDONLY, access_to(const_cast<SparseImage&>(image), size)),
-          "read an HDF5 file in memory"};
 }
 
 std::uint64_t size_of(hid_t file) {

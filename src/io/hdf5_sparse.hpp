@@ -27,9 +27,8 @@ class SparseImage {
   std::map<std::uint64_t, std::vector<char>> pages_;
 };
 
-/// A new file in an image, and the finished one. The image must outlive the file.
+/// A new file in an image, which must outlive the file.
 File create_in(SparseImage& image);
-File open_in(const SparseImage& image, std::uint64_t size);
 
 /// Bytes of a flushed file.
 std::uint64_t size_of(hid_t file);
