@@ -69,7 +69,7 @@ InvalidInput
 Parameters
 ----------
 file : str or os.PathLike
-    .h5, .hdf5, .npy (with a sidecar .json), .nc, .x3p, .gwy, .gsf (float32), .txt, .asc, .gxyzf or .xyz.
+    .h5, .hdf5, .npy (with a sidecar .json), .nc, .gwy, .gsf (float32), .txt, .asc or .xyz.
 surface : Surface
     One that is spread over processes goes into HDF5 files only, by a call of all processes.
 overwrite : bool

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reader and writer of Gwyddion XYZ Field (.gxyzf).
+// Reader of Gwyddion XYZ Field (.gxyzf).
 #include <fmt/format.h>
 
-#include <bit>
-#include <cmath>
 #include <cstdint>
 #include <string>
 
-#include "atomic_file.hpp"
 #include "gwyddion_header.hpp"
 #include "loaded_surface.hpp"
-#include "surface_writers.hpp"
 #include "xyz.hpp"
 
 /// Gwyddion XYZ Field: a text header padded by NUL bytes to a multiple of eight, then for each
@@ -18,7 +14,6 @@
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view gxyzf_magic = "Gwyddion XYZ Field 1.0\n";
 constexpr std::size_t item = sizeof(double);
 
 }  // namespace
@@ -49,30 +44,6 @@ LoadedSurface read_gxyzf(const std::filesystem::path& file, std::string_view con
   if (!plane_unit.empty()) scale_plane(file, plane_unit, surface);
   surface.unit = height_unit;
   return surface;
-}
-
-void write_gxyzf(const std::filesystem::path& file, const Surface& surface, const Provenance&,
-                 const WriteOptions& options) {
-  static_assert(std::endian::native == std::endian::little);
-  require_points(file, surface);
-  const Grid2D& grid = surface.grid;
-  AtomicFile output(file, options);
-  std::string bytes = fmt::format(
-      "{}NChannels = 1\nNPoints = {}\nXRes = {}\nYRes = {}\nXYUnits = m\nZUnits1 = m\n"
-      "Title1 = heights\n",
-      gxyzf_magic, grid.points() - surface.undefined_points(), grid.nx, grid.ny);
-  bytes.append(item - bytes.size() % item, '\0');
-  for (Index ix = 0; ix < grid.nx; ++ix) {
-    for (Index iy = 0; iy < grid.ny; ++iy) {
-      if (std::isnan(surface.heights(ix, iy))) continue;
-      for (const double value : {static_cast<double>(ix) * grid.dx(),
-                                 static_cast<double>(iy) * grid.dy(), surface.heights(ix, iy)})
-        bytes.append(reinterpret_cast<const char*>(&value), item);
-    }
-    output.write(bytes);
-    bytes.clear();
-  }
-  output.commit();
 }
 
 }  // namespace salebra::detail

@@ -9,8 +9,8 @@ namespace salebra::detail {
 // Readers and writers of single formats. A format is its own source, a declaration and a row here.
 SurfaceFormatEntry::Read read_gsf, read_gwy, read_gxyzf, read_netcdf, read_npy, read_sur, read_text,
     read_x3p;
-SurfaceFormatEntry::Write write_gsf, write_gwy, write_gxyzf, write_hdf5, write_netcdf, write_npy,
-    write_text, write_x3p, write_xyz;
+SurfaceFormatEntry::Write write_gsf, write_gwy, write_hdf5, write_netcdf, write_npy, write_text,
+    write_xyz;
 
 const std::vector<SurfaceFormatEntry>& surface_format_table() {
   static const std::vector<SurfaceFormatEntry> table{
@@ -57,16 +57,8 @@ const std::vector<SurfaceFormatEntry>& surface_format_table() {
       {"x3p",
        {"PK\x03\x04"},
        read_x3p,
-       write_x3p,
-       {"X3P, ISO 25178-72",
-        {".x3p"},
-        "I, L, F, D",
-        "D",
-        "exact",
-        "last digit",
-        "NaN and mask",
-        "lost",
-        "comment"}},
+       nullptr,
+       {"X3P, ISO 25178-72", {".x3p"}, "I, L, F, D", "", "", "", "NaN and mask", "", ""}},
       {"gwy",
        {"GWYP"},
        read_gwy,
@@ -96,16 +88,8 @@ const std::vector<SurfaceFormatEntry>& surface_format_table() {
       {"gxyzf",
        {"Gwyddion XYZ Field 1.0\n"},
        read_gxyzf,
-       write_gxyzf,
-       {"Gwyddion XYZ Field",
-        {".gxyzf"},
-        "one channel",
-        "yes",
-        "exact",
-        "last digits",
-        "no point",
-        "lost",
-        "lost"}},
+       nullptr,
+       {"Gwyddion XYZ Field", {".gxyzf"}, "one channel", "", "", "", "no point", "", ""}},
       {"sur",
        {"DIGITAL SURF"},
        read_sur,

@@ -62,6 +62,20 @@ XyzAxis find_axis(const std::filesystem::path& file, std::vector<double> coordin
   return {coordinates.front(), span / intervals, static_cast<Index>(intervals) + 1};
 }
 
+/// Throws InvalidInput for a surface that its points alone do not describe: a single line has no
+/// step across, and less than half of a grid is not recognised.
+void require_points(const std::filesystem::path& file, const Surface& surface) {
+  const Grid2D& grid = surface.grid;
+  if (grid.nx < 2 || grid.ny < 2)
+    throw InvalidInput(
+        file.string(),
+        "would hold a single line of points, which has no step across; write .h5 or .nc");
+  if (2 * surface.undefined_points() > grid.points())
+    throw InvalidInput(file.string(),
+                       "would hold points on less than half of the grid, which then is not "
+                       "recognised; write .h5 or .nc");
+}
+
 }  // namespace
 
 LoadedSurface grid_of_points(const std::filesystem::path& file, const std::vector<double>& xyz) {
@@ -102,18 +116,6 @@ void scale_plane(const std::filesystem::path& file, const std::string& unit,
   const double metres = metres_per(file, unit);
   surface.size_x = surface.size_x.value() * metres;
   surface.size_y = surface.size_y.value() * metres;
-}
-
-void require_points(const std::filesystem::path& file, const Surface& surface) {
-  const Grid2D& grid = surface.grid;
-  if (grid.nx < 2 || grid.ny < 2)
-    throw InvalidInput(
-        file.string(),
-        "would hold a single line of points, which has no step across; write .h5 or .nc");
-  if (2 * surface.undefined_points() > grid.points())
-    throw InvalidInput(file.string(),
-                       "would hold points on less than half of the grid, which then is not "
-                       "recognised; write .h5 or .nc");
 }
 
 void write_xyz(const std::filesystem::path& file, const Surface& surface, const Provenance&,

@@ -20,8 +20,4 @@ LoadedSurface grid_of_points(const std::filesystem::path& file, const std::vecto
 void scale_plane(const std::filesystem::path& file, const std::string& unit,
                  LoadedSurface& surface);
 
-/// Throws InvalidInput for a surface that its points alone do not describe: a single line has no
-/// step across, and less than half of a grid is not recognised.
-void require_points(const std::filesystem::path& file, const Surface& surface);
-
 }  // namespace salebra::detail

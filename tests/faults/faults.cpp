@@ -162,7 +162,7 @@ std::vector<Case> all_cases() {
        {},
        "damping --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--normal-amplitude 1nm,2nm --drag-velocity 1um/s --frequency 20kHz --plot out.svg"}};
-  for (const char* format : {"h5", "nc", "x3p", "gwy", "gsf", "gxyzf", "xyz", "txt"})
+  for (const char* format : {"h5", "nc", "gwy", "gsf", "xyz", "txt"})
     cases.push_back({std::string("convert_") + format,
                      {surface + " -o s.npy"},
                      std::string("convert IN/s.npy out.") + format});

@@ -8,7 +8,6 @@
 #include <map>
 #include <salebra/base/error.hpp>
 #include <salebra/io/read_surface.hpp>
-#include <salebra/io/write_surface.hpp>
 
 #include "../../src/io/md5.hpp"
 #include "scratch.hpp"
@@ -248,19 +247,4 @@ TEST_CASE("A ZIP bomb in X3P is refused before it fills the memory", "[x3p]") {
   const std::uint32_t size = 0x80000000u;
   std::memcpy(content.data() + directory + 24, &size, 4);
   CHECK_THROWS_WITH(read_surface(scratch.file("lie.x3p", content)), Contains("lie.x3p"));
-}
-
-TEST_CASE("salebra writes X3P with undefined points, sums and any characters in its comment",
-          "[x3p]") {
-  const Scratch scratch;
-  Surface surface{{3, 11, 1.0 / 3e6, 2e-6}, Field::Random(3, 11), true, "<a> & \x01 \"b\""};
-  surface.heights(2, 1) = undefined;
-  surface.heights(0, 10) = undefined;
-  const auto file = scratch / "surface.x3p";
-  write_surface(file, surface);
-  const Surface read = read_surface(file);
-  CHECK(((read.heights == surface.heights) || (read.heights.isNaN() && surface.heights.isNaN()))
-            .all());
-  CHECK(read.grid.lx == Approx(surface.grid.lx).epsilon(1e-15));
-  CHECK(read.grid.ly == Approx(surface.grid.ly).epsilon(1e-15));
 }

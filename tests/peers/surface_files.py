@@ -84,11 +84,11 @@ def both_ways(folder, name, heights, sizes, periodic):
     pathlib.Path(f"{source}.json").write_text(
         json.dumps({"size_x": sizes[0], "size_y": sizes[1], "units": "m", "periodic": periodic}))
     complete = not np.isnan(heights).any()
-    for suffix in [".nc", ".x3p", ".npy", ".txt", ".gsf", ".h5", ".xyz"]:
+    for suffix in [".nc", ".npy", ".txt", ".gsf", ".h5", ".xyz"]:
         file = folder / f"{name}-by-salebra{suffix}"
         salebra("convert", source, file)
         found, size, flag = read_by_peer(file, heights, sizes)
-        tolerance = 6e-8 if suffix == ".gsf" else 0 if suffix in (".nc", ".npy", ".h5", ".x3p") else 1e-15
+        tolerance = 6e-8 if suffix == ".gsf" else 0 if suffix in (".nc", ".npy", ".h5") else 1e-15
         compare(f"{name}{suffix} by salebra, read by the other", found, heights, size, sizes, tolerance)
         if flag is not None and flag != periodic:
             failures.append(f"{name}{suffix}: periodic is {flag} instead of {periodic}")
@@ -133,7 +133,7 @@ with tempfile.TemporaryDirectory() as scratch:
     names = ["matrix-3.txt", "x3p-2.x3p", "sur-2.sur", "nc-1.nc"] if measured.is_dir() else []
     for name in names:
         by_other, sizes = heights_of(SurfaceTopography.read_topography(measured / name))
-        for suffix in [".nc", ".x3p", ".npy"]:
+        for suffix in [".nc", ".npy"]:
             file = folder / (name + suffix)
             salebra("convert", measured / name, file)
             found, size, _ = read_by_peer(file, by_other, sizes)

@@ -15,22 +15,18 @@ namespace salebra {
 ///               periodic, units, md5, provenance
 ///   .nc         NetCDF CDF-2 in SurfaceTopography's layout, with size_x, …, provenance in the
 ///               attribute json; up to 4 GiB
-///   .x3p        ISO 25178-72: float64, undefined points also as a mask, checksums; size_x, …,
-///               provenance in its comment. Sizes may change in their last digit, since it holds
-///               steps. Whether it is periodic is lost
 ///   .gwy        Gwyddion: one channel, undefined points as its mask, provenance in /0/meta; up to
 ///               4 GiB. Whether it is periodic is lost
 ///   .gsf        Gwyddion Simple Field: heights rounded to float32. Whether it is periodic is lost
 ///   .txt .asc   matrix with Gwyddion's header, a row for each y; undefined points as nan; 17
 ///               digits, so that reading gives the same doubles. Whether it is periodic is lost
-///   .gxyzf .xyz points (x, y, z), undefined ones left out (.gxyzf) or nan (.xyz); at least two
-///   lines either way, half of the grid
-///               defined. Sizes may change in their last digits. Whether it is periodic is lost
+///   .xyz        points (x, y, z), undefined ones as nan; at least two lines either way, half of
+///               the grid defined. Sizes may change in their last digits. Whether it is periodic is
+///               lost
 /// read_surface reads each of them back. throws InvalidInput for another extension, an invalid
 /// surface, and as require_output does; IoError when the system refuses. A surface that is spread
 /// over processes goes into an HDF5 file that is byte for byte that of one process, the dates
-/// apart; collective. Cost: one pass; memory in addition to the heights: one row; for .h5 the file;
-/// for .x3p the heights again and the packed file
+/// apart; collective. Cost: one pass; memory in addition to the heights: one row; for .h5 the file
 void write_surface(const std::filesystem::path& file, const Surface& surface,
                    const Provenance& provenance = {}, const WriteOptions& options = {});
 
