@@ -11,8 +11,7 @@
 #include <vector>
 
 /// What a command takes. Commands declare it here; program.cpp alone knows the library that parses
-/// the command line, and hands it over. Help, completion and manual pages read the same
-/// declarations.
+/// the command line, and hands it over. Help and completion read the same declarations.
 namespace salebra::cli {
 
 /// An option, a flag or a positional argument. What is set here returns the option, so that one

@@ -127,10 +127,6 @@ constexpr std::array descriptions{
         "the Tab key. An installed package has it in place; for a build of your own:\n"
         "  bash: source <(salebra completion bash)\n"
         "  zsh:  salebra completion zsh > \"${fpath[1]}/_salebra\""},
-    CommandHelp{
-        "manual", shell,
-        "Prints a manual page in roff: of the program, or of the command that is named. It says "
-        "what --help says."},
 };
 
 }  // namespace

@@ -230,8 +230,7 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
       {"verify", ""},
       {"report", ""},
       {"init", ""},
-      {"completion", ""},
-      {"manual", ""}};
+      {"completion", ""}};
   const std::string help = test.run("--help").out;
   int with_loss = 0;
   for (const std::string name :

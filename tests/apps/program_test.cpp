@@ -22,7 +22,7 @@ TEST_CASE("Help of every command ends with two examples of that command", "[prog
   const auto command = GENERATE(
       as<std::string>(), "generate", "info", "convert", "contact", "sweep", "gw", "fit", "damping",
       "mdr", "damper", "friction", "slider", "joint", "viscoelastic", "study", "verify", "init",
-      "statistics", "compare", "oscillate", "figure3", "completion", "manual");
+      "statistics", "compare", "oscillate", "figure3", "completion");
   CHECK_THAT(test.run("--help").out, Contains("  " + command));
   const auto help = test.run(command + " --help");
   CHECK(help.status == 0);
@@ -211,7 +211,7 @@ TEST_CASE("Remarks that cannot be printed stop no work, and an answer that canno
   CHECK(status(surface + "2>&-") == 0);
   CHECK(status("generate --points x 2>/dev/full") == 2);
   CHECK(status("generate --points x 2>&-") == 2);
-  for (const char* command : {"--help", "--version", "generate --help", "manual study"})
+  for (const char* command : {"--help", "--version", "generate --help", "help study"})
     for (const char* nowhere : {" >/dev/full", " >&-"}) {
       const auto result = test.run(command + std::string(nowhere));
       INFO(command << nowhere);

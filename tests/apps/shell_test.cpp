@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What meets a person at the keyboard: the first study file, the cost of a run before it is run,
-// suggestions, help, completion, manual pages, colours.
+// suggestions, help, completion, colours.
 #include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -242,7 +242,7 @@ TEST_CASE("What is misspelt is told with what was probably meant", "[suggestion]
   check_refused(test.run("study typo.toml"), "did you mean hurst?");
   test.write("typo.toml", std::regex_replace(small_study, std::regex("poisson"), "poison"));
   check_refused(test.run("study typo.toml"), "did you mean poisson?");
-  check_refused(test.run("manual stdy"), "did you mean study?");
+  check_refused(test.run("help stdy"), "did you mean study?");
   // Nothing is near: nothing is suggested.
   const auto far = test.run("polish");
   check_refused(far, "polish");
@@ -279,21 +279,6 @@ TEST_CASE("bash completes commands, options and their choices", "[completion]") 
   CHECK_THAT(test.run("completion zsh").out,
              Contains("#compdef salebra") && Contains("'*--short-cutoff[") && !Contains("{}"));
   check_refused(test.run("completion fish"), "fish");
-}
-
-TEST_CASE("Manual pages say what the help says", "[manual]") {
-  const ProgramTest test;
-  const auto page = test.run("manual sweep");
-  CHECK(page.status == 0);
-  CHECK_THAT(page.out, Contains(".TH \"SALEBRA\\-SWEEP\" 1") &&
-                           Contains("\\fB\\-\\-stiffness\\fR") && Contains(".SH EXAMPLES") &&
-                           Contains("salebra sweep"));
-  // A line of text that begins with a point would be a request of roff.
-  std::istringstream lines(page.out);
-  for (std::string line; std::getline(lines, line);)
-    if (line.starts_with("."))
-      CHECK(std::regex_search(line, std::regex("^\\.(TH|SH|SS|PP|TP|nf|fi|B|BR)\\b")));
-  CHECK_THAT(test.run("manual").out, Contains("salebra\\-sweep"));
 }
 
 TEST_CASE("Colours are for terminals, and for those who want them", "[colour]") {
