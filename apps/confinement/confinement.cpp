@@ -24,8 +24,6 @@
 #include <string>
 #include <string_view>
 
-#include "system_calls.hpp"
-
 namespace salebra::confinement {
 namespace {
 
@@ -125,7 +123,6 @@ void confine(const Hdf5Reading& reading, int pipe, std::optional<rlim_t> present
   limit(RLIMIT_NPROC, 0);
   limit(RLIMIT_CPU, reading.seconds, 1);  // at the upper limit the signal would be SIGKILL
   if (present) limit(RLIMIT_AS, *present + reading.memory);
-  restrict_system_calls(reading.descriptor, pipe);
 }
 
 [[noreturn]] void serve(const Hdf5Reading& reading, int pipe, std::optional<rlim_t> present) {

@@ -7,9 +7,8 @@
 namespace salebra::confinement {
 
 /// Carries a reading out in a child process that has the open file, a pipe to its parent, and
-/// nothing else: no other descriptor and none to be opened, limits on memory and processor time, no
-/// core file, and, where the system has seccomp, no system call but those that read the file, write
-/// to the pipe and allocate. The parent takes plain bytes from the pipe and never calls HDF5 on the
+/// nothing else: no other descriptor and none to be opened, no process to be started, limits on
+/// memory and processor time, and no core file. The parent takes plain bytes from the pipe and never calls HDF5 on the
 /// file. Works with threads in the parent, and whatever the parent does with SIGCHLD.
 /// throws  InvalidInput naming the file where the child dies, takes too long or refuses the file;
 ///         IoError where the system grants no child: then nothing is read

@@ -4,7 +4,6 @@
 #include "confinement/confinement.hpp"
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -21,7 +20,6 @@
 #include <thread>
 #include <vector>
 
-#include "confinement/system_calls.hpp"
 #include "io/scratch.hpp"
 
 using namespace salebra;
@@ -58,15 +56,6 @@ struct Tried {
 
 void say(const HandOver& hand_over, const std::string& text) {
   hand_over(std::as_bytes(std::span(text)));
-}
-
-/// Whether the system has seccomp is found out in a process of its own, which it would bind.
-bool has_seccomp() {
-  const pid_t child = fork();
-  if (child == 0) _exit(confinement::restrict_system_calls(0, 1) ? 1 : 0);
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 1;
 }
 
 void write_small(const std::filesystem::path& file) {
@@ -140,26 +129,6 @@ TEST_CASE("A child opens no file, writes none and has no descriptor of its paren
   close(inherited);
   CHECK(tried.text == "closed closed closed closed");
   CHECK_FALSE(std::filesystem::exists(absent));
-}
-
-TEST_CASE(
-    "Where there is seccomp, a child can neither run a program, signal another, nor make code",
-    "[confinement]") {
-  if (!has_seccomp()) {
-    WARN("this system has no seccomp: limits on resources and the refusal of links remain");
-    return;
-  }
-  Tried tried([](const HandOver& hand_over) {
-    char* const arguments[] = {nullptr};
-    execv("/bin/true", arguments);
-    say(hand_over, kill(getppid(), 0) < 0 ? "closed " : "open ");
-    say(hand_over, unlink("/nothing") < 0 && errno == EPERM ? "closed " : "open ");
-    void* const code =
-        mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    say(hand_over, code == MAP_FAILED ? "closed" : "open");
-  });
-  tried.run();
-  CHECK(tried.text == "closed closed closed");
 }
 
 TEST_CASE("Files are read whatever the parent does with SIGCHLD", "[confinement]") {
