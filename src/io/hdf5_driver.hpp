@@ -18,6 +18,10 @@ struct DriverFile : H5FD_t {
 /// driver's own.
 inline H5FD_class_t driver_class_of(const char* name, std::size_t access_size) {
   H5FD_class_t driver{};
+#ifdef H5FD_CLASS_VERSION  // HDF5 1.14 and later refuse a class without them
+  driver.version = H5FD_CLASS_VERSION;
+  driver.value = H5_VFD_RESERVED;  // the first number that is not of a driver of HDF5's own
+#endif
   driver.name = name;
   driver.maxaddr = std::numeric_limits<std::int64_t>::max();
   driver.fc_degree = H5F_CLOSE_WEAK;

@@ -56,4 +56,13 @@ inline void check(herr_t status, const std::string& what) {
   if (status < 0) throw IoError("cannot " + what);
 }
 
+/// How a file is to be created: in the earliest format that holds it, so that the bytes are those of
+/// every version of HDF5. Its version 2.0 would take another format by default.
+inline Properties creation_access() {
+  const std::string what = "prepare a file";
+  Properties access(H5Pcreate(H5P_FILE_ACCESS), what);
+  check(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST), what);
+  return access;
+}
+
 }  // namespace salebra::detail::hdf5

@@ -45,7 +45,7 @@ std::string joined(const std::vector<hsize_t>& shape) {
 
 /// A file in memory under a name that no other has: nothing can lie below a file.
 File file_in_memory(const std::filesystem::path& temporary) {
-  const Properties access(H5Pcreate(H5P_FILE_ACCESS), "prepare a file");
+  const Properties access = creation_access();
   check(H5Pset_fapl_core(access, increment, false), "prepare a file");
   return {H5Fcreate((temporary / "image").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access),
           "create an HDF5 file in memory"};

@@ -21,6 +21,13 @@ constexpr std::size_t deepest = 32, longest_path = 4096, longest_fixed_text = 1 
 /// Bytes of doubles that are handed over at a time, where chunks are not larger.
 constexpr std::uint64_t block_bytes = 1 << 20;
 
+/// What H5Oget_info2() fills in: HDF5 1.12 gave its name to another type.
+#if H5_VERSION_GE(1, 12, 0)
+using ObjectInfo = H5O_info1_t;
+#else
+using ObjectInfo = H5O_info_t;
+#endif
+
 struct Link {
   std::string name;
   H5L_type_t type;
@@ -194,7 +201,7 @@ class Outline {
   Object::Kind visit(const std::string& path, hid_t id, std::size_t depth) {
     try {
       const Any opened(id, "open " + (path.empty() ? "the root" : path));
-      H5O_info_t info;
+      ObjectInfo info;
       check(H5Oget_info2(opened, &info, H5O_INFO_BASIC), "read " + path);
       if (info.type == H5O_TYPE_DATASET) return visit_dataset(path, opened);
       if (info.type != H5O_TYPE_GROUP) return refuse_object(path, "is neither group nor dataset");

@@ -86,7 +86,7 @@ H5FD_class_t sparse_driver_class() {
 Properties access_to(SparseImage& image) {
   static const H5FD_class_t driver = sparse_driver_class();
   static const hid_t id = H5FDregister(&driver);
-  Properties access(H5Pcreate(H5P_FILE_ACCESS), "prepare a file");
+  Properties access = creation_access();
   const Access info{&image};
   check(H5Pset_driver(access, id, &info), "prepare a file");
   return access;
