@@ -12,6 +12,7 @@ configure_package_config_file(cmake/salebraConfig.cmake.in ${PROJECT_BINARY_DIR}
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/salebraConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/salebraConfig.cmake ${PROJECT_BINARY_DIR}/salebraConfigVersion.cmake
+    ${CMAKE_CURRENT_LIST_DIR}/SalebraFind.cmake
   DESTINATION ${package_dir} COMPONENT development)
 
 if(NOT PROJECT_IS_TOP_LEVEL)

@@ -3,10 +3,9 @@
 # LIKE: a target with the same compiler flags, whose parsed headers this one takes over (salebra_parse_once).
 # A header of a library belongs to the file set HEADERS, so that CMake can compile each one alone.
 function(salebra_library target alias)
-  add_library(${target})
+  add_library(${target} STATIC)
   add_library(salebra::${alias} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${alias} VERIFY_INTERFACE_HEADER_SETS ON
-    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${alias} VERIFY_INTERFACE_HEADER_SETS ON)
   target_compile_features(${target} PUBLIC cxx_std_20)
   salebra_warnings(${target})
   salebra_parse_once(${target} ${ARGN})
@@ -24,12 +23,15 @@ endfunction()
 
 # What nearly every source of ours includes is parsed once for a target, and sources are compiled by the dozen, so that what they share is
 # made once. Names without linkage are therefore unique in a target. Every file still includes what it uses:
-# SALEBRA_WERROR, with which the project is developed, builds file by file, and so do the presets asan and tsan.
+# SALEBRA_WERROR, with which the project is developed, builds file by file. CMAKE_UNITY_BUILD=OFF and CMAKE_DISABLE_PRECOMPILE_HEADERS
+# do without one or the other, as everywhere.
 function(salebra_parse_once target)
   if(SALEBRA_WERROR)
     return()
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  if(NOT DEFINED CMAKE_UNITY_BUILD)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  endif()
   # A name of one source may hide that of another, and a source is not the file that is compiled.
   target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   if(ARGN)
@@ -42,5 +44,12 @@ function(salebra_parse_once target)
   # GCC forgets which of them are the system's and then sees overruns in std::string.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+  endif()
+endfunction()
+
+# salebra_compile_fast(TARGET): for what computes nothing, unless whoever builds chose an optimisation.
+function(salebra_compile_fast target)
+  if(NOT CMAKE_CXX_FLAGS MATCHES "-O" AND CMAKE_CXX_FLAGS_RELEASE STREQUAL "-O3 -DNDEBUG")
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
 endfunction()

@@ -9,7 +9,7 @@
 #include <salebra/generators/random_phase.hpp>
 
 using namespace salebra;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 

@@ -113,7 +113,7 @@ TEST_CASE("Sinusoids have their waves and amplitude", "[generators][shapes]") {
 }
 
 TEST_CASE("Shapes refuse what has no shape", "[generators][shapes]") {
-  CHECK_THROWS_WITH(paraboloid_surface(grid, 0), Catch::Matchers::Contains("radius: 0 must"));
+  CHECK_THROWS_WITH(paraboloid_surface(grid, 0), Catch::Contains("radius: 0 must"));
   CHECK_THROWS_AS(cone_surface(grid, pi / 2), InvalidInput);
   CHECK_THROWS_AS(cone_surface(grid, -0.1), InvalidInput);
   CHECK_THROWS_AS(paraboloid_surface(grid, 1, PlanePoint{std::nan(""), 0}), InvalidInput);

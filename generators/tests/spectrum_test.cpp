@@ -8,7 +8,7 @@
 #include <salebra/generators/spectrum.hpp>
 
 using namespace salebra;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 
 namespace {
 
