@@ -21,17 +21,20 @@ endif()
 
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program FILES_MATCHING PATTERN "*.md"
-  PATTERN "*.bib" PATTERN images EXCLUDE PATTERN static EXCLUDE)
+  PATTERN "*.bib" PATTERN "*.png" PATTERN "*.svg" PATTERN static EXCLUDE)
 install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/data COMPONENT program FILES_MATCHING PATTERN "*.toml" PATTERN "*.txt" PATTERN "*.md"
   PATTERN reference EXCLUDE)
 
-# cpack -G DEB: salebra and libsalebra-dev, whose dependencies dpkg-shlibdeps reads from the program.
+# cpack -G DEB: salebra, libsalebra-dev and, with MPI, salebra-mpi. dpkg-shlibdeps reads from the programs what they depend on. Libraries
+# lie where Debian has them if the tree is configured for /usr, as by the preset `package`.
 set(CPACK_PACKAGE_NAME salebra)
 set(CPACK_PACKAGE_VENDOR "The salebra developers")
 set(CPACK_PACKAGE_CONTACT "The salebra developers <developers@salebra.invalid>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/SalebraDebian.cmake)
+set(CPACK_SALEBRA_COPYRIGHT ${PROJECT_SOURCE_DIR}/packaging/debian/copyright)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL program development)
@@ -48,12 +51,12 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
   "Generates and measures rough surfaces, presses them by boundary elements and by Greenwood-Williamson's\n model, and computes the relaxation damping of oscillating contacts.")
 set(CPACK_DEBIAN_MPI_PACKAGE_NAME salebra-mpi)
 set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS salebra)  # its manual, study files and documentation
+set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "salebra (= ${PROJECT_VERSION})")  # its manual, study files and documentation
 set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS "openmpi-bin")
 set(CPACK_COMPONENT_MPI_DESCRIPTION "salebra over the processes of MPI: generates and presses a surface that one machine does not hold.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsalebra-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev, libfftw3-dev, libfmt-dev, libgsl-dev, libhdf5-dev, libpugixml-dev, libzip-dev, libtomlplusplus-dev, nlohmann-json3-dev, pkg-config")
+  "g++, libeigen3-dev (>= 3.4), libfftw3-dev (>= 3.3), libfmt-dev, libgsl-dev (>= 2.7), libhdf5-dev (>= 1.10), libpugixml-dev, libzip-dev, libtomlplusplus-dev, nlohmann-json3-dev, pkg-config")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Libraries and headers of salebra, for CMake's find_package(salebra).")
 include(CPack)
