@@ -216,6 +216,7 @@ void run(const CompareArguments& arguments, Session& session) {
   StudyConfiguration configuration = arguments.study.study();
   configuration.models =
       arguments.models.empty() ? configuration.compared_models : contact_models(arguments.models);
+  name_surface(configuration, session);
   if (run_without_results(configuration, arguments.study, session)) return;
   StudyReport report(arguments.study, session);
   const std::vector<StudyResult> results =

@@ -117,8 +117,6 @@ void check_residual(const ContactArguments& arguments, const Session& session) {
   require(arguments.hardness.has_value(), "--residual", arguments.residual,
           "is what a plastic contact leaves; give --hardness");
   require_surface_name(arguments.residual);
-  require(arguments.residual != session.output(), "--residual", arguments.residual,
-          "is the --output too; name another file");
   require_output(arguments.residual, session.write_options());
 }
 
@@ -263,14 +261,16 @@ void add_contact_command(Program& program) {
           "--residual", arguments->residual,
           "with --hardness: write the surface that unloading leaves, whose later contacts up "
           "to this load are elastic; read it back with --detrend none")
-      ->type_name("FILE");
+      ->file(FileUse::output);
   command.add_flag("--stiffness", arguments->stiffness,
                    "K of the contact set too, as normal_stiffness in N/m; null in full contact of "
                    "a periodic surface, where "
                    "it is infinite");
-  command.add_option("--initial", arguments->initial,
-                     "result of this command to start from, of the same grid; saves iterations and "
-                     "changes no result");
+  command
+      .add_option("--initial", arguments->initial,
+                  "result of this command to start from, of the same grid; saves iterations and "
+                  "changes no result")
+      ->file(FileUse::input);
   arguments->checkpoint.add_to(command);
   add_choice(command, "--fields", arguments->fields, {"none", "pressure", "all"},
              "of the output: none leaves its numbers; default all");

@@ -52,7 +52,7 @@ void add_convert_command(Program& program) {
       .add_option("OUT", arguments->to,
                   "new file; its extension decides on the format: " + written_extensions())
       ->required()
-      ->type_name("FILE");
+      ->file(FileUse::output);
   command.add_flag(
       "--fill", arguments->fill,
       "fill undefined points by the smoothest surface through the others, for contacts");

@@ -114,7 +114,7 @@ void add_fit_command(Program& program) {
       .add_option("CURVE", arguments->curve,
                   "file of sweep, gw or a study of one surface, or a text table")
       ->required()
-      ->type_name("FILE");
+      ->file(FileUse::input);
   add_values(command, "--pressure-window", arguments->window, Dimension::pressure,
              "LOWER,UPPER; default: mean gaps of 1 to 2.5 rms heights");
   command

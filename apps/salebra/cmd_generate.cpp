@@ -311,7 +311,7 @@ void add_generate_command(Program& program) {
   command
       .add_option("--heights-from", arguments->heights_from,
                   "the distribution of heights of this surface, less its trend")
-      ->type_name("FILE")
+      ->file(FileUse::input)
       ->group(heights);
   add_choice<Exact>(command, "--exact", arguments->exact,
                     "which of the two holds exactly; default heights")
@@ -329,7 +329,7 @@ void add_generate_command(Program& program) {
   command
       .add_option("--composite", arguments->composite,
                   "add the heights of this surface, which has the same points")
-      ->type_name("FILE")
+      ->file(FileUse::input)
       ->group(after);
   command
       .add_option("--crop", arguments->crop,

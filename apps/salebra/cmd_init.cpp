@@ -173,7 +173,10 @@ std::string measured(const Arguments& arguments, std::string& amplitude, Session
 }
 
 void run(Arguments arguments, Session& session) {
-  if (session.has_output()) arguments.file = session.output().string();
+  if (session.has_output())
+    arguments.file = session.output().string();
+  else
+    session.writes("FILE", arguments.file);
   require_output(arguments.file, session.write_options());
   std::string amplitude = toml_string("1nm");
   const std::string surface = arguments.surface.given() ? measured(arguments, amplitude, session)

@@ -202,12 +202,12 @@ void add_mdr_command(Program& program) {
   const std::string more = "Maps";
   command
       .add_option("--stress-map", arguments->stress_map, "HDF5 file for stresses over r and phase")
-      ->type_name("FILE")
+      ->file(FileUse::output)
       ->group(more);
   command
       .add_option("--friction-map", arguments->friction_map,
                   "HDF5 file for W(mu)/W(infinity) over M and phase")
-      ->type_name("FILE")
+      ->file(FileUse::output)
       ->group(more);
   command.add_option("--map-phases", arguments->phases, "of the stress map; default 256")
       ->range(8, 100000)

@@ -141,10 +141,10 @@ Oscillation motion_of(MotionOptions motion, const Body& body, double indentation
   return motion.motions().front();
 }
 
-void check(const OscillateArguments& arguments, const Session& session) {
+void check(const OscillateArguments& arguments, Session& session) {
   require_one(!arguments.shape.empty(), "--shape", arguments.surface.given(), "--surface");
   const bool simulate = arguments.method != "levels";
-  arguments.record.check(session);
+  arguments.record.check(arguments.steps, arguments.friction.cycles(), session);
   require(simulate || (arguments.record.checkpoint.empty() && arguments.record.fields.empty()),
           "--method", arguments.method,
           "steps through no cycle: leave out --checkpoint and --fields");
@@ -192,7 +192,7 @@ void finish(const OscillationOutcome& outcome, const CycleOptions& cycle,
     Premise& coupling = premises.cases.front().coupling;
     coupling.value =
         std::abs(outcome.coupled->work_per_cycle / outcome.frictional->work_per_cycle - 1);
-    coupling.verdict = std::isnan(coupling.value)                 ? Verdict::unknown
+    coupling.verdict = std::isnan(coupling.value)                   ? Verdict::unknown
                        : coupling.value > coupling.limit_20_percent ? Verdict::broken
                        : coupling.value > coupling.limit_5_percent  ? Verdict::doubtful
                                                                     : Verdict::holds;

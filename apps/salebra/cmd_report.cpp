@@ -22,7 +22,7 @@ void run(const ReportArguments& arguments, Session& session) {
   const std::filesystem::path results = arguments.results;
   auto page = session.output();
   if (!session.has_output()) page = std::filesystem::path(results).replace_extension(".html");
-  require(page != results, "--output", page.string(), "is the results file; name another one");
+  if (!session.has_output()) session.writes("--output", page);
   write_report(results, page,
                {.write = session.write_options(),
                 .title = arguments.title,
@@ -43,13 +43,13 @@ void add_report_command(Program& program) {
       .add_option("RESULTS", arguments->results,
                   "what study or compare wrote; without --output, the page is written next to it")
       ->required()
-      ->type_name("FILE");
+      ->file(FileUse::input);
   command.add_option("--title", arguments->title, "heading of the page");
   command
       .add_option("--direct", arguments->direct,
                   "what oscillate wrote of the same surface and motion, drawn with the damping "
                   "curves; several files one after the other")
-      ->type_name("FILE");
+      ->file(FileUse::input);
 }
 
 }  // namespace salebra::cli

@@ -165,6 +165,7 @@ void run(const StudyArguments& arguments, Session& session) {
     if (given) session.require_one_process(option);
   StudyConfiguration configuration;
   collectively(session.ranks(), [&] { configuration = arguments.study(); });
+  name_surface(configuration, session);
   if (run_without_results(configuration, arguments, session)) return;
   StudyReport report(arguments, session);
   const std::vector<StudyResult> results = run_and_keep(configuration, arguments, report, session);

@@ -44,6 +44,19 @@ Option* Option::type_name(std::string name) {
   return this;
 }
 
+Option* Option::file(FileUse use, std::string partner) {
+  file_use_ = use;
+  partner_ = std::move(partner);
+  return type_name("FILE");
+}
+
+std::vector<std::string> Option::files() const {
+  if (file_use_ == FileUse::none) return {};
+  if (const auto* many = std::get_if<std::vector<std::string>*>(&target_)) return **many;
+  const std::string& one = *std::get<std::string*>(target_);
+  return one.empty() ? std::vector<std::string>{} : std::vector{one};
+}
+
 Option* Option::required(bool needed) {
   required_ = needed;
   return this;

@@ -14,6 +14,13 @@
 /// the command line, and hands it over. Help and completion read the same declarations.
 namespace salebra::cli {
 
+/// What a command does with a file that an option names.
+enum class FileUse {
+  none,   ///< the option names no file
+  input,  ///< reads it
+  output  ///< writes it
+};
+
 /// An option, a flag or a positional argument. What is set here returns the option, so that one
 /// declaration is one expression.
 class Option {
@@ -31,6 +38,8 @@ class Option {
   Option* group(std::string name);
   /// Kind of value, such as FILE.
   Option* type_name(std::string name);
+  /// Names a file: FILE. partner: another option that may name the file that this one writes.
+  Option* file(FileUse use, std::string partner = "");
   Option* required(bool needed = true);
   /// The only values allowed; a misspelt one is answered with the nearest.
   Option* choices(std::vector<std::string> values);
@@ -54,6 +63,10 @@ class Option {
   const std::optional<std::pair<int, int>>& range() const { return range_; }
   const Check& check() const { return check_; }
   std::optional<char> delimiter() const { return delimiter_; }
+  FileUse file_use() const { return file_use_; }
+  const std::string& partner() const { return partner_; }
+  /// The files that were named.
+  std::vector<std::string> files() const;
   bool positional() const { return names_.front().front() != '-'; }
   bool required() const { return required_; }
   bool shows_default() const { return shows_default_; }
@@ -61,7 +74,8 @@ class Option {
  private:
   std::vector<std::string> names_;
   Target target_;
-  std::string help_, group_ = "Options", type_name_;
+  std::string help_, group_ = "Options", type_name_, partner_;
+  FileUse file_use_ = FileUse::none;
   std::vector<std::string> choices_;
   std::optional<std::pair<int, int>> range_;
   Check check_;

@@ -10,14 +10,11 @@
 #include <salebra/base/error.hpp>
 
 #include "grid_axes.hpp"
+#include "named_files.hpp"
 #include "options.hpp"
 
 namespace salebra::cli {
 namespace {
-
-bool same_name(const std::filesystem::path& a, const std::filesystem::path& b) {
-  return a.lexically_normal() == b.lexically_normal();
-}
 
 /// An answer of the root.
 bool is_there(const Session& session, const std::string& file) {
@@ -32,7 +29,7 @@ void ContactCheckpoint::add_to(Command& command) {
           "--checkpoint", file,
           "file that keeps the pressure while the contact is solved, for --initial; removed "
           "once it has converged")
-      ->type_name("FILE");
+      ->file(FileUse::output, "--initial");
   add_quantity(command, "--checkpoint-every", every, Dimension::time,
                "time between checkpoints; default 10 min, 0 for every iteration");
 }
@@ -43,11 +40,9 @@ void ContactCheckpoint::check(const Session& session, const std::string& initial
   if (every)
     require(*every >= 0 && std::isfinite(*every), "--checkpoint-every", *every, "must be >= 0");
   if (file.empty()) return;
-  require(!same_name(file, session.output()), "--checkpoint", file,
-          "is the --output too; name another file");
   collectively(session.ranks(), [&] {
     if (!session.ranks().is_root()) return;
-    const bool replaces = session.write_options().overwrite || same_name(file, initial);
+    const bool replaces = session.write_options().overwrite || same_file(file, initial);
     require_that(
         replaces || !std::filesystem::exists(file), file,
         "exists; continue from it with --initial " + file + ", or add --overwrite to start anew");
@@ -56,7 +51,7 @@ void ContactCheckpoint::check(const Session& session, const std::string& initial
 }
 
 bool ContactCheckpoint::starts_anew(const Session& session, const std::string& initial) const {
-  return !file.empty() && same_name(file, initial) && !is_there(session, file);
+  return !file.empty() && same_file(file, initial) && !is_there(session, file);
 }
 
 void ContactCheckpoint::add_to(NormalContactOptions& options, Session& session,

@@ -27,7 +27,7 @@ void FollowOptions::add_to(Command& app) {
       ->group(group);
   app.add_option("--trajectory", trajectory,
                  "follow one period from a file of time, indentation, x and, without slip, y (SI)")
-      ->type_name("FILE")
+      ->file(FileUse::input)
       ->group(group);
 }
 

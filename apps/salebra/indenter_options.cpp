@@ -29,7 +29,7 @@ void IndenterOptions::add_to(Command& app) {
       ->group(group);
   app.add_option("--table", table,
                  "table: file with two columns in m, radius and height, from the axis outwards")
-      ->type_name("FILE")
+      ->file(FileUse::input)
       ->group(group);
 }
 

@@ -198,7 +198,7 @@ void LawOptions::add_to(Command& command) {
       ->group(group);
   command
       .add_option("--curve", curve, "file of sweep, gw or a study of one surface, instead of --law")
-      ->type_name("FILE")
+      ->file(FileUse::input)
       ->group(group);
   surface.add_to(command, false, "--surface");
   add_quantity(command, "--decay-length", decay_length, Dimension::length,

@@ -155,7 +155,7 @@ Option* add_seed(Command& app, std::uint64_t& target, const std::string& help) {
 void SurfaceOptions::add_to(Command& app, bool needed, const std::string& field) {
   app.add_option(field, file, "file with heights, recognised by its content: " + read_extensions())
       ->required(needed)
-      ->type_name("FILE");
+      ->file(FileUse::input);
   const std::string group = "Surface";
   add_quantity(app, "--size-x", size_x, Dimension::length, "for files that do not state their size")
       ->group(group);
@@ -175,7 +175,7 @@ void SurfaceOptions::add_recipe_to(Command& app) {
   const std::string group = "Surface";
   app.add_option("--recipe", recipe,
                  "study file that says how to generate the surface, in place of SURFACE")
-      ->type_name("FILE")
+      ->file(FileUse::input)
       ->group(group);
   add_seed(app, seed, "of --recipe; default 1")->group(group);
 }

@@ -158,7 +158,8 @@ Command& Program::add_command(const std::string& name, const std::string& what,
   auto common = std::make_shared<CommonOptions>();
   Command& command = commands_.emplace_back(
       name, what, examples,
-      [common, name, action = std::move(action), line = command_line_, check, &launch = launch_] {
+      [this, common, name, action = std::move(action), line = command_line_, check,
+       &launch = launch_] {
         if (std::ranges::find(spread_commands, name) == std::end(spread_commands))
           require_one_process(launch, name);
         const int threads = std::min(common->threads, parallel::most_threads());
@@ -167,17 +168,18 @@ Command& Program::add_command(const std::string& name, const std::string& what,
         if (threads < common->threads)
           session.warn(fmt::format("--threads {}: too many for this machine; {} are used",
                                    common->threads, threads));
+        session.name_files(std::ranges::find(commands_, name, &Command::name)->options());
         action(session);
       });
   const std::string group = "Common options";
   command.add_flag("--json", common->json, "print exactly one JSON object, in SI units")
       ->group(group);
   command.add_option("-o,--output", common->output, "file to write")
-      ->type_name("FILE")
+      ->file(FileUse::output)
       ->group(group);
   if (!picture.empty())
     command.add_option("--plot", common->plot, "picture to draw, .png, .svg or .pdf: " + picture)
-        ->type_name("FILE")
+        ->file(FileUse::output)
         ->group(group);
   command.add_flag("--overwrite", common->overwrite, "replace an existing output file")
       ->group(group);

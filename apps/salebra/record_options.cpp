@@ -11,7 +11,7 @@ namespace salebra::cli {
 void RecordOptions::add_to(Command& app) {
   app.add_option("--checkpoint", checkpoint,
                  "file that keeps the state of the cycle while it runs; removed at its end")
-      ->type_name("FILE");
+      ->file(FileUse::output);
   add_quantity(app, "--checkpoint-every", checkpoint_every, Dimension::time,
                "time between checkpoints; default 60 s, 0 for every step");
   app.add_flag("--resume", resume,
@@ -24,7 +24,8 @@ void RecordOptions::add_to(Command& app) {
              "steps to write fields of; default nine over the cycle");
 }
 
-void RecordOptions::check(const Session& session) const {
+void RecordOptions::check(int steps, const std::vector<std::string>& cycles,
+                          Session& session) const {
   require_that(!resume || !checkpoint.empty(), "--resume",
                "given without --checkpoint; name the checkpoint");
   require(!checkpoint_every || *checkpoint_every >= 0, "--checkpoint-every",
@@ -32,6 +33,9 @@ void RecordOptions::check(const Session& session) const {
   if (!fields.empty()) {
     const WriteOptions writing = resume ? WriteOptions{.overwrite = true} : session.write_options();
     require_output(fields + ".xdmf", writing);
+    for (const std::string& cycle : cycles)
+      for (const auto& file : CycleFields::files(fields + cycle, steps_of_fields(steps)))
+        session.writes("--fields", file);
   }
   if (checkpoint.empty()) return;
   require_output(checkpoint, {.overwrite = true});
@@ -46,16 +50,22 @@ CycleRecordOptions RecordOptions::options(int steps, const Session& session) con
   CycleRecordOptions options{.checkpoint = checkpoint,
                              .resume = resume,
                              .fields = fields,
+                             .field_steps = steps_of_fields(steps),
                              .writing = session.write_options()};
   if (checkpoint_every) options.checkpoint_every = *checkpoint_every;
+  return options;
+}
+
+std::vector<int> RecordOptions::steps_of_fields(int steps) const {
+  std::vector<int> chosen;
   if (field_steps.empty())
-    for (int k = 0; k <= 8; ++k) options.field_steps.push_back(k * steps / 8);
+    for (int k = 0; k <= 8; ++k) chosen.push_back(k * steps / 8);
   for (const double step : field_steps) {
     require(step == std::floor(step) && step >= 0 && step <= steps, "--field-steps", step,
             "is not one of the steps; give whole numbers from 0 to --steps");
-    options.field_steps.push_back(static_cast<int>(step));
+    chosen.push_back(static_cast<int>(step));
   }
-  return options;
+  return chosen;
 }
 
 }  // namespace salebra::cli

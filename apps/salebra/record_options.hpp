@@ -18,10 +18,14 @@ struct RecordOptions {
   std::vector<double> field_steps;
 
   void add_to(Command& app);
-  /// Before any work: that the files suit what is asked for.
-  void check(const Session& session) const;
-  /// For the library. Throws InvalidInput for a step that is none of the cycle's.
+  /// Before any work: that the files suit what is asked for. cycles: names of those that are
+  /// recorded. Throws InvalidInput for a step that is none of the cycle's.
+  void check(int steps, const std::vector<std::string>& cycles, Session& session) const;
+  /// For the library.
   CycleRecordOptions options(int steps, const Session& session) const;
+
+ private:
+  std::vector<int> steps_of_fields(int steps) const;
 };
 
 }  // namespace salebra::cli

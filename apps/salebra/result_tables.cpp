@@ -68,11 +68,13 @@ std::string to_csv(const Session& session, const ResultTable& table) {
 
 }  // namespace
 
-void require_tables(const Session& session, const std::vector<std::string>& tables) {
+void require_tables(Session& session, const std::vector<std::string>& tables) {
   if (!session.has_output()) return;
   if (kind_of(session.output()) != Kind::csv) return;
-  for (const std::string& table : tables)
+  for (const std::string& table : tables) {
+    session.writes("--output", beside(session.output(), table));
     require_output(beside(session.output(), table), session.write_options());
+  }
 }
 
 namespace {

@@ -39,7 +39,7 @@ struct ResultTable {
 void write_tables(const Session& session, const std::string& group, const Json& answer,
                   const std::vector<ResultTable>& tables);
 /// Throws what write_tables would throw at its start.
-void require_tables(const Session& session, const std::vector<std::string>& tables);
+void require_tables(Session& session, const std::vector<std::string>& tables);
 
 /// The answer with an object for each table: {"x": […], "y": […], "units": {…}, "note": …}.
 Json with_tables(Json answer, const std::vector<ResultTable>& tables);

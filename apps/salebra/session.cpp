@@ -136,6 +136,30 @@ void Session::require_free_output() const {
   });
 }
 
+void Session::name_files(const std::deque<Option>& options) {
+  for (const Option& option : options)
+    for (const std::string& file : option.files()) {
+      const std::string& name = option.names().back();
+      if (option.file_use() == FileUse::output)
+        writes(name, file, option.partner());
+      else
+        reads(name, file);
+    }
+}
+
+void Session::reads(std::string_view option, const std::filesystem::path& file) {
+  collectively(ranks(), [&] {
+    if (ranks().is_root()) files_.reads(option, file);
+  });
+}
+
+void Session::writes(std::string_view option, const std::filesystem::path& file,
+                     std::string_view partner) {
+  collectively(ranks(), [&] {
+    if (ranks().is_root()) files_.writes(option, file, partner);
+  });
+}
+
 Provenance Session::provenance() const {
   Provenance provenance;
   provenance.command_line = command_line_;

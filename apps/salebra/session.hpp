@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <salebra/base/error.hpp>
 #include <salebra/base/progress.hpp>
@@ -12,7 +13,9 @@
 #include <string>
 #include <string_view>
 
+#include "command.hpp"
 #include "launch.hpp"
+#include "named_files.hpp"
 #include "progress_bar.hpp"
 
 namespace salebra::cli {
@@ -53,6 +56,13 @@ class Session {
   bool stopped() const;
   /// Throws as the constructor does. Collective.
   void require_free_output() const;
+  /// The files that options name, then others that the command reads or writes, before its work.
+  /// Throws InvalidInput where one that is written is read or written under another name too, and
+  /// where processes would read different files. Collective.
+  void name_files(const std::deque<Option>& options);
+  void reads(std::string_view option, const std::filesystem::path& file);
+  void writes(std::string_view option, const std::filesystem::path& file,
+              std::string_view partner = "");
   bool quiet() const { return options_.quiet; }
   bool has_plot() const { return !options_.plot.empty(); }
   /// Draws what --plot asked for; nothing where it was not given.
@@ -88,6 +98,7 @@ class Session {
   CommonOptions options_;
   std::string command_line_;
   ProgressBar bar_;
+  NamedFiles files_;
   std::set<std::string> warned_;
 };
 

@@ -51,7 +51,7 @@ void SpectrumOptions::add_to(Command& app) {
   app.add_option("--psd-table", table,
                  "in place of --hurst: file with two columns, wave number in rad/m and density; "
                  "--rms-height scales it")
-      ->type_name("FILE")
+      ->file(FileUse::input)
       ->group(group);
   add_choice(app, "--convention", convention, {"salebra", "surface-topography", "gwyddion"},
              "of --psd-table; default salebra, rms_height^2 = integral of C d^2q")

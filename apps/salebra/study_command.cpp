@@ -55,7 +55,7 @@ void StudyArguments::add_to(Command& command, bool over_processes) {
   command
       .add_option("CONFIG", configuration,
                   "study file (TOML); options take the place of what it says")
-      ->type_name("FILE");
+      ->file(FileUse::input);
   surface.add_to(command, false, "--surface");
   material.add_to(command);
   motion.add_to(command);
@@ -101,6 +101,7 @@ StudyReport::StudyReport(const StudyArguments& arguments, Session& session) : se
   if (arguments.no_report || !session.has_output()) return;
   lacks_assets_ = !can_report();
   if (lacks_assets_) return;
+  session.writes("--output", session.output().replace_extension(".html"));
   collectively(session.ranks(), [&] {
     if (!session.ranks().is_root()) return;
     page_ = session.output().replace_extension(".html");
@@ -438,6 +439,11 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
   if (!session.has_output())
     session.note("no file was written; add --output FILE to keep the results");
   return results;
+}
+
+void name_surface(const StudyConfiguration& configuration, Session& session) {
+  if (const auto* measured = std::get_if<MeasuredSurface>(&configuration.surfaces))
+    session.reads("surface.file", measured->file);
 }
 
 bool run_without_results(const StudyConfiguration& configuration, const StudyArguments& arguments,

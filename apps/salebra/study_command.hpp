@@ -87,6 +87,9 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
                                       const StudyArguments& arguments, StudyReport& page,
                                       Session& session);
 
+/// The file of a measured surface, which no option names.
+void name_surface(const StudyConfiguration& configuration, Session& session);
+
 /// What ends a command before its results: --dry-run and --shard. False where there is neither.
 bool run_without_results(const StudyConfiguration& configuration, const StudyArguments& arguments,
                          Session& session);

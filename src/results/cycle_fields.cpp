@@ -18,6 +18,14 @@ std::filesystem::path with_ending(const std::filesystem::path& prefix, const std
   return file;
 }
 
+std::filesystem::path list_file(const std::filesystem::path& prefix) {
+  return with_ending(prefix, ".xdmf");
+}
+
+std::filesystem::path mesh_file(const std::filesystem::path& prefix) {
+  return with_ending(prefix, "-mesh.h5");
+}
+
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -40,14 +48,14 @@ CycleFields::CycleFields(std::filesystem::path prefix, const Surface& surface,
       heights_(surface.heights),
       provenance_(std::move(provenance)) {
   surface.require_whole("fields of an oscillating contact");
-  require_output(with_ending(prefix_, ".xdmf"), options);
+  require_output(list_file(prefix_), options);
   x_ = positions(grid_.nx, grid_.dx());
   y_ = positions(grid_.ny, grid_.dy());
   std::vector<double> points;
   points.reserve(static_cast<std::size_t>(3 * grid_.points()));
   for (const double x : x_)
     for (const double y : y_) points.insert(points.end(), {x, y, 0.0});
-  ResultFile file(with_ending(prefix_, "-mesh.h5"), provenance_, {.overwrite = true});
+  ResultFile file(mesh_file(prefix_), provenance_, {.overwrite = true});
   QuantityGroup mesh(file.group("mesh"));
   mesh.coordinate("x", x_);
   mesh.coordinate("y", y_);
@@ -57,8 +65,15 @@ CycleFields::CycleFields(std::filesystem::path prefix, const Surface& surface,
   file.commit();
 }
 
-std::filesystem::path CycleFields::frame_file(int step) const {
-  return with_ending(prefix_, fmt::format("-{:04}.h5", step));
+std::filesystem::path CycleFields::frame_file(const std::filesystem::path& prefix, int step) {
+  return with_ending(prefix, fmt::format("-{:04}.h5", step));
+}
+
+std::vector<std::filesystem::path> CycleFields::files(const std::filesystem::path& prefix,
+                                                      const std::vector<int>& steps) {
+  std::vector<std::filesystem::path> names{list_file(prefix), mesh_file(prefix)};
+  for (const int step : steps) names.push_back(frame_file(prefix, step));
+  return names;
 }
 
 void CycleFields::write(const CycleState& state, double time, const NormalContactState& normal) {
@@ -125,7 +140,7 @@ void CycleFields::write_list() const {
         "{}:{}</DataItem>",
         grid_.nx, grid_.ny, components, escaped(file.filename().string()), dataset);
   };
-  const std::filesystem::path mesh = with_ending(prefix_, "-mesh.h5");
+  const std::filesystem::path mesh = mesh_file(prefix_);
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"3.0\">\n <Domain>\n"
       "  <Grid Name=\"cycle\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
@@ -146,7 +161,7 @@ void CycleFields::write_list() const {
     text += "   </Grid>\n";
   }
   text += "  </Grid>\n </Domain>\n</Xdmf>\n";
-  detail::AtomicFile file(with_ending(prefix_, ".xdmf"), {.overwrite = true});
+  detail::AtomicFile file(list_file(prefix_), {.overwrite = true});
   file.write(text);
   file.commit();
 }

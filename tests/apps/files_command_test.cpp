@@ -171,3 +171,62 @@ TEST_CASE("info reads text with a byte order mark, CR LF and decimal commas", "[
   CHECK(result.json()["size_x"].get<double>() == Approx(3e-6));
   CHECK(result.json()["mean"].get<double>() == Approx(33. / 9));
 }
+
+TEST_CASE("A file that a command reads is never replaced, by whatever name", "[files][bad-input]") {
+  const ProgramTest test;
+  const auto folder = test.folder();
+  REQUIRE(test.run("generate --points 16 --size-x 10um --hurst 0.8 --short-cutoff 2.5um "
+                   "--rms-height 10nm -o in.h5")
+              .status == 0);
+  std::filesystem::create_symlink("in.h5", folder / "link.h5");
+  std::filesystem::create_hard_link(folder / "in.h5", folder / "same.h5");
+  std::filesystem::create_directory_symlink(".", folder / "here");
+  const std::string surface = test.read("in.h5");
+  const std::string contact = "contact in.h5 --contact-modulus 1GPa --pressure 1MPa --overwrite ";
+  for (const std::string& name :
+       {std::string("in.h5"), std::string("./in.h5"), std::string("link.h5"),
+        std::string("same.h5"), std::string("here/in.h5"), (folder / "in.h5").string()}) {
+    INFO(name);
+    check_refused(test.run(contact + "-o " + name), "is the SURFACE too; name another file");
+    check_refused(test.run(contact + "--checkpoint " + name), "--checkpoint: ");
+    check_refused(test.run("convert in.h5 --overwrite " + name), "is the SURFACE too");
+  }
+  // A study file names its surface itself, and a page is written beside the results.
+  test.write("study.toml",
+             "[surface]\nfile = \"in.h5\"\n[material]\ncontact_modulus = \"1GPa\"\npoisson = 0.3\n"
+             "[contact]\nrelative_pressures = \"1e-3:0.1:4\"\n[damping]\nmode = \"drag\"\n"
+             "normal_amplitude = \"1nm\"\ndrag_velocity = \"1um/s\"\nfrequency = \"20kHz\"\n");
+  check_refused(test.run("study study.toml -o ./in.h5 --overwrite"), "is the surface.file too");
+  const std::string oscillate =
+      "oscillate --surface f-mesh.h5 --pressure 1MPa --contact-modulus 1GPa --poisson 0.3 "
+      "--normal-amplitude 1nm --tangential-amplitude 1nm --phase 45deg --overwrite ";
+  std::filesystem::copy_file(folder / "in.h5", folder / "f-mesh.h5");
+  check_refused(test.run(oscillate + "--fields ./f"), "--fields: ./f-mesh.h5 is the --surface too");
+  CHECK(test.read("in.h5") == surface);
+  CHECK(test.read("f-mesh.h5") == surface);
+
+  REQUIRE(test.run("sweep in.h5 --contact-modulus 1GPa --pressures "
+                   "1MPa:9MPa:4 -o curve.h5")
+              .status == 0);
+  const std::string curve = test.read("curve.h5");
+  check_refused(test.run("fit curve.h5 -o here/./curve.h5 --overwrite"), "is the CURVE too");
+  CHECK(test.read("curve.h5") == curve);
+  check_refused(test.run("damping --curve in.h5 -o in.h5 --overwrite"), "is the --curve too");
+  check_refused(test.run("report in.h5 -o here/in.h5 --overwrite"), "is the RESULTS too");
+}
+
+TEST_CASE("Two outputs under names of one file are refused before any work", "[files][bad-input]") {
+  const ProgramTest test;
+  const std::string mdr =
+      "mdr --profile parabola --radius 10mm --indentation 1um --contact-modulus 1GPa --poisson 0.3 "
+      "--mode equal-frequency --normal-amplitude 300nm --tangential-amplitude 200nm --phase 90deg ";
+  check_refused(test.run(mdr + "--stress-map a.h5 --friction-map ./a.h5"),
+                "--friction-map: ./a.h5 is the --stress-map too; name another file");
+  check_refused(test.run(mdr + "-o a.h5 --stress-map ./a.h5"), "is the --output too");
+  std::filesystem::create_directory_symlink(".", test.folder() / "here");
+  check_refused(test.run(mdr + "-o a.h5 --friction-map here/a.h5"), "is the --output too");
+  check_refused(test.run("oscillate --shape cone --points 16 --contact-modulus 1GPa --poisson 0.3 "
+                         "--phase 45deg --fields f --checkpoint f-0008.h5 --steps 16"),
+                "--fields: f-0008.h5 is the --checkpoint too");
+  CHECK(test.files() == std::set<std::string>{"here"});
+}

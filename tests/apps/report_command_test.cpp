@@ -55,7 +55,7 @@ TEST_CASE("report makes the same page again, whole or not at all", "[report]") {
   CHECK(again.json()["file"] == "again.html");
   CHECK(test.read("again.html") == test.read("result.html"));
   check_refused(test.run("report result.h5 -o again.html"), "again.html: exists");
-  check_refused(test.run("report result.h5 -o result.h5 --overwrite"), "is the results file");
+  check_refused(test.run("report result.h5 -o result.h5 --overwrite"), "is the RESULTS too");
 
   // Past a limit on the size of files a write fails as on a full disk.
   const auto full = test.run("report result.h5 -o full.html", "ulimit -f 64;");

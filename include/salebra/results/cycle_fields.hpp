@@ -26,6 +26,10 @@ class CycleFields {
   CycleFields(std::filesystem::path prefix, const Surface& surface, Provenance provenance,
               const WriteOptions& options = {});
 
+  /// The names of its files where these steps are written: the list, the mesh, and the steps.
+  static std::vector<std::filesystem::path> files(const std::filesystem::path& prefix,
+                                                  const std::vector<int>& steps);
+
   /// Adds the state at a step, or replaces what was written of it. time: in periods. normal: the
   /// pressure, of a stuck contact, and the gap, of one without coupling; a default one where
   /// nothing is in contact.
@@ -40,7 +44,8 @@ class CycleFields {
     double time;
     std::vector<std::string> fields;
   };
-  std::filesystem::path frame_file(int step) const;
+  static std::filesystem::path frame_file(const std::filesystem::path& prefix, int step);
+  std::filesystem::path frame_file(int step) const { return frame_file(prefix_, step); }
   Field gap_of(const NormalContactState& normal) const;
   void add(int step, double time, std::vector<std::string> fields);
   void write_list() const;
