@@ -205,8 +205,20 @@ struct NotUnderstood : Error {
   using Error::Error;
 };
 
+/// Processes with other arguments would wait for each other without end.
+void require_one_command(const std::string& command_line, const Communicator& ranks) {
+  const std::vector<std::string> lines =
+      ranks.gather_all(fmt::format("{} {}", version(), command_line));
+  for (std::size_t rank = 1; rank < lines.size(); ++rank)
+    if (lines[rank] != lines.front())
+      throw InvalidInput(fmt::format("process {}", rank + 1),
+                         "has other arguments than process 1, or another version of the program; "
+                         "give all processes the same");
+}
+
 /// Parses and runs. Throws NotUnderstood, and what the command throws.
 void run(int argc, char** argv, const Launch& launch) {
+  require_one_command(join(argc, argv), launch.ranks);
   const std::string name(program_name());
   CLI::App app("Statistics of rough-surface contact and its relaxation damping.", name);
   app.set_version_flag("--version", name + " " + std::string(version()));

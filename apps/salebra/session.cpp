@@ -14,6 +14,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/printable.hpp>
+#include <salebra/io/input.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
 #include "option_words.hpp"
@@ -148,6 +149,7 @@ void Session::name_files(const std::deque<Option>& options) {
 }
 
 void Session::reads(std::string_view option, const std::filesystem::path& file) {
+  require_one_file(file, ranks());
   collectively(ranks(), [&] {
     if (ranks().is_root()) files_.reads(option, file);
   });

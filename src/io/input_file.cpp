@@ -3,6 +3,7 @@
 #include "input_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,11 +12,16 @@
 #include <cstring>
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
+#include <salebra/io/input.hpp>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "checksum.hpp"
 #include "loaded_surface.hpp"
 
-namespace salebra::detail {
+namespace salebra {
+namespace detail {
 namespace {
 
 [[noreturn]] void refuse_unreadable(const std::filesystem::path& path, int error) {
@@ -86,9 +92,59 @@ std::string InputFile::content(std::uint64_t limit) const {
   return head(size_);
 }
 
+std::uint64_t InputFile::checksum() const {
+  Checksum sum;
+  std::string block(std::size_t{1} << 20, '\0');
+  for (off_t at = 0;;) {
+    const ssize_t count = pread(descriptor_, block.data(), block.size(), at);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) refuse_unreadable(path_, errno);
+    if (count == 0) return sum.value();
+    sum.add(std::string_view(block.data(), static_cast<std::size_t>(count)));
+    at += count;
+  }
+}
+
 bool InputFile::is_hdf5() const {
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
   return head(signature.size()) == signature;
 }
 
-}  // namespace salebra::detail
+}  // namespace detail
+
+void require_one_file(const std::filesystem::path& file, const Communicator& ranks) {
+  if (ranks.alone()) return;
+  struct stat status = {};
+  const bool there = stat(file.c_str(), &status) == 0;
+  const std::vector<std::string> copies =
+      ranks.gather_all(there ? fmt::format("{} {} {} {}", status.st_ino, status.st_size,
+                                           status.st_mtim.tv_sec, status.st_mtim.tv_nsec)
+                             : "");
+  const auto require_equal = [&](const std::vector<std::string>& all) {
+    for (std::size_t rank = 1; rank < all.size(); ++rank)
+      if (all[rank] != all.front())
+        throw InvalidInput(
+            file.string(),
+            fmt::format("is another file for process {} than for process 1; give all processes "
+                        "the same file",
+                        rank + 1));
+  };
+  if (std::ranges::count(copies, copies.front()) == std::ssize(copies)) return;
+  if (std::ranges::find(copies, "") != copies.end()) return require_equal(copies);
+  const auto mine = copies.begin() + ranks.rank();
+  const bool first = std::find(copies.begin(), mine, *mine) == mine;
+  std::string content;
+  collectively(ranks, [&] {
+    if (!first) return;
+    const detail::InputFile input(file);
+    content = fmt::format("{} {}", input.size(), input.checksum());
+  });
+  std::vector<std::string> contents = ranks.gather_all(content);
+  // Those of one copy have what its first process read.
+  for (std::size_t rank = 0; rank < contents.size(); ++rank)
+    contents[rank] = contents[static_cast<std::size_t>(std::ranges::find(copies, copies[rank]) -
+                                                       copies.begin())];
+  require_equal(contents);
+}
+
+}  // namespace salebra

@@ -6,6 +6,7 @@
 #include <salebra/base/memory.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/io/input.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <stdexcept>
 
@@ -144,6 +145,8 @@ Surface read_surface(const std::filesystem::path& file, const ReadOptions& optio
   });
   ranks.broadcast(&hdf5, sizeof hdf5);
   if (!hdf5) return spread(surface, ranks);
+  // Each process reads its rows itself.
+  require_one_file(file, ranks);
   collectively(ranks,
                [&] { surface = detail::completed(file, detail::read_hdf5(file, ranks), options); });
   surface.ranks = ranks;

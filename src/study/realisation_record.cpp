@@ -2,9 +2,6 @@
 // Binary record of a realisation with its key and checksum.
 #include "realisation_record.hpp"
 
-#include <unistd.h>
-
-#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <salebra/base/error.hpp>
@@ -120,20 +117,9 @@ static_assert(describes_all<Realisation>() && describes_all<Grid2D>() &&
               describes_all<Material>() && describes_all<EqualFrequency>() &&
               describes_all<Drag>());
 
-/// Of a file, a block at a time: it may be larger than the memory. 0 where there is none.
+/// Of a file; 0 where there is none.
 std::uint64_t checksum_of(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) return 0;
-  const InputFile input(file);
-  Checksum sum;
-  std::string block(std::size_t{1} << 20, '\0');
-  for (off_t at = 0;;) {
-    const ssize_t count = pread(input.descriptor(), block.data(), block.size(), at);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw IoError(file.string() + ": cannot be read; check the disk");
-    if (count == 0) return sum.value();
-    sum.add(std::string_view(block.data(), static_cast<std::size_t>(count)));
-    at += count;
-  }
+  return std::filesystem::exists(file) ? InputFile(file).checksum() : 0;
 }
 
 std::string header(std::uint64_t key, std::uint64_t length, std::uint64_t sum) {

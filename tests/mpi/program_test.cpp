@@ -240,14 +240,17 @@ TEST_CASE("Bad input is said once, with status 2, and leaves no file", "[mpi]") 
 
 TEST_CASE("A failure of one process alone names it and ends the others", "[mpi]") {
   const ProgramTest test;
-  const auto result =
-      test.run(fmt::format(SALEBRA_MPI_QUIET " -n 1 {0} generate {1} {2} -o a.h5 : -n 1 {0} "
-                                             "generate {1} {2} --bad",
-                           SALEBRA_MPI_PROGRAM, surface, quiet),
-               environment);
+  test.write("study.toml", study);
+  const auto result = test.run(
+      fmt::format(
+          SALEBRA_MPI_QUIET " -n 1 {0} {1} : -n 1 env SALEBRA_VECTOR_WIDTH=odd {0} {1}",
+          SALEBRA_MPI_PROGRAM,
+          "contact --recipe study.toml --pressure 1MPa --contact-modulus 1GPa -o a.h5 " + quiet),
+      environment);
   CHECK(result.status == 2);
-  CHECK_THAT(result.err, Contains("salebra-mpi: error: process 2 of 2: --bad"));
-  CHECK(test.files().empty());
+  CHECK_THAT(result.err,
+             Contains("salebra-mpi: error: process 2 of 2: SALEBRA_VECTOR_WIDTH: odd must be"));
+  CHECK(test.files() == std::set<std::string>{"study.toml"});
 }
 
 TEST_CASE(
@@ -288,4 +291,42 @@ TEST_CASE(
   const std::string continued = numbers_of(run_alone(test, press + "--initial c.h5"));
   for (const int ranks : {1, 2})
     CHECK(numbers_of(run(test, ranks, press + "--initial c.h5")) == continued);
+}
+
+TEST_CASE("Processes with other arguments, or other files of one name, are refused", "[mpi]") {
+  const ProgramTest test;
+  const auto run_two = [&](const std::string& first, const std::string& second) {
+    const std::string launch = " -n 1 " SALEBRA_MPI_PROGRAM " ";
+    return test.run(SALEBRA_MPI_QUIET + launch + first + " :" + launch + second, environment);
+  };
+  const std::string make = "generate " + surface;
+  check_refused_once(run_two(make + "-o a.h5", make + "-o a.h5 --threads 1"),
+                     "process 2: has other arguments than process 1");
+  check_refused_once(run_two(make + "-o a.h5", "verify"), "process 2: has other arguments");
+
+  // One relative name in two folders, as on machines that do not share a disk.
+  for (const char* folder : {"one", "two"})
+    std::filesystem::create_directory(test.folder() / folder);
+  const auto in_folders = [&](const std::string& arguments) {
+    const std::string root = test.folder().string();
+    return test.run(fmt::format("{0} -n 1 -wdir {1}/one {2} {3} : -n 1 -wdir {1}/two {2} {3}",
+                                SALEBRA_MPI_QUIET, root, SALEBRA_MPI_PROGRAM, arguments),
+                    environment);
+  };
+  REQUIRE(run_alone(test, make + quiet + "-o one/s.h5").status == 0);
+  const std::string other = std::regex_replace(make, std::regex("--seed 7"), "--seed 8");
+  REQUIRE(run_alone(test, other + quiet + "-o two/s.h5").status == 0);
+  const std::string contact = "contact s.h5 --pressure 1MPa --contact-modulus 1GPa --json " + quiet;
+  check_refused_once(in_folders(contact), "s.h5: is another file for process 2 than for process 1");
+  // A copy is the same file.
+  std::filesystem::copy_file(test.folder() / "one/s.h5", test.folder() / "two/s.h5",
+                             std::filesystem::copy_options::overwrite_existing);
+  CHECK(numbers_of(in_folders(contact)) ==
+        numbers_of(run_alone(
+            test, "contact one/s.h5 --pressure 1MPa --contact-modulus 1GPa --json " + quiet)));
+  std::filesystem::remove(test.folder() / "two/s.h5");
+  check_refused_once(in_folders(contact), "s.h5: is another file for process 2");
+  test.write("one/study.toml", study);
+  test.write("two/study.toml", study + "# of another seed\n");
+  check_refused_once(in_folders("study study.toml --json " + quiet), "study.toml: is another file");
 }
