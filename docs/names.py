@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names of all results with their units and meanings, from the table that the program is built with (src/results/quantity.cpp and the descriptions of the structs)."""
+"""Names of all results with their units and meanings, from the descriptions of the structs and the table of those without one (src/results/quantity.cpp)."""
 
 import pathlib
 import re
 
 _ROOT = pathlib.Path(__file__).resolve().parent.parent
-_TABLE = ("include/salebra/results/*.hpp", "include/salebra/study/*.hpp", "src/results/quantity.cpp")
+_TABLE = ("include/salebra/**/*.hpp", "generators/include/salebra/**/*.hpp", "src/results/quantity.cpp")
+_PER_AREA = {"N": "Pa", "J": "J/m^2", "N/m": "Pa/m"}
 
 
 def names():
@@ -15,15 +16,19 @@ def names():
     for pattern in _TABLE:
         for source in sorted(_ROOT.glob(pattern)):
             text = re.sub(r"^\s*///.*\n", "", source.read_text(), flags=re.M)
-            entries = re.findall(r'Quantity\{\s*"(\w+)",\s*(?:Dimension::)?(\w+),\s*((?:"[^"]*"\s*)+)\}', text)
-            written = len(re.findall(r'Quantity\{\s*"', text))
+            entries = re.findall(r'(Quantity|Extensive)\{\s*"(\w+)",\s*(?:Dimension::)?(\w+),\s*((?:"[^"]*"\s*)+)\}', text)
+            written = len(re.findall(r'(?:Quantity|Extensive)\{\s*"', text))
             if len(entries) != written:
                 raise ValueError(f"{source}: {written} quantities, {len(entries)} of them understood; has their form changed?")
-            for name, dimension, meaning in entries:
+            for kind, name, dimension, meaning in entries:
                 meaning = "".join(re.findall(r'"([^"]*)"', meaning))
-                known, meanings = table.setdefault(name, (units[dimension], []))
-                if known != units[dimension]:
-                    raise ValueError(f"{name}: {known} and {units[dimension]}; one name has one unit")
-                if meaning not in meanings:
-                    meanings.append(meaning)
+                columns = [(name, units[dimension], meaning)]
+                if kind == "Extensive":
+                    columns.append((f"{name}_per_area", _PER_AREA[units[dimension]], f"{meaning} over nominal area"))
+                for column, unit, text in columns:
+                    known, meanings = table.setdefault(column, (unit, []))
+                    if known != unit:
+                        raise ValueError(f"{column}: {known} and {unit}; one name has one unit")
+                    if text not in meanings:
+                        meanings.append(text)
     return {name: (unit, "; ".join(meanings)) for name, (unit, meanings) in sorted(table.items(), key=lambda one: one[0].lower())}

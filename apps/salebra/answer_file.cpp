@@ -7,14 +7,10 @@
 #include <vector>
 
 namespace salebra::cli {
-namespace {
-
-double number(const Json& value) {
+double number_of(const Json& value) {
   if (value.is_boolean()) return value.truth() ? 1 : 0;
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.number();
 }
-
-}  // namespace
 
 Quantity quantity_of(const std::string& name, const std::string& object) {
   return find_quantity(is_quantity(object) ? object : name);
@@ -32,12 +28,12 @@ void write_answer(ResultFile& file, const std::string& path, const Json& object)
       group.attribute(name, value.text());
     } else if (value.is_array()) {
       std::vector<double> values;
-      for (const Json& item : value.elements()) values.push_back(number(item));
+      for (const Json& item : value.elements()) values.push_back(number_of(item));
       if (!has_samples) group.index("sample", values.size(), "number of the case");
       has_samples = true;
       group.dataset(name, values, {"sample"}, unit, long_name);
     } else {
-      group.scalar(name, number(value), unit, long_name);
+      group.scalar(name, number_of(value), unit, long_name);
     }
   }
 }

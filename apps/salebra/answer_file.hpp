@@ -19,6 +19,9 @@ void write_answer(const Session& session, const std::string& group, const Json& 
 /// object; empty: the answer.
 Quantity quantity_of(const std::string& name, const std::string& object);
 
+/// A number, 1 or 0 of a truth, NaN of null.
+double number_of(const Json& value);
+
 /// The same into a file that holds more.
 void write_answer(ResultFile& file, const std::string& group, const Json& object);
 

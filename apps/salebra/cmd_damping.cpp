@@ -9,6 +9,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/surface_damping.hpp>
+#include <salebra/results/columns.hpp>
 
 #include "answer_file.hpp"
 #include "figures.hpp"
@@ -179,8 +180,7 @@ void follow_motion(const DampingArguments& arguments, const LawOptions::Contact&
   const DampingResult full_stick = damping_of(law, one.position, one.motion, options);
   const SampledMotion path = sampled(one.motion, full_stick.indentation, arguments.follow.steps);
   const TrajectoryDamping loss = follow(law, one.motion, path, arguments.follow.coefficient());
-  Json object;
-  add_losses(object, loss);
+  Json object = json_of(loss);
   object["full_stick_work"] = full_stick.work_per_cycle;
   object["force_curvature"] = full_stick.curvature;
   object["force"] = full_stick.force;
@@ -282,45 +282,27 @@ void run(const DampingArguments& arguments, Session& session) {
     for (std::size_t i = 0; i < count; ++i) all.push_back(value_of(i));
     return all;
   };
-  const auto quantity_of = [&](double DampingResult::*member) {
-    return column([&](std::size_t i) { return results[i].*member; });
-  };
-  Json object;
+  const double area = contact.curve ? contact.curve->nominal_area : 0;
+  Json object = Json::object();
   if (!one) object[quantity] = values;
-  object["work_per_cycle"] = quantity_of(&DampingResult::work_per_cycle);
-  object["power"] = quantity_of(&DampingResult::power);
-  object["damping_constant"] = quantity_of(&DampingResult::damping_constant);
+  object.add(one ? json_of(results.front(), area) : json_of(results, area));
   if (contact.surface) {
     object["damping_constant_error"] = column([&](std::size_t i) { return errors[i]; });
-    object["error_estimate"] = quantity_of(&DampingResult::error_estimate);
+    object["error_estimate"] = column([&](std::size_t i) { return results[i].error_estimate; });
   }
-  if (contact.curve)
-    object["work_per_cycle_per_area"] = column(
-        [&](std::size_t i) { return results[i].work_per_cycle / contact.curve->nominal_area; });
-  object["normal_stiffness"] = quantity_of(&DampingResult::normal_stiffness);
-  if (contact.curve)
-    object["normal_stiffness_per_area"] = column(
-        [&](std::size_t i) { return results[i].normal_stiffness / contact.curve->nominal_area; });
-  object["force_curvature"] = quantity_of(&DampingResult::curvature);
-  if (quantity != "force") object["force"] = quantity_of(&DampingResult::force);
-  object["mean_force"] = quantity_of(&DampingResult::mean_force);
-  if (quantity != "indentation") object["indentation"] = quantity_of(&DampingResult::indentation);
-  object["closed_form"] = quantity_of(&DampingResult::small_amplitude_work);
   const auto ratio = [&](std::size_t i) {
     return 1 / small_over_exact(results[i], cases[i].motion);
   };
   object["ratio"] = column(ratio);
   add_first_loading(object, contact.first_loading);
   if (arguments.motion.mode == "two-frequencies") {
-    const auto period = [&](std::size_t i) {
-      return common_period(std::get<TwoFrequencies>(cases[i].motion));
-    };
-    object["normal_cycles"] = column([&](std::size_t i) { return period(i).normal_cycles; });
-    object["tangential_cycles"] =
-        column([&](std::size_t i) { return period(i).tangential_cycles; });
+    std::vector<CommonPeriod> periods;
+    for (const DampingCase& each : cases)
+      periods.push_back(common_period(std::get<TwoFrequencies>(each.motion)));
+    object.add(one ? json_of(periods.front()) : json_of(periods));
     object["slow_limit_power"] =
         column([&](std::size_t i) { return slow_limit_power(law, cases[i], options); });
-    if (one && period(0).normal_cycles == 0)
+    if (one && periods.front().normal_cycles == 0)
       session.note("the frequencies have no common period: power is the mean over a long time");
   }
   if (lost == 0) {

@@ -77,7 +77,7 @@ constexpr Column of_amplitude[]{
     {"relaxation_damping", &SteadySliding::relaxation_damping}};
 
 // A row for each amplitude and velocity.
-ResultTable table_of(const std::vector<Sliding>& all, const FrictionArguments& arguments) {
+ResultTable sliding_table(const std::vector<Sliding>& all, const FrictionArguments& arguments) {
   ResultTable table{.name = "sliding", .columns = {}};
   const auto column = [&](const char* name, const auto& value_of) {
     std::vector<double> values;
@@ -102,7 +102,7 @@ ResultTable table_of(const std::vector<Sliding>& all, const FrictionArguments& a
 }
 
 // A row for each velocity and excursion.
-ResultTable table_of(const RegimeMap& map) {
+ResultTable regime_table(const RegimeMap& map) {
   ResultTable table{.name = "regime_map", .columns = {}};
   for (const char* name : {"velocity", "excursion", "loss_ratio", "slip_ratio", "regime"})
     table.columns.push_back({name, {}});
@@ -256,7 +256,7 @@ void run(const FrictionArguments& arguments, Session& session) {
   Json answer = Json::object();
   if (sliding.size() == 1)
     for (const auto& [name, member] : of_amplitude) answer[name] = any.*member;
-  std::vector<ResultTable> tables{table_of(sliding, arguments)};
+  std::vector<ResultTable> tables{sliding_table(sliding, arguments)};
   RegimeMap map;
   if (!arguments.excursions.empty()) {
     map = regime_map(*contact.law, any.indentation, {first.normal_amplitude, omega},
@@ -265,7 +265,7 @@ void run(const FrictionArguments& arguments, Session& session) {
     answer["sliding_excursion"] = map.sliding_excursion;
     answer["full_stick_ratio"] = map.full_stick_ratio;
     tables.front().columns.push_back({"no_slip_excursion", map.no_slip_excursion});
-    tables.push_back(table_of(map));
+    tables.push_back(regime_table(map));
   }
   write_tables(session, "friction", answer, tables);
   for (const ResultColumn& column : tables.front().columns) answer[column.name] = column.values;
@@ -276,7 +276,7 @@ void run(const FrictionArguments& arguments, Session& session) {
     answer = with_tables(answer, {tables.back()});
     Json& regimes = answer["regime_map"]["regime"] = Json::array();
     for (const std::vector<Regime>& row : map.regime)
-      for (const Regime regime : row) regimes.push_back(name_of(regime));
+      for (const Regime regime : row) regimes.push_back(std::string(word_of(regime)));
   }
   if (session.has_plot())
     session.plot(!arguments.excursions.empty() ? regime_figure(map, omega)

@@ -31,41 +31,6 @@ struct JointArguments {
   PremiseOptions premises;
 };
 
-// Columns of JointLoss; what has a form per nominal area has its name.
-struct JointColumn {
-  const char* name;
-  double JointLoss::*member;
-  const char* per_area = nullptr;
-};
-constexpr JointColumn columns[]{
-    {"tangential_force", &JointLoss::tangential_force, "tangential_force_per_area"},
-    {"tangential_amplitude", &JointLoss::tangential_amplitude},
-    {"work_per_cycle", &JointLoss::work_per_cycle, "work_per_cycle_per_area"},
-    {"relaxation_work", &JointLoss::relaxation_work},
-    {"slip_work", &JointLoss::slip_work},
-    {"secant_stiffness", &JointLoss::secant_stiffness, "secant_stiffness_per_area"},
-    {"loss_factor", &JointLoss::loss_factor},
-    {"exponent", &JointLoss::exponent},
-    {"storage_stiffness", &JointLoss::storage_stiffness, "storage_stiffness_per_area"},
-    {"loss_stiffness", &JointLoss::loss_stiffness, "loss_stiffness_per_area"},
-};
-
-ResultTable table_of(const std::string& name, const std::vector<JointLoss>& losses,
-                     double nominal_area) {
-  ResultTable table{.name = name, .columns = {}};
-  for (const JointColumn& column : columns) {
-    std::vector<double> values;
-    for (const JointLoss& one : losses) values.push_back(one.*column.member);
-    // The exponent is not that of a simulation, which has one motion alone.
-    if (std::ranges::all_of(values, [](double value) { return std::isnan(value); })) continue;
-    table.columns.push_back({column.name, values});
-    if (column.per_area == nullptr || !(nominal_area > 0)) continue;
-    for (double& value : values) value /= nominal_area;
-    table.columns.push_back({column.per_area, values});
-  }
-  return table;
-}
-
 Figure joint_figure(const std::vector<JointLoss>& losses, const SampledMotion& path,
                     const TrajectoryDamping& loop) {
   std::vector<double> force, amplitude, work;

@@ -14,6 +14,7 @@
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/columns.hpp>
 #include <salebra/results/quantity_group.hpp>
 
 #include "answer_file.hpp"
@@ -144,14 +145,14 @@ void run(const MdrArguments& arguments, Session& session) {
     loss = follow(law, motion, path, arguments.follow.coefficient());
   }
   if (followed) {
-    add_losses(object, loss);
+    object.add(json_of(loss));
     object["full_stick_work"] = result.work_per_cycle;
   } else {
     object["work_per_cycle"] = result.work_per_cycle;
     object["power"] = result.power;
     object["damping_constant"] = result.damping_constant;
   }
-  object["closed_form"] = result.small_amplitude_work;
+  object["small_amplitude_work"] = result.small_amplitude_work;
   object["ratio"] =
       (followed ? loss.work_per_cycle : result.work_per_cycle) / result.small_amplitude_work;
   const ContactFacts known = at_state(facts, law, nullptr, result.indentation);

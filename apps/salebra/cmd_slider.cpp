@@ -10,7 +10,6 @@
 #include <salebra/base/error.hpp>
 #include <salebra/damping/slider.hpp>
 #include <salebra/damping/steady_sliding.hpp>
-#include <salebra/results/slider_words.hpp>
 
 #include "figures.hpp"
 #include "first_loading.hpp"
@@ -56,7 +55,7 @@ Json json_of(const SliderThreshold& threshold, double unit) {
           {"linear_estimate_error", threshold.linear_estimate_error / unit}};
 }
 
-ResultTable table_of(const std::string& name, const SliderMotion& motion) {
+ResultTable motion_table(const std::string& name, const SliderMotion& motion) {
   return {.name = name,
           .columns = {{"time", motion.time},
                       {"slider_offset", motion.slider_offset},
@@ -178,7 +177,7 @@ void run(const SliderArguments& arguments, Session& session) {
   for (const std::string& line : contact.doubts) session.warn(line);
   add_first_loading(answer, contact.first_loading);
   write_tables(session, "slider", answer,
-               {table_of("motion", full), table_of("averaged_motion", averaged)});
+               {motion_table("motion", full), motion_table("averaged_motion", averaged)});
   if (session.has_plot()) session.plot(slider_figure(full, averaged, slider.spring_stiffness));
 
   // No oscillation is the limit of small ones.

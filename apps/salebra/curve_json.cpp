@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <salebra/results/contact.hpp>
+#include <salebra/contact/law/force_curve.hpp>
 
 namespace salebra::cli {
 

@@ -3,7 +3,7 @@
 #include "first_loading.hpp"
 
 #include <salebra/base/error.hpp>
-#include <salebra/results/contact.hpp>
+#include <salebra/results/columns.hpp>
 #include <utility>
 
 namespace salebra::cli {
@@ -22,16 +22,8 @@ std::optional<FirstLoading> load_first(Surface& surface, const std::optional<dou
   return residual.first_loading;
 }
 
-Json to_json(const FirstLoading& loading) {
-  Json object;
-  for_each_column<FirstLoading>([&](const auto& access, const Quantity& quantity) {
-    object[std::string(quantity.name)] = access(loading);
-  });
-  return object;
-}
-
 void add_first_loading(Json& answer, const std::optional<FirstLoading>& loading) {
-  if (loading) answer["first_loading"] = to_json(*loading);
+  if (loading) answer["first_loading"] = json_of(*loading);
 }
 
 }  // namespace salebra::cli

@@ -10,6 +10,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/io/number_table.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/columns.hpp>
 #include <salebra/results/quantity_group.hpp>
 
 #include "figures.hpp"
@@ -56,16 +57,6 @@ TrajectoryDamping follow(const ContactLaw& law, const Motion& motion, const Samp
   return loss;
 }
 
-void add_losses(Json& object, const TrajectoryDamping& loss) {
-  object["work_per_cycle"] = loss.work_per_cycle;
-  object["relaxation_work"] = loss.relaxation_work;
-  object["slip_work"] = loss.slip_work;
-  object["power"] = loss.power;
-  object["damping_constant"] = loss.damping_constant;
-  object["storage_stiffness"] = loss.storage_stiffness;
-  object["loss_factor"] = loss.loss_factor;
-}
-
 void follow_file(const FollowOptions& options, const ContactLaw& law, const ContactFacts& facts,
                  Session& session) {
   const auto columns = read_number_table(options.trajectory, 3, 4);
@@ -78,8 +69,7 @@ void follow_file(const FollowOptions& options, const ContactLaw& law, const Cont
   const TrajectoryDamping loss =
       transverse ? trajectory_damping(law, path, columns[3])
                  : trajectory_damping(law, path, {.friction_coefficient = options.coefficient()});
-  Json object;
-  add_losses(object, loss);
+  const Json object = json_of(loss);
   const double middle =
       0.5 * (std::ranges::min(path.indentation) + std::ranges::max(path.indentation));
   PremiseReport premises{{premises_of(law, path, at_state(facts, law, nullptr, middle))}};

@@ -34,9 +34,6 @@ SampledMotion sampled(const Motion& motion, double mean_indentation, int steps);
 TrajectoryDamping follow(const ContactLaw& law, const Motion& motion, const SampledMotion& path,
                          double friction);
 
-/// Adds the JSON keys of a loss that was followed.
-void add_losses(Json& object, const TrajectoryDamping& loss);
-
 /// --trajectory: reads one period of (time, indentation, displacement), answers, writes --output
 /// and --plot.
 void follow_file(const FollowOptions& options, const ContactLaw& law, const ContactFacts& facts,

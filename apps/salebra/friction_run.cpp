@@ -10,7 +10,7 @@
 #include <numeric>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/coupling.hpp>
-#include <salebra/results/cycle.hpp>
+#include <salebra/damping/cycle.hpp>
 
 namespace salebra::cli {
 namespace {

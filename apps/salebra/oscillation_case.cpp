@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/damping/cycle.hpp>
 #include <salebra/generators/shapes.hpp>
-#include <salebra/results/cycle.hpp>
 
 #include "first_loading.hpp"
 #include "grid_axes.hpp"

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/coupling.hpp>
+#include <salebra/results/columns.hpp>
 
 #include "first_loading.hpp"
 #include "text.hpp"
@@ -17,7 +18,6 @@ namespace {
 
 /// The option that gives a fact.
 Json option_of(const std::string& fact) {
-  if (fact.empty()) return nullptr;
   // A law given by its formula has neither size nor pressure.
   if (fact == "loaded_size" || fact == "largest_pressure") return "--curve";
   if (fact == "angular_frequency") return "--frequency";
@@ -87,22 +87,17 @@ void PremiseReport::add_to(Json& answer) const {
   };
   Json& object = answer["premises"] = Json::object();
   for (const PremiseName& name : premise_names()) {
-    const auto premise = name.premise;
-    Json& one = object[name.key] = Json::object();
-    one["value"] = column([&](const Premises& p) { return (p.*premise).value; });
-    one["limit_5_percent"] =
-        column([&](const Premises& p) { return (p.*premise).limit_5_percent; });
-    one["limit_20_percent"] =
-        column([&](const Premises& p) { return (p.*premise).limit_20_percent; });
-    one["verdict"] = column([&](const Premises& p) { return name_of((p.*premise).verdict); });
-    one["needs"] = nullptr;
-    for (const Premises& p : cases)
-      if (one["needs"].is_null()) one["needs"] = option_of((p.*premise).needs);
+    std::vector<Premise> premises;
+    for (const Premises& one : cases) premises.push_back(one.*name.premise);
+    Json& one = object[name.name] = list ? json_of(premises) : json_of(premises.front());
+    const auto lacking = std::ranges::find_if(
+        premises, [](const Premise& premise) { return !premise.needs.empty(); });
+    one["needs"] = lacking == premises.end() ? Json() : option_of(lacking->needs);
   }
   const std::vector<LargestMotion>& judged = any_largest(cases);
   if (!judged.empty())
     answer["regime"] = column([](const Premises& p) -> Json {
-      return p.regime == Regime::unknown ? Json(nullptr) : Json(name_of(p.regime));
+      return p.regime == Regime::unknown ? Json(nullptr) : Json(word_of(p.regime));
     });
   Json& largest = answer["largest_motion"] = Json::array();
   for (std::size_t i = 0; i < judged.size(); ++i) {
@@ -130,7 +125,7 @@ std::string PremiseReport::open_points() const {
         cases, Verdict::unknown, [&](const Premises& p) { return (p.*name.premise).verdict; });
     if (unknown == cases.end()) continue;
     const Json option = option_of(((*unknown).*name.premise).needs);
-    open += std::string(open.empty() ? "Premises not judged: " : ", ") + name.words +
+    open += std::string(open.empty() ? "Premises not judged: " : ", ") + std::string(name.meaning) +
             (option.is_null() ? "" : fmt::format(" ({})", option.text()));
   }
   if (!open.empty()) open += "\n";
@@ -153,7 +148,7 @@ std::string PremiseReport::open_points() const {
   }
   if (!largest.empty()) open += largest + "\n";
   if (!list && cases.front().regime != Regime::unknown)
-    open += "Regime: " + name_of(cases.front().regime) + "\n";
+    open += "Regime: " + std::string(word_of(cases.front().regime)) + "\n";
   return open.empty() ? "" : "\n" + open;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
@@ -67,6 +68,17 @@ std::string to_csv(const Session& session, const ResultTable& table) {
 }
 
 }  // namespace
+
+ResultTable table_of(const std::string& name, const Json& columns) {
+  ResultTable table{.name = name, .columns = {}};
+  for (const auto& [key, list] : columns.items()) {
+    std::vector<double> values;
+    for (const Json& item : list.elements()) values.push_back(number_of(item));
+    if (!std::ranges::all_of(values, [](double value) { return std::isnan(value); }))
+      table.columns.push_back({key, std::move(values)});
+  }
+  return table;
+}
 
 void require_tables(Session& session, const std::vector<std::string>& tables) {
   if (!session.has_output()) return;

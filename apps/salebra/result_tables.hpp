@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/results/columns.hpp>
 #include <salebra/results/quantity.hpp>
 #include <string>
 #include <vector>
@@ -28,6 +29,16 @@ struct ResultTable {
   std::vector<ResultColumn> columns;
   std::string note = {};  ///< such as a normalisation; empty: none
 };
+
+/// The lists of an object as columns.
+ResultTable table_of(const std::string& name, const Json& columns);
+/// The columns of a vector of described rows; what is unknown in all of them is left out.
+/// nominal_area: as in json_of.
+template <Described Row>
+ResultTable table_of(const std::string& name, const std::vector<Row>& rows,
+                     double nominal_area = 0) {
+  return table_of(name, json_of(rows, nominal_area));
+}
 
 /// An answer and tables, as --output asks for them by its extension:
 ///   .h5 .hdf5   a group `group` for the answer and one for each table, its first column a

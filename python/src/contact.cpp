@@ -14,7 +14,6 @@
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/sweep.hpp>
-#include <salebra/results/contact.hpp>
 
 #include "bindings.hpp"
 #include "interop/choice.hpp"

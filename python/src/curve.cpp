@@ -10,7 +10,6 @@
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/sweep.hpp>
-#include <salebra/results/contact.hpp>
 
 #include "bindings.hpp"
 #include "interop/choice.hpp"

@@ -16,7 +16,6 @@
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/level_quadrature.hpp>
-#include <salebra/results/cycle.hpp>
 #include <salebra/results/cycle_recorder.hpp>
 
 #include "bindings.hpp"

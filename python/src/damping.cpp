@@ -15,6 +15,7 @@
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/cycle_motion.hpp"
+#include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -35,37 +36,8 @@ Premises judged(const ContactLaw& law, const AnyMotion& motion, double indentati
 }
 
 void bind_damping_result(nb::module_& m) {
-  nb::class_<BoundDamping>(m, "DampingResult",
-                           "Relaxation damping of one contact under one motion; NaN is unknown.")
-      .def_ro("work_per_cycle", &BoundDamping::work_per_cycle, "W, J.")
-      .def_ro("power", &BoundDamping::power, "P = Wω/2π, W; NaN where the motion has no ω.")
-      .def_ro("damping_constant", &BoundDamping::damping_constant,
-              "γ = P/⟨ẋ²⟩ with ⟨ẋ²⟩ = v² or (u_x ω)²/2, N s/m; NaN where the motion has no ω.")
-      .def_ro("indentation", &BoundDamping::indentation, "Mean indentation of the cycle, m.")
-      .def_ro("force", &BoundDamping::force, "F at the mean indentation, N.")
-      .def_ro("mean_force", &BoundDamping::mean_force, "Mean of F over the cycle, N.")
-      .def_ro("normal_stiffness", &BoundDamping::normal_stiffness,
-              "K at the mean indentation, N/m.")
-      .def_ro("force_curvature", &BoundDamping::curvature, "F'' at the mean indentation, N/m².")
-      .def_ro("tangential_curvature", &BoundDamping::tangential_curvature,
-              "K_t' at the mean indentation, N/m².")
-      .def_ro("small_amplitude_work", &BoundDamping::small_amplitude_work,
-              "Eq. (12) or (15) at the given position, J.")
-      .def_ro("error_estimate", &BoundDamping::error_estimate,
-              "Of work_per_cycle, J: quadrature and round-off.")
-      .def_ro("converged", &BoundDamping::converged, "False: do not use work_per_cycle.")
-      .def_ro("premises", &BoundDamping::premises,
-              "Whether the contact may be taken for one without slip, yielding and inertia; None "
-              "where they were not asked for.")
-      .def("__repr__", [](const BoundDamping& r) {
-        std::string rest = r.converged ? "converged=True" : "converged=False";
-        if (r.premises) rest += ", premises=" + verdicts(*r.premises);
-        return describe("DampingResult",
-                        {{"work_per_cycle", r.work_per_cycle},
-                         {"damping_constant", r.damping_constant},
-                         {"force", r.force}},
-                        rest);
-      });
+  described_class<BoundDamping>(
+      m, "DampingResult", "Relaxation damping of one contact under one motion; NaN is unknown.");
 }
 
 void bind_theorem(nb::module_& m) {

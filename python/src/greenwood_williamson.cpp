@@ -7,6 +7,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <memory>
+#include <salebra/base/spectral_moments.hpp>
 #include <salebra/contact/asperity/asperity_sampling.hpp>
 #include <salebra/contact/asperity/greenwood_tripp.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>

@@ -8,13 +8,13 @@
 #include <salebra/damping/oscillation.hpp>
 
 #include "bindings.hpp"
-#include "interop/surface.hpp"
+#include "interop/described.hpp"
 
 namespace salebra::python {
 
 void bind_motion(nb::module_& m) {
-  nb::class_<EqualFrequency>(m, "EqualFrequency",
-                             R"(Case (a) of the paper: z = u_z cos ωt, x = u_x cos(ωt + φ0).
+  described_class<EqualFrequency>(m, "EqualFrequency",
+                                  R"(Case (a) of the paper: z = u_z cos ωt, x = u_x cos(ωt + φ0).
 
 Parameters
 ----------
@@ -35,18 +35,8 @@ angular_frequency : float
                 EqualFrequency{normal_amplitude, tangential_amplitude, phase, angular_frequency};
           },
           nb::kw_only(), nb::arg("normal_amplitude"), nb::arg("tangential_amplitude"),
-          nb::arg("phase"), nb::arg("angular_frequency") = 0.0)
-      .def_ro("normal_amplitude", &EqualFrequency::normal_amplitude, "u_z, m.")
-      .def_ro("tangential_amplitude", &EqualFrequency::tangential_amplitude, "u_x, m.")
-      .def_ro("phase", &EqualFrequency::phase, "φ0, rad.")
-      .def_ro("angular_frequency", &EqualFrequency::angular_frequency, "ω, rad/s.")
-      .def("__repr__", [](const EqualFrequency& motion) {
-        return describe("EqualFrequency", {{"normal_amplitude", motion.normal_amplitude},
-                                           {"tangential_amplitude", motion.tangential_amplitude},
-                                           {"phase", motion.phase},
-                                           {"angular_frequency", motion.angular_frequency}});
-      });
-  nb::class_<Drag>(
+          nb::arg("phase"), nb::arg("angular_frequency") = 0.0);
+  described_class<Drag>(
       m, "Drag",
       R"(Case (b) of the paper: z = u_z cos ωt and a slow oscillation along x, of velocity v and an excursion far below (μE*/G*)F/K.
 
@@ -67,19 +57,12 @@ angular_frequency : float
             new (self) Drag{normal_amplitude, drag_velocity, angular_frequency};
           },
           nb::kw_only(), nb::arg("normal_amplitude"), nb::arg("drag_velocity"),
-          nb::arg("angular_frequency"))
-      .def_ro("normal_amplitude", &Drag::normal_amplitude, "u_z, m.")
-      .def_ro("drag_velocity", &Drag::drag_velocity, "v, m/s.")
-      .def_ro("angular_frequency", &Drag::angular_frequency, "ω, rad/s.")
-      .def("__repr__", [](const Drag& motion) {
-        return describe("Drag", {{"normal_amplitude", motion.normal_amplitude},
-                                 {"drag_velocity", motion.drag_velocity},
-                                 {"angular_frequency", motion.angular_frequency}});
-      });
-  nb::class_<TwoFrequencies>(m, "TwoFrequencies",
-                             "Two frequencies: z = u_z cos ω_z t, x = u_x cos(ω_x t + φ0). Equal "
-                             "ones are case (a), slow tangential "
-                             "motion tends to case (b).")
+          nb::arg("angular_frequency"));
+  described_class<TwoFrequencies>(
+      m, "TwoFrequencies",
+      "Two frequencies: z = u_z cos ω_z t, x = u_x cos(ω_x t + φ0). Equal "
+      "ones are case (a), slow tangential "
+      "motion tends to case (b).")
       .def(
           "__init__",
           [](TwoFrequencies* self, double normal_amplitude, double tangential_amplitude,
@@ -89,13 +72,7 @@ angular_frequency : float
           },
           nb::kw_only(), nb::arg("normal_amplitude"), nb::arg("tangential_amplitude"),
           nb::arg("phase"), nb::arg("normal_angular_frequency"),
-          nb::arg("tangential_angular_frequency"))
-      .def_ro("normal_amplitude", &TwoFrequencies::normal_amplitude, "u_z, m.")
-      .def_ro("tangential_amplitude", &TwoFrequencies::tangential_amplitude, "u_x, m.")
-      .def_ro("phase", &TwoFrequencies::phase, "φ0: phase of x at a maximum of z, rad.")
-      .def_ro("normal_angular_frequency", &TwoFrequencies::normal_angular_frequency, "ω_z, rad/s.")
-      .def_ro("tangential_angular_frequency", &TwoFrequencies::tangential_angular_frequency,
-              "ω_x, rad/s.");
+          nb::arg("tangential_angular_frequency"));
   m.def(
       "common_period",
       [](const TwoFrequencies& motion, int most_cycles) {
@@ -106,7 +83,7 @@ angular_frequency : float
       "(p, q) with ω_x/ω_z = q/p in lowest terms; (0, 0) where the motion never repeats within "
       "most_cycles normal cycles.");
 
-  nb::class_<SampledMotion> sampled(
+  described_class<SampledMotion>(
       m, "SampledMotion",
       R"(One period of any motion, straight between the samples; the last sample closes the period.
 
@@ -118,21 +95,16 @@ indentation : array_like
     δ, m; returns to its first value.
 displacement : array_like
     x, m; may have moved on by a drift, which every period repeats.
-)");
-  sampled.def(
-      "__init__",
-      [](SampledMotion* self, Values time, Values indentation, Values displacement) {
-        SampledMotion motion{std::move(time.values), std::move(indentation.values),
-                             std::move(displacement.values)};
-        motion.validate();
-        new (self) SampledMotion(std::move(motion));
-      },
-      nb::arg("time"), nb::arg("indentation"), nb::arg("displacement"));
-  view_property(sampled, "time", &SampledMotion::time, "s");
-  view_property(sampled, "indentation", &SampledMotion::indentation, "δ, m");
-  view_property(sampled, "displacement", &SampledMotion::displacement, "x, m");
-  sampled.def_prop_ro("period", &SampledMotion::period, "s")
-      .def_prop_ro("drift", &SampledMotion::drift, "m");
+)")
+      .def(
+          "__init__",
+          [](SampledMotion* self, Values time, Values indentation, Values displacement) {
+            SampledMotion motion{std::move(time.values), std::move(indentation.values),
+                                 std::move(displacement.values)};
+            motion.validate();
+            new (self) SampledMotion(std::move(motion));
+          },
+          nb::arg("time"), nb::arg("indentation"), nb::arg("displacement"));
   m.def(
       "sample",
       [](const std::variant<EqualFrequency, Drag, TwoFrequencies>& motion, double mean_indentation,

@@ -15,6 +15,7 @@
 #include "interop/citations.hpp"
 #include "interop/cycle_motion.hpp"
 #include "interop/damping.hpp"
+#include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -25,7 +26,7 @@ std::string verdicts(const Premises& premises) {
   for (const PremiseName& name : premise_names()) {
     const Verdict verdict = (premises.*name.premise).verdict;
     if (verdict == Verdict::broken || verdict == Verdict::doubtful)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name.key, name_of(verdict));
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name.name, word_of(verdict));
   }
   return "'" + (text.empty() ? "none broken" : text) + "'";
 }
@@ -33,9 +34,10 @@ std::string verdicts(const Premises& premises) {
 namespace {
 
 void bind_facts(nb::module_& m) {
-  nb::class_<ContactFacts>(m, "ContactFacts",
-                           "What is known of a contact in addition to its law and its motion. NaN: "
-                           "not known.")
+  described_class<ContactFacts>(
+      m, "ContactFacts",
+      "What is known of a contact in addition to its law and its motion. NaN: "
+      "not known.")
       .def(
           "__init__",
           [](ContactFacts* self, double friction_coefficient, double hardness, double density,
@@ -65,56 +67,15 @@ void bind_facts(nb::module_& m) {
           nb::arg("largest_pressure") = ContactFacts::unknown,
           nb::arg("mean_contact_pressure") = ContactFacts::unknown,
           nb::arg("rms_slope") = ContactFacts::unknown,
-          nb::arg("first_load") = ContactFacts::unknown)
-      .def_ro("friction_coefficient", &ContactFacts::friction_coefficient, "Coulomb's μ.")
-      .def_ro("hardness", &ContactFacts::hardness, "H of the softer body, Pa.")
-      .def_ro("density", &ContactFacts::density, "ρ of the elastic body, kg/m³.")
-      .def_ro("excursion", &ContactFacts::excursion,
-              "Of the slow motion from one turning point to the other, m.")
-      .def_ro("contact_modulus", &ContactFacts::contact_modulus, "E*, Pa.")
-      .def_ro("dundurs", &ContactFacts::dundurs, "Dundurs' β.")
-      .def_ro("loaded_size", &ContactFacts::loaded_size,
-              "Radius of one contact, side of a rough surface, m.")
-      .def_ro("nominal_pressure", &ContactFacts::nominal_pressure, "F over the nominal area, Pa.")
-      .def_ro("largest_pressure", &ContactFacts::largest_pressure, "Pa.")
-      .def_ro("mean_contact_pressure", &ContactFacts::mean_contact_pressure,
-              "F over the true contact area, Pa.")
-      .def_ro("rms_slope", &ContactFacts::rms_slope, "h' of a rough surface.")
-      .def_ro("first_load", &ContactFacts::first_load,
-              "F of a plastic first loading, whose residual surface the law is of, N.");
+          nb::arg("first_load") = ContactFacts::unknown);
 }
 
 void bind_premise_classes(nb::module_& m) {
-  nb::class_<Premise>(m, "Premise", "One premise: its value, its limits, and what follows.")
-      .def_ro("value", &Premise::value, "NaN where it cannot be known.")
-      .def_ro("limit_5_percent", &Premise::limit_5_percent,
-              "The value at which the loss changes by 5 %; NaN: at none, or not known.")
-      .def_ro("limit_20_percent", &Premise::limit_20_percent,
-              "The value at which the loss changes by 20 %; NaN: at none, or not known.")
-      .def_prop_ro(
-          "verdict", [](const Premise& self) { return name_of(self.verdict); },
-          "'holds', 'doubtful', 'broken' or 'unknown'.")
-      .def_ro("needs", &Premise::needs,
-              "The keyword of ContactFacts that a verdict needs; '' where none does.");
-  nb::class_<LargestMotion>(m, "LargestMotion",
-                            "The largest motion that keeps the premises of slip to 5 %.")
-      .def_ro("friction_coefficient", &LargestMotion::friction_coefficient, "μ that it is for.")
-      .def_ro("drag_velocity", &LargestMotion::drag_velocity, "Case (b), m/s.")
-      .def_ro("tangential_amplitude", &LargestMotion::tangential_amplitude, "Case (a), m.")
-      .def_ro("excursion", &LargestMotion::excursion, "Of a slow motion, m.");
-  nb::class_<Premises> premises(
-      m, "Premises",
-      "What a damping constant without slip takes for granted, each with a verdict.");
-  for (const PremiseName& name : premise_names())
-    premises.def_prop_ro(
-        name.key, [member = name.premise](const Premises& self) { return self.*member; },
-        (std::string(name.words) + "; value: " + name.value + ".").c_str());
-  premises
-      .def_prop_ro(
-          "regime", [](const Premises& self) { return name_of(self.regime); },
-          "'no slip', 'partial slip', 'sliding' or 'unknown'.")
-      .def_ro("largest", &Premises::largest,
-              "Largest motions, of the μ that is known or of 0.1, 0.3 and 1.")
+  described_class<Premise>(m, "Premise", "One premise: its value, its limits, and what follows.");
+  described_class<LargestMotion>(m, "LargestMotion",
+                                 "The largest motion that keeps the premises of slip to 5 %.");
+  described_class<Premises>(
+      m, "Premises", "What a damping constant without slip takes for granted, each with a verdict.")
       .def_prop_ro(
           "objections",
           [](const Premises& self) {
@@ -157,13 +118,8 @@ curve : ForceCurve, optional
 }
 
 void bind_loss_with_slip(nb::module_& m) {
-  nb::class_<LossWithSlip>(m, "LossWithSlip", "Energy lost in a cycle with Coulomb's friction.")
-      .def_ro("work_per_cycle", &LossWithSlip::work_per_cycle, "W, J.")
-      .def_ro("relaxation_work", &LossWithSlip::relaxation_work,
-              "Of it, by levels that open and close, J.")
-      .def_ro("slip_work", &LossWithSlip::slip_work, "Of it, by levels that stay closed, J.")
-      .def_ro("full_stick_work", &LossWithSlip::full_stick_work,
-              "Of the same springs without slip, J.");
+  described_class<LossWithSlip>(m, "LossWithSlip",
+                                "Energy lost in a cycle with Coulomb's friction.");
   m.def(
       "loss_with_slip",
       [](const ContactLaw& law, const std::variant<EqualFrequency, Drag>& motion,
@@ -198,7 +154,7 @@ void bind_regime_map(nb::module_& m) {
            std::vector<std::vector<std::string>> rows;
            for (const std::vector<Regime>& row : self.regime) {
              std::vector<std::string>& names = rows.emplace_back();
-             for (const Regime regime : row) names.push_back(name_of(regime));
+             for (const Regime regime : row) names.push_back(std::string(word_of(regime)));
            }
            return rows;
          },
@@ -271,23 +227,9 @@ void bind_steady_sliding(nb::module_& m) {
 }
 
 void bind_joint(nb::module_& m) {
-  nb::class_<JointLoss>(m, "JointLoss",
-                        "What a joint loses, and how stiff it is, under a tangential oscillation; "
-                        "NaN is unknown.")
-      .def_ro("indentation", &JointLoss::indentation, "Mean indentation of the cycle, m.")
-      .def_ro("tangential_force", &JointLoss::tangential_force, "T, half its range, N.")
-      .def_ro("tangential_amplitude", &JointLoss::tangential_amplitude, "x, half its range, m.")
-      .def_ro("work_per_cycle", &JointLoss::work_per_cycle, "W, J.")
-      .def_ro("relaxation_work", &JointLoss::relaxation_work,
-              "Of it, by levels that open and close, J.")
-      .def_ro("slip_work", &JointLoss::slip_work, "Of it, by levels that stay closed, J.")
-      .def_ro("secant_stiffness", &JointLoss::secant_stiffness, "T/x, N/m.")
-      .def_ro("loss_factor", &JointLoss::loss_factor, "W/(2π ½ K_s x²).")
-      .def_ro("exponent", &JointLoss::exponent, "d ln W/d ln T.")
-      .def_ro("storage_stiffness", &JointLoss::storage_stiffness,
-              "k' of the first harmonic of T over a harmonic x, N/m.")
-      .def_ro("loss_stiffness", &JointLoss::loss_stiffness, "k'', W/(π x²), N/m.")
-      .def_ro("converged", &JointLoss::converged, "False: do not use the numbers.");
+  described_class<JointLoss>(m, "JointLoss",
+                             "What a joint loses, and how stiff it is, under a tangential "
+                             "oscillation; NaN is unknown.");
   m.def(
       "joint_loss",
       [](const ContactLaw& law, double friction_coefficient,

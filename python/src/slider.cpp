@@ -5,7 +5,7 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
-#include <salebra/results/slider_words.hpp>
+#include <salebra/damping/slider.hpp>
 
 #include "bindings.hpp"
 #include "interop/arrays.hpp"

@@ -27,7 +27,7 @@ namespace {
 
 std::vector<std::string> names_of(const std::vector<ContactModel>& models) {
   std::vector<std::string> names;
-  for (const ContactModel model : models) names.emplace_back(name_of(model));
+  for (const ContactModel model : models) names.emplace_back(word_of(model));
   return names;
 }
 

@@ -11,6 +11,7 @@
 #include "bindings.hpp"
 #include "interop/arrays.hpp"
 #include "interop/citations.hpp"
+#include "interop/described.hpp"
 #include "interop/running.hpp"
 
 namespace salebra::python {
@@ -80,24 +81,8 @@ tangential_range : float
 }
 
 void bind_damping_of_trajectory(nb::module_& m) {
-  nb::class_<TrajectoryDamping> damping(m, "TrajectoryDamping",
-                                        "Steady state of a contact under a periodic motion.");
-  damping.def_ro("work_per_cycle", &TrajectoryDamping::work_per_cycle, "Energy lost per period, J.")
-      .def_ro("relaxation_work", &TrajectoryDamping::relaxation_work,
-              "Of it, by levels that open and close, J.")
-      .def_ro("slip_work", &TrajectoryDamping::slip_work, "Of it, by slip in permanent contact, J.")
-      .def_ro("power", &TrajectoryDamping::power, "W")
-      .def_ro("damping_constant", &TrajectoryDamping::damping_constant, "γ = P/⟨ẋ²⟩, N s/m.")
-      .def_ro("storage_stiffness", &TrajectoryDamping::storage_stiffness,
-              "Part of F_x in phase with x, N/m.")
-      .def_ro("loss_factor", &TrajectoryDamping::loss_factor, "W/(2πU) of a harmonic motion.")
-      .def_ro("memory", &TrajectoryDamping::memory, "Most pieces of history held at a time.");
-  view_property(damping, "tangential_force", &TrajectoryDamping::tangential_force,
-                "F_x at the samples, N.");
-  view_property(damping, "transverse_force", &TrajectoryDamping::transverse_force,
-                "F_y at the samples, N; empty where nothing moves along y.");
-  view_property(damping, "dissipated", &TrajectoryDamping::dissipated,
-                "Energy lost since the first sample, J.");
+  described_class<TrajectoryDamping>(m, "TrajectoryDamping",
+                                     "Steady state of a contact under a periodic motion.");
   m.def(
       "trajectory_damping",
       [](const ContactLaw& law, const SampledMotion& trajectory, double friction_coefficient,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pickle, copies and == of every class that is a value, and the door through which salebra._calls
 // sees constructors.
+#include "interop/values.hpp"
+
 #include <nanobind/stl/string.h>
 
 #include <memory>
-#include <salebra/base/version.hpp>
 #include <salebra/contact/asperity/asperity_sampling.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/law/fit.hpp>
@@ -35,61 +36,46 @@
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/peaks.hpp>
+#include <salebra/surface/psd_convention.hpp>
 #include <salebra/surface/scale_dependence.hpp>
 #include <salebra/surface/self_affine_fit.hpp>
 
 #include "bindings.hpp"
-#include "interop/archive.hpp"
+#include "interop/contact.hpp"
+#include "interop/damping.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
+
+namespace salebra {
+
+/// Of a study's result; its bootstrap has no value of its own.
+template <class Archive>
+void archive_members(Archive& through, StudyResult& own) {
+  auto& [configuration, grid, contact_scale, pressures, realisations, warnings, flags, interrupted,
+         precision_reached, bootstrap] = own;
+  python::archive(through, configuration);
+  python::archive(through, grid);
+  python::archive(through, contact_scale);
+  python::archive(through, pressures);
+  python::archive(through, realisations);
+  python::archive(through, warnings);
+  python::archive(through, flags);
+  python::archive(through, interrupted);
+  python::archive(through, precision_reached);
+}
+
+}  // namespace salebra
 
 namespace salebra::python {
 namespace {
 
-nb::bytes pickled(const std::string& bytes) { return nb::bytes(bytes.data(), bytes.size()); }
-
-/// The bytes of a pickle that this version wrote.
-std::string_view unpickled(const nb::tuple& state) {
-  if (nb::len(state) != 2 || nb::cast<std::string>(state[0]) != version())
-    throw InvalidInput("pickle", "was written by another version than salebra " +
-                                     std::string(version()) +
-                                     "; write results to files to keep them");
-  const auto bytes = nb::borrow<nb::bytes>(state[1]);
-  return {bytes.c_str(), bytes.size()};
-}
-
-/// Values of the class T of the library, which Python knows as Bound; made(T&&, Bound*) puts one
-/// there.
-template <class Bound, class Value, class Make>
-void value_class(Value value, Make make) {
-  auto bound = nb::borrow<nb::class_<Bound>>(nb::type<Bound>());
-  bound.def(
-      "__getstate__",
-      [value](const Bound& self) {
-        require_whole_if_spread(self, "a pickle");
-        return nb::make_tuple(std::string(version()), pickled(bytes_of(value(self))));
-      },
-      nb::sig("def __getstate__(self) -> tuple[str, bytes]"));
-  using T = std::remove_cvref_t<decltype(value(std::declval<const Bound&>()))>;
-  bound.def(
-      "__setstate__",
-      [make](Bound* self, const nb::tuple& state) { make(self, value_of<T>(unpickled(state))); },
-      nb::sig("def __setstate__(self, state: tuple[str, bytes], /) -> None"));
-  bound.def(
-      "__eq__",
-      [value](const Bound& self, nb::handle other) {
-        const Bound* known = nullptr;
-        return nb::try_cast(other, known) && known != nullptr &&
-               (known == &self || bytes_of(value(self)) == bytes_of(value(*known)));
-      },
-      nb::arg("other").none(), nb::sig("def __eq__(self, other: object, /) -> bool"));
-}
-
 template <class... T>
 void value_classes() {
-  (value_class<T>([](const T& self) -> const T& { return self; },
-                  [](T* self, T&& value) { new (self) T(std::move(value)); }),
-   ...);
+  const auto define = []<class Bound>(std::type_identity<Bound>) {
+    auto bound = nb::borrow<nb::class_<Bound>>(nb::type<Bound>());
+    value_methods(bound);
+  };
+  (define(std::type_identity<T>{}), ...);
 }
 
 // Pictures, by salebra._plots.
@@ -134,23 +120,20 @@ void bind_values(nb::module_& m) {
                 HurstEstimate, IntervalEstimate, SelfAffineFit, CorrelationMap, Correlation,
                 ScaleDependence, ReliabilityLimit, CoreParameters, HeightHistogram, Profile,
                 Anisotropy, Forecast>();
-  value_classes<ForceCurve, PressureWindow, ExponentialFit, ExponentialTest, WindowSensitivity,
-                LocalDecayLength, ElasticBody, Material, BoundContact, ContactSpot, ContactSpots,
-                FirstLoading, StickStiffness, PunchStiffness, PartialSlipReport, RoughnessShell,
+  value_classes<ForceCurve, ElasticBody, Material, BoundContact, ContactSpot, ContactSpots,
+                StickStiffness, PunchStiffness, PartialSlipReport, RoughnessShell,
                 PerssonTheory::Asymptote, SummitEnsemble, AsperityContact, MonteCarloCurve>();
-  value_classes<EqualFrequency, Drag, TwoFrequencies, SampledMotion, BoundDamping, ContactFacts,
-                Premise, LargestMotion, Premises, LossWithSlip, JointLoss, SteadySliding, Slider,
-                SliderMotion, SliderStability, SliderThreshold, SurfaceDamping, OscillatorDecay,
-                DamperMap, FrictionMap, RegimeMap, StressMap, AsperityDamping, TrajectoryDamping,
-                PronySeries, ViscoelasticIndentation, ViscoelasticDamping, ContactSetAt,
-                CycleResult, LevelQuadratureResult>();
-  value_classes<StudyConfiguration, DampingPoint, SpotStatistics, SurfacePicture, ModelResult,
-                Realisation, EnsembleMean, StudyFlag, StudyResult, Check, Report>();
-  value_class<Grid2D>([](const Grid2D& self) { return self; },
-                      [](Grid2D* self, Grid2D&& grid) { new (self) Grid2D(grid); });
-  value_class<BoundSurface>(
-      [](const BoundSurface& self) -> const Surface& { return self.surface; },
-      [](BoundSurface* self, Surface&& surface) { new (self) BoundSurface(std::move(surface)); });
+  value_classes<SteadySliding, Slider, SliderMotion, SliderStability, SliderThreshold,
+                SurfaceDamping, OscillatorDecay, DamperMap, FrictionMap, RegimeMap, StressMap,
+                AsperityDamping, PronySeries, ViscoelasticIndentation, ViscoelasticDamping,
+                ContactSetAt, CycleResult, LevelQuadratureResult>();
+  value_classes<StudyConfiguration, EnsembleMean, StudyFlag, StudyResult, Check, Report>();
+  auto grid = nb::borrow<nb::class_<Grid2D>>(nb::type<Grid2D>());
+  value_methods(grid);
+  auto surface = nb::borrow<nb::class_<BoundSurface>>(nb::type<BoundSurface>());
+  value_methods(
+      surface, [](const BoundSurface& self) -> const Surface& { return self.surface; },
+      [](BoundSurface* self, Surface&& given) { new (self) BoundSurface(std::move(given)); });
 
   drawn_classes<ForceCurve, ExponentialFit, ContactSpots, SummitList, PowerSpectrum, CorrelationMap,
                 ConvertedPsd, Profile, MonteCarloCurve, AsperityDamping, TrajectoryDamping,

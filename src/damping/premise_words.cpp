@@ -2,7 +2,6 @@
 // Names of the premises of a damping constant, and what is broken or doubtful in words.
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <salebra/damping/premises.hpp>
 
@@ -24,12 +23,14 @@ std::string one_objection(const PremiseName& name, std::span<const Premises> cas
     if (worst == nullptr || beyond(premise) > beyond(*worst)) worst = &premise;
   }
   if (worst == nullptr) return "";
-  const auto quantity = [&](double value) { return format_quantity(value, name.dimension, 3); };
+  const auto quantity = [&](double value) {
+    return format_quantity(value, name.value_dimension, 3);
+  };
   std::string text;
   if (worst->limit_20_percent == 0)
-    text = fmt::format("{}, at this velocity on any {}", name.words, name.value);
+    text = fmt::format("{}, at this velocity on any {}", name.meaning, name.value);
   else
-    text = fmt::format("{}, {} {} (5 % of the loss at {})", name.words, name.value,
+    text = fmt::format("{}, {} {} (5 % of the loss at {})", name.meaning, name.value,
                        quantity(worst->value), quantity(worst->limit_5_percent));
   if (cases.size() > 1) text += fmt::format(" in {} of {}", count, cases.size());
   return text;
@@ -46,22 +47,15 @@ std::string objections_of(std::span<const Premises> cases, Verdict verdict, cons
 }  // namespace
 
 std::span<const PremiseName> premise_names() {
-  static constexpr std::array names{
-      PremiseName{"slip_of_opening_levels", &Premises::slip_of_opening_levels,
-                  "slip where the contact opens and closes", "M =", Dimension::dimensionless},
-      PremiseName{"slip_of_closed_levels", &Premises::slip_of_closed_levels,
-                  "slip where it stays closed", "excursion", Dimension::length},
-      PremiseName{"slow_motion", &Premises::slow_motion, "slow tangential motion",
-                  "X/w =", Dimension::dimensionless},
-      PremiseName{"amplitude", &Premises::amplitude, "small amplitude of Eqs (12), (15) and (16)",
-                  "u_z =", Dimension::length},
-      PremiseName{"plasticity", &Premises::plasticity, "plasticity", "pressure over hardness",
-                  Dimension::dimensionless},
-      PremiseName{"inertia", &Premises::inertia, "inertia", "ωa/c_s =", Dimension::dimensionless},
-      PremiseName{"coupling", &Premises::coupling, "coupling", "share of the loss",
-                  Dimension::dimensionless},
-  };
-
+  static const auto names = [] {
+    std::vector<PremiseName> all;
+    describe(
+        [&]<class Line>(auto member, const Line& line) {
+          if constexpr (std::is_same_v<Line, PremiseWords>) all.push_back({line, member});
+        },
+        std::type_identity<Premises>{});
+    return all;
+  }();
   return names;
 }
 

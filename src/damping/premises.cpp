@@ -707,34 +707,6 @@ double spot_radius(const ContactFacts& facts, const ContactLaw& law, const Force
          (std::numbers::pi * nearest.normal_stiffness);
 }
 
-std::string name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::holds:
-      return "holds";
-    case Verdict::doubtful:
-      return "doubtful";
-    case Verdict::broken:
-      return "broken";
-    case Verdict::unknown:
-      break;
-  }
-  return "unknown";
-}
-
-std::string name_of(Regime regime) {
-  switch (regime) {
-    case Regime::no_slip:
-      return "no slip";
-    case Regime::partial_slip:
-      return "partial slip";
-    case Regime::sliding:
-      return "sliding";
-    case Regime::unknown:
-      break;
-  }
-  return "unknown";
-}
-
 Premises premises_of(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
                      const ContactFacts& facts) {
   return all_premises(law, case_of(law, mean_indentation, motion), facts);

@@ -104,6 +104,11 @@ const Json& Json::operator[](std::size_t index) const { return elements().at(ind
 
 void Json::push_back(Json value) { made<Array>(value_, "an array").push_back(std::move(value)); }
 
+void Json::add(const Json& object) {
+  for (const auto& [key, value] : object.items())
+    if (!contains(key)) (*this)[key] = value;
+}
+
 void Json::erase(std::string_view key) {
   std::erase_if(items(), [&](const auto& member) { return member.first == key; });
 }

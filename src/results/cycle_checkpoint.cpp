@@ -11,10 +11,9 @@
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
+#include <salebra/base/words.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/results/cycle.hpp>
 #include <salebra/results/cycle_checkpoint.hpp>
-#include <salebra/results/words.hpp>
 
 #include "io/checksum.hpp"
 

@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Table of result names: dimension and long name of each quantity in files and answers.
 #include <algorithm>
-#include <salebra/results/contact.hpp>
-#include <salebra/results/cycle.hpp>
-#include <salebra/results/damping.hpp>
-#include <salebra/results/spectrum.hpp>
-#include <salebra/results/surface.hpp>
+#include <salebra/base/grid.hpp>
+#include <salebra/base/spectral_moments.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/law/force_curve.hpp>
+#include <salebra/contact/normal/first_loading.hpp>
+#include <salebra/damping/cycle.hpp>
+#include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/joint.hpp>
+#include <salebra/damping/oscillation.hpp>
+#include <salebra/damping/premises.hpp>
+#include <salebra/damping/trajectory_damping.hpp>
+#include <salebra/generators/spectrum.hpp>
+#include <salebra/results/columns.hpp>
+#include <salebra/results/quantity.hpp>
+#include <salebra/surface/moments.hpp>
+#include <salebra/surface/summits.hpp>
 #include <vector>
 
 namespace salebra {
@@ -80,12 +93,6 @@ const Quantity others[] = {
     Quantity{"peklenik", dimensionless, "correlation length along x over that along y"},
     Quantity{"spectrum_mismatch", dimensionless, "relative error of the spectrum of the heights"},
     Quantity{"modulus_ratio", dimensionless, "G*/E*"},
-    Quantity{"dundurs", dimensionless, "Dundurs' constant beta of the two bodies"},
-    Quantity{"friction_coefficient", dimensionless,
-             "coefficient of friction: Coulomb's, or of the mean forces of a cycle"},
-    Quantity{"hardness", pressure, "hardness of the softer body"},
-    Quantity{"density", mass_density, "mass density of the elastic body"},
-    Quantity{"excursion", length, "distance between the turning points of a slow motion"},
     Quantity{"contact_pressure", pressure, "contact pressure"},
     Quantity{"max_pressure", pressure, "largest contact pressure"},
     Quantity{"gap", length, "gap of the deformed surfaces"},
@@ -99,12 +106,8 @@ const Quantity others[] = {
              "part of the undeformed surface above the mean gap of the contact"},
     Quantity{"persson_area_slope", dimensionless, "area slope of Persson's theory"},
     Quantity{"bgt_area_slope", dimensionless, "area slope of Bush, Gibson and Thomas"},
-    Quantity{"normal_stiffness_per_area", Dimension::stiffness_per_area,
-             "normal stiffness over nominal area"},
     Quantity{"tangential_stiffness_per_area", Dimension::stiffness_per_area,
              "tangential stiffness in full stick over nominal area"},
-    Quantity{"force_curvature", Dimension::force_curvature,
-             "second derivative of force by indentation"},
     Quantity{"seconds", Dimension::time, "wall time"},
     Quantity{"decay_length_by_weights", length, "decay length for each way to weight the loads"},
     Quantity{"fair", dimensionless, "whether one decay length describes the curve fairly"},
@@ -113,12 +116,8 @@ const Quantity others[] = {
     Quantity{"frequency", frequency, "frequency"},
     Quantity{"frequency_ratio", dimensionless, "tangential over normal frequency"},
     Quantity{"force_amplitude", force, "amplitude of the normal force"},
-    Quantity{"mean_force", force, "normal force, mean over a cycle"},
     Quantity{"tangential_frequency", frequency, "frequency of the tangential motion"},
-    Quantity{"normal_cycles", dimensionless, "normal cycles in the common period"},
-    Quantity{"tangential_cycles", dimensionless, "tangential cycles in the common period"},
     Quantity{"slow_limit_power", Dimension::power, "mean power if the tangential motion were slow"},
-    Quantity{"work_per_cycle", energy, "energy dissipated in a cycle"},
     Quantity{"work_per_cycle_with_slip", energy, "energy dissipated in a cycle with friction"},
     Quantity{"work_by_levels", energy, "energy dissipated in a cycle, from contact levels"},
     Quantity{"error_estimate", energy, "estimated error of the energy dissipated in a cycle"},
@@ -165,15 +164,11 @@ const Quantity others[] = {
     Quantity{"contact_area_min", length_squared, "minimum contact area of a cycle"},
     Quantity{"contact_area_max", length_squared, "maximum contact area of a cycle"},
     Quantity{"closed_form", energy, "energy dissipated in a cycle, closed form"},
-    Quantity{"power", Dimension::power, "mean dissipated power"},
-    Quantity{"damping_constant", damping, "damping constant P/v^2"},
     Quantity{"damping_constant_error", damping, "numerical error of the damping constant"},
     Quantity{"damping_constant_with_slip", damping, "damping constant P/v^2 with friction"},
     Quantity{"contact_radius", length, "contact radius"},
     Quantity{"min_contact_radius", length, "contact radius at the minimum indentation"},
     Quantity{"max_contact_radius", length, "contact radius at the maximum indentation"},
-    Quantity{"relaxation_work", energy, "energy dissipated in a cycle by contacts that open"},
-    Quantity{"slip_work", energy, "energy dissipated in a cycle by slip in permanent contact"},
     Quantity{"normal_material_work", energy,
              "energy dissipated in a cycle by the material under normal motion"},
     Quantity{"tangential_material_work", energy,
@@ -185,10 +180,6 @@ const Quantity others[] = {
     Quantity{"relaxation_time", Dimension::time, "relaxation time"},
     Quantity{"storage_modulus", pressure, "real part of the complex shear modulus"},
     Quantity{"loss_modulus", pressure, "imaginary part of the complex shear modulus"},
-    Quantity{"full_stick_work", energy, "energy dissipated in a cycle without slip"},
-    Quantity{"small_amplitude_work", energy, "energy dissipated in a cycle, small-amplitude form"},
-    Quantity{"storage_stiffness", stiffness, "mean tangential stiffness in phase with the motion"},
-    Quantity{"loss_factor", dimensionless, "energy dissipated over 2 pi times energy stored"},
     Quantity{"contact_stiffness", stiffness, "tangential stiffness of what is always in contact"},
     Quantity{"natural_frequency", angular_frequency, "natural angular frequency of the oscillator"},
     Quantity{"damping_ratio", dimensionless, "damping over critical damping"},
@@ -203,9 +194,7 @@ const Quantity others[] = {
              "minimum normal amplitude that stabilises the slider"},
     Quantity{"stable", dimensionless, "steady sliding is stable"},
     Quantity{"friction_number", dimensionless, "M = mu E* u_z/(G* u_x)"},
-    Quantity{"tangential_force", force, "tangential force"},
     Quantity{"transverse", length, "displacement along y"},
-    Quantity{"transverse_force", force, "tangential force along y"},
     Quantity{"velocity", velocity, "sliding velocity"},
     Quantity{"mean_tangential_force", force, "tangential force, mean over a cycle"},
     Quantity{"velocity_ratio", dimensionless, "velocity over critical velocity"},
@@ -241,16 +230,6 @@ const Quantity others[] = {
     Quantity{"energy_error", dimensionless, "rest of the energy balance over drive_power"},
     Quantity{"slider_offset", length, "displacement from the drive's"},
     Quantity{"slider_velocity", velocity, "velocity of the slider"},
-    Quantity{"secant_stiffness", stiffness, "tangential force over displacement, both half ranges"},
-    Quantity{"exponent", dimensionless, "d ln W/d ln T"},
-    Quantity{"loss_stiffness", stiffness, "tangential force in quadrature over displacement"},
-    Quantity{"tangential_force_per_area", pressure, "tangential force over nominal area"},
-    Quantity{"work_per_cycle_per_area", energy_per_area,
-             "energy dissipated in a cycle over nominal area"},
-    Quantity{"secant_stiffness_per_area", stiffness_per_area, "secant stiffness over nominal area"},
-    Quantity{"storage_stiffness_per_area", stiffness_per_area,
-             "storage stiffness over nominal area"},
-    Quantity{"loss_stiffness_per_area", stiffness_per_area, "loss stiffness over nominal area"},
     Quantity{"loss_ratio", dimensionless, "W(mu)/W(infinity)"},
     Quantity{"relaxation_ratio", dimensionless, "part of it from springs that open and close"},
     Quantity{"slip_ratio", dimensionless, "part of it from slip in permanent contact"},
@@ -261,11 +240,13 @@ const Quantity others[] = {
     Quantity{"limit_20_percent", dimensionless, "value at which the loss changes by 20 %"},
 };
 
+/// Of the first struct that has a name.
 template <class... Structs>
-std::vector<Quantity> columns_of() {
+std::vector<Quantity> quantities_of() {
   std::vector<Quantity> all;
-  const auto add = [&](const auto&, const Quantity& quantity) { all.push_back(quantity); };
-  (for_each_column<Structs>(add), ...);
+  for (const std::vector<Column>* columns : {&columns_of<Structs>()...})
+    for (const Column& column : *columns)
+      all.push_back({column.name, column.dimension, column.long_name});
   all.insert(all.end(), std::begin(others), std::end(others));
   return all;
 }
@@ -273,10 +254,11 @@ std::vector<Quantity> columns_of() {
 /// The entry of a name, or none.
 const Quantity* entry_of(std::string_view name) {
   static const std::vector<Quantity> quantities =
-      columns_of<Grid2D, HeightStatistics, SpectralMoments, SummitStatistics, SummitEnsemble,
-                 SelfAffineParameters, Material, ForceCurve, ForceSample, FirstLoading,
-                 ExponentialFit, ExponentialTest, WindowSensitivity, LocalDecayLength, CycleSample,
-                 EqualFrequency, Drag>();
+      quantities_of<Grid2D, HeightStatistics, SpectralMoments, SummitStatistics, SummitEnsemble,
+                    SelfAffineParameters, Material, ForceCurve, ForceSample, FirstLoading,
+                    ExponentialFit, ExponentialTest, WindowSensitivity, LocalDecayLength,
+                    CycleSample, EqualFrequency, Drag, DampingResult, CommonPeriod, ContactFacts,
+                    LargestMotion, LossWithSlip, TrajectoryDamping, JointLoss>();
   const auto found = std::ranges::find(quantities, name, &Quantity::name);
   return found != quantities.end() ? &*found : nullptr;
 }

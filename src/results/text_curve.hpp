@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <salebra/contact/law/force_curve.hpp>
 #include <salebra/io/provenance.hpp>
-#include <salebra/results/contact.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

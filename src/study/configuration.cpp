@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/results/words.hpp>
+#include <salebra/base/words.hpp>
 #include <salebra/study/configuration.hpp>
 #include <unordered_set>
 

@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
-#include <salebra/results/damping.hpp>
-#include <salebra/results/spectrum.hpp>
 #include <type_traits>
 
 #include "case_run.hpp"

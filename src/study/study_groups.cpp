@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <salebra/results/damping.hpp>
+#include <salebra/base/words.hpp>
+#include <salebra/damping/oscillation.hpp>
+#include <salebra/generators/spectrum.hpp>
 #include <salebra/results/quantity_group.hpp>
-#include <salebra/results/spectrum.hpp>
-#include <salebra/results/words.hpp>
 #include <salebra/study/study_premises.hpp>
 #include <set>
 
@@ -242,7 +242,7 @@ void write_premises(ResultGroup group, const StudyResult& result) {
   group.coordinate("pressure", result.pressures, "Pa", "nominal pressure");
   const StudyPremises found = premises_of(result);
   for (const PremiseName& name : premise_names()) {
-    const std::string key = name.key, unit(si_unit(name.dimension)), words = name.words;
+    const std::string key(name.name), unit(si_unit(name.value_dimension)), words(name.meaning);
     const auto put = [&](const std::string& dataset, const std::string& units, const auto& value,
                          const std::string& meaning) {
       std::vector<double> values;

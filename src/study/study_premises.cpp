@@ -81,7 +81,7 @@ std::string regimes(const StudyPremises& found, const std::vector<double>& press
     const auto at = [&](std::size_t k) {
       return format_quantity(pressures[k], Dimension::pressure);
     };
-    text += (text.empty() ? "" : ", ") + name_of(regime) + " at " + at(first);
+    text += (text.empty() ? "" : ", ") + std::string(word_of(regime)) + " at " + at(first);
     if (last - first > 1) text += " to " + at(last - 1);
   }
   return text;

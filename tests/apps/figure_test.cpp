@@ -298,7 +298,8 @@ TEST_CASE("A picture of damping draws how far the small-amplitude form is off", 
       "damping --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 --json "
       "--normal-amplitude 10nm,50nm,90nm --drag-velocity 1mm/s --frequency 20kHz");
   const json answer = drawing.answer();
-  const Values work = numbers(answer["work_per_cycle"]), small = numbers(answer["closed_form"]);
+  const Values work = numbers(answer["work_per_cycle"]),
+               small = numbers(answer["small_amplitude_work"]);
   Values deviation;
   for (std::size_t k = 0; k < 3; ++k) deviation.push_back(100 * (small[k] / work[k] - 1));
   check_alike(drawing.column(2, 0, 1), deviation, 1e-6);

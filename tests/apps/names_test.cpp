@@ -4,10 +4,12 @@
 #include <catch2/catch.hpp>
 #include <map>
 #include <regex>
+#include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/premises.hpp>
+#include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/results/damping.hpp>
-#include <salebra/results/spectrum.hpp>
+#include <salebra/results/describe.hpp>
+#include <salebra/results/quantity.hpp>
 #include <salebra/study/study.hpp>
 
 #include "run_program.hpp"
@@ -102,7 +104,7 @@ Meaning meaning_of(const std::string& name) {
 bool is_old(const std::string& name) {
   static const std::regex old(
       "curvature|customary|coefficient|law_density|(least|greatest)_.*|.*_percent_of.*|"
-      "law_deviation_percent|released_energy");
+      "law_deviation_percent|released_energy|closed_form");
   return std::regex_match(name, old);
 }
 
@@ -121,7 +123,7 @@ std::string stem(const std::string& name) {
 const std::set<std::string>& premise_keys() {
   static const std::set<std::string> keys = [] {
     std::set<std::string> all;
-    for (const PremiseName& name : premise_names()) all.insert(name.key);
+    for (const PremiseName& name : premise_names()) all.emplace(name.name);
     return all;
   }();
   return keys;

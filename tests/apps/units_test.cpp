@@ -99,7 +99,7 @@ Dimension meaning(const std::string& object, const std::string& name) {
       {"predicted_exponential", energy},
       {"predicted_exponential_finite", energy},
       {"work", energy},
-      {"closed_form", energy},
+      {"small_amplitude_work", energy},
       {"relaxation_work", energy},
       {"slip_work", energy},
       {"full_stick_work", energy},

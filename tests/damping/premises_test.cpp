@@ -495,7 +495,7 @@ TEST_CASE("A map of regimes has the borders of the premises, and they are monoto
         const Premises premises = premises_of(
             *one.law, one.mean, Drag{one.amplitude, velocities[i], normal.angular_frequency},
             {.friction_coefficient = friction, .excursion = excursions[j]});
-        CHECK(name_of(map.regime[i][j]) == name_of(premises.regime));
+        CHECK(word_of(map.regime[i][j]) == word_of(premises.regime));
         const double loss = map.loss_ratio(Index(i), Index(j));
         if (excursions[j] < way) {
           CHECK(map.regime[i][j] == Regime::unknown);
@@ -544,7 +544,7 @@ TEST_CASE("The loss in each regime is that of the simulated springs", "[regimes]
         trajectory_damping(paraboloid, path, {.friction_coefficient = friction});
     const RegimeMap map = regime_map(paraboloid, mean, {amplitude, omega}, {drag.drag_velocity},
                                      {excursion}, friction);
-    CHECK(name_of(map.regime[0][0]) == name_of(point.regime));
+    CHECK(word_of(map.regime[0][0]) == word_of(point.regime));
     // The turning points, at the least indentation, take a part of a cycle each.
     CHECK(map.slip_ratio(0, 0) == Approx(loss.slip_work / stick).epsilon(0.3 / point.cycles));
     CHECK(map.loss_ratio(0, 0) == Approx(loss.work_per_cycle / stick).epsilon(0.3 / point.cycles));

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <salebra/base/communicator.hpp>
+#include <salebra/base/describe.hpp>
 #include <string>
 
 namespace salebra {
@@ -32,6 +33,14 @@ struct Grid2D {
   /// Throws InvalidInput unless nx, ny >= 1 and lx, ly are finite and > 0.
   void validate() const;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<Grid2D>) {
+  using enum Dimension;
+  visit(&Grid2D::nx, Quantity{"nx", dimensionless, "points along x"});
+  visit(&Grid2D::ny, Quantity{"ny", dimensionless, "points along y"});
+  visit(&Grid2D::lx, Quantity{"size_x", length, "length of the surface along x"});
+  visit(&Grid2D::ly, Quantity{"size_y", length, "length of the surface along y"});
+}
 
 class Share;
 

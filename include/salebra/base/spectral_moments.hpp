@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
+
 namespace salebra {
 
 /// Profile moments along both axes and their means, which are those of any direction if the surface
@@ -18,5 +20,20 @@ struct SpectralMoments {
   double rms_slope() const;  ///< h' = √⟨|∇h|²⟩ = √(2 m2), exact for an anisotropic surface too
   double nayak() const;  ///< α = m0 m4/m2²; at least 1.5 for a Gaussian isotropic surface
 };
+
+constexpr void describe(auto&& visit, std::type_identity<SpectralMoments>) {
+  using enum Dimension;
+  using S = SpectralMoments;
+  visit(&S::moment0, Quantity{"moment0", length_squared, "spectral moment m0"});
+  visit(&S::moment2_x, Kept{"moment2_x", "mean square slope along x"});
+  visit(&S::moment2_y, Kept{"moment2_y", "mean square slope along y"});
+  visit(&S::moment4_x, Kept{"moment4_x", "mean square curvature along x, 1/m^2"});
+  visit(&S::moment4_y, Kept{"moment4_y", "mean square curvature along y, 1/m^2"});
+  visit(&S::moment2, Quantity{"moment2", dimensionless, "spectral moment m2 of a profile"});
+  visit(&S::moment4,
+        Quantity{"moment4", inverse_length_squared, "spectral moment m4 of a profile"});
+  visit(&S::rms_slope, Quantity{"rms_slope", dimensionless, "root mean square of the gradient"});
+  visit(&S::nayak, Quantity{"nayak", dimensionless, "Nayak parameter m0 m4 / m2^2"});
+}
 
 }  // namespace salebra

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <salebra/base/describe.hpp>
 #include <salebra/contact/tangential/coupled_contact.hpp>
 #include <salebra/contact/tangential/sliding_contact.hpp>
 #include <salebra/contact/tangential/stick.hpp>
@@ -67,6 +68,23 @@ struct CycleSample {
   /// K_t of the contact set in full stick, along the motion, N/m; NaN with friction.
   double tangential_stiffness = std::numeric_limits<double>::quiet_NaN();
 };
+
+/// The time first.
+constexpr void describe(auto&& visit, std::type_identity<CycleSample>) {
+  using enum Dimension;
+  using S = CycleSample;
+  visit(&S::t, Quantity{"time_in_periods", dimensionless, "time in periods"});
+  visit(&S::indentation, Quantity{"indentation", length, "indentation"});
+  visit(&S::tangential, Quantity{"tangential", length, "tangential displacement"});
+  visit(&S::tangential_force, Quantity{"tangential_force", force, "tangential force"});
+  visit(&S::normal_force, Quantity{"normal_force", force, "normal force"});
+  visit(&S::work, Quantity{"work", energy, "work of the tangential force since the start"});
+  visit(&S::dissipated, Quantity{"dissipated", energy, "energy dissipated since the start"});
+  visit(&S::contact_area, Quantity{"contact_area", length_squared, "contact area"});
+  visit(&S::slip_area, Quantity{"slip_area", length_squared, "area of cells at their limit"});
+  visit(&S::tangential_stiffness,
+        Quantity{"tangential_stiffness", stiffness, "tangential stiffness in full stick"});
+}
 
 /// What a stuck contact remembers: where each of its cells has been drawn to.
 struct StuckState {
@@ -144,9 +162,8 @@ struct CycleResult {
   double stored_energy_change = 0;  ///< over the period, J; not 0 where the contact advances
   double contact_area_min = 0;      ///< m²
   double contact_area_max = 0;      ///< m²
-  Field
-      loss;  ///< lost in a period by unit area, (nx, ny), J/m²: where friction wears; empty where
-             ///< nothing slips
+  Field loss;  ///< lost in a period by unit area, (nx, ny), J/m²: where friction wears; empty where
+               ///< nothing slips
   ContactSet smallest, largest;      ///< cells that are in contact always, at some time
   std::vector<CycleSample> samples;  ///< after each step of the last period
   int periods = 0;
@@ -156,6 +173,13 @@ struct CycleResult {
   bool converged = false;  ///< every solve did; otherwise do not use the numbers
   bool interrupted = false;
 };
+
+/// One quantity over the samples.
+inline std::vector<double> column(const CycleResult& cycle, double CycleSample::*value) {
+  std::vector<double> values;
+  for (const CycleSample& sample : cycle.samples) values.push_back(sample.*value);
+  return values;
+}
 
 /// A contact with infinite friction.
 /// A period is divided into steps t_k. The contact set is A(δ(t_k)) while x goes from its value at

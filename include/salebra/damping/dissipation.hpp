@@ -2,7 +2,9 @@
 #pragma once
 
 #include <limits>
+#include <salebra/base/describe.hpp>
 #include <salebra/base/progress.hpp>
+#include <salebra/base/words.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <span>
@@ -27,6 +29,12 @@ enum class Amplitude {
   finite  ///< the theorem of docs/theory.md, section 7, exact at every amplitude
 };
 
+template <>
+struct Words<Amplitude> {
+  static constexpr auto values = std::to_array<std::pair<Amplitude, std::string_view>>(
+      {{Amplitude::small, "small"}, {Amplitude::finite, "finite"}});
+};
+
 struct DampingOptions {
   /// Hold::indentation: the position is that of mean indentation. Hold::force: the cycle mean of F
   /// equals the force of the position (its F(δ) where an indentation was given); at
@@ -44,22 +52,49 @@ struct DampingResult {
   double power = unknown;           ///< P = Wω/2π, W; NaN where the motion has no ω
   double damping_constant =
       unknown;  ///< γ = P/⟨ẋ²⟩ with ⟨ẋ²⟩ = v² or (u_x ω)²/2, N s/m; NaN where the motion has no ω
-  double indentation = unknown;  ///< mean indentation of the cycle, m
-  double force = unknown;        ///< F at the mean indentation, N
-  double mean_force = unknown;   ///< mean of F over the cycle, N; that of a finite amplitude always
   double normal_stiffness = unknown;  ///< K at the mean indentation, N/m
   double curvature = unknown;         ///< F'' at the mean indentation, N/m²
-  double tangential_curvature =
-      unknown;  ///< K_t' at the mean indentation, N/m²; (G*/E*)F'' unless the law has a K_t of its
-                ///< own
+  double force = unknown;             ///< F at the mean indentation, N
+  double mean_force = unknown;   ///< mean of F over the cycle, N; that of a finite amplitude always
+  double indentation = unknown;  ///< mean indentation of the cycle, m
   /// Eq. (12) or (15) with (G*/E*)F'' at the *given* position, J. What Hold::force does to the mean
   /// indentation is not in it.
   double small_amplitude_work = unknown;
+  double tangential_curvature =
+      unknown;  ///< K_t' at the mean indentation, N/m²; (G*/E*)F'' unless the law has a K_t of its
+                ///< own
   double error_estimate =
       unknown;  ///< of work_per_cycle, J: quadrature and round-off, not the law's own error
   bool converged =
       false;  ///< whether the quadratures reached the tolerance; false: do not use work_per_cycle
 };
+
+constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
+  using enum Dimension;
+  using S = DampingResult;
+
+  visit(&S::work_per_cycle, Extensive{"work_per_cycle", energy, "energy dissipated in a cycle"});
+  visit(&S::power, Quantity{"power", Dimension::power, "mean dissipated power"});
+  visit(&S::damping_constant, Quantity{"damping_constant", damping, "damping constant P/v^2"});
+  visit(&S::normal_stiffness,
+        Extensive{"normal_stiffness", stiffness, "normal stiffness dF/d(indentation)"});
+  visit(&S::curvature,
+        Quantity{"force_curvature", force_curvature, "second derivative of force by indentation"});
+  visit(&S::force, Quantity{"force", Dimension::force, "normal force"});
+  visit(&S::mean_force,
+        Quantity{"mean_force", Dimension::force, "normal force, mean over a cycle"});
+  visit(&S::indentation, Quantity{"indentation", length, "indentation"});
+  visit(&S::small_amplitude_work, Quantity{"small_amplitude_work", energy,
+                                           "energy dissipated in a cycle, small-amplitude form"});
+  visit(&S::tangential_curvature,
+        Kept{"tangential_curvature", "derivative of the tangential stiffness by indentation",
+             force_curvature});
+  visit(&S::error_estimate,
+        Kept{"error_estimate",
+             "estimated error of the energy dissipated in a cycle, of quadrature and round-off",
+             energy});
+  visit(&S::converged, Kept{"converged", "false: do not use work_per_cycle"});
+}
 
 /// Work lost per cycle by
 ///     W = ½∮ s² dK_t,  s = x_out − x_in of each indentation level, in the by-parts forms that need K_t alone:

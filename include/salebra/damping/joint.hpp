@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <salebra/base/describe.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/dissipation.hpp>
 
@@ -23,6 +24,31 @@ struct JointLoss {
   double loss_stiffness = unknown;        ///< k'' of it, W/(πx²), N/m
   bool converged = false;                 ///< whether the quadratures reached the tolerance
 };
+
+constexpr void describe(auto&& visit, std::type_identity<JointLoss>) {
+  using enum Dimension;
+  using S = JointLoss;
+
+  visit(&S::indentation, Kept{"indentation", "mean indentation of the cycle", length});
+  visit(&S::tangential_force, Extensive{"tangential_force", force, "tangential force"});
+  visit(&S::tangential_amplitude,
+        Quantity{"tangential_amplitude", length, "amplitude of the tangential oscillation"});
+  visit(&S::work_per_cycle, Extensive{"work_per_cycle", energy, "energy dissipated in a cycle"});
+  visit(&S::relaxation_work,
+        Quantity{"relaxation_work", energy, "energy dissipated in a cycle by contacts that open"});
+  visit(&S::slip_work,
+        Quantity{"slip_work", energy, "energy dissipated in a cycle by slip in permanent contact"});
+  visit(&S::secant_stiffness, Extensive{"secant_stiffness", stiffness,
+                                        "tangential force over displacement, both half ranges"});
+  visit(&S::loss_factor,
+        Quantity{"loss_factor", dimensionless, "energy dissipated over 2 pi times energy stored"});
+  visit(&S::exponent, Quantity{"exponent", dimensionless, "d ln W/d ln T"});
+  visit(&S::storage_stiffness, Extensive{"storage_stiffness", stiffness,
+                                         "mean tangential stiffness in phase with the motion"});
+  visit(&S::loss_stiffness,
+        Extensive{"loss_stiffness", stiffness, "tangential force in quadrature over displacement"});
+  visit(&S::converged, Kept{"converged", "false: do not use the numbers"});
+}
 
 /// The tangential oscillation: of a given displacement, or of a given force.
 struct TangentialAmplitude {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
+#include <salebra/base/words.hpp>
 #include <variant>
 #include <vector>
 
@@ -16,6 +18,18 @@ struct EqualFrequency {
   double angular_frequency = 0;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<EqualFrequency>) {
+  using enum Dimension;
+  using S = EqualFrequency;
+  visit(&S::normal_amplitude,
+        Quantity{"normal_amplitude", length, "amplitude of the normal oscillation"});
+  visit(&S::tangential_amplitude,
+        Quantity{"tangential_amplitude", length, "amplitude of the tangential oscillation"});
+  visit(&S::phase, Quantity{"phase", angle, "phase between the oscillations"});
+  visit(&S::angular_frequency,
+        Quantity{"angular_frequency", Dimension::angular_frequency, "angular frequency"});
+}
+
 /// Case (b): z = u_z cos ωt and a slow oscillation along x, velocity v, excursion far below
 /// (μE*/G*)F/K. Motion that goes on slides.
 struct Drag {
@@ -23,6 +37,15 @@ struct Drag {
   double drag_velocity = 0;      ///< v, m/s
   double angular_frequency = 0;  ///< ω > 0, rad/s
 };
+
+constexpr void describe(auto&& visit, std::type_identity<Drag>) {
+  using enum Dimension;
+  visit(&Drag::normal_amplitude,
+        Quantity{"normal_amplitude", length, "amplitude of the normal oscillation"});
+  visit(&Drag::drag_velocity, Quantity{"drag_velocity", velocity, "drag velocity"});
+  visit(&Drag::angular_frequency,
+        Quantity{"angular_frequency", Dimension::angular_frequency, "angular frequency"});
+}
 
 using Oscillation = std::variant<EqualFrequency, Drag>;
 
@@ -36,6 +59,23 @@ struct TwoFrequencies {
   double tangential_angular_frequency = 0;  ///< ω_x > 0, rad/s
 };
 
+constexpr void describe(auto&& visit, std::type_identity<TwoFrequencies>) {
+  using enum Dimension;
+  using S = TwoFrequencies;
+
+  visit(&S::normal_amplitude,
+        Quantity{"normal_amplitude", length, "amplitude of the normal oscillation"});
+  visit(&S::tangential_amplitude,
+        Quantity{"tangential_amplitude", length, "amplitude of the tangential oscillation"});
+  visit(&S::phase, Quantity{"phase", angle, "phase between the oscillations"});
+  visit(&S::normal_angular_frequency,
+        Kept{"normal_angular_frequency", "angular frequency of the normal oscillation",
+             angular_frequency});
+  visit(&S::tangential_angular_frequency,
+        Kept{"tangential_angular_frequency", "angular frequency of the tangential oscillation",
+             angular_frequency});
+}
+
 /// ω_x/ω_z = tangential_cycles/normal_cycles in lowest terms; 0/0 where no ratio with at most
 /// `most_cycles` normal cycles fits to 1e-9: then the motion never repeats, and means take the
 /// place of sums.
@@ -43,6 +83,16 @@ struct CommonPeriod {
   int normal_cycles = 0;      ///< p
   int tangential_cycles = 0;  ///< q
 };
+
+constexpr void describe(auto&& visit, std::type_identity<CommonPeriod>) {
+  using enum Dimension;
+  using S = CommonPeriod;
+
+  visit(&S::normal_cycles,
+        Quantity{"normal_cycles", dimensionless, "normal cycles in the common period"});
+  visit(&S::tangential_cycles,
+        Quantity{"tangential_cycles", dimensionless, "tangential cycles in the common period"});
+}
 CommonPeriod common_period(const TwoFrequencies& motion, int most_cycles = 1000);
 
 /// One period of any motion, straight between the samples; the last sample closes the period. δ
@@ -60,6 +110,16 @@ struct SampledMotion {
   void validate() const;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<SampledMotion>) {
+  using enum Dimension;
+  using S = SampledMotion;
+  visit(&S::time, Quantity{"time", Dimension::time, "time"});
+  visit(&S::indentation, Quantity{"indentation", length, "indentation"});
+  visit(&S::displacement, Quantity{"displacement", length, "tangential displacement"});
+  visit(&S::period, Kept{"period", "duration of the period", Dimension::time});
+  visit(&S::drift, Kept{"drift", "displacement of a period", length});
+}
+
 /// One period about a mean indentation, `steps` straight steps for each normal cycle, beginning at
 /// a minimum of δ. An EqualFrequency of unknown ω gets a period of 2π s. Throws InvalidInput for
 /// TwoFrequencies without a common period.
@@ -69,5 +129,11 @@ SampledMotion sample(const TwoFrequencies& motion, double mean_indentation, int 
 /// What stays fixed over a cycle while u_z is finite: the mean indentation, or the mean force (a
 /// dead weight).
 enum class Hold { indentation, force };
+
+template <>
+struct Words<Hold> {
+  static constexpr auto values = std::to_array<std::pair<Hold, std::string_view>>(
+      {{Hold::indentation, "indentation"}, {Hold::force, "force"}});
+};
 
 }  // namespace salebra

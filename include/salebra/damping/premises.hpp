@@ -2,8 +2,9 @@
 #pragma once
 
 #include <limits>
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
-#include <salebra/base/units.hpp>
+#include <salebra/base/words.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/damper.hpp>
@@ -37,6 +38,34 @@ struct ContactFacts {
   double first_load = unknown;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<ContactFacts>) {
+  using enum Dimension;
+  using S = ContactFacts;
+
+  visit(&S::friction_coefficient,
+        Quantity{"friction_coefficient", dimensionless,
+                 "coefficient of friction: Coulomb's, or of the mean forces of a cycle"});
+  visit(&S::hardness, Quantity{"hardness", pressure, "hardness of the softer body"});
+  visit(&S::density, Quantity{"density", mass_density, "mass density of the elastic body"});
+  visit(&S::excursion,
+        Quantity{"excursion", length, "distance between the turning points of a slow motion"});
+  visit(&S::contact_modulus, Quantity{"contact_modulus", pressure, "contact modulus E*"});
+  visit(&S::dundurs,
+        Quantity{"dundurs", dimensionless, "Dundurs' constant beta of the two bodies"});
+  visit(&S::loaded_size,
+        Kept{"loaded_size", "radius of one contact, side of a rough surface", length});
+  visit(&S::nominal_pressure,
+        Kept{"nominal_pressure", "normal force over the nominal area", pressure});
+  visit(&S::largest_pressure, Kept{"largest_pressure", "largest pressure", pressure});
+  visit(&S::mean_contact_pressure,
+        Kept{"mean_contact_pressure", "normal force over the true contact area", pressure});
+  visit(&S::rms_slope, Quantity{"rms_slope", dimensionless, "root mean square of the gradient"});
+  visit(
+      &S::first_load,
+      Kept{"first_load",
+           "normal force of a plastic first loading, whose residual surface the law is of", force});
+}
+
 /// Adds what an indenter, or the curve that the law is made of, says of the contact at an
 /// indentation: E*, pressures and size. curve may be nullptr.
 ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
@@ -53,7 +82,14 @@ enum class Verdict {
   broken,    ///< beyond the limit of 20 %
   unknown    ///< something is not known: Premise::needs
 };
-std::string name_of(Verdict verdict);
+template <>
+struct Words<Verdict> {
+  static constexpr auto values =
+      std::to_array<std::pair<Verdict, std::string_view>>({{Verdict::holds, "holds"},
+                                                           {Verdict::doubtful, "doubtful"},
+                                                           {Verdict::broken, "broken"},
+                                                           {Verdict::unknown, "unknown"}});
+};
 
 struct Premise {
   double value = ContactFacts::unknown;
@@ -66,6 +102,20 @@ struct Premise {
       {};  ///< member of ContactFacts, or "drag_velocity", that a verdict needs; empty: none
 };
 
+constexpr void describe(auto&& visit, std::type_identity<Premise>) {
+  using enum Dimension;
+  using S = Premise;
+
+  visit(&S::value, Quantity{"value", dimensionless, "NaN where it cannot be known"});
+  visit(&S::limit_5_percent,
+        Quantity{"limit_5_percent", dimensionless, "value at which the loss changes by 5 %"});
+  visit(&S::limit_20_percent,
+        Quantity{"limit_20_percent", dimensionless, "value at which the loss changes by 20 %"});
+  visit(&S::verdict, Quantity{"verdict", dimensionless, "holds, doubtful, broken or unknown"});
+  visit(&S::needs,
+        Kept{"needs", "keyword of ContactFacts that a verdict needs; empty where none does"});
+}
+
 /// How much of a contact slips.
 enum class Regime {
   no_slip,       ///< both premises of slip hold: the loss is that without slip to 5 %
@@ -77,7 +127,14 @@ enum class Regime {
   /// normal cycle, and the motion not slow.
   unknown
 };
-std::string name_of(Regime regime);
+template <>
+struct Words<Regime> {
+  static constexpr auto values =
+      std::to_array<std::pair<Regime, std::string_view>>({{Regime::no_slip, "no slip"},
+                                                          {Regime::partial_slip, "partial slip"},
+                                                          {Regime::sliding, "sliding"},
+                                                          {Regime::unknown, "unknown"}});
+};
 
 /// Largest motion that keeps the slip premises to 5 % with a coefficient of friction.
 struct LargestMotion {
@@ -88,6 +145,20 @@ struct LargestMotion {
   double excursion =
       ContactFacts::unknown;  ///< X of the closed levels, m; 0: no slow motion at this velocity
 };
+
+constexpr void describe(auto&& visit, std::type_identity<LargestMotion>) {
+  using enum Dimension;
+  using S = LargestMotion;
+
+  visit(&S::friction_coefficient,
+        Quantity{"friction_coefficient", dimensionless,
+                 "coefficient of friction: Coulomb's, or of the mean forces of a cycle"});
+  visit(&S::drag_velocity, Quantity{"drag_velocity", velocity, "drag velocity"});
+  visit(&S::tangential_amplitude,
+        Quantity{"tangential_amplitude", length, "amplitude of the tangential oscillation"});
+  visit(&S::excursion,
+        Quantity{"excursion", length, "distance between the turning points of a slow motion"});
+}
 
 /// The seven premises. With g = G*/E* of the law, levels ζ that open and close during the cycle (ζ
 /// > δ0 − u_z) and levels that stay closed, each a spring that may be stretched by (μ/g)(δ − ζ):
@@ -142,12 +213,34 @@ struct Premises {
   std::vector<LargestMotion> largest;
 };
 
-struct PremiseName {
-  const char* key;  ///< of answers and files: the member's name
+/// Of a premise its words for people, what its value is, and the dimension of value and limits.
+struct PremiseWords : Kept {
+  std::string_view value;
+  Dimension value_dimension = Dimension::dimensionless;
+};
+
+constexpr void describe(auto&& visit, std::type_identity<Premises>) {
+  using enum Dimension;
+  using S = Premises;
+
+  visit(&S::slip_of_opening_levels,
+        PremiseWords{{"slip_of_opening_levels", "slip where the contact opens and closes"}, "M ="});
+  visit(&S::slip_of_closed_levels,
+        PremiseWords{{"slip_of_closed_levels", "slip where it stays closed"}, "excursion", length});
+  visit(&S::slow_motion, PremiseWords{{"slow_motion", "slow tangential motion"}, "X/w ="});
+  visit(&S::amplitude,
+        PremiseWords{{"amplitude", "small amplitude of Eqs (12), (15) and (16)"}, "u_z =", length});
+  visit(&S::plasticity, PremiseWords{{"plasticity", "plasticity"}, "pressure over hardness"});
+  visit(&S::inertia, PremiseWords{{"inertia", "inertia"}, "ωa/c_s ="});
+  visit(&S::coupling, PremiseWords{{"coupling", "coupling"}, "share of the loss"});
+  visit(&S::regime, Kept{"regime", "no slip, partial slip, sliding or unknown"});
+  visit(&S::largest, Kept{"largest",
+                          "largest motions that keep the premises of slip to 5 %, of the "
+                          "coefficient of friction that is known or of 0.1, 0.3 and 1"});
+}
+
+struct PremiseName : PremiseWords {
   Premise Premises::*premise;
-  const char* words;    ///< for people
-  const char* value;    ///< what the value is, for people
-  Dimension dimension;  ///< of value and limits
 };
 std::span<const PremiseName> premise_names();
 
@@ -177,6 +270,19 @@ struct LossWithSlip {
   double slip_work = ContactFacts::unknown;        ///< of it, by levels that stay closed
   double full_stick_work = ContactFacts::unknown;  ///< of the same springs without slip
 };
+
+constexpr void describe(auto&& visit, std::type_identity<LossWithSlip>) {
+  using enum Dimension;
+  using S = LossWithSlip;
+
+  visit(&S::work_per_cycle, Quantity{"work_per_cycle", energy, "energy dissipated in a cycle"});
+  visit(&S::relaxation_work,
+        Quantity{"relaxation_work", energy, "energy dissipated in a cycle by contacts that open"});
+  visit(&S::slip_work,
+        Quantity{"slip_work", energy, "energy dissipated in a cycle by slip in permanent contact"});
+  visit(&S::full_stick_work,
+        Quantity{"full_stick_work", energy, "energy dissipated in a cycle without slip"});
+}
 
 /// The same springs with friction. Case (b) without an excursion: sliding that goes on, all levels
 /// slip; with one: mean of a cycle on the way there and back.

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <salebra/base/progress.hpp>
+#include <salebra/base/words.hpp>
 #include <salebra/damping/damper.hpp>
 #include <vector>
 
@@ -23,9 +24,15 @@ struct Slider {
 };
 
 enum class SliderStart {
-  rest,  ///< at rest, dragged to the point of slipping
+  rest,    ///< at rest, dragged to the point of slipping
   sliding  ///< steady sliding with a velocity that is 1 % too low: shows whether small disturbances
            ///< grow
+};
+
+template <>
+struct Words<SliderStart> {
+  static constexpr auto values = std::to_array<std::pair<SliderStart, std::string_view>>(
+      {{SliderStart::rest, "rest"}, {SliderStart::sliding, "sliding"}});
 };
 
 /// What the motion ends in.
@@ -33,6 +40,14 @@ enum class SliderState {
   steady,     ///< sliding at the velocity of the drive
   pulsating,  ///< the velocity oscillates slowly, without sticking
   stick_slip  ///< with times of sticking
+};
+
+template <>
+struct Words<SliderState> {
+  static constexpr auto values = std::to_array<std::pair<SliderState, std::string_view>>(
+      {{SliderState::steady, "steady"},
+       {SliderState::pulsating, "pulsating"},
+       {SliderState::stick_slip, "stick_slip"}});
 };
 
 struct SliderOptions {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <salebra/base/progress.hpp>
+#include <salebra/base/words.hpp>
 #include <salebra/contact/half_space/half_space.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/law/force_curve.hpp>
@@ -18,8 +19,14 @@ namespace salebra {
 enum class SeamCheck {
   window,  ///< the outermost sixteenth along each edge goes smoothly to the mean height, so that
            ///< nothing is left to step
-  free  ///< the surface by itself on an infinite half-space: for light loads; at high ones its
-        ///< edges press harder
+  free     ///< the surface by itself on an infinite half-space: for light loads; at high ones its
+           ///< edges press harder
+};
+
+template <>
+struct Words<SeamCheck> {
+  static constexpr auto values = std::to_array<std::pair<SeamCheck, std::string_view>>(
+      {{SeamCheck::window, "window"}, {SeamCheck::free, "free"}});
 };
 
 /// Whether an oscillation may be divided into so many intervals: 4, 8, 16 or 32.

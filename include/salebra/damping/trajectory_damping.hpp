@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/tangential_contact.hpp>
 #include <span>
@@ -36,6 +37,27 @@ struct TrajectoryDamping {
   std::vector<double> dissipated;        ///< energy lost since the first sample, J
   std::size_t memory = 0;                ///< most pieces of history held at a time
 };
+
+constexpr void describe(auto&& visit, std::type_identity<TrajectoryDamping>) {
+  using enum Dimension;
+  using S = TrajectoryDamping;
+
+  visit(&S::work_per_cycle, Quantity{"work_per_cycle", energy, "energy dissipated in a cycle"});
+  visit(&S::relaxation_work,
+        Quantity{"relaxation_work", energy, "energy dissipated in a cycle by contacts that open"});
+  visit(&S::slip_work,
+        Quantity{"slip_work", energy, "energy dissipated in a cycle by slip in permanent contact"});
+  visit(&S::power, Quantity{"power", Dimension::power, "mean dissipated power"});
+  visit(&S::damping_constant, Quantity{"damping_constant", damping, "damping constant P/v^2"});
+  visit(&S::storage_stiffness, Quantity{"storage_stiffness", stiffness,
+                                        "mean tangential stiffness in phase with the motion"});
+  visit(&S::loss_factor,
+        Quantity{"loss_factor", dimensionless, "energy dissipated over 2 pi times energy stored"});
+  visit(&S::tangential_force, Quantity{"tangential_force", force, "tangential force"});
+  visit(&S::transverse_force, Quantity{"transverse_force", force, "tangential force along y"});
+  visit(&S::dissipated, Quantity{"dissipated", energy, "energy dissipated since the start"});
+  visit(&S::memory, Kept{"memory", "most pieces of history held at a time"});
+}
 
 /// Steady state of a periodic trajectory, by a TangentialContact. Without drift it is reached in
 /// the second period. With drift and friction the contact slides: a period that begins with every

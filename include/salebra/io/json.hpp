@@ -83,6 +83,8 @@ class Json {
   Json& operator[](std::size_t index);
   const Json& operator[](std::size_t index) const;
   void push_back(Json value);
+  /// Adds the members of an object that this one does not have.
+  void add(const Json& object);
   /// Removes a member, if there is one.
   void erase(std::string_view key);
 

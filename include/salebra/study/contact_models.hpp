@@ -41,7 +41,7 @@ std::span<const StudyModel> contact_models();
 
 /// By its name. Throws InvalidInput "models: …" for another.
 ContactModel contact_model(std::string_view name);
-const char* name_of(ContactModel model);
+std::string_view word_of(ContactModel model);
 std::vector<ContactModel> all_contact_models();
 /// The models of the names, each once, and the boundary elements, which the others are measured by.
 std::vector<ContactModel> contact_models(const std::vector<std::string>& names);

@@ -9,8 +9,6 @@
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
-#include <salebra/results/contact.hpp>
-#include <salebra/results/surface.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/study/surface_picture.hpp>
 #include <salebra/surface/moments.hpp>
@@ -47,8 +45,7 @@ struct DampingPoint {
   double deviation() const { return work_per_cycle_eq16 / work_per_cycle - 1; }
 };
 
-template <class Visitor>
-constexpr void describe(Visitor&& visit, std::type_identity<DampingPoint>) {
+constexpr void describe(auto&& visit, std::type_identity<DampingPoint>) {
   using enum Dimension;
   using S = DampingPoint;
   visit(&S::pressure, Quantity{"pressure", Dimension::pressure, "nominal pressure"});
@@ -129,8 +126,7 @@ struct ModelResult {
   }
 };
 
-template <class Visitor>
-constexpr void describe(Visitor&& visit, std::type_identity<ModelResult>) {
+constexpr void describe(auto&& visit, std::type_identity<ModelResult>) {
   using enum Dimension;
   using S = ModelResult;
   visit(&S::model, Kept{"model", "contact model"});
@@ -185,8 +181,7 @@ struct SpotStatistics {
   double largest_spot_share() const { return largest_spot_area / (spot_count * mean_spot_area); }
 };
 
-template <class Visitor>
-constexpr void describe(Visitor&& visit, std::type_identity<SpotStatistics>) {
+constexpr void describe(auto&& visit, std::type_identity<SpotStatistics>) {
   using enum Dimension;
   using S = SpotStatistics;
   visit(&S::spot_count, Quantity{"spot_count", dimensionless, "number of contact spots"});
@@ -232,8 +227,7 @@ struct Realisation {
   ModelResult& of(ContactModel model);
 };
 
-template <class Visitor>
-constexpr void describe(Visitor&& visit, std::type_identity<Realisation>) {
+constexpr void describe(auto&& visit, std::type_identity<Realisation>) {
   using enum Dimension;
   using S = Realisation;
   visit(&S::seed,

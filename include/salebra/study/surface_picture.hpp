@@ -49,8 +49,7 @@ struct SurfacePicture {
   Share rows_of(const Surface& surface) const;
 };
 
-template <class Visitor>
-constexpr void describe(Visitor&& visit, std::type_identity<SurfacePicture>) {
+constexpr void describe(auto&& visit, std::type_identity<SurfacePicture>) {
   using S = SurfacePicture;
   visit(&S::origin, Kept{"origin", "file, or generator with its seed"});
   visit(&S::stride, Kept{"stride", "points of the surface for one of the maps"});

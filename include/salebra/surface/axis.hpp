@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/words.hpp>
+
 namespace salebra {
 
 /// The direction of the profiles that a surface is cut into.
 enum class Axis { x, y };
+
+template <>
+struct Words<Axis> {
+  static constexpr auto values =
+      std::to_array<std::pair<Axis, std::string_view>>({{Axis::x, "x"}, {Axis::y, "y"}});
+};
 
 }  // namespace salebra

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <salebra/base/grid.hpp>
+#include <salebra/base/words.hpp>
 
 namespace salebra {
 
@@ -23,6 +24,17 @@ enum class Detrend {
   /// becomes zero; then the plane. A feature shifts nothing unless its edge along y takes half of a
   /// line. A point is compared with the last one defined before it at its x.
   median_differences
+};
+
+template <>
+struct Words<Detrend> {
+  static constexpr auto values = std::to_array<std::pair<Detrend, std::string_view>>(
+      {{Detrend::none, "none"},
+       {Detrend::mean, "mean"},
+       {Detrend::plane, "plane"},
+       {Detrend::quadratic, "quadratic"},
+       {Detrend::lines, "lines"},
+       {Detrend::median_differences, "median_differences"}});
 };
 
 /// The plane for a measured surface, which carries the tilt of its stage; the mean for a periodic

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/spectral_moments.hpp>
 
@@ -18,6 +19,18 @@ struct HeightStatistics {
   double kurtosis =
       0;  ///< ⟨(h − ⟨h⟩)⁴⟩/rms_height⁴, 3 for a Gaussian surface; NaN for a flat surface
 };
+
+constexpr void describe(auto&& visit, std::type_identity<HeightStatistics>) {
+  using enum Dimension;
+  using S = HeightStatistics;
+  visit(&S::defined_points, Kept{"defined_points", "points with a height"});
+  visit(&S::minimum, Kept{"minimum", "lowest height, m"});
+  visit(&S::maximum, Kept{"maximum", "highest height, m"});
+  visit(&S::mean, Kept{"mean", "mean height, m"});
+  visit(&S::rms_height, Quantity{"rms_height", length, "root mean square height"});
+  visit(&S::skewness, Quantity{"skewness", dimensionless, "skewness of heights"});
+  visit(&S::kurtosis, Quantity{"kurtosis", dimensionless, "kurtosis of heights, 3 for a Gaussian"});
+}
 
 /// Throws InvalidInput if the heights have not the shape of the grid, hold an infinity, or none of
 /// them is defined. Cost: two passes. Same bits for every number of threads and of processes over

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/words.hpp>
 #include <salebra/surface/spectrum.hpp>
 #include <string>
 #include <vector>
@@ -15,6 +16,16 @@ enum class PsdConvention {
   gwyddion,            ///< 2πq C over q in rad/m, m³, a radial PSDF:  h_rms² = ∫ W dq
   tamaas,              ///< (2π/L)² C over qL/2π, m², power of a mode: h_rms² = 2π ∫ n P dn
   rfgen,  ///< (2π/dx)² C over q dx/2π, m², f <= ½ cycles in a sample: h_rms² = 2π ∫ f P df
+};
+
+template <>
+struct Words<PsdConvention> {
+  static constexpr auto values = std::to_array<std::pair<PsdConvention, std::string_view>>(
+      {{PsdConvention::salebra, "salebra"},
+       {PsdConvention::surface_topography, "surface_topography"},
+       {PsdConvention::gwyddion, "gwyddion"},
+       {PsdConvention::tamaas, "tamaas"},
+       {PsdConvention::rfgen, "rfgen"}});
 };
 
 /// One in any convention, with what it takes to read it.

@@ -3,6 +3,7 @@
 
 #include <salebra/base/grid.hpp>
 #include <salebra/base/share.hpp>
+#include <salebra/base/words.hpp>
 #include <salebra/surface/axis.hpp>
 #include <vector>
 
@@ -37,10 +38,20 @@ enum class Window {
   automatic,  ///< none for a periodic surface, hann for any other
   none,       ///< 1
   hann,       ///< v(ξ)·v(η), v(ξ) = ½(1 − cos 2πξ)
-  blackman,  ///< the same with v(ξ) = 0.42 − 0.5 cos 2πξ + 0.08 cos 4πξ: less leakage, less
-             ///< resolution
+  blackman,   ///< the same with v(ξ) = 0.42 − 0.5 cos 2πξ + 0.08 cos 4πξ: less leakage, less
+              ///< resolution
   radial_hann,  ///< ½(1 + cos 2πr/min(lx, ly)) in the inscribed circle and 0 outside, r from point
                 ///< (nx/2, ny/2), as SurfaceTopography has it
+};
+
+template <>
+struct Words<Window> {
+  static constexpr auto values =
+      std::to_array<std::pair<Window, std::string_view>>({{Window::automatic, "default"},
+                                                          {Window::none, "none"},
+                                                          {Window::hann, "hann"},
+                                                          {Window::blackman, "blackman"},
+                                                          {Window::radial_hann, "radial_hann"}});
 };
 
 /// C of a periodic surface is exact on its modes: Σ C d²q = h_rms². Under a window the weighted

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <vector>
 
@@ -44,6 +45,16 @@ struct SummitStatistics {
   double mean_radius =
       0;  ///< 1/⟨mean curvature⟩, m, which is (3/8)√(π/m4) for a Gaussian isotropic surface
 };
+
+constexpr void describe(auto&& visit, std::type_identity<SummitStatistics>) {
+  using enum Dimension;
+  using S = SummitStatistics;
+  visit(&S::density, Quantity{"summit_density", inverse_length_squared, "summits per area"});
+  visit(&S::mean_height,
+        Quantity{"mean_height", length, "mean summit height above the mean plane"});
+  visit(&S::rms_height, Quantity{"summit_rms", length, "standard deviation of summit heights"});
+  visit(&S::mean_radius, Quantity{"mean_radius", length, "mean radius of summits"});
+}
 
 /// Same bits for every number of threads and of processes; collective.
 SummitStatistics summit_statistics(const SummitList& list);

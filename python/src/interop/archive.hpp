@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <salebra/base/communicator.hpp>
+#include <salebra/base/describe.hpp>
 #include <salebra/base/error.hpp>
-#include <salebra/study/study.hpp>
+#include <salebra/base/grid.hpp>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -16,11 +18,8 @@
 #include <variant>
 #include <vector>
 
-#include "interop/contact.hpp"
-#include "interop/damping.hpp"
-
 /// Values as bytes and back, for pickle and for ==: every member of a struct in the order of its
-/// declaration. One function walks a value for both directions.
+/// declaration, which its description lists. One function walks a value for both directions.
 namespace salebra::python {
 
 /// What stands for any member when those of an aggregate are counted. Not for an optional: it would
@@ -227,27 +226,11 @@ void archive(Archive& through, T& value) {
   } else if constexpr (is_function<Plain> || std::is_same_v<Plain, Communicator>) {
     // Who is told of the progress and which processes are at work belongs to a call, not to the
     // value.
-  } else if constexpr (std::is_same_v<Plain, StudyResult>) {
-    // Its bootstrap has no value of its own, and keeps the members from being counted.
-    auto& [configuration, grid, contact_scale, pressures, realisations, warnings, flags,
-           interrupted, precision_reached, bootstrap] = own;
-    archive(through, configuration);
-    archive(through, grid);
-    archive(through, contact_scale);
-    archive(through, pressures);
-    archive(through, realisations);
-    archive(through, warnings);
-    archive(through, flags);
-    archive(through, interrupted);
-    archive(through, precision_reached);
-  } else if constexpr (std::is_same_v<Plain, BoundContact>) {
-    archive(through, static_cast<NormalContactState&>(own));
-    archive(through, own.grid);
-    archive(through, own.contact_modulus);
-    archive(through, own.boundary);
-  } else if constexpr (std::is_same_v<Plain, BoundDamping>) {
-    archive(through, static_cast<DampingResult&>(own));
-    archive(through, own.premises);
+  } else if constexpr (requires { archive_members(through, own); }) {
+    archive_members(through, own);
+  } else if constexpr (Described<Plain>) {
+    static_assert(describes_all<Plain>(), "describe every member, in the order of declaration");
+    for_each_member<Plain>([&](auto member) { archive(through, own.*member); });
   } else {
     visit_members(own, [&](auto&... members) { (archive(through, members), ...); });
   }

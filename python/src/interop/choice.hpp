@@ -5,7 +5,7 @@
 #include <nanobind/stl/string.h>
 
 #include <salebra/base/error.hpp>
-#include <salebra/results/words.hpp>
+#include <salebra/base/words.hpp>
 #include <string>
 #include <string_view>
 #include <utility>

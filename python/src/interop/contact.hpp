@@ -20,6 +20,16 @@ struct BoundContact : NormalContactState {
   Boundary boundary = Boundary::periodic;
 };
 
+template <class Archive, class T>
+void archive(Archive& through, T& value);
+template <class Archive>
+void archive_members(Archive& through, BoundContact& own) {
+  archive(through, static_cast<NormalContactState&>(own));
+  archive(through, own.grid);
+  archive(through, own.contact_modulus);
+  archive(through, own.boundary);
+}
+
 /// Throws InvalidInput where several processes hold the state, as Surface::require_whole.
 inline void require_whole(const BoundContact& state, const std::string& purpose) {
   if (!state.ranks.alone())

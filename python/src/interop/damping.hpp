@@ -13,6 +13,13 @@ struct BoundDamping : DampingResult {
   std::optional<Premises> premises;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<BoundDamping>) {
+  describe(visit, std::type_identity<DampingResult>{});
+  visit(&BoundDamping::premises, Kept{"premises",
+                                      "whether the contact may be taken for one without slip, "
+                                      "yielding and inertia; None where they were not asked for"});
+}
+
 inline ContactFacts known(const ContactFacts* facts) { return facts ? *facts : ContactFacts{}; }
 
 /// "slip_of_opening_levels broken, amplitude doubtful", or that none is.

@@ -2,49 +2,72 @@
 #pragma once
 
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <salebra/results/describe.hpp>
-#include <salebra/study/contact_models.hpp>
+#include <salebra/base/describe.hpp>
+#include <salebra/base/words.hpp>
 #include <string>
 
 #include "interop/arrays.hpp"
+#include "interop/values.hpp"
 
 namespace salebra::python {
 
 /// "mean gap of the deformed surfaces, m."
-inline std::string described_text(const Quantity& quantity) {
-  std::string text(quantity.long_name);
-  if (quantity.dimension != Dimension::dimensionless)
-    text += ", " + std::string(si_unit(quantity.dimension));
+inline std::string described_text(std::string_view meaning, Dimension dimension) {
+  std::string text(meaning);
+  if (dimension != Dimension::dimensionless) text += ", " + std::string(si_unit(dimension));
   return text + ".";
 }
-inline std::string described_text(const auto& line) { return std::string(line.meaning) + "."; }
+inline std::string described_text(const Quantity& quantity) {
+  return described_text(quantity.long_name, quantity.dimension);
+}
+inline std::string described_text(const Kept& kept) {
+  return described_text(kept.meaning, kept.dimension);
+}
+inline std::string described_text(const Part& part) {
+  return described_text(part.meaning, Dimension::dimensionless);
+}
 
-/// A class with a read-only property for every line of the description of T: its name, its meaning
-/// and its unit.
+/// A read-only property of a described member: views of arrays, words of enumerations, the columns
+/// of a table.
+template <class Bound, class Member, class Line>
+void described_property(nb::class_<Bound>& bound, Member member, const Line& line) {
+  using Value = std::remove_cvref_t<std::invoke_result_t<Member, const Bound&>>;
+  if constexpr (std::is_same_v<Line, Table>) {
+    describe(
+        [&](auto column, const auto& inner) {
+          column_property(bound, std::string(inner.name).c_str(), member, column,
+                          described_text(inner).c_str());
+        },
+        std::type_identity<typename Value::value_type>{});
+  } else {
+    const std::string name(line.name), text = described_text(line);
+    if constexpr (requires(const Value& value) { view(value, nb::handle()); })
+      view_property(bound, name.c_str(), member, text.c_str());
+    else if constexpr (std::is_enum_v<Value>)
+      bound.def_prop_ro(
+          name.c_str(),
+          [member](const Bound& self) { return std::string(word_of(std::invoke(member, self))); },
+          text.c_str());
+    else if constexpr (std::is_member_object_pointer_v<Member>)
+      bound.def_ro(name.c_str(), member, text.c_str());
+    else
+      bound.def_prop_ro(
+          name.c_str(), [member](const Bound& self) { return (self.*member)(); }, text.c_str());
+  }
+}
+
+/// A class with pickle, == and a read-only property for every line of the description of T: its
+/// name, its meaning and its unit.
 template <Described T>
 nb::class_<T> described_class(nb::module_& module, const char* name, const char* meaning) {
   nb::class_<T> bound(module, name, meaning);
-  describe(
-      [&](auto member, const auto& line) {
-        using Value = std::remove_cvref_t<std::invoke_result_t<decltype(member), const T&>>;
-        const std::string property(line.name);
-        const std::string text = described_text(line);
-        if constexpr (std::is_same_v<Value, std::vector<double>>)
-          view_property(bound, property.c_str(), member, text.c_str());
-        else if constexpr (std::is_same_v<Value, ContactModel>)
-          bound.def_prop_ro(
-              property.c_str(), [member](const T& self) { return name_of(self.*member); },
-              text.c_str());
-        else if constexpr (std::is_member_object_pointer_v<decltype(member)>)
-          bound.def_ro(property.c_str(), member, text.c_str());
-        else
-          bound.def_prop_ro(
-              property.c_str(), [member](const T& self) { return (self.*member)(); }, text.c_str());
-      },
-      std::type_identity<T>{});
+  describe([&](auto member, const auto& line) { described_property(bound, member, line); },
+           std::type_identity<T>{});
+  value_methods(bound);
   return bound;
 }
 

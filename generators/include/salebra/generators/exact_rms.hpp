@@ -3,11 +3,18 @@
 
 #include <cstdint>
 #include <salebra/base/progress.hpp>
+#include <salebra/base/words.hpp>
 #include <salebra/generators/spectrum.hpp>
 
 namespace salebra {
 
 enum class Rms { height, slope };
+
+template <>
+struct Words<Rms> {
+  static constexpr auto values = std::to_array<std::pair<Rms, std::string_view>>(
+      {{Rms::height, "height"}, {Rms::slope, "slope"}});
+};
 
 /// The surface less its mean, times the factor that gives it this rms height (m) or rms slope
 /// √⟨|∇h|²⟩ (by Fourier differentiation).

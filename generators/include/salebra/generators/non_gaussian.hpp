@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <salebra/base/progress.hpp>
+#include <salebra/base/words.hpp>
 #include <salebra/generators/height_distribution.hpp>
 #include <salebra/generators/spectrum.hpp>
 
@@ -11,6 +12,12 @@ namespace salebra {
 
 /// Which of the two holds exactly in the end; the other holds as well as the iteration brings it.
 enum class Exact { heights, spectrum };
+
+template <>
+struct Words<Exact> {
+  static constexpr auto values = std::to_array<std::pair<Exact, std::string_view>>(
+      {{Exact::heights, "heights"}, {Exact::spectrum, "spectrum"}});
+};
 
 struct NonGaussianOptions {
   Exact exact = Exact::heights;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/base/spectral_moments.hpp>
@@ -66,6 +67,17 @@ struct SelfAffineParameters {
   std::optional<double> rms_height = {};  ///< m; exactly one of rms_height and rms_slope
   std::optional<double> rms_slope = {};   ///< √⟨|∇h|²⟩
 };
+
+constexpr void describe(auto&& visit, std::type_identity<SelfAffineParameters>) {
+  using enum Dimension;
+  using S = SelfAffineParameters;
+  visit(&S::hurst, Quantity{"hurst", dimensionless, "Hurst exponent"});
+  visit(&S::long_cutoff, Quantity{"long_cutoff", length, "longest wavelength"});
+  visit(&S::rolloff, Quantity{"rolloff", length, "roll-off wavelength"});
+  visit(&S::short_cutoff, Quantity{"short_cutoff", length, "shortest wavelength"});
+  visit(&S::rms_height, Quantity{"rms_height", length, "root mean square height"});
+  visit(&S::rms_slope, Quantity{"rms_slope", dimensionless, "root mean square of the gradient"});
+}
 
 /// Self-affine spectrum with a plateau:
 ///     C = C0                        q_L <= q < q_r

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <salebra/base/describe.hpp>
+#include <salebra/base/words.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
@@ -18,11 +20,24 @@ class HeightDensity;
 
 enum class SummitDistribution { gaussian, exponential, tabulated };
 
+template <>
+struct Words<SummitDistribution> {
+  static constexpr auto values = std::to_array<std::pair<SummitDistribution, std::string_view>>(
+      {{SummitDistribution::gaussian, "gaussian"},
+       {SummitDistribution::exponential, "exponential"},
+       {SummitDistribution::tabulated, "tabulated"}});
+};
+
 /// A point of a height density that is linear between its points and zero beyond them.
 struct HeightDensityPoint {
   double height = 0;   ///< z, m
   double density = 0;  ///< φ(z), 1/m, or any multiple of it: a table is normalised in use
 };
+
+constexpr void describe(auto&& visit, std::type_identity<HeightDensityPoint>) {
+  visit(&HeightDensityPoint::height, Kept{"height", "height, m"});
+  visit(&HeightDensityPoint::density, Kept{"density", "summits per height, 1/m"});
+}
 
 /// A statistical ensemble of equal spherical caps whose heights z are distributed as φ(z):
 ///     gaussian      exp(−z²/2σ_s²)/(√(2π)σ_s); z = 0 is the mean plane of the summits
@@ -39,6 +54,19 @@ struct SummitEnsemble {
   double rms_height = ForceSample::unknown;    ///< h_rms of the surface, m, where there is one
   std::vector<HeightDensityPoint> table = {};  ///< heights increasing, at least two
 };
+
+constexpr void describe(auto&& visit, std::type_identity<SummitEnsemble>) {
+  using enum Dimension;
+  using S = SummitEnsemble;
+  visit(&S::density, Quantity{"summit_density", inverse_length_squared, "summits per area"});
+  visit(&S::radius, Quantity{"radius", length, "radius of summits"});
+  visit(&S::summit_rms, Quantity{"summit_rms", length, "standard deviation of summit heights"});
+  visit(&S::mean_height,
+        Quantity{"mean_height", length, "mean summit height above the mean plane"});
+  visit(&S::distribution, Kept{"distribution", "of the summit heights"});
+  visit(&S::rms_height, Quantity{"rms_height", length, "root mean square height"});
+  visit(&S::table, Kept{"table", "density of the heights, where it is tabulated"});
+}
 
 /// The ensemble of a Gaussian isotropic surface, from its profile moments m0, m2, m4 by Nayak
 /// (1971) and McCool (1986):
@@ -136,6 +164,12 @@ class StatisticalSummits final : public AsperityModel {
 enum class SummitShape {
   circular,   ///< a sphere of R = 1/(mean curvature)
   elliptical  ///< Hertz's elliptical contact, exact; ratios below 1e-3 count as 1e-3
+};
+
+template <>
+struct Words<SummitShape> {
+  static constexpr auto values = std::to_array<std::pair<SummitShape, std::string_view>>(
+      {{SummitShape::circular, "circular"}, {SummitShape::elliptical, "elliptical"}});
 };
 
 /// Deterministic ensemble: each summit of one surface with its own height and radius,

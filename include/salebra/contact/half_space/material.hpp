@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <salebra/base/describe.hpp>
 
 namespace salebra {
 
@@ -38,5 +39,14 @@ struct Material {
   /// Normal contact only: G* and the Cerruti constants are NaN, modulus_ratio() throws.
   static Material of_contact_modulus(double contact_modulus);
 };
+
+constexpr void describe(auto&& visit, std::type_identity<Material>) {
+  visit(&Material::contact_modulus,
+        Quantity{"contact_modulus", Dimension::pressure, "contact modulus E*"});
+  visit(&Material::tangential_modulus,
+        Quantity{"tangential_modulus", Dimension::pressure, "tangential modulus G*"});
+  visit(&Material::cerruti_isotropic, Kept{"cerruti_isotropic", "sum of (1 - nu)/(2 pi G), 1/Pa"});
+  visit(&Material::cerruti_directed, Kept{"cerruti_directed", "sum of nu/(2 pi G), 1/Pa"});
+}
 
 }  // namespace salebra

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <salebra/base/describe.hpp>
+#include <salebra/base/words.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <vector>
 
@@ -21,6 +23,14 @@ struct PressureWindow {
   static constexpr double round_off = 1e-9;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<PressureWindow>) {
+  using enum Dimension;
+  using S = PressureWindow;
+  visit(&S::pressure_min, Quantity{"pressure_min", pressure, "lowest pressure of the fit"});
+  visit(&S::pressure_max, Quantity{"pressure_max", pressure, "highest pressure of the fit"});
+  visit(&S::points, Kept{"points", "samples in the window"});
+}
+
 /// What a sample counts for in the least squares of ln p.
 enum class FitWeights {
   /// The length of ū that it stands for, half way to its neighbours. The sum of squares is then
@@ -30,6 +40,14 @@ enum class FitWeights {
   spacing,
   equal,  ///< one: for values whose relative errors are alike
   force   ///< p²: for values whose absolute errors are alike, such as those of a load cell
+};
+
+template <>
+struct Words<FitWeights> {
+  static constexpr auto values =
+      std::to_array<std::pair<FitWeights, std::string_view>>({{FitWeights::spacing, "spacing"},
+                                                              {FitWeights::equal, "equal"},
+                                                              {FitWeights::force, "force"}});
 };
 
 /// p = reference_pressure · exp(−ū/decay_length), weighted least squares in ln p over a window,
@@ -43,6 +61,23 @@ struct ExponentialFit {
   PressureWindow window;
   double decay_length_over_rms_height = ForceSample::unknown;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<ExponentialFit>) {
+  using enum Dimension;
+  using S = ExponentialFit;
+  visit(&S::decay_length, Quantity{"decay_length", length, "decay length of force with mean gap"});
+  visit(&S::decay_length_low,
+        Quantity{"decay_length_low", length, "decay length, lower 95 % limit"});
+  visit(&S::decay_length_high,
+        Quantity{"decay_length_high", length, "decay length, upper 95 % limit"});
+  visit(&S::reference_pressure,
+        Quantity{"reference_pressure", pressure, "fitted pressure at zero mean gap"});
+  visit(&S::r_squared,
+        Quantity{"r_squared", dimensionless, "coefficient of determination of the fit"});
+  visit(&S::window, Part{"window", "pressures of the fit"});
+  visit(&S::decay_length_over_rms_height,
+        Quantity{"decay_length_over_rms_height", dimensionless, "decay length over rms height"});
+}
 
 /// Fits the samples whose pressure lies in [pressure_min, pressure_max], limits included to 1e-9;
 /// without a window, those with ū between 1 and 2.5 h_rms, where the law is at its best, or all
@@ -73,6 +108,22 @@ struct ExponentialTest {
   bool refuted(double level = 0.05) const { return significance < level; }
 };
 
+constexpr void describe(auto&& visit, std::type_identity<ExponentialTest>) {
+  using enum Dimension;
+  using S = ExponentialTest;
+  visit(&S::quadratic, Quantity{"quadratic", inverse_length_squared,
+                                "coefficient of the squared mean gap in ln p"});
+  visit(&S::standard_error, Quantity{"standard_error", inverse_length_squared,
+                                     "standard error of the quadratic coefficient"});
+  visit(&S::significance,
+        Quantity{"significance", dimensionless, "probability of so large a bend if the law held"});
+  visit(&S::decay_length_closest, Quantity{"decay_length_closest", length,
+                                           "local decay length at the close end of the window"});
+  visit(&S::decay_length_farthest, Quantity{"decay_length_farthest", length,
+                                            "local decay length at the far end of the window"});
+  visit(&S::window, Kept{"window", "pressures of the fit"});
+}
+
 /// Throws as fit_exponential does, and for fewer than four points.
 ExponentialTest test_exponential(const ForceCurve& curve,
                                  const std::optional<PressureWindow>& window = {},
@@ -87,6 +138,16 @@ struct WindowSensitivity {
   int windows = 0;              ///< how many runs were fitted
 };
 
+constexpr void describe(auto&& visit, std::type_identity<WindowSensitivity>) {
+  using enum Dimension;
+  using S = WindowSensitivity;
+  visit(&S::decay_length_min,
+        Quantity{"decay_length_min", length, "minimum decay length over parts of the window"});
+  visit(&S::decay_length_max,
+        Quantity{"decay_length_max", length, "maximum decay length over parts of the window"});
+  visit(&S::windows, Kept{"windows", "parts of the window that were fitted"});
+}
+
 /// Throws as fit_exponential does.
 WindowSensitivity window_sensitivity(const ForceCurve& curve,
                                      const std::optional<PressureWindow>& window = {},
@@ -98,6 +159,14 @@ struct LocalDecayLength {
   std::vector<double> mean_gap;      ///< m
   std::vector<double> decay_length;  ///< m
 };
+
+constexpr void describe(auto&& visit, std::type_identity<LocalDecayLength>) {
+  using enum Dimension;
+  using S = LocalDecayLength;
+  visit(&S::mean_gap, Quantity{"mean_gap", length, "mean gap of the deformed surfaces"});
+  visit(&S::decay_length,
+        Quantity{"local_decay_length", length, "local decay length -d(mean gap)/d ln(pressure)"});
+}
 /// Throws InvalidInput for fewer than two usable samples.
 LocalDecayLength local_decay_length(const ForceCurve& curve);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <salebra/base/describe.hpp>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,24 @@ struct ForceSample {
   bool converged = true;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<ForceSample>) {
+  using enum Dimension;
+  using S = ForceSample;
+  visit(&S::indentation, Quantity{"indentation", length, "indentation"});
+  visit(&S::mean_gap, Quantity{"mean_gap", length, "mean gap of the deformed surfaces"});
+  visit(&S::separation, Quantity{"separation", length,
+                                 "distance of the smooth plane from the mean plane of summits"});
+  visit(&S::force, Quantity{"force", Dimension::force, "normal force"});
+  visit(&S::pressure, Quantity{"pressure", Dimension::pressure, "nominal pressure"});
+  visit(&S::contact_area_fraction,
+        Quantity{"contact_area_fraction", dimensionless, "contact area over nominal area"});
+  visit(&S::normal_stiffness,
+        Quantity{"normal_stiffness", stiffness, "normal stiffness dF/d(indentation)"});
+  visit(&S::tangential_stiffness,
+        Quantity{"tangential_stiffness", stiffness, "tangential stiffness in full stick"});
+  visit(&S::converged, Quantity{"converged", dimensionless, "whether the contact converged"});
+}
+
 /// What every contact model returns, ordered from the lowest force to the highest.
 struct ForceCurve {
   std::string model;                         ///< "bem", "greenwood-williamson", …
@@ -33,5 +52,13 @@ struct ForceCurve {
   /// One member of every sample, such as column(&ForceSample::pressure).
   std::vector<double> column(double ForceSample::*quantity) const;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<ForceCurve>) {
+  using enum Dimension;
+  visit(&ForceCurve::model, Kept{"model", "contact model"});
+  visit(&ForceCurve::nominal_area, Quantity{"nominal_area", length_squared, "nominal area"});
+  visit(&ForceCurve::rms_height, Quantity{"rms_height", length, "root mean square height"});
+  visit(&ForceCurve::samples, Kept{"samples", "from the lowest force to the highest"});
+}
 
 }  // namespace salebra

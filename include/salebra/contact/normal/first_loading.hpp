@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <salebra/base/describe.hpp>
 #include <salebra/contact/normal/normal.hpp>
 
 /// A first loading during which the highest parts of a surface flow, and the surface that it
@@ -26,6 +27,21 @@ struct FirstLoading {
 
   bool yielded() const { return yielded_area_fraction > 0; }
 };
+
+constexpr void describe(auto&& visit, std::type_identity<FirstLoading>) {
+  using enum Dimension;
+  using S = FirstLoading;
+  visit(&S::pressure, Quantity{"first_loading_pressure", Dimension::pressure,
+                               "largest nominal pressure of the plastic first loading"});
+  visit(&S::yielded_area_fraction,
+        Quantity{"yielded_area_fraction", dimensionless,
+                 "area that carried the hardness in the first loading over nominal area"});
+  visit(&S::mean_plastic_depth,
+        Quantity{"mean_plastic_depth", length,
+                 "depth that the first loading left, mean over the nominal area"});
+  visit(&S::max_plastic_depth,
+        Quantity{"max_plastic_depth", length, "largest depth that the first loading left"});
+}
 
 /// The heights that a first loading leaves. Unless converged, the surface is the first one.
 struct ResidualSurface {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
+#include <salebra/base/words.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
 #include <salebra/contact/half_space/half_space.hpp>
 
@@ -12,6 +13,12 @@ namespace salebra {
 
 /// mixed: transforms in float, residuals and acceptance in double.
 enum class Precision { mixed, full };
+
+template <>
+struct Words<Precision> {
+  static constexpr auto values = std::to_array<std::pair<Precision, std::string_view>>(
+      {{Precision::mixed, "mixed"}, {Precision::full, "full"}});
+};
 
 struct NormalContactOptions {
   /// Stop at e_c = Σp(g − g_min)/(Σp · h_rms) < tolerance, checked densely in double precision;

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <salebra/base/describe.hpp>
+#include <salebra/base/words.hpp>
+#include <salebra/io/json.hpp>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+/// Descriptions as tables, for faces that need no types: the program's answers, the glossary.
+namespace salebra {
+
+/// A column of a described struct.
+struct Column {
+  std::string name;
+  Dimension dimension = Dimension::dimensionless;
+  std::string long_name;
+  bool list = false;      ///< several values, of a table
+  bool per_area = false;  ///< the value is to be divided by the nominal area
+  /// The value at an address: a number, a truth, a word or a list of them, null where there is
+  /// none. Empty for fields, which no answer prints.
+  std::function<Json(const void* whole)> value;
+};
+
+namespace detail {
+
+template <class T>
+constexpr bool is_optional = false;
+template <class T>
+constexpr bool is_optional<std::optional<T>> = true;
+
+template <class Value>
+Json json_value(const Value& value) {
+  if constexpr (std::is_enum_v<Value>)
+    return Json(std::string(word_of(value)));
+  else if constexpr (is_optional<Value>)
+    return value ? json_value(*value) : Json();
+  else
+    return Json(value);
+}
+
+template <class Value>
+constexpr bool has_json =
+    std::is_enum_v<Value> || is_optional<Value> || std::is_convertible_v<const Value&, Json>;
+
+template <class Value>
+constexpr bool is_list = false;
+template <class Item>
+constexpr bool is_list<std::vector<Item>> = true;
+
+/// With the column per area of an extensive one.
+void add_column(std::vector<Column>& columns, const Quantity& quantity, bool list, bool extensive,
+                std::function<Json(const void*)> value);
+
+template <class Whole>
+std::vector<Column> all_columns() {
+  std::vector<Column> all;
+  describe(
+      [&]<class Line>(auto member, const Line& line) {
+        using Value = std::remove_cvref_t<std::invoke_result_t<decltype(member), const Whole&>>;
+        if constexpr (std::derived_from<Line, Quantity>) {
+          std::function<Json(const void*)> value;
+          if constexpr (has_json<Value>)
+            value = [member](const void* whole) {
+              return json_value(std::invoke(member, *static_cast<const Whole*>(whole)));
+            };
+          add_column(all, line, is_list<Value>, std::is_same_v<Line, Extensive>, std::move(value));
+        } else if constexpr (std::is_same_v<Line, Part>) {
+          for (Column column : all_columns<Value>()) {
+            column.value = [member, inner = column.value](const void* whole) {
+              return inner(&std::invoke(member, *static_cast<const Whole*>(whole)));
+            };
+            all.push_back(std::move(column));
+          }
+        }
+      },
+      std::type_identity<Whole>{});
+  return all;
+}
+
+struct Rows {
+  const void* first;
+  std::size_t count, stride;
+};
+Json numbers_of(const std::vector<Column>& columns, const Rows& rows, bool several,
+                double nominal_area);
+Json lists_of(const std::vector<Column>& columns, const void* whole);
+
+}  // namespace detail
+
+/// The columns of T, those of its parts included, in the order of the description.
+template <Described T>
+const std::vector<Column>& columns_of() {
+  static const std::vector<Column> columns = detail::all_columns<T>();
+  return columns;
+}
+
+/// The columns of a result as an object, its lists left out. nominal_area: m²; 0: not known, and no
+/// columns per area.
+template <Described T>
+Json json_of(const T& result, double nominal_area = 0) {
+  return detail::numbers_of(columns_of<T>(), {&result, 1, sizeof(T)}, false, nominal_area);
+}
+/// Of several results a list for each column.
+template <Described T>
+Json json_of(const std::vector<T>& results, double nominal_area = 0) {
+  return detail::numbers_of(columns_of<T>(), {results.data(), results.size(), sizeof(T)}, true,
+                            nominal_area);
+}
+/// The columns of a result that are lists.
+template <Described T>
+Json lists_of(const T& result) {
+  return detail::lists_of(columns_of<T>(), &result);
+}
+
+}  // namespace salebra

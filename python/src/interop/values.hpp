@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
+
+#include <salebra/base/version.hpp>
+#include <string>
+#include <string_view>
+
+#include "interop/archive.hpp"
+#include "interop/surface.hpp"
+
+namespace salebra::python {
+
+namespace nb = nanobind;
+
+inline nb::bytes pickled(const std::string& bytes) { return nb::bytes(bytes.data(), bytes.size()); }
+
+/// The bytes of a pickle that this version wrote.
+inline std::string_view unpickled(const nb::tuple& state) {
+  if (nb::len(state) != 2 || nb::cast<std::string>(state[0]) != version())
+    throw InvalidInput("pickle", "was written by another version than salebra " +
+                                     std::string(version()) +
+                                     "; write results to files to keep them");
+  const auto bytes = nb::borrow<nb::bytes>(state[1]);
+  return {bytes.c_str(), bytes.size()};
+}
+
+/// Pickle, copies and == of the values of the class T of the library, which Python knows as Bound:
+/// value(const Bound&) is one, and made(Bound*, T&&) puts one there.
+template <class Bound, class Value, class Make>
+void value_methods(nb::class_<Bound>& bound, Value value, Make make) {
+  bound.def(
+      "__getstate__",
+      [value](const Bound& self) {
+        require_whole_if_spread(self, "a pickle");
+        return nb::make_tuple(std::string(version()), pickled(bytes_of(value(self))));
+      },
+      nb::sig("def __getstate__(self) -> tuple[str, bytes]"));
+  using T = std::remove_cvref_t<decltype(value(std::declval<const Bound&>()))>;
+  bound.def(
+      "__setstate__",
+      [make](Bound* self, const nb::tuple& state) { make(self, value_of<T>(unpickled(state))); },
+      nb::sig("def __setstate__(self, state: tuple[str, bytes], /) -> None"));
+  bound.def(
+      "__eq__",
+      [value](const Bound& self, nb::handle other) {
+        const Bound* known = nullptr;
+        return nb::try_cast(other, known) && known != nullptr &&
+               (known == &self || bytes_of(value(self)) == bytes_of(value(*known)));
+      },
+      nb::arg("other").none(), nb::sig("def __eq__(self, other: object, /) -> bool"));
+}
+
+template <class T>
+void value_methods(nb::class_<T>& bound) {
+  value_methods(
+      bound, [](const T& self) -> const T& { return self; },
+      [](T* self, T&& value) { new (self) T(std::move(value)); });
+}
+
+}  // namespace salebra::python
