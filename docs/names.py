@@ -12,12 +12,16 @@ _PER_AREA = {"N": "Pa", "J": "J/m^2", "N/m": "Pa/m"}
 def names():
     """{name: (unit, meaning)}. Where two structs mean different things by a name, both meanings."""
     units = dict(re.findall(r'About\{(?:Dimension::)?(\w+), "([^"]+)"', (_ROOT / "src/base/units.cpp").read_text()))
+    declared = r'(\w+)\{\s*"\1",\s*Dimension::(\w+),\s*"([^"]*)"\}'
+    shared = {name: line for source in _ROOT.glob(_TABLE[0]) for name, *line in re.findall(declared, source.read_text())}
     table = {}
     for pattern in _TABLE:
         for source in sorted(_ROOT.glob(pattern)):
             text = re.sub(r"^\s*///.*\n", "", source.read_text(), flags=re.M)
-            entries = re.findall(r'(Quantity|Extensive)\{\s*"(\w+)",\s*(?:Dimension::)?(\w+),\s*((?:"[^"]*"\s*)+)\}', text)
-            written = len(re.findall(r'(?:Quantity|Extensive)\{\s*"', text))
+            begin = r'(\w+)\{\s*"(\w+)",\s*(?:Dimension::)?(\w+),'
+            text = re.sub(r"Extensive\{quantity::(\w+)\}", lambda found: 'Extensive{"%s", %s, "%s"}' % (found[1], *shared[found[1]]), text)
+            entries = [one for one in re.findall(begin + r'\s*((?:"[^"]*"\s*)+)\}', text) if one[0] in ("Quantity", "Extensive", one[1])]
+            written = sum(kind in ("Quantity", "Extensive", name) for kind, name, _ in re.findall(begin, text))
             if len(entries) != written:
                 raise ValueError(f"{source}: {written} quantities, {len(entries)} of them understood; has their form changed?")
             for kind, name, dimension, meaning in entries:

@@ -4,11 +4,11 @@
 #include <functional>
 #include <limits>
 #include <optional>
-#include <salebra/base/describe.hpp>
 #include <salebra/contact/tangential/coupled_contact.hpp>
 #include <salebra/contact/tangential/sliding_contact.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 #include <salebra/damping/oscillation.hpp>
+#include <salebra/damping/quantities.hpp>
 #include <variant>
 #include <vector>
 
@@ -74,12 +74,12 @@ constexpr void describe(auto&& visit, std::type_identity<CycleSample>) {
   using enum Dimension;
   using S = CycleSample;
   visit(&S::t, Quantity{"time_in_periods", dimensionless, "time in periods"});
-  visit(&S::indentation, Quantity{"indentation", length, "indentation"});
+  visit(&S::indentation, quantity::indentation);
   visit(&S::tangential, Quantity{"tangential", length, "tangential displacement"});
-  visit(&S::tangential_force, Quantity{"tangential_force", force, "tangential force"});
+  visit(&S::tangential_force, quantity::tangential_force);
   visit(&S::normal_force, Quantity{"normal_force", force, "normal force"});
   visit(&S::work, Quantity{"work", energy, "work of the tangential force since the start"});
-  visit(&S::dissipated, Quantity{"dissipated", energy, "energy dissipated since the start"});
+  visit(&S::dissipated, quantity::dissipated);
   visit(&S::contact_area, Quantity{"contact_area", length_squared, "contact area"});
   visit(&S::slip_area, Quantity{"slip_area", length_squared, "area of cells at their limit"});
   visit(&S::tangential_stiffness,

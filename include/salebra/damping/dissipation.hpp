@@ -2,11 +2,11 @@
 #pragma once
 
 #include <limits>
-#include <salebra/base/describe.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/base/words.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/oscillation.hpp>
+#include <salebra/damping/quantities.hpp>
 #include <span>
 #include <variant>
 #include <vector>
@@ -72,20 +72,15 @@ struct DampingResult {
 constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
   using enum Dimension;
   using S = DampingResult;
-
-  visit(&S::work_per_cycle, Extensive{"work_per_cycle", energy, "energy dissipated in a cycle"});
-  visit(&S::power, Quantity{"power", Dimension::power, "mean dissipated power"});
-  visit(&S::damping_constant, Quantity{"damping_constant", damping, "damping constant P/v^2"});
-  visit(&S::normal_stiffness,
-        Extensive{"normal_stiffness", stiffness, "normal stiffness dF/d(indentation)"});
-  visit(&S::curvature,
-        Quantity{"force_curvature", force_curvature, "second derivative of force by indentation"});
-  visit(&S::force, Quantity{"force", Dimension::force, "normal force"});
-  visit(&S::mean_force,
-        Quantity{"mean_force", Dimension::force, "normal force, mean over a cycle"});
-  visit(&S::indentation, Quantity{"indentation", length, "indentation"});
-  visit(&S::small_amplitude_work, Quantity{"small_amplitude_work", energy,
-                                           "energy dissipated in a cycle, small-amplitude form"});
+  visit(&S::work_per_cycle, Extensive{quantity::work_per_cycle});
+  visit(&S::power, quantity::power);
+  visit(&S::damping_constant, quantity::damping_constant);
+  visit(&S::normal_stiffness, Extensive{quantity::normal_stiffness});
+  visit(&S::curvature, quantity::force_curvature);
+  visit(&S::force, quantity::force);
+  visit(&S::mean_force, quantity::mean_force);
+  visit(&S::indentation, quantity::indentation);
+  visit(&S::small_amplitude_work, quantity::small_amplitude_work);
   visit(&S::tangential_curvature,
         Kept{"tangential_curvature", "derivative of the tangential stiffness by indentation",
              force_curvature});

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <limits>
-#include <salebra/base/describe.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/quantities.hpp>
 
 namespace salebra {
 
@@ -28,23 +28,17 @@ struct JointLoss {
 constexpr void describe(auto&& visit, std::type_identity<JointLoss>) {
   using enum Dimension;
   using S = JointLoss;
-
   visit(&S::indentation, Kept{"indentation", "mean indentation of the cycle", length});
-  visit(&S::tangential_force, Extensive{"tangential_force", force, "tangential force"});
-  visit(&S::tangential_amplitude,
-        Quantity{"tangential_amplitude", length, "amplitude of the tangential oscillation"});
-  visit(&S::work_per_cycle, Extensive{"work_per_cycle", energy, "energy dissipated in a cycle"});
-  visit(&S::relaxation_work,
-        Quantity{"relaxation_work", energy, "energy dissipated in a cycle by contacts that open"});
-  visit(&S::slip_work,
-        Quantity{"slip_work", energy, "energy dissipated in a cycle by slip in permanent contact"});
+  visit(&S::tangential_force, Extensive{quantity::tangential_force});
+  visit(&S::tangential_amplitude, quantity::tangential_amplitude);
+  visit(&S::work_per_cycle, Extensive{quantity::work_per_cycle});
+  visit(&S::relaxation_work, quantity::relaxation_work);
+  visit(&S::slip_work, quantity::slip_work);
   visit(&S::secant_stiffness, Extensive{"secant_stiffness", stiffness,
                                         "tangential force over displacement, both half ranges"});
-  visit(&S::loss_factor,
-        Quantity{"loss_factor", dimensionless, "energy dissipated over 2 pi times energy stored"});
+  visit(&S::loss_factor, quantity::loss_factor);
   visit(&S::exponent, Quantity{"exponent", dimensionless, "d ln W/d ln T"});
-  visit(&S::storage_stiffness, Extensive{"storage_stiffness", stiffness,
-                                         "mean tangential stiffness in phase with the motion"});
+  visit(&S::storage_stiffness, Extensive{quantity::storage_stiffness});
   visit(&S::loss_stiffness,
         Extensive{"loss_stiffness", stiffness, "tangential force in quadrature over displacement"});
   visit(&S::converged, Kept{"converged", "false: do not use the numbers"});

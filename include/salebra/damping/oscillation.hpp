@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/base/describe.hpp>
 #include <salebra/base/words.hpp>
+#include <salebra/damping/quantities.hpp>
 #include <variant>
 #include <vector>
 
@@ -19,15 +19,11 @@ struct EqualFrequency {
 };
 
 constexpr void describe(auto&& visit, std::type_identity<EqualFrequency>) {
-  using enum Dimension;
   using S = EqualFrequency;
-  visit(&S::normal_amplitude,
-        Quantity{"normal_amplitude", length, "amplitude of the normal oscillation"});
-  visit(&S::tangential_amplitude,
-        Quantity{"tangential_amplitude", length, "amplitude of the tangential oscillation"});
-  visit(&S::phase, Quantity{"phase", angle, "phase between the oscillations"});
-  visit(&S::angular_frequency,
-        Quantity{"angular_frequency", Dimension::angular_frequency, "angular frequency"});
+  visit(&S::normal_amplitude, quantity::normal_amplitude);
+  visit(&S::tangential_amplitude, quantity::tangential_amplitude);
+  visit(&S::phase, quantity::phase);
+  visit(&S::angular_frequency, quantity::angular_frequency);
 }
 
 /// Case (b): z = u_z cos ωt and a slow oscillation along x, velocity v, excursion far below
@@ -39,12 +35,9 @@ struct Drag {
 };
 
 constexpr void describe(auto&& visit, std::type_identity<Drag>) {
-  using enum Dimension;
-  visit(&Drag::normal_amplitude,
-        Quantity{"normal_amplitude", length, "amplitude of the normal oscillation"});
-  visit(&Drag::drag_velocity, Quantity{"drag_velocity", velocity, "drag velocity"});
-  visit(&Drag::angular_frequency,
-        Quantity{"angular_frequency", Dimension::angular_frequency, "angular frequency"});
+  visit(&Drag::normal_amplitude, quantity::normal_amplitude);
+  visit(&Drag::drag_velocity, quantity::drag_velocity);
+  visit(&Drag::angular_frequency, quantity::angular_frequency);
 }
 
 using Oscillation = std::variant<EqualFrequency, Drag>;
@@ -62,12 +55,9 @@ struct TwoFrequencies {
 constexpr void describe(auto&& visit, std::type_identity<TwoFrequencies>) {
   using enum Dimension;
   using S = TwoFrequencies;
-
-  visit(&S::normal_amplitude,
-        Quantity{"normal_amplitude", length, "amplitude of the normal oscillation"});
-  visit(&S::tangential_amplitude,
-        Quantity{"tangential_amplitude", length, "amplitude of the tangential oscillation"});
-  visit(&S::phase, Quantity{"phase", angle, "phase between the oscillations"});
+  visit(&S::normal_amplitude, quantity::normal_amplitude);
+  visit(&S::tangential_amplitude, quantity::tangential_amplitude);
+  visit(&S::phase, quantity::phase);
   visit(&S::normal_angular_frequency,
         Kept{"normal_angular_frequency", "angular frequency of the normal oscillation",
              angular_frequency});
@@ -87,7 +77,6 @@ struct CommonPeriod {
 constexpr void describe(auto&& visit, std::type_identity<CommonPeriod>) {
   using enum Dimension;
   using S = CommonPeriod;
-
   visit(&S::normal_cycles,
         Quantity{"normal_cycles", dimensionless, "normal cycles in the common period"});
   visit(&S::tangential_cycles,
@@ -113,8 +102,8 @@ struct SampledMotion {
 constexpr void describe(auto&& visit, std::type_identity<SampledMotion>) {
   using enum Dimension;
   using S = SampledMotion;
-  visit(&S::time, Quantity{"time", Dimension::time, "time"});
-  visit(&S::indentation, Quantity{"indentation", length, "indentation"});
+  visit(&S::time, quantity::time);
+  visit(&S::indentation, quantity::indentation);
   visit(&S::displacement, Quantity{"displacement", length, "tangential displacement"});
   visit(&S::period, Kept{"period", "duration of the period", Dimension::time});
   visit(&S::drift, Kept{"drift", "displacement of a period", length});

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <limits>
-#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/words.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/oscillation.hpp>
+#include <salebra/damping/quantities.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,14 +41,10 @@ struct ContactFacts {
 constexpr void describe(auto&& visit, std::type_identity<ContactFacts>) {
   using enum Dimension;
   using S = ContactFacts;
-
-  visit(&S::friction_coefficient,
-        Quantity{"friction_coefficient", dimensionless,
-                 "coefficient of friction: Coulomb's, or of the mean forces of a cycle"});
+  visit(&S::friction_coefficient, quantity::friction_coefficient);
   visit(&S::hardness, Quantity{"hardness", pressure, "hardness of the softer body"});
   visit(&S::density, Quantity{"density", mass_density, "mass density of the elastic body"});
-  visit(&S::excursion,
-        Quantity{"excursion", length, "distance between the turning points of a slow motion"});
+  visit(&S::excursion, quantity::excursion);
   visit(&S::contact_modulus, Quantity{"contact_modulus", pressure, "contact modulus E*"});
   visit(&S::dundurs,
         Quantity{"dundurs", dimensionless, "Dundurs' constant beta of the two bodies"});
@@ -105,7 +101,6 @@ struct Premise {
 constexpr void describe(auto&& visit, std::type_identity<Premise>) {
   using enum Dimension;
   using S = Premise;
-
   visit(&S::value, Quantity{"value", dimensionless, "NaN where it cannot be known"});
   visit(&S::limit_5_percent,
         Quantity{"limit_5_percent", dimensionless, "value at which the loss changes by 5 %"});
@@ -147,17 +142,11 @@ struct LargestMotion {
 };
 
 constexpr void describe(auto&& visit, std::type_identity<LargestMotion>) {
-  using enum Dimension;
   using S = LargestMotion;
-
-  visit(&S::friction_coefficient,
-        Quantity{"friction_coefficient", dimensionless,
-                 "coefficient of friction: Coulomb's, or of the mean forces of a cycle"});
-  visit(&S::drag_velocity, Quantity{"drag_velocity", velocity, "drag velocity"});
-  visit(&S::tangential_amplitude,
-        Quantity{"tangential_amplitude", length, "amplitude of the tangential oscillation"});
-  visit(&S::excursion,
-        Quantity{"excursion", length, "distance between the turning points of a slow motion"});
+  visit(&S::friction_coefficient, quantity::friction_coefficient);
+  visit(&S::drag_velocity, quantity::drag_velocity);
+  visit(&S::tangential_amplitude, quantity::tangential_amplitude);
+  visit(&S::excursion, quantity::excursion);
 }
 
 /// The seven premises. With g = G*/E* of the law, levels ζ that open and close during the cycle (ζ
@@ -222,7 +211,6 @@ struct PremiseWords : Kept {
 constexpr void describe(auto&& visit, std::type_identity<Premises>) {
   using enum Dimension;
   using S = Premises;
-
   visit(&S::slip_of_opening_levels,
         PremiseWords{{"slip_of_opening_levels", "slip where the contact opens and closes"}, "M ="});
   visit(&S::slip_of_closed_levels,
@@ -272,16 +260,11 @@ struct LossWithSlip {
 };
 
 constexpr void describe(auto&& visit, std::type_identity<LossWithSlip>) {
-  using enum Dimension;
   using S = LossWithSlip;
-
-  visit(&S::work_per_cycle, Quantity{"work_per_cycle", energy, "energy dissipated in a cycle"});
-  visit(&S::relaxation_work,
-        Quantity{"relaxation_work", energy, "energy dissipated in a cycle by contacts that open"});
-  visit(&S::slip_work,
-        Quantity{"slip_work", energy, "energy dissipated in a cycle by slip in permanent contact"});
-  visit(&S::full_stick_work,
-        Quantity{"full_stick_work", energy, "energy dissipated in a cycle without slip"});
+  visit(&S::work_per_cycle, quantity::work_per_cycle);
+  visit(&S::relaxation_work, quantity::relaxation_work);
+  visit(&S::slip_work, quantity::slip_work);
+  visit(&S::full_stick_work, quantity::full_stick_work);
 }
 
 /// The same springs with friction. Case (b) without an excursion: sliding that goes on, all levels

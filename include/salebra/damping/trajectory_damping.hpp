@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/base/describe.hpp>
 #include <salebra/damping/oscillation.hpp>
+#include <salebra/damping/quantities.hpp>
 #include <salebra/damping/tangential_contact.hpp>
 #include <span>
 #include <vector>
@@ -27,7 +27,7 @@ struct TrajectoryDamping {
   double storage_stiffness = 0;
   double loss_factor =
       0;  ///< W/(2π · storage_stiffness · ⟨(x − ⟨x⟩)²⟩), W/(2πU) of a harmonic motion; NaN as
-          ///< storage_stiffness
+      ///< storage_stiffness
   /// At the samples of the trajectory, in its order: the loop is (displacement, tangential_force).
   std::vector<double>
       tangential_force;  ///< F_x, N; with drift without the permanent levels' share, which grows
@@ -41,21 +41,16 @@ struct TrajectoryDamping {
 constexpr void describe(auto&& visit, std::type_identity<TrajectoryDamping>) {
   using enum Dimension;
   using S = TrajectoryDamping;
-
-  visit(&S::work_per_cycle, Quantity{"work_per_cycle", energy, "energy dissipated in a cycle"});
-  visit(&S::relaxation_work,
-        Quantity{"relaxation_work", energy, "energy dissipated in a cycle by contacts that open"});
-  visit(&S::slip_work,
-        Quantity{"slip_work", energy, "energy dissipated in a cycle by slip in permanent contact"});
-  visit(&S::power, Quantity{"power", Dimension::power, "mean dissipated power"});
-  visit(&S::damping_constant, Quantity{"damping_constant", damping, "damping constant P/v^2"});
-  visit(&S::storage_stiffness, Quantity{"storage_stiffness", stiffness,
-                                        "mean tangential stiffness in phase with the motion"});
-  visit(&S::loss_factor,
-        Quantity{"loss_factor", dimensionless, "energy dissipated over 2 pi times energy stored"});
-  visit(&S::tangential_force, Quantity{"tangential_force", force, "tangential force"});
+  visit(&S::work_per_cycle, quantity::work_per_cycle);
+  visit(&S::relaxation_work, quantity::relaxation_work);
+  visit(&S::slip_work, quantity::slip_work);
+  visit(&S::power, quantity::power);
+  visit(&S::damping_constant, quantity::damping_constant);
+  visit(&S::storage_stiffness, quantity::storage_stiffness);
+  visit(&S::loss_factor, quantity::loss_factor);
+  visit(&S::tangential_force, quantity::tangential_force);
   visit(&S::transverse_force, Quantity{"transverse_force", force, "tangential force along y"});
-  visit(&S::dissipated, Quantity{"dissipated", energy, "energy dissipated since the start"});
+  visit(&S::dissipated, quantity::dissipated);
   visit(&S::memory, Kept{"memory", "most pieces of history held at a time"});
 }
 
