@@ -2,7 +2,6 @@
 // `salebra contact`: one contact by boundary elements.
 #include <fmt/format.h>
 
-#include <array>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -20,7 +19,6 @@
 #include "first_loading.hpp"
 #include "grid_axes.hpp"
 #include "options.hpp"
-#include "plausibility.hpp"
 #include "program.hpp"
 
 namespace salebra::cli {
@@ -165,10 +163,8 @@ void run(const ContactArguments& arguments, Session& session) {
   if (arguments.dry_run.dry_run) return estimate(arguments, contact_modulus, session);
   NormalContactOptions options = contact_options(arguments, session);
   const Surface surface = arguments.surface.read(session);
-  if (arguments.position.pressure)
-    for (const std::string& line :
-         doubts_of_pressures(std::array{*arguments.position.pressure}, contact_modulus))
-      session.warn(line);
+  if (const auto pressure = arguments.position.nominal_pressure(surface.grid))
+    session.doubt(doubt_of_pressure(*pressure, contact_modulus));
   Field initial;
   if (arguments.checkpoint.starts_anew(session, arguments.initial)) {
     session.note(arguments.initial + " is not there yet: the contact starts anew");

@@ -240,7 +240,12 @@ void run(const GenerateArguments& arguments, Session& session) {
     surface = random_surface(arguments, grid, session, answer);
   }
   if (!arguments.composite.empty()) {
-    surface = composite_surface(surface, read_surface(arguments.composite));
+    std::vector<std::string> remarks;
+    ReadOptions options;
+    options.remarks = &remarks;
+    const Surface second = read_surface(arguments.composite, options);
+    for (const std::string& line : remarks) session.warn(line);
+    surface = composite_surface(surface, second);
     answer["composite"] = arguments.composite;
   }
   if (!arguments.crop.empty()) {

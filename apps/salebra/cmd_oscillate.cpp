@@ -61,12 +61,6 @@ Body file_of(const OscillateArguments& arguments, Session& session) {
   return body;
 }
 
-/// The nominal pressure, where it or the force was given.
-std::optional<double> given_pressure(const PositionOptions& position, const Surface& surface) {
-  if (position.force) return *position.force / surface.grid.area();
-  return position.pressure;
-}
-
 /// By the position that was given, or at the indentation.
 NormalContactState contact_at(const PositionOptions& position, const Body& body,
                               double contact_modulus, double indentation,
@@ -74,7 +68,7 @@ NormalContactState contact_at(const PositionOptions& position, const Body& body,
   NormalContactState state;
   if (position.mean_gap)
     state = press_to_mean_gap(body.surface, contact_modulus, *position.mean_gap, options);
-  else if (const auto pressure = given_pressure(position, body.surface))
+  else if (const auto pressure = position.nominal_pressure(body.surface.grid))
     state = press_to_pressure(body.surface, contact_modulus, *pressure, options);
   else
     state = press_to_indentation(body.surface, contact_modulus, indentation, options);
@@ -103,7 +97,7 @@ void load_plastically(const OscillateArguments& arguments, OscillationCase& cont
   const double modulus = contact.material.contact_modulus;
   const NormalContactOptions elastic{.boundary = contact.body.boundary,
                                      .on_progress = session.progress()};
-  std::optional<double> pressure = given_pressure(arguments.position, contact.body.surface);
+  std::optional<double> pressure = arguments.position.nominal_pressure(contact.body.surface.grid);
   if (!pressure) {
     NormalContactOptions plastic = elastic;
     plastic.hardness = *hardness;
@@ -233,6 +227,8 @@ void run(const OscillateArguments& arguments, Session& session) {
   contact.body = arguments.shape.empty() ? file_of(arguments, session) : shape_of(arguments);
   Body& body = contact.body;
   body.boundary = value_of<Boundary>(arguments.boundary).value_or(body.boundary);
+  if (const auto pressure = arguments.position.nominal_pressure(body.surface.grid))
+    session.doubt(doubt_of_pressure(*pressure, contact.material.contact_modulus));
   contact.indentation =
       indentation_of(arguments, body, contact.material, {.boundary = body.boundary});
   contact.motion = motion_of(arguments.motion, body, contact.indentation);

@@ -15,7 +15,6 @@
 #include "dry_run.hpp"
 #include "first_loading.hpp"
 #include "options.hpp"
-#include "plausibility.hpp"
 #include "program.hpp"
 
 namespace salebra::cli {
@@ -77,8 +76,7 @@ void run(const SweepArguments& arguments, Session& session) {
   if (!arguments.stiffness && arguments.material.contact_modulus &&
       !arguments.material.poisson.empty())
     session.warn("--poisson: has no effect without --stiffness, which K_t needs");
-  for (const std::string& line : doubts_of_pressures(pressures, material.contact_modulus))
-    session.warn(line);
+  session.doubt(doubt_of_pressure(pressures.back(), material.contact_modulus));
   if (arguments.dry_run.dry_run) {
     const SurfaceOutline outline = arguments.surface.outline(session);
     return answer_dry_run(work_of(arguments, pressures, outline, session), outline.origin, session);

@@ -10,6 +10,8 @@
 #include <salebra/base/units.hpp>
 #include <salebra/study/realisation.hpp>
 
+#include "option_words.hpp"
+
 namespace salebra::cli {
 namespace {
 
@@ -130,7 +132,8 @@ void answer_dry_run(const StudyConfiguration& configuration, const StudyProcesse
     if (!configuration.ensemble.empty())
       text += "== " + describe_point(configuration.ensemble, point.configuration) + " ==\n";
     text += describe(point);
-    for (const std::string& warning : point.warnings) text += "  mind      " + warning + "\n";
+    for (const std::string& warning : point.warnings)
+      text += "  mind      " + in_options(warning) + "\n";
   }
   std::string models;
   for (const StudyModel& model : models_of(configuration))

@@ -253,6 +253,7 @@ LawOptions::Contact LawOptions::contact(const MaterialOptions& material, Session
     const std::vector<double> values = position_of(*this, {"pressure"}).second;
     for (const double value : values) require_positive(value, "--pressure");
     Surface body = surface.read(session);
+    session.doubt(doubt_of_pressure(std::ranges::max(values), material.material().contact_modulus));
     const std::optional<FirstLoading> first_loading =
         load_first(body, hardness, material.material().contact_modulus, std::ranges::max(values),
                    {.on_progress = session.progress()}, normal_amplitude);

@@ -11,6 +11,7 @@
 #include <salebra/io/surface_formats.hpp>
 #include <salebra/study/realisation.hpp>
 #include <salebra/surface/moments.hpp>
+#include <salebra/surface/plausibility.hpp>
 
 #include "plausibility.hpp"
 
@@ -199,6 +200,7 @@ Surface SurfaceOptions::read(Session& session, const Communicator& ranks) const 
   if (!recipe.empty()) {
     Surface made = study_surface(recipe_of(*this, ranks), seed, session.progress(), ranks);
     for (const std::string& line : doubts_of_cells(made.grid)) session.warn(line);
+    session.doubt(doubt_of_heights(made));
     const Detrend trend = value_of<Detrend>(detrend).value_or(default_detrend(made));
     return detrended(std::move(made), trend);
   }
@@ -270,6 +272,11 @@ void PositionOptions::add_to(Command& app, bool with_indentation) {
 
 int PositionOptions::count() const {
   return mean_gap.has_value() + pressure.has_value() + indentation.has_value() + force.has_value();
+}
+
+std::optional<double> PositionOptions::nominal_pressure(const Grid2D& grid) const {
+  if (force) return *force / grid.area();
+  return pressure;
 }
 
 void FrequencyOptions::add_to(Command& app, const std::string& group, bool one) {

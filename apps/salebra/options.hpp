@@ -95,7 +95,7 @@ struct SurfaceOptions {
   void add_recipe_to(Command& app);
   bool given() const { return !file.empty() || !recipe.empty(); }
   /// Read or made, over the processes of the session, and, with --detrend or else as is customary
-  /// for its kind, detrended. Warns of cells and sizes that are most likely a slip.
+  /// for its kind, detrended. Warns of cells, sizes and heights that are most likely a slip.
   Surface read(Session& session) const { return read(session, session.ranks()); }
   /// The same over one group of them.
   Surface read(Session& session, const Communicator& ranks) const;
@@ -122,6 +122,8 @@ struct PositionOptions {
   void add_to(Command& app, bool with_indentation);
   /// Number of positions given.
   int count() const;
+  /// Pa, where it or the force was given.
+  std::optional<double> nominal_pressure(const Grid2D& grid) const;
 };
 
 /// Every motion that has a name on the command line.

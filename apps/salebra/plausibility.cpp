@@ -26,20 +26,6 @@ std::vector<std::string> doubts_of_cells(const Grid2D& grid) {
                       format_quantity(grid.dy(), Dimension::length), ratio_text(longer / shorter))};
 }
 
-std::vector<std::string> doubts_of_pressures(std::span<const double> nominal_pressures,
-                                             double contact_modulus) {
-  constexpr double most_strain = 0.1;
-  if (nominal_pressures.empty()) return {};
-  const double largest = std::ranges::max(nominal_pressures);
-  if (!(largest > most_strain * contact_modulus)) return {};
-  return {fmt::format(
-      "a nominal pressure of {} is {} times E* = {}: linear elasticity holds far below "
-      "E*; check the units, "
-      "a bare number is in Pa",
-      format_quantity(largest, Dimension::pressure), ratio_text(largest / contact_modulus),
-      format_quantity(contact_modulus, Dimension::pressure))};
-}
-
 std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
                                         double spot_radius) {
   const double path = 2 * std::numbers::pi * drag_velocity / angular_frequency;

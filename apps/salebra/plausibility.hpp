@@ -3,7 +3,6 @@
 
 #include <salebra/base/grid.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -13,11 +12,6 @@ namespace salebra::cli {
 
 /// Cells ten times as long as wide.
 std::vector<std::string> doubts_of_cells(const Grid2D& grid);
-
-/// A nominal pressure above a tenth of E*, where strains of the whole surface are no longer small:
-/// as a rule a unit was forgotten.
-std::vector<std::string> doubts_of_pressures(std::span<const double> nominal_pressures,
-                                             double contact_modulus);
 
 /// Slow motion, case (b), that moves on by more than a contact spot in one normal cycle: what
 /// sticks then is no longer the same spot when it opens. A radius that is not known is NaN.

@@ -195,6 +195,10 @@ void Session::warn(std::string_view text) {
                            printable(in_options(text))));
 }
 
+void Session::doubt(const std::optional<std::string>& text) {
+  if (text) warn(*text);
+}
+
 void Session::answer(const Json& object, const std::string& text) {
   if (!ranks().is_root()) return;
   bar_.clear();

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/io/json.hpp>
@@ -81,6 +82,8 @@ class Session {
   /// remain. The same warning is given once.
   void note(std::string_view text);
   void warn(std::string_view text);
+  /// warn() where there is a doubt.
+  void doubt(const std::optional<std::string>& text);
 
   /// The command's answer: the object with --json, the text without.
   void answer(const Json& object, const std::string& text);

@@ -231,6 +231,7 @@ class Reporter {
   StudyRun run(StudyParts* parts) {
     return {.on_progress = [this](const ProgressReport& report) { return draw(report); },
             .on_realisation = [this](const RealisationReport& report) { note(report); },
+            .on_warning = [this](const std::string& warning) { session_.warn(warning); },
             .parts = parts,
             .groups = groups_};
   }

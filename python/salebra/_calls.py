@@ -297,7 +297,7 @@ def _warn(name: str, signature: inspect.Signature, result: Any) -> None:
 
 
 def _doubt(name: str, result: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
-    """Warns of a contact pressed by more than a tenth of E*, as the program does: as a rule a unit was forgotten."""
+    """Warns of a contact pressed by more than a tenth of E*: as a rule a unit was forgotten."""
     if isinstance(result, _core.NormalContactState):
         pressure, modulus = result.mean_pressure, result.contact_modulus
     elif isinstance(result, _core.ForceCurve):
@@ -307,10 +307,9 @@ def _doubt(name: str, result: Any, arguments: tuple[Any, ...], keywords: dict[st
         pressure, modulus = float(np.max(result.pressure)), materials[0].contact_modulus
     else:
         return
-    if pressure > 0.1 * modulus:
-        texts = [_core.format_quantity(value, "pressure") for value in (pressure, modulus)]
-        remark = f"a nominal pressure of {texts[0]} is {pressure / modulus:.2g} times E* = {texts[1]}"
-        warnings.warn(f"{name}: {remark}; check the units, a bare number is in Pa", stacklevel=3)
+    doubt = _core._doubt_of_pressure(pressure, modulus)
+    if doubt:
+        warnings.warn(f"{name}: {doubt}", stacklevel=3)
 
 
 def _refused(error: TypeError) -> bool:
@@ -397,6 +396,10 @@ def construct(name: str, made: Any, arguments: tuple[Any, ...], keywords: dict[s
     if name == "Surface":
         arguments, keywords = _of_labelled(arguments, keywords)
     _constructors[name](made, *arguments, **keywords)
+    if name == "Surface":
+        doubt = _core._doubt_of_heights(made)
+        if doubt:
+            warnings.warn(f"{name}: {doubt}", stacklevel=2)
     _remember(made, name, arguments, keywords)
 
 

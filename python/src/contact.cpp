@@ -86,6 +86,8 @@ tangential_modulus : float, optional
         return describe("Material", {{"contact_modulus", material.contact_modulus},
                                      {"tangential_modulus", material.tangential_modulus}});
       });
+  m.def("_doubt_of_pressure", &doubt_of_pressure, nb::arg("pressure"), nb::arg("contact_modulus"),
+        "What is most likely a slip in the unit of one of them, or None.");
 }
 
 // Everything that the three ways of pressing have in common.

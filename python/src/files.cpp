@@ -23,9 +23,12 @@ void bind_files(nb::module_& m) {
          std::optional<double> size_y, std::optional<bool> periodic, const std::string& height_unit,
          const ProcessesArgument& comm) {
         const Communicator ranks = comm.ranks();
-        return new_surface(unlocked([&] {
-          return read_surface(file, {size_x, size_y, periodic, height_unit}, ranks);
-        }));
+        std::vector<std::string> remarks;
+        Surface surface = unlocked([&] {
+          return read_surface(file, {size_x, size_y, periodic, height_unit, &remarks}, ranks);
+        });
+        for (const std::string& line : remarks) warn_user(line);
+        return new_surface(std::move(surface));
       },
       nb::arg("file"), nb::kw_only(), nb::arg("size_x") = nb::none(),
       nb::arg("size_y") = nb::none(), nb::arg("periodic") = nb::none(), nb::arg("height_unit") = "",
@@ -54,6 +57,11 @@ Raises
 InvalidInput
     "<file>: <what is wrong>; <what to do>" for a file that is absent, not one of these, truncated, ambiguous, without a size, or
     with an infinite height.
+
+Warns
+-----
+UserWarning
+    Where a size differs from the file's, or the slopes are those of heights in another unit.
 )");
   m.def(
       "write_surface",

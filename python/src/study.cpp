@@ -242,6 +242,12 @@ void bind_result(nb::module_& m) {
   result_methods(result, false);
 }
 
+/// warn_user() from a run, which has given the interpreter's lock away.
+void warn_user_unlocked(const std::string& text) {
+  const nb::gil_scoped_acquire locked;
+  warn_user(text);
+}
+
 void bind_runs(nb::module_& m) {
   m.def(
       "run_study",
@@ -251,7 +257,9 @@ void bind_runs(nb::module_& m) {
         const std::unique_ptr<StudyParts> folder =
             parts ? std::make_unique<StudyParts>(*parts, resume) : nullptr;
         return interruptible(progress, [&](const Progress& told) {
-          return run_study(configuration, {.on_progress = told, .parts = folder.get()});
+          return run_study(
+              configuration,
+              {.on_progress = told, .on_warning = warn_user_unlocked, .parts = folder.get()});
         });
       },
       nb::arg("configuration"), nb::kw_only(), nb::arg("parts") = nb::none(),
@@ -282,8 +290,9 @@ NotConverged
         const std::unique_ptr<StudyParts> folder =
             parts ? std::make_unique<StudyParts>(*parts, resume) : nullptr;
         return interruptible(progress, [&](Progress told) {
-          return run_ensembles(configuration,
-                               {.on_progress = std::move(told), .parts = folder.get()});
+          return run_ensembles(configuration, {.on_progress = std::move(told),
+                                               .on_warning = warn_user_unlocked,
+                                               .parts = folder.get()});
         });
       },
       nb::arg("configuration"), nb::kw_only(), nb::arg("parts") = nb::none(),

@@ -12,6 +12,7 @@
 #include <salebra/surface/fill.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/peaks.hpp>
+#include <salebra/surface/plausibility.hpp>
 #include <salebra/surface/summits.hpp>
 
 #include "bindings.hpp"
@@ -267,6 +268,12 @@ counts with (2 sin(q dx/2)/dx)² in place of q².
       },
       nb::arg("surface"),
       ":func:`spectral_moments` of a periodic surface, :func:`difference_moments` of any other.");
+  m.def(
+      "_doubt_of_heights",
+      [](const BoundSurface& surface) {
+        return unlocked([&] { return doubt_of_heights(surface.surface); });
+      },
+      nb::arg("surface"), "What is most likely a slip in the unit of the heights, or None.");
   m.def("detrended", &detrended_surface, nb::arg("surface"), nb::arg("method") = "plane",
         "The surface less its trend, see :meth:`Surface.detrended`.");
   m.def(

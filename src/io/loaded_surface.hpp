@@ -41,10 +41,17 @@ double metres_per(const std::filesystem::path& file, const std::string& unit);
 /// may lie.
 LoadedSurface read_content(const std::filesystem::path& file, std::string_view content);
 
+/// A surface as it was read.
+struct ReadSurface {
+  Surface surface = {};        ///< m
+  double metres_per_unit = 1;  ///< of the heights in the file
+  bool names_unit = false;     ///< the file does
+};
+
 /// The surface in metres, with what the options say in place of the file. Throws InvalidInput as
 /// read_surface does.
-Surface completed(const std::filesystem::path& file, LoadedSurface loaded,
-                  const ReadOptions& options);
+ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
+                      const ReadOptions& options);
 
 /// The reader of HDF5; those of other formats are in surface_formats.cpp.
 /// ranks: each gets its rows.

@@ -8,6 +8,8 @@
 #include <salebra/base/units.hpp>
 #include <salebra/io/input.hpp>
 #include <salebra/io/read_surface.hpp>
+#include <salebra/surface/plausibility.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "input_file.hpp"
@@ -94,21 +96,25 @@ double metres_per(const std::filesystem::path& file, const std::string& unit) {
   refuse(file, "has heights in '" + unit + "', which is no unit of length; convert them to metres");
 }
 
-Surface completed(const std::filesystem::path& file, LoadedSurface loaded,
-                  const ReadOptions& options) {
-  Surface surface;
+ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
+                      const ReadOptions& options) {
+  ReadSurface read{.names_unit = !loaded.unit.empty()};
+  Surface& surface = read.surface;
   surface.grid.nx = loaded.rows.value_or(loaded.heights.rows());
   surface.grid.ny = loaded.heights.cols();
   surface.grid.lx = size_along(file, "size_x", options.size_x, loaded.size_x, options.remarks);
   surface.grid.ly = size_along(file, "size_y", options.size_y, loaded.size_y, options.remarks);
   surface.heights = std::move(loaded.heights);
-  const std::string unit = loaded.unit.empty() ? options.height_unit : loaded.unit;
-  if (!unit.empty() && unit != "m") surface.heights *= metres_per(file, unit);
+  const std::string unit = read.names_unit ? loaded.unit : options.height_unit;
+  if (!unit.empty() && unit != "m") {
+    read.metres_per_unit = metres_per(file, unit);
+    surface.heights *= read.metres_per_unit;
+  }
   if (surface.heights.isInf().any())
     refuse(file, "holds an infinite height; mark undefined points as nan");
   surface.periodic = options.periodic.value_or(loaded.periodic.value_or(false));
   surface.origin = file.string();
-  return surface;
+  return read;
 }
 
 }  // namespace detail
@@ -131,26 +137,51 @@ Surface spread(const Surface& surface, const Communicator& ranks) {
   return rows;
 }
 
+/// Those of the root in all processes.
+void share(std::vector<std::string>& lines, const Communicator& ranks) {
+  std::string text;
+  for (const std::string& line : lines) text += line + '\n';
+  std::istringstream of_root(ranks.gather_all(text).front());
+  lines.clear();
+  for (std::string line; std::getline(of_root, line);) lines.push_back(line);
+}
+
+/// The surface, its heights doubted in the remarks. Collective of a surface that is spread.
+Surface with_remarks(const std::filesystem::path& file, detail::ReadSurface read,
+                     const ReadOptions& options) {
+  if (options.remarks == nullptr) return std::move(read.surface);
+  if (const auto doubt = doubt_of_heights(read.surface, read.metres_per_unit))
+    options.remarks->push_back(file.string() + ": " + *doubt +
+                               (read.names_unit ? "" : "; see `height_unit`"));
+  return std::move(read.surface);
+}
+
 }  // namespace
 
 Surface read_surface(const std::filesystem::path& file, const ReadOptions& options,
                      const Communicator& ranks) {
-  if (ranks.alone()) return detail::completed(file, load(file), options);
+  const auto read = [&](detail::LoadedSurface loaded) {
+    return detail::completed(file, std::move(loaded), options);
+  };
+  if (ranks.alone()) return with_remarks(file, read(load(file)), options);
   Surface surface;
   bool hdf5 = false;
   collectively(ranks, [&] {
     if (!ranks.is_root()) return;
     hdf5 = detail::is_hdf5(file);
-    if (!hdf5) surface = detail::completed(file, load(file), options);
+    if (!hdf5) surface = with_remarks(file, read(load(file)), options);
   });
   ranks.broadcast(&hdf5, sizeof hdf5);
-  if (!hdf5) return spread(surface, ranks);
+  if (!hdf5) {
+    if (options.remarks) share(*options.remarks, ranks);
+    return spread(surface, ranks);
+  }
   // Each process reads its rows itself.
   require_one_file(file, ranks);
-  collectively(ranks,
-               [&] { surface = detail::completed(file, detail::read_hdf5(file, ranks), options); });
-  surface.ranks = ranks;
-  return surface;
+  detail::ReadSurface rows;
+  collectively(ranks, [&] { rows = read(detail::read_hdf5(file, ranks)); });
+  rows.surface.ranks = ranks;
+  return with_remarks(file, std::move(rows), options);
 }
 
 }  // namespace salebra

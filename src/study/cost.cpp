@@ -77,8 +77,10 @@ PointCost cost_of(const StudyConfiguration& point, double speed) {
   } else {
     cost.grid = study_surface(point, 0).grid;
   }
-  cost.contact_scale = contact_scale(point);
-  cost.pressures = study_pressures(point);
+  const StudyLoads loads = study_loads(point);
+  cost.contact_scale = loads.contact_scale;
+  cost.pressures = loads.pressures;
+  cost.warnings.insert(cost.warnings.end(), loads.doubts.begin(), loads.doubts.end());
   const bool stick = stick_solves(point);
   const auto cells = static_cast<double>(cost.grid.points());
   cost.levels = levels_of(point, cost.grid);

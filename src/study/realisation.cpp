@@ -15,6 +15,7 @@
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/study/realisation.hpp>
+#include <salebra/surface/plausibility.hpp>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -33,13 +34,15 @@ Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Prog
              : filtered_noise(recipe.grid, spectrum, seed, progress, ranks);
 }
 
-Surface read(const MeasuredSurface& recipe, const Communicator& ranks) {
+Surface read(const MeasuredSurface& recipe, const Communicator& ranks,
+             std::vector<std::string>* remarks = nullptr) {
   require_that(!recipe.file.empty(), "surface",
                "none is given; name a file, or describe surfaces to generate");
   ReadOptions options;
   options.size_x = recipe.size_x;
   options.size_y = recipe.size_y;
   options.height_unit = recipe.height_unit;
+  options.remarks = remarks;
   Surface surface = read_surface(recipe.file, options, ranks);
   collectively(ranks, [&] { surface.require_complete_rows("a study"); });
   const Detrend trend = recipe.detrend.value_or(default_detrend(surface));
@@ -315,25 +318,27 @@ Surface study_surface(const StudyConfiguration& configuration, std::uint64_t see
   return read(std::get<MeasuredSurface>(configuration.surfaces), ranks);
 }
 
-double contact_scale(const StudyConfiguration& configuration, const Communicator& ranks) {
+StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& ranks) {
+  StudyLoads loads{.pressures = configuration.pressures};
+  std::optional<std::string> doubt;
   double slope = 0;
   if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces)) {
     slope = SelfAffineSpectrum(recipe->spectrum).lattice_moments(recipe->grid).rms_slope();
+    doubt = doubt_of_slope(slope);
   } else {
-    slope = surface_moments(study_surface(configuration, 0, {}, ranks)).rms_slope();
+    const auto& measured = std::get<MeasuredSurface>(configuration.surfaces);
+    slope = surface_moments(read(measured, ranks, &loads.doubts)).rms_slope();
   }
-  return configuration.material.contact_modulus * slope;
-}
-
-std::vector<double> study_pressures(const StudyConfiguration& configuration,
-                                    const Communicator& ranks) {
-  std::vector<double> pressures = configuration.pressures;
-  if (configuration.relative_pressures) {
-    const double scale = contact_scale(configuration, ranks);
-    for (double& pressure : pressures) pressure *= scale;
-  }
+  const double modulus = configuration.material.contact_modulus;
+  loads.contact_scale = modulus * slope;
+  if (configuration.relative_pressures)
+    for (double& pressure : loads.pressures) pressure *= loads.contact_scale;
+  // Where the slope is doubted, relative pressures are too large with it.
+  if (!doubt && !(configuration.relative_pressures && slope > 1))
+    doubt = doubt_of_pressure(loads.pressures.back(), modulus);
+  if (doubt) loads.doubts.push_back(*doubt);
   const double hardness = configuration.known.hardness;
-  require(!(pressures.back() > hardness), "hardness", hardness,
+  require(!(loads.pressures.back() > hardness), "hardness", hardness,
           "Pa is below the largest pressure of the study; reduce the pressures or give the "
           "hardness in Pa");
   require(configuration.levels != 0 || !(configuration.relative_error > 0 || configuration.seam),
@@ -342,11 +347,11 @@ std::vector<double> study_pressures(const StudyConfiguration& configuration,
           "the seam");
   if (const auto& window = configuration.window) {
     const auto inside = std::ranges::count_if(
-        pressures, [&](double pressure) { return window->contains(pressure); });
+        loads.pressures, [&](double pressure) { return window->contains(pressure); });
     require(inside >= 3, "pressure_window", inside,
             "pressures lie in it and a fit needs 3; widen it or compute more of them");
   }
-  return pressures;
+  return loads;
 }
 
 Realisation analyse_realisation(const StudyConfiguration& configuration, std::uint64_t seed,

@@ -29,8 +29,8 @@ using Clock = std::chrono::steady_clock;
 
 /// One point of the parameter grid.
 struct Point {
-  explicit Point(const StudyConfiguration& point)
-      : configuration(point), pressures(study_pressures(point)), rule(configuration) {}
+  Point(const StudyConfiguration& point, std::vector<double> loads)
+      : configuration(point), pressures(std::move(loads)), rule(configuration) {}
 
   const StudyConfiguration& configuration;
   std::vector<double> pressures;
@@ -60,7 +60,9 @@ class ShardRun {
       : shard_(shard), run_(run), parts_(*run.parts) {
     std::size_t place = 0;
     for (const StudyConfiguration& configuration : points) {
-      Point& point = points_.emplace_back(configuration);
+      StudyLoads loads = study_loads(configuration);
+      if (run.on_warning) std::ranges::for_each(loads.doubts, run.on_warning);
+      Point& point = points_.emplace_back(configuration, std::move(loads.pressures));
       for (const std::uint64_t seed : detail::seeds_of(configuration)) {
         const std::uint64_t key = StudyParts::key(configuration, seed);
         if (shard.holds(place++))

@@ -173,8 +173,11 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
     result.configuration = point;
     if (const auto* recipe = std::get_if<GeneratedSurfaces>(&point.surfaces))
       result.grid = recipe->grid;
-    result.contact_scale = contact_scale(point, run.groups.own());
-    result.pressures = study_pressures(point, run.groups.own());
+    StudyLoads loads = study_loads(point, run.groups.own());
+    result.contact_scale = loads.contact_scale;
+    result.pressures = std::move(loads.pressures);
+    result.warnings = std::move(loads.doubts);
+    if (run.on_warning) std::ranges::for_each(result.warnings, run.on_warning);
     if (!run.missing) require_room(result, run.groups);
     report.point = results.size();
     detail::run_case(result, run, report);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <sstream>
 
 #include "run_program.hpp"
 
@@ -293,6 +294,39 @@ TEST_CASE("Input that is allowed and most likely a slip is computed with a warni
   warns("generate --points 16,16 --size-x 1um --size-y 1nm -o thin.h5" + surface,
         "cells of 62.5 nm x 62.5 pm have sides of 1000 to 1");
   warns("info thin.h5", "cells of 62.5 nm x 62.5 pm");
+  // A scan in micrometres whose unit nobody gave, in every command that reads a surface.
+  REQUIRE(test.run("generate --points 32 --size-x 10um -o r.h5 --hurst 0.8 --rolloff 5um "
+                   "--short-cutoff 1.2um --rms-height 60nm --quiet")
+              .status == 0);
+  REQUIRE(test.run("convert r.h5 r.txt").status == 0);
+  std::istringstream lines(test.read("r.txt"));
+  std::string scan;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) continue;
+    std::istringstream row(line);
+    for (double height; row >> height;) scan += std::to_string(1e6 * height) + ' ';
+    scan += '\n';
+  }
+  test.write("um.txt", scan);
+  const std::string size = " --size-x 10um --size-y 10um ";
+  const std::string steel = "--contact-modulus 115GPa --poisson 0.3 ";
+  const std::string motion = "--normal-amplitude 2nm --drag-velocity 1um/s --frequency 20kHz ";
+  const std::string doubt =
+      "um.txt: rms slope 1.04e+05 is above 1: heights in \u00b5m? rms slope would be 0.1; see "
+      "--height-unit";
+  for (const std::string command : {"info um.txt", "statistics um.txt", "convert um.txt um.nc",
+                                    "contact um.txt --pressure 1GPa --contact-modulus 115GPa",
+                                    "sweep um.txt --pressures 1GPa,2GPa --contact-modulus 115GPa",
+                                    "gw um.txt --pressures 1MPa,2MPa --contact-modulus 115GPa"})
+    warns(command + size, doubt);
+  warns("study --surface um.txt --no-stick --levels 0 " + size + steel + motion, doubt);
+  CHECK_THAT(test.run("study --dry-run --surface um.txt" + size + steel + motion).out,
+             Catch::Contains(doubt));
+  CHECK(test.run("info um.txt --height-unit um" + size).err.empty());
+  // Loads of a study: E*h' was 0.01 times E*, of which these are 10 to 20 times as much.
+  warns("study --surface r.h5 --no-stick --levels 0 --pressures 12GPa,15GPa,18GPa,21GPa " + steel +
+            motion,
+        "a nominal pressure of 21 GPa is 0.18 times E* = 115 GPa");
   // Within what is usual nothing is said.
   CHECK(test.run("contact s.h5 --pressure 9MPa --contact-modulus 100MPa").err.empty());
   CHECK(test.run("info s.h5 --size-x 1.0001um").err.empty());

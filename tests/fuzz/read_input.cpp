@@ -62,7 +62,7 @@ void complete(const std::string& name, detail::LoadedSurface loaded) {
   ReadOptions options;
   if (!loaded.size_x) options.size_x = 1;
   if (!loaded.size_y) options.size_y = 1;
-  require_possible(detail::completed(name, std::move(loaded), options));
+  require_possible(detail::completed(name, std::move(loaded), options).surface);
 }
 
 /// Members of an X3P archive without the archive: its checksums would leave nothing to a mutation.

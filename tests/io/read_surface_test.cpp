@@ -388,3 +388,29 @@ TEST_CASE("A damaged HDF5 file is refused, without a word on standard error", "[
   const auto file = scratch.file("damaged.h5", "\x89HDF\r\n\x1a\n and then nothing of use");
   CHECK_THROWS_WITH(read_surface(file), Contains("damaged.h5") && Contains("HDF5"));
 }
+
+TEST_CASE("Heights whose slopes no surface has are doubted as they are read", "[read]") {
+  const Scratch scratch;
+  const auto remarks_of = [&](const std::string& header, const std::string& unit = "") {
+    const auto file = scratch.file("scan.txt", "# Width: 40 um\n# Height: 30 um\n" + header +
+                                                   "0 1 0 1\n1 0 1 0\n0 1 0 1\n");
+    std::vector<std::string> remarks;
+    ReadOptions options;
+    options.height_unit = unit;
+    options.remarks = &remarks;
+    read_surface(file, options);
+    return remarks;
+  };
+  // Steps of 1 over cells of 10 um: with heights in um the slope is 0.1 along either axis.
+  const auto forgotten = remarks_of("");
+  REQUIRE(forgotten.size() == 1);
+  CHECK_THAT(forgotten[0], Contains("scan.txt: rms slope 1.4") &&
+                               Contains("heights in \u00b5m? rms slope would be 0.14") &&
+                               Contains("`height_unit`"));
+  CHECK(remarks_of("", "um").empty());
+  CHECK(remarks_of("# Value units: um\n").empty());
+  // A unit that the file names itself is no matter of the option.
+  const auto named = remarks_of("# Value units: mm\n");
+  REQUIRE(named.size() == 1);
+  CHECK_THAT(named[0], Contains("heights in \u00b5m?") && !Contains("height_unit"));
+}

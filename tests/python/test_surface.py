@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import gc
+import warnings
 import weakref
 from pathlib import Path
 
@@ -194,3 +195,21 @@ def test_a_labelled_array_has_its_axes_sizes_and_units() -> None:
     assert np.array_equal(again.heights, surface.heights)
     with pytest.raises(salebra.InvalidInput, match=r"heights.x: is not evenly spaced"):
         salebra.Surface(labelled.assign_coords(x=[0.0, 1.0, 2.0, 4.0]))  # type: ignore[call-arg, unused-ignore]
+
+
+def test_heights_whose_unit_was_forgotten_are_doubted_once(surface: salebra.Surface, tmp_path: Path) -> None:
+    with pytest.warns(UserWarning, match=r"Surface: rms slope \S+ is above 1: heights in nm\? rms slope would be 0\.0") as told:
+        wrong = salebra.Surface(surface.heights * 1e9, surface.size_x, surface.size_y)
+        salebra.press_to_pressure(wrong, 1e9, 1e6)
+    assert len(told) == 1
+    assert told[0].filename == __file__
+    np.savetxt(tmp_path / "scan.txt", surface.heights.T * 1e6)
+    sizes = {"size_x": surface.size_x, "size_y": surface.size_y}
+    with pytest.warns(UserWarning, match=r"scan.txt: rms slope \S+ is above 1: heights in µm\?") as told:
+        salebra.read_surface(tmp_path / "scan.txt", **sizes)
+    assert len(told) == 1
+    assert told[0].filename == __file__
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        salebra.Surface(surface.heights, surface.size_x, surface.size_y)
+        salebra.read_surface(tmp_path / "scan.txt", height_unit="um", **sizes)

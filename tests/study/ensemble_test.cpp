@@ -298,7 +298,7 @@ TEST_CASE("A study goes on until its decay length and its area slope are both pr
   configuration.min_realisations = 3;
   // One light load gives the area slope, which scatters; l comes from many heavy ones.
   configuration.pressures = {0.0022, 0.06, 0.075, 0.09, 0.11, 0.13, 0.16, 0.2};
-  const double scale = contact_scale(configuration);
+  const double scale = study_loads(configuration).contact_scale;
   configuration.window = PressureWindow{0.05 * scale, 0.3 * scale, 0};
   const StudyResult all = run_study(configuration);
   REQUIRE(all.realisations.size() == 12);
@@ -552,7 +552,7 @@ TEST_CASE("An ensemble says what is too small about it", "[ensemble]") {
   // fewer.
   surfaces.grid = {64, 64, 4e-6, 4e-6};
   configuration.relative_pressures = true;
-  const double scale = contact_scale(configuration);
+  const double scale = study_loads(configuration).contact_scale;
   configuration.window = PressureWindow{0.009 * scale, 0.05 * scale, 0};
   const StudyResult many = run_study(configuration);
   const auto spots = [&](std::size_t k) { return many.realisations[0].spots[k].spot_count; };

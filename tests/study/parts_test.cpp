@@ -220,7 +220,7 @@ TEST_CASE("Surfaces that another kind of processor computed are refused, and kep
   study.stick = false;
   std::get<GeneratedSurfaces>(study.surfaces).seeds = {1, 2};
   StudyParts parts(scratch.folder, false);
-  const std::vector<double> pressures = study_pressures(study);
+  const std::vector<double> pressures = study_loads(study).pressures;
   const std::string here = arithmetic();
   // As the oldest processor computes; the baseline of other architectures is all that there is.
   setenv("SALEBRA_VECTOR_WIDTH", "baseline", 1);

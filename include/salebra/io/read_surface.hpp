@@ -15,7 +15,9 @@ struct ReadOptions {
   std::optional<double> size_y;  ///< m
   std::optional<bool> periodic;  ///< in place of the file's
   std::string height_unit;       ///< such as "nm", for files that give none; empty: metres
-  std::vector<std::string>* remarks = nullptr;  ///< lines on what the user gave against the file
+  std::vector<std::string>* remarks =
+      nullptr;  ///< receives lines on what is most likely a slip, "<file>: <what>"; of a surface
+                ///< that is spread the same in all processes, which all give it or none
 };
 
 /// Reads the heights of a surface. What the file is follows from its first bytes, not from its

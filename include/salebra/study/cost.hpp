@@ -19,9 +19,10 @@ struct PointCost {
   /// Contacts inside the oscillation for each load and surface, counted in contacts on the cells as
   /// they are; without the halvings that a relative error may ask for beyond the first.
   double levels = 0;
-  double seconds = 0;                 ///< of one thread, all surfaces
-  double memory = 0;                  ///< of one surface, bytes
-  std::vector<std::string> warnings;  ///< of the generator: what the grid does to the spectrum
+  double seconds = 0;  ///< of one thread, all surfaces
+  double memory = 0;   ///< of one surface, bytes
+  std::vector<std::string>
+      warnings;  ///< of the generator: what the grid does to the spectrum; StudyLoads::doubts
 };
 
 /// Processes that share a study, StudyRun::groups.

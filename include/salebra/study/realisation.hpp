@@ -269,14 +269,21 @@ std::vector<StudyModel> models_of(const StudyConfiguration& configuration);
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
                       const Progress& progress = {}, const Communicator& ranks = {});
 
-/// The unit of relative pressures, E*h'_rms, Pa, without looking at chance: what the lattice has in
-/// the mean, or what was measured. ranks: the processes that read it together; collective.
-double contact_scale(const StudyConfiguration& configuration, const Communicator& ranks = {});
+/// The loads of a study, before any work.
+struct StudyLoads {
+  /// The unit of relative pressures, E*h'_rms, Pa, without looking at chance: what the lattice has
+  /// in the mean, or what was measured.
+  double contact_scale = 0;
+  std::vector<double> pressures = {};  ///< of the sweep, Pa
+  /// Lines on what is most likely a slip: remarks of read_surface(), doubt_of_slope() and
+  /// doubt_of_pressure().
+  std::vector<std::string> doubts = {};
+};
 
-/// Pressures of the sweep in Pa. Throws InvalidInput for a window of the fit with fewer than three
-/// of them, and for a hardness below the largest.
-std::vector<double> study_pressures(const StudyConfiguration& configuration,
-                                    const Communicator& ranks = {});
+/// Throws InvalidInput for a window of the fit with fewer than three pressures, and for a hardness
+/// below the largest; as readers do. ranks: the processes that read a measured surface together;
+/// collective. Cost: that of reading it.
+StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& ranks = {});
 
 /// Surface → statistics → contact models → exponential law → damping for one surface of the
 /// configuration, whose ensemble lists are empty. With a hardness the surface is first loaded to

@@ -104,6 +104,9 @@ struct RealisationReport {
 struct StudyRun {
   Progress on_progress = {};  ///< of the whole run
   std::function<void(const RealisationReport&)> on_realisation = {};
+  /// Called with each of StudyResult::warnings that is known before the work, before it begins, in
+  /// every process.
+  std::function<void(const std::string&)> on_warning = {};
   /// Realisations that it holds are not computed again; each that is computed is on the disk before
   /// its thread begins another.
   StudyParts* parts = nullptr;

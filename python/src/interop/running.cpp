@@ -50,6 +50,12 @@ bool ProgressBridge::tell(const ProgressReport& report) {
   }
 }
 
+void warn_user(const std::string& text) {
+  // Above the extension is the function of _calls.py, above that the user.
+  constexpr int levels = 2;
+  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), levels) != 0) throw nb::python_error();
+}
+
 Progress signals() {
   return [](const ProgressReport&) {
     thread_local std::chrono::steady_clock::time_point last;

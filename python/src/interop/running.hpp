@@ -86,6 +86,9 @@ auto interruptible(const ProgressArgument& argument, Work&& work, const Communic
 /// the Python exception that it is.
 Progress signals();
 
+/// A UserWarning where the user called; throws what a filter of warnings makes of it.
+void warn_user(const std::string& text);
+
 /// work() without the interpreter's lock, for what takes seconds and cannot be stopped.
 template <class Work>
 auto unlocked(Work&& work) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact modulus E* and tangential modulus G* of two elastic bodies.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
 #include <salebra/contact/half_space/material.hpp>
 
 #include "base/special_values.hpp"
@@ -71,6 +74,18 @@ Material Material::of_contact_modulus(double contact_modulus) {
           .tangential_modulus = unknown,
           .cerruti_isotropic = unknown,
           .cerruti_directed = unknown};
+}
+
+std::optional<std::string> doubt_of_pressure(double nominal_pressure, double contact_modulus) {
+  constexpr double most_strain = 0.1;
+  const double ratio = nominal_pressure / contact_modulus;
+  if (!(ratio > most_strain)) return {};
+  return fmt::format(
+      "a nominal pressure of {} is {} times E* = {}: linear elasticity holds far below E*; check "
+      "the units, a bare number is in Pa",
+      format_quantity(nominal_pressure, Dimension::pressure),
+      ratio < 100 ? fmt::format("{:.2g}", ratio) : fmt::format("{:.0f}", ratio),
+      format_quantity(contact_modulus, Dimension::pressure));
 }
 
 }  // namespace salebra

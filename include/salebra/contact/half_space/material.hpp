@@ -2,7 +2,9 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <salebra/base/describe.hpp>
+#include <string>
 
 namespace salebra {
 
@@ -48,5 +50,9 @@ constexpr void describe(auto&& visit, std::type_identity<Material>) {
   visit(&Material::cerruti_isotropic, Kept{"cerruti_isotropic", "sum of (1 - nu)/(2 pi G), 1/Pa"});
   visit(&Material::cerruti_directed, Kept{"cerruti_directed", "sum of nu/(2 pi G), 1/Pa"});
 }
+
+/// A nominal pressure above a tenth of E*, where strains of the whole surface are no longer small:
+/// as a rule a unit was forgotten. In words for a warning.
+std::optional<std::string> doubt_of_pressure(double nominal_pressure, double contact_modulus);
 
 }  // namespace salebra

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <salebra/base/grid.hpp>
+#include <string>
+
+/// Input that is allowed and most likely a slip of the user's hand, in words for a warning.
+namespace salebra {
+
+/// A root mean square slope h' above 1, and thus E*h' above E*: surfaces of machines and
+/// instruments have 0.001 to 1, and linear elasticity holds for slopes below 1. As a rule the unit
+/// of the heights was forgotten. The words name the unit with which the slope would be plausible,
+/// where there is one among mm, µm and nm.
+/// unit  of the heights as they were given, m
+std::optional<std::string> doubt_of_slope(double rms_slope, double unit = 1);
+
+/// doubt_of_slope() of the heights less their mean plane, by differences of neighbouring points.
+/// Undefined points take no part; nothing is said of a surface without pairs of neighbours along
+/// both axes. Cost: one pass. Collective of a surface that is spread over processes.
+std::optional<std::string> doubt_of_heights(const Surface& surface, double unit = 1);
+
+}  // namespace salebra

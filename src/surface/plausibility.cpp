@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Doubts of heights: slopes that no surface has.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
+#include <salebra/surface/plausibility.hpp>
+#include <utility>
+
+#include "neighbour_rows.hpp"
+
+namespace salebra {
+namespace {
+
+/// Mean and mean square of the differences of neighbours, over those that are defined.
+struct Differences {
+  double sum = 0, squares = 0;
+  Index count = 0;
+
+  void add(double difference) {
+    if (std::isnan(difference)) return;
+    sum += difference;
+    squares += difference * difference;
+    ++count;
+  }
+  void add(const Differences& other) {
+    sum += other.sum;
+    squares += other.squares;
+    count += other.count;
+  }
+  /// Mean square of the slope about its mean; NaN where there is no pair.
+  double variance(double step) const {
+    const double mean = sum / static_cast<double>(count);
+    return (squares / static_cast<double>(count) - mean * mean) / (step * step);
+  }
+};
+
+}  // namespace
+
+std::optional<std::string> doubt_of_slope(double rms_slope, double unit) {
+  constexpr double most = 1;
+  if (!(rms_slope > most)) return {};
+  // A slope that is hardly too large is that of a steep surface or of spikes: any unit would make
+  // it far too small. The units leave a thousandfold range between them, down to polished surfaces.
+  constexpr double least_error = 10, least = 1e-3;
+  if (rms_slope >= least_error)
+    for (const auto& [name, metres] : {std::pair("mm", 1e-3), {"\u00b5m", 1e-6}, {"nm", 1e-9}})
+      if (const double slope = rms_slope * metres / unit; slope >= least && slope <= most)
+        return fmt::format("rms slope {:.3g} is above 1: heights in {}? rms slope would be {:.2g}",
+                           rms_slope, name, slope);
+  return fmt::format(
+      "rms slope {:.3g} is above 1, beyond linear elasticity; check the unit of the heights, and "
+      "single points far from their neighbours",
+      rms_slope);
+}
+
+std::optional<std::string> doubt_of_heights(const Surface& surface, double unit) {
+  const Grid2D& grid = surface.grid;
+  const detail::NeighbourRows rows(surface);
+  struct Both {
+    Differences x, y;
+  };
+  Both total;
+  for (const Both& block : parallel::map_blocks<Both>(
+           surface.share(),
+           [&](Index begin, Index end) {
+             Both sums;
+             for (Index ix = begin; ix < end; ++ix) {
+               const double *here = rows[ix], *next = rows[ix + 1];
+               for (Index iy = 0; next && iy < grid.ny; ++iy) sums.x.add(next[iy] - here[iy]);
+               for (Index iy = 1; iy < grid.ny; ++iy) sums.y.add(here[iy] - here[iy - 1]);
+             }
+             return sums;
+           },
+           grid.points())) {
+    total.x.add(block.x);
+    total.y.add(block.y);
+  }
+  return doubt_of_slope(std::sqrt(total.x.variance(grid.dx()) + total.y.variance(grid.dy())), unit);
+}
+
+}  // namespace salebra

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <salebra/surface/plausibility.hpp>
+#include <string>
+
+#include "test_surfaces.hpp"
+
+using namespace salebra;
+using Catch::Contains;
+
+namespace {
+
+/// A ripple of rms slope 0.083 on a tilted plane, times a factor.
+Surface ripple(double factor, double tilt = 0) {
+  const Grid2D grid{64, 48, 64e-6, 48e-6};
+  const double wavelength = 16e-6, q = 2 * std::numbers::pi / wavelength;
+  // Differences of neighbours take sin(q dx/2)/(q dx/2) off the slope, 0.6 % here.
+  const double amplitude = 0.083 * std::sqrt(2) / q;
+  return sampled(grid, false, [&](double x, double y) {
+    return factor * (amplitude * std::sin(q * x) + tilt * (x + y));
+  });
+}
+
+}  // namespace
+
+TEST_CASE("Heights whose unit was forgotten are doubted with the unit that is plausible",
+          "[plausibility]") {
+  CHECK_FALSE(doubt_of_heights(ripple(1)));
+  for (const auto& [factor, unit] : {std::pair(1e3, "mm"), {1e6, "\u00b5m"}, {1e9, "nm"}}) {
+    const auto doubt = doubt_of_heights(ripple(factor));
+    REQUIRE(doubt);
+    CHECK_THAT(*doubt, Contains(std::string("heights in ") + unit + "? rms slope would be 0.08"));
+  }
+  // What was taken for micrometres and are nanometres.
+  const auto doubt = doubt_of_heights(ripple(1e3), 1e-6);
+  REQUIRE(doubt);
+  CHECK_THAT(*doubt, Contains("heights in nm? rms slope would be 0.08"));
+}
+
+TEST_CASE("The tilt of a stage is no slope of the surface", "[plausibility]") {
+  CHECK_FALSE(doubt_of_heights(ripple(1, 10)));
+  const auto doubt = doubt_of_heights(ripple(1e6, 10));
+  REQUIRE(doubt);
+  CHECK_THAT(*doubt, Contains("heights in \u00b5m? rms slope would be 0.08"));
+}
+
+TEST_CASE("A slope that no unit explains is doubted without one", "[plausibility]") {
+  CHECK_FALSE(doubt_of_slope(1));
+  CHECK_FALSE(doubt_of_slope(std::numeric_limits<double>::quiet_NaN()));
+  for (const double slope : {1.01, 3.0, 1e14, std::numeric_limits<double>::infinity()}) {
+    const auto doubt = doubt_of_slope(slope);
+    REQUIRE(doubt);
+    CHECK_THAT(*doubt, Contains("is above 1") && Contains("check the unit") && !Contains("?"));
+  }
+}
+
+TEST_CASE("Heights without pairs of neighbours are not doubted", "[plausibility]") {
+  const auto spikes = [](double x, double) { return x > 0.5 ? 1e9 : 0; };
+  CHECK_FALSE(doubt_of_heights(sampled({8, 1, 1, 1}, false, spikes)));
+  CHECK_FALSE(doubt_of_heights(sampled({1, 8, 1, 1}, false, spikes)));
+  Surface holes = ripple(1e6);
+  for (Index ix = 0; ix < holes.grid.nx; ++ix)
+    for (Index iy = ix % 2; iy < holes.grid.ny; iy += 2)
+      holes.heights(ix, iy) = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(doubt_of_heights(holes));
+  // A hole is no step.
+  Surface hole = ripple(1);
+  hole.heights(5, 5) = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(doubt_of_heights(hole));
+}
