@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <salebra/base/parallel.hpp>
 #include <vector>
+
+#include "load_correction.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -37,7 +40,9 @@ class Descent {
     image_.resize(rows.count(), grid.ny);
   }
 
+  // The load and g afresh: steps add round-off to both, more of it the more elongated the cells.
   void refresh() {
+    if (target_.load_given()) correct_load();
     apply(p_);
     g_ = image_ - (heights_ - zero_);
   }
@@ -124,6 +129,26 @@ class Descent {
   void take_multiple(const Field& direction, double multiple) {
     p_ = (p_ + multiple * direction).max(0.0).min(target_.bound);
     g_ += multiple * image_;
+  }
+  void correct_load() {
+    const double bound = target_.bound;
+    const auto correction =
+        correction_for_load(target_.value * cells_, bound, [&](const LoadCorrection& trial) {
+          LoadSums total;
+          for (const LoadSums& part : parallel::map_blocks<LoadSums>(
+                   rows_,
+                   [&](Index begin, Index end) {
+                     LoadSums sums;
+                     for (Index i = begin; i < end; ++i)
+                       for (Index j = 0; j < p_.cols(); ++j)
+                         sums.add(trial(p_(i, j), bound), bound);
+                     return sums;
+                   },
+                   p_.size()))
+            total += part;
+          return total;
+        });
+    p_ = p_.unaryExpr([&](double p) { return correction(p, bound); });
   }
   // At given load a constant may be taken off; the level of the free cells leaves the least to
   // cancel.

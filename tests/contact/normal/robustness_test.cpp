@@ -185,6 +185,33 @@ TEST_CASE("Gradient projection solves a contact on its own, from any start", "[n
   CHECK(projected.p.maxCoeff() <= bound);
 }
 
+TEST_CASE("A contact that the fallback solves carries the load asked, on cells of any shape",
+          "[normal]") {
+  Lcg random(7);
+  int saturated = 0;
+  for (int k = 0; k < 300; ++k) {
+    // Cells up to a million times as long as wide often need the fallback. Its first steps are of
+    // the size of the heights, and the loads are as much as 1e11 times smaller.
+    const Index nx = 2 + k % 7, ny = 2 + k % 5;
+    const double root = std::pow(10, -3 + 6 * random.uniform());
+    const auto cells = [](Index count) { return static_cast<double>(count); };
+    Surface surface{{nx, ny, cells(nx) * root, cells(ny) / root}, Field(nx, ny), true, "cells"};
+    for (double& height : surface.heights.reshaped()) height = random.uniform();
+    const double load = std::pow(10, -11 + 9 * random.uniform());
+    NormalContactOptions options{.precision = Precision::full};
+    if (k % 4 > 0) options.hardness = load * (1.1 + 5 * random.uniform());
+    options.boundary = k % 2 == 0 ? Boundary::periodic : Boundary::free;
+    INFO("contact " << k << ", dx/dy = " << root * root << ", load " << load);
+    const NormalContactState state = press_to_pressure(surface, 1, load, options);
+    CHECK(state.converged);
+    // The load is corrected to 1e-14, and its sum rounds by a few 1e-16.
+    CHECK(state.mean_pressure == Approx(load).epsilon(2e-14).scale(0));
+    CHECK(state.pressure.maxCoeff() <= options.hardness);
+    saturated += (state.pressure == options.hardness).any();
+  }
+  CHECK(saturated > 30);
+}
+
 TEST_CASE("A fallback that runs out of iterations says so", "[normal]") {
   SingleGrid stalled;
   stalled.limits.patience = 0;
