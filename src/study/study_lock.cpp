@@ -135,6 +135,9 @@ std::optional<Found> look_at(const std::filesystem::path& file, const struct sta
   // A process that was stopped touches nothing, and goes on later: where it can be looked at, the
   // clock has no say.
   const std::optional<bool> alive = lives(owner);
+  // By a clock that is ahead or was set back. Its age counts from now on, unless its holder touches
+  // it again.
+  if (!alive && age < 0) utimensat(AT_FDCWD, file.c_str(), nullptr, 0);
   return Found{*text,
                fmt::format("process {} on {}, which last touched it {:.0f} s ago", owner.process,
                            owner.space.substr(0, owner.space.find(' ')), std::max(age, 0.0)),

@@ -333,6 +333,23 @@ TEST_CASE("The lock of another host holds as long as it is touched", "[parts]") 
   CHECK_NOTHROW(StudyParts(scratch.folder, false));
 }
 
+TEST_CASE("A lock that is dated in the future is stale once nobody touches it", "[parts]") {
+  const Scratch scratch;
+  fs::create_directory(scratch.folder);
+  const fs::path file = scratch.folder / "lock";
+  constexpr auto stale_after = std::chrono::milliseconds(60);
+  std::ofstream(file) << "elsewhere boot space\n1\n2\nword\n";
+  const auto next_year = fs::file_time_type::clock::now() + std::chrono::hours(24 * 365);
+  fs::last_write_time(file, next_year);
+  CHECK_THROWS_WITH(detail::StudyLock(file, stale_after), Contains("process 1 on elsewhere"));
+  // Its holder, whose clock is ahead, is alive.
+  fs::last_write_time(file, next_year);
+  std::this_thread::sleep_for(5 * stale_after);
+  CHECK_THROWS_WITH(detail::StudyLock(file, stale_after), Contains("process 1 on elsewhere"));
+  std::this_thread::sleep_for(5 * stale_after);
+  CHECK_NOTHROW(detail::StudyLock(file, stale_after));
+}
+
 TEST_CASE("A lock is touched while it is held, lest others take it for abandoned", "[parts]") {
   const Scratch scratch;
   fs::create_directory(scratch.folder);
