@@ -30,7 +30,9 @@ namespace salebra::cli {
 namespace {
 
 int fail(int status, std::string_view message) {
-  std::string line = printable(in_options(message));
+  // CLI11 quotes what it was given, however long.
+  constexpr std::size_t longest = 2000;
+  std::string line = printable(shortened(in_options(message), longest));
   std::ranges::replace_if(
       line, [](char symbol) { return symbol == '\n' || symbol == '\t'; }, ' ');
   print_remark(fmt::format("{}: {} {}\n", program_name(),

@@ -3,28 +3,35 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
+#include <salebra/base/printable.hpp>
 
 namespace salebra {
 namespace {
+
+// Bytes: a value may be a whole file that was given in the place of a number, and a demand quotes
+// it.
+constexpr std::size_t longest_part = 255, longest_demand = 1000;
 
 std::string joined(const std::string& first, std::string_view between, const std::string& second) {
   return first.empty() || second.empty() ? first + second : first + std::string(between) + second;
 }
 
 std::string text_of(std::string_view field, std::string_view value, std::string_view demand) {
-  return joined(std::string(field), ": ", joined(std::string(value), " ", std::string(demand)));
+  return joined(shortened(field, longest_part), ": ",
+                joined(shortened(value, longest_part), " ", shortened(demand, longest_demand)));
 }
 
 }  // namespace
 
 InvalidInput::InvalidInput(std::string_view field, std::string_view value, std::string_view demand)
     : Error(text_of(field, value, demand)) {
-  const std::size_t end = std::min(demand.find("; "), demand.size());
-  parts_ = std::make_shared<const Parts>(
-      Parts{.field = std::string(field),
-            .value = std::string(value),
-            .constraint = std::string(demand.substr(0, end)),
-            .remedy = std::string(demand.substr(std::min(end + 2, demand.size())))});
+  const std::string whole = shortened(demand, longest_demand);
+  const std::size_t end = std::min(whole.find("; "), whole.size());
+  parts_ =
+      std::make_shared<const Parts>(Parts{.field = shortened(field, longest_part),
+                                          .value = shortened(value, longest_part),
+                                          .constraint = whole.substr(0, end),
+                                          .remedy = whole.substr(std::min(end + 2, whole.size()))});
 }
 
 std::string InvalidInput::statement() const {

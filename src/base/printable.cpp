@@ -41,4 +41,16 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string shortened(std::string_view text, std::size_t most) {
+  constexpr std::string_view gap = "\u2026";
+  if (text.size() <= most) return std::string(text);
+  const std::size_t kept = most - std::min(most, gap.size());
+  // Both cuts move away from the middle of a character.
+  const auto inside = [&](std::size_t at) { return (text[at] & 0xc0) == 0x80; };
+  std::size_t end = kept - kept / 3, begin = text.size() - kept / 3;
+  while (end > 0 && inside(end)) --end;
+  while (begin < text.size() && inside(begin)) ++begin;
+  return std::string(text.substr(0, end)) + std::string(gap) + std::string(text.substr(begin));
+}
+
 }  // namespace salebra

@@ -331,3 +331,22 @@ TEST_CASE("Input that is allowed and most likely a slip is computed with a warni
   CHECK(test.run("contact s.h5 --pressure 9MPa --contact-modulus 100MPa").err.empty());
   CHECK(test.run("info s.h5 --size-x 1.0001um").err.empty());
 }
+
+TEST_CASE("A value of a hundred thousand letters is quoted in part", "[bad-input]") {
+  const ProgramTest test;
+  const std::string word(100'000, 'x'), values = "1MPa" + word;
+  // As arguments of several kinds, of the library and of the parser, and in a file.
+  test.write("study.toml", replaced(study, "\"0.1nm\"", "\"" + word + "\""));
+  test.write("names.toml", replaced(study, "points", word + " = 1\npoints"));
+  for (const std::string& arguments :
+       {"gw --pressures " + values, "damping --law " + word, "damping --" + word + " 1",
+        "generate --size-x 1um --points " + word, "generate --seed " + word, word, "info " + word,
+        "verify --threads " + word, "verify " + word, std::string("study study.toml"),
+        std::string("study names.toml")}) {
+    INFO(arguments.substr(0, 30));
+    const auto result = test.run(arguments);
+    CHECK(result.status == 2);
+    CHECK(result.err.size() < 2600);
+    CHECK_THAT(result.err, Catch::Contains("x\u2026x"));
+  }
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 #include <salebra/base/error.hpp>
+#include <salebra/base/printable.hpp>
 #include <type_traits>
 
 using namespace salebra;
@@ -55,3 +56,14 @@ TEST_CASE("Of two things exactly one is given", "[error]") {
 
 // One that throws while it is copied ends the program.
 static_assert(std::is_nothrow_copy_constructible_v<InvalidInput>);
+
+TEST_CASE("What a refusal quotes is cut in the middle where it is long", "[error]") {
+  CHECK(shortened("short", 5) == "short");
+  CHECK(shortened("0123456789", 9) == "0123\u202689");
+  // Characters of two bytes stay whole.
+  CHECK(shortened("\u00b5\u00b5\u00b5\u00b5\u00b5\u00b5", 10) == "\u00b5\u00b5\u2026\u00b5");
+  const InvalidInput refusal("field", std::string(100'000, '7'), "must be small; give another");
+  CHECK(refusal.value().size() <= 255);
+  CHECK(refusal.what() == "field: " + refusal.value() + " must be small; give another");
+  CHECK(refusal.remedy() == "give another");
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -10,5 +11,8 @@ namespace salebra {
 /// other than newline and tab, and bytes that are not UTF-8, appear as hexadecimal escapes.
 /// Everything that is printed for people passes through here.
 std::string printable(std::string_view text);
+
+/// The text, or its beginning and end around "…" where it has more bytes. UTF-8 stays whole.
+std::string shortened(std::string_view text, std::size_t most);
 
 }  // namespace salebra
