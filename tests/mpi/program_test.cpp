@@ -26,11 +26,23 @@ const std::string quiet = "--quiet --threads 1 ";
 
 const std::string environment = "export " SALEBRA_MPI_ENVIRONMENT ";";
 
+// The launcher with these arguments. Its own lines on standard error, of which it has some, are
+// left out of the result: those of the processes go into a file.
+ProgramTest::Result launched(const ProgramTest& test, const std::string& arguments,
+                             const std::string& before = "") {
+  const ProgramTest file;
+  ProgramTest::Result result = test.run(
+      arguments, fmt::format("export SALEBRA_MPI_STDERR='{}/err';", file.folder().string()) +
+                     environment + before);
+  CHECK_THAT(result.err, Contains("a line of the launcher"));
+  result.err = file.read("err");
+  return result;
+}
+
 // So many processes of salebra-mpi with these arguments.
 ProgramTest::Result run(const ProgramTest& test, int ranks, const std::string& arguments) {
-  return test.run(
-      fmt::format(SALEBRA_MPI_QUIET " -n {} {} {}", ranks, SALEBRA_MPI_PROGRAM, arguments),
-      environment);
+  return launched(
+      test, fmt::format(SALEBRA_MPI_QUIET " -n {} {} {}", ranks, SALEBRA_MPI_PROGRAM, arguments));
 }
 
 // The same by salebra, without the launcher.
@@ -213,12 +225,12 @@ TEST_CASE("A dry run states the memory that processes take", "[mpi]") {
 TEST_CASE("More threads than the machine has cores are warned of once", "[mpi]") {
   const ProgramTest test;
   // Bound to nothing, as Open MPI 4 and 5 each call it: two processes see the same cores.
-  const auto result = test.run(
+  const auto result = launched(
+      test,
       fmt::format(SALEBRA_MPI_QUIET " -n 2 {} generate {} --threads {} --json", SALEBRA_MPI_PROGRAM,
                   surface, std::max(1U, std::thread::hardware_concurrency())),
-      environment +
-          "export OMPI_MCA_hwloc_base_binding_policy=none "
-          "PRTE_MCA_hwloc_default_binding_policy=none;");
+      "export OMPI_MCA_hwloc_base_binding_policy=none "
+      "PRTE_MCA_hwloc_default_binding_policy=none;");
   INFO(result.err);
   CHECK(result.status == 0);
   CHECK(result.json()["ranks"] == 2);
@@ -241,12 +253,12 @@ TEST_CASE("Bad input is said once, with status 2, and leaves no file", "[mpi]") 
 TEST_CASE("A failure of one process alone names it and ends the others", "[mpi]") {
   const ProgramTest test;
   test.write("study.toml", study);
-  const auto result = test.run(
+  const auto result = launched(
+      test,
       fmt::format(
           SALEBRA_MPI_QUIET " -n 1 {0} {1} : -n 1 env SALEBRA_VECTOR_WIDTH=odd {0} {1}",
           SALEBRA_MPI_PROGRAM,
-          "contact --recipe study.toml --pressure 1MPa --contact-modulus 1GPa -o a.h5 " + quiet),
-      environment);
+          "contact --recipe study.toml --pressure 1MPa --contact-modulus 1GPa -o a.h5 " + quiet));
   CHECK(result.status == 2);
   CHECK_THAT(result.err,
              Contains("salebra-mpi: error: process 2 of 2: SALEBRA_VECTOR_WIDTH: odd must be"));
@@ -266,10 +278,9 @@ TEST_CASE(
   // To the launcher, which hands it on, and to one process alone, not the first. Sent when the
   // first checkpoint appears; one after each iteration leaves time enough.
   for (const std::string target : {"$launcher", "$(cat pid)"}) {
-    const auto stopped = test.run(
-        "", environment +
-                fmt::format(
-                    "rm -f c.h5 pid; press='{} {} --checkpoint c.h5 --checkpoint-every 0 -o r.h5';"
+    const auto stopped = launched(
+        test, "",
+        fmt::format("rm -f c.h5 pid; press='{} {} --checkpoint c.h5 --checkpoint-every 0 -o r.h5';"
                     "{} " SALEBRA_MPI_QUIET
                     " -n 2 $press : -n 1 sh -c \"echo \\$\\$ > pid; exec $press\" & "
                     "launcher=$!; while [ ! -e c.h5 ] && [ -e /proc/$launcher ]; do sleep "
@@ -297,7 +308,7 @@ TEST_CASE("Processes with other arguments, or other files of one name, are refus
   const ProgramTest test;
   const auto run_two = [&](const std::string& first, const std::string& second) {
     const std::string launch = " -n 1 " SALEBRA_MPI_PROGRAM " ";
-    return test.run(SALEBRA_MPI_QUIET + launch + first + " :" + launch + second, environment);
+    return launched(test, SALEBRA_MPI_QUIET + launch + first + " :" + launch + second);
   };
   const std::string make = "generate " + surface;
   check_refused_once(run_two(make + "-o a.h5", make + "-o a.h5 --threads 1"),
@@ -309,9 +320,8 @@ TEST_CASE("Processes with other arguments, or other files of one name, are refus
     std::filesystem::create_directory(test.folder() / folder);
   const auto in_folders = [&](const std::string& arguments) {
     const std::string root = test.folder().string();
-    return test.run(fmt::format("{0} -n 1 -wdir {1}/one {2} {3} : -n 1 -wdir {1}/two {2} {3}",
-                                SALEBRA_MPI_QUIET, root, SALEBRA_MPI_PROGRAM, arguments),
-                    environment);
+    return launched(test, fmt::format("{0} -n 1 -wdir {1}/one {2} {3} : -n 1 -wdir {1}/two {2} {3}",
+                                      SALEBRA_MPI_QUIET, root, SALEBRA_MPI_PROGRAM, arguments));
   };
   REQUIRE(run_alone(test, make + quiet + "-o one/s.h5").status == 0);
   const std::string other = std::regex_replace(make, std::regex("--seed 7"), "--seed 8");
