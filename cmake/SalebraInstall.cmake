@@ -48,12 +48,13 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME salebra)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
-  "Generates and measures rough surfaces, presses them by boundary elements and by Greenwood-Williamson's\n model, and computes the relaxation damping of oscillating contacts.")
+  "Generates and measures rough surfaces, presses them by boundary elements\n and by Greenwood-Williamson's model, and computes the relaxation damping\n of oscillating contacts.")
 set(CPACK_DEBIAN_MPI_PACKAGE_NAME salebra-mpi)
 set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "salebra (= ${PROJECT_VERSION})")  # its manual, study files and documentation
 set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS "openmpi-bin")
-set(CPACK_COMPONENT_MPI_DESCRIPTION "salebra over the processes of MPI: generates and presses a surface that one machine does not hold.")
+set(CPACK_COMPONENT_MPI_DESCRIPTION
+  "salebra over the processes of MPI: generates and presses a surface that\n one machine does not hold.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsalebra-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
