@@ -21,6 +21,13 @@ function(salebra_warnings target)
   endif()
 endfunction()
 
+# GCC forgets which of the headers that are parsed once are the system's and then sees overruns in std::string.
+function(salebra_precompiled_warnings target)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+  endif()
+endfunction()
+
 # What nearly every source of ours includes is parsed once for a target, and sources are compiled by the dozen, so that what they share is
 # made once. Names without linkage are therefore unique in a target. Every file still includes what it uses:
 # SALEBRA_WERROR, with which the project is developed, builds file by file. CMAKE_UNITY_BUILD=OFF and CMAKE_DISABLE_PRECOMPILE_HEADERS
@@ -41,10 +48,7 @@ function(salebra_parse_once target)
       <fmt/format.h> <functional> <limits> <map> <memory> <numbers> <optional> <span> <sstream> <string> <string_view> <utility>
       <variant> <vector>)
   endif()
-  # GCC forgets which of them are the system's and then sees overruns in std::string.
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
-  endif()
+  salebra_precompiled_warnings(${target})
 endfunction()
 
 # salebra_compile_fast(TARGET): for what computes nothing, unless whoever builds chose an optimisation.

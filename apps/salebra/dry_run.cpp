@@ -169,7 +169,9 @@ void answer_dry_run(const StudyConfiguration& configuration, const StudyProcesse
 }
 
 SurfaceWork planned(const DryRunOptions& options, const Grid2D& grid, const Session& session) {
-  SurfaceWork work{.grid = grid, .threads = parallel::threads()};
+  SurfaceWork work;
+  work.grid = grid;
+  work.threads = parallel::threads();
   work.ranks = options.ranks > 0 ? options.ranks : session.ranks().ranks();
   const int here = memory_of_nodes(0, session.ranks()).nodes;
   work.nodes = options.nodes > 0 ? options.nodes : std::min(here, work.ranks);

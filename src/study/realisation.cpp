@@ -93,7 +93,8 @@ SummitList gathered(SummitList list, const Grid2D& grid) {
   std::memcpy(mine.data(), list.summits.data(), list.summits.size() * sizeof(Summit));
   const Field all = gathered(Share(ranks, begins), mine);
   SummitList whole{std::vector<Summit>(std::size_t(all.rows())), list.searched_area};
-  std::memcpy(whole.summits.data(), all.data(), whole.summits.size() * sizeof(Summit));
+  std::memcpy(static_cast<void*>(whole.summits.data()), all.data(),
+              whole.summits.size() * sizeof(Summit));
   return whole;
 }
 

@@ -95,8 +95,8 @@ SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& conf
   }
 
   if (!surface.ranks.is_root()) return picture;
-  const HeightHistogram histogram = height_histogram(
-      BearingCurve({{picture.nx, picture.ny, double(picture.nx), double(picture.ny)}, heights}));
+  const Grid2D cells{picture.nx, picture.ny, double(picture.nx), double(picture.ny)};
+  const HeightHistogram histogram = height_histogram(BearingCurve({cells, heights, false, ""}));
   for (std::size_t i = 0; i < histogram.height.size(); ++i) {
     picture.height.push_back(histogram.height[i] - mean);
     picture.height_density.push_back(histogram.height_density[i]);

@@ -133,10 +133,13 @@ TEST_CASE("Pipes, devices and folders are refused by every reader at once", "[ho
          {"info " + file, "convert " + file + " b.npy", "statistics " + file, "fit " + file,
           "study " + file + " -o r.h5", "study --surface " + file + " -o r.h5",
           "damping --curve " + file + " --pressure 1MPa" + motion, "report " + file + " -o r.html",
-          "mdr --shape table --table " + file + " --indentation 1nm --contact-modulus 1GPa"}) {
+          "mdr --profile table --table " + file +
+              " --indentation 1nm --contact-modulus 1GPa --poisson 0.3"}) {
       INFO(command);
       const auto result = run_bounded(test, command, 0);
       INFO(result.err);
+      // Such a build reads no file for a report.
+      if (holds(result.err, "this build of salebra carries no plotly.js")) continue;
       check_harmless(result, "");
     }
   }

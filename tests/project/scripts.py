@@ -129,6 +129,18 @@ run = maker.run("package")
 expect(run.returncode == 0 and "package: build/package/salebra_1_amd64.deb" in run.stdout, f"package ends with {run.returncode}: {run.stdout}{run.stderr}")
 expect("--preset package" in maker.calls() and "release" not in maker.calls(), f"package calls\n{maker.calls()}")
 
+# What is left out of the tests, and what makes a warning an error.
+tester = Machine("tester")
+for name in ("cmake", "ctest", "python3", "mpicc", "npm"):
+    tester.imitate(name)
+run = tester.run("test", "--without", "mpi", "--strict", "--without", "browser", "-R", "contact")
+configured = [line for line in tester.calls().splitlines() if line.startswith("cmake --preset")]
+expect(run.returncode == 0 and configured and all(" SALEBRA_BUILD_TESTS=ON " in f"{line} " and "CMAKE_COMPILE_WARNING_AS_ERROR=ON" in line
+                                                  and line.rindex("MPI=OFF") > line.rfind("MPI=ON") for line in configured),
+       f"test ends with {run.returncode}: {run.stderr}\n{tester.calls()}")
+expect(re.search("^ctest .* -R contact$", tester.calls(), re.MULTILINE) and "npm ci" not in tester.calls(), f"test calls\n{tester.calls()}")
+expect(run.stderr.count("no dpkg") == 1, f"without dpkg, test says\n{run.stderr}")
+
 # A bare machine of each suite: each phase is printed and logged, also after one that fails.
 for suite, mirror in (("bookworm", "debian"), ("trixie", "debian"), ("noble", "ubuntu")):
     host = Machine(f"host-{suite}")

@@ -11,6 +11,7 @@
 
 namespace Catch {
 
+using Matchers::EndsWith;
 using Matchers::Matches;
 using Matchers::Message;
 using Matchers::StartsWith;
