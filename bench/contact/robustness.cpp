@@ -33,7 +33,7 @@ const char* name_of(Precision precision) {
   return precision == Precision::mixed ? "float" : "double";
 }
 
-class Table {
+class Outcomes {
  public:
   // balance: how far the contact is from its target, relative; allowed: how far it may be.
   void add(const std::string& family, Precision precision, const std::string& name,
@@ -82,7 +82,7 @@ class Table {
 };
 
 // Presses to a pressure, then to the approach that this gives, and compares.
-void press(Table& table, const std::string& family, const test::AwkwardContact& contact,
+void press(Outcomes& table, const std::string& family, const test::AwkwardContact& contact,
            Boundary boundary = Boundary::periodic) {
   const Surface& surface = contact.surface;
   for (const Precision precision : {Precision::mixed, Precision::full}) {
@@ -112,7 +112,7 @@ void press(Table& table, const std::string& family, const test::AwkwardContact& 
 }
 
 // Westergaard's sinusoid, from 1e-3 of the pressure of full contact to above it.
-void press_sinusoids(Table& table) {
+void press_sinusoids(Outcomes& table) {
   using std::numbers::pi;
   const Index n = 1024;
   const double amplitude = 0.01, full = pi * amplitude;
@@ -145,7 +145,7 @@ int main(int argc, char** argv) {
   const int surfaces = argc > 1 ? std::atoi(argv[1]) : 200;
   const Index n = argc > 2 ? std::atol(argv[2]) : 128;
   parallel::set_threads(1);
-  Table table;
+  Outcomes table;
   for (int k = 0; k < surfaces; ++k) press(table, "random surfaces", test::awkward_surface(k, n));
   for (const auto& contact : test::awkward_shapes(n)) press(table, "shapes", contact);
   press_sinusoids(table);
