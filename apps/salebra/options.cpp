@@ -3,6 +3,7 @@
 #include "options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <numbers>
@@ -94,19 +95,33 @@ std::vector<std::string> MaterialOptions::missing(bool tangential) const {
   std::vector<std::string> options;
   if (young.empty() && !contact_modulus)
     options.emplace_back("--contact-modulus (or --young with --poisson)");
+  if (!young.empty() && poisson.empty()) options.emplace_back("--poisson");
   if (tangential && young.empty() && poisson.empty() && !tangential_modulus)
     options.emplace_back("--poisson (or --tangential-modulus)");
   return options;
 }
+
+namespace {
+
+/// Throws InvalidInput where --poisson has more values than there are elastic bodies.
+void require_bodies(const std::vector<double>& poisson, std::size_t bodies) {
+  require(poisson.size() <= bodies, "--poisson", fmt::format("{}", fmt::join(poisson, ",")),
+          fmt::format("has {} values for {} elastic {}: a comma separates two bodies; write a "
+                      "decimal point, as in 0.3",
+                      poisson.size(), bodies, bodies == 1 ? "body" : "bodies"));
+}
+
+}  // namespace
 
 Material MaterialOptions::material() const {
   if (!young.empty()) {
     require(!contact_modulus && !tangential_modulus, "--young", fmt::format("{}", young.front()),
             "cannot be combined with --contact-modulus or --tangential-modulus; give one kind");
     require(young.size() <= 2, "--young", young.size(), "values are too many; give E1 or E1,E2");
-    require(
-        poisson.size() == young.size(), "--poisson", poisson.size(),
-        fmt::format("values do not match the {} of --young; give one for each body", young.size()));
+    require_options(missing(false), "--young");
+    require_bodies(poisson, young.size());
+    require(poisson.size() == young.size(), "--poisson", poisson.front(),
+            "is one value for the two bodies of --young; give one for each");
     return Material::of_bodies({young[0], poisson[0]}, young.size() == 2
                                                            ? ElasticBody{young[1], poisson[1]}
                                                            : ElasticBody{});
@@ -115,8 +130,7 @@ Material MaterialOptions::material() const {
   const double modulus = *contact_modulus;
   require(poisson.empty() || !tangential_modulus, "--tangential-modulus",
           tangential_modulus.value_or(0), "cannot be combined with --poisson; give one of them");
-  require(poisson.size() <= 1, "--poisson", poisson.size(),
-          "values are too many for --contact-modulus, which means one elastic body");
+  require_bodies(poisson, 1);
   if (tangential_modulus) return Material::of_moduli(modulus, *tangential_modulus);
   if (!poisson.empty()) return Material::of_contact_modulus(modulus, poisson[0]);
   return Material::of_contact_modulus(modulus);

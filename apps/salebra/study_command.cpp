@@ -16,6 +16,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/base/version.hpp>
+#include <salebra/io/read_surface.hpp>
 #include <salebra/report/report.hpp>
 #include <salebra/study/study_file.hpp>
 #include <set>
@@ -150,13 +151,35 @@ std::string StudyReport::complete() {
   return write();
 }
 
+namespace {
+
+/// Whether a file is one of heights, apart from its size.
+bool is_surface(const std::string& file) {
+  ReadOptions options;
+  options.size_x = options.size_y = 1;
+  try {
+    read_surface(file, options);
+    return true;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
+}  // namespace
+
 StudyConfiguration StudyArguments::study() const {
   const bool from_file = !configuration.empty();
   if (!from_file && !surface.given())
     throw InvalidInput("CONFIG", "none; give a study file, or --surface with material and motion");
   StudyConfiguration study;
   if (from_file) {
-    study = read_study_configuration(configuration);
+    try {
+      study = read_study_configuration(configuration);
+    } catch (const InvalidInput&) {
+      require(!is_surface(configuration), "CONFIG", configuration,
+              "is a surface, no study file; give it as --surface " + configuration);
+      throw;
+    }
   } else {
     std::vector<std::string> missing = material.missing(true);
     for (const std::string& option : motion.missing()) missing.push_back(option);

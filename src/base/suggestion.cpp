@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Nearest name by edit distance, for "did you mean" in messages.
 #include <algorithm>
+#include <array>
 #include <salebra/base/suggestion.hpp>
 #include <utility>
 
@@ -25,43 +26,66 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-/// Options and keys of a study file that had another name in version 0.1. Options have "--" and
-/// dashes.
-constexpr std::pair<std::string_view, std::string_view> renamed[]{
-    {"coupling", "dundurs"},
-    {"curvature", "force_curvature"},
-    {"customary", "default"},
-    {"density", "summit_density"},
-    {"force", "overwrite"},
-    {"force_newton", "normal_force"},
-    {"friction", "friction_coefficient"},
-    {"least_prominence", "min_prominence"},
-    {"least_realisations", "min_realisations"},
-    {"precision", "target_precision"},
+/// What else options, keys of a study file and commands are called: in other programs, on paper, or
+/// in version 0.1. Options have "--" and dashes. Where none of the names of a line is known, the
+/// next line of the word counts.
+struct Synonym {
+  std::string_view word;
+  std::array<std::string_view, 3> names;
+};
+constexpr Synonym synonyms[]{
+    {"coupling", {"dundurs"}},
+    {"curvature", {"force_curvature"}},
+    {"customary", {"default"}},
+    {"density", {"summit_density"}},
+    {"e", {"contact_modulus", "young"}},
+    {"force", {"normal_force", "pressure", "pressures"}},
+    {"force", {"overwrite"}},
+    {"force_newton", {"normal_force"}},
+    {"friction", {"friction_coefficient"}},
+    {"least_prominence", {"min_prominence"}},
+    {"least_realisations", {"min_realisations"}},
+    {"load", {"normal_force", "pressure", "pressures"}},
+    {"mu", {"friction_coefficient", "friction"}},
+    {"nu", {"poisson"}},
+    {"precision", {"target_precision"}},
+    {"roughness", {"statistics"}},
 };
 
-/// Of an option, the key of the same name.
+/// Of an option, the key of the same name, in lower case.
 std::string key_of(std::string_view name) {
   std::string key(name.substr(std::min(name.find_first_not_of('-'), name.size())));
-  std::ranges::replace(key, '-', '_');
+  for (char& symbol : key)
+    if (symbol == '-')
+      symbol = '_';
+    else if (symbol >= 'A' && symbol <= 'Z')
+      symbol = static_cast<char>(symbol - 'A' + 'a');
   return key;
 }
 
-bool was_called(std::string_view name, std::string_view old) {
-  return std::ranges::find(renamed, std::pair(old, name)) != std::end(renamed);
+/// The names that the word is another word for.
+std::vector<std::string> names_for(std::string_view word, const std::vector<std::string>& names) {
+  const std::string key = key_of(word);
+  std::vector<std::string> found;
+  for (const Synonym& synonym : synonyms) {
+    if (synonym.word != key || !found.empty()) continue;
+    for (const std::string_view meant : synonym.names)
+      for (const std::string& name : names)
+        if (!meant.empty() && name != word && key_of(name) == meant) found.push_back(name);
+  }
+  return found;
 }
 
 }  // namespace
 
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
+  if (const auto meant = names_for(word, names); !meant.empty()) return meant.front();
   // Shorter beginnings say too little, and words of two letters are all alike.
   constexpr std::size_t least_beginning = 3;
   const std::size_t limit = word.size() / 3;
   std::size_t least = limit + 1;
   std::string nearest;
-  const std::string old = key_of(word);
   for (const std::string& name : names) {
-    if (was_called(key_of(name), old)) return name;
     const bool begun =
         word.size() >= least_beginning && name.size() > word.size() && name.starts_with(word);
     const std::size_t distance = begun ? 1 : edits(word, name);
@@ -73,8 +97,11 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 }
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
-  const std::string nearest = nearest_name(word, names);
-  return nearest.empty() ? "" : " (did you mean " + nearest + "?)";
+  std::vector<std::string> meant = names_for(word, names);
+  if (meant.empty()) meant = {nearest_name(word, names)};
+  std::string text;
+  for (const std::string& name : meant) text += (text.empty() ? "" : " or ") + name;
+  return text.empty() ? "" : " (did you mean " + text + "?)";
 }
 
 }  // namespace salebra

@@ -7,6 +7,7 @@
 #include <salebra/io/read_surface.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 /// What the readers of single formats share. Each takes a file apart and returns what it says, no
 /// more.
@@ -18,7 +19,8 @@ struct LoadedSurface {
   std::optional<double> size_x;  ///< m
   std::optional<double> size_y;  ///< m
   std::optional<bool> periodic;
-  std::string unit;  ///< of the heights; empty where the file names none
+  std::string unit;                       ///< of the heights; empty where the file names none
+  std::vector<std::string> remarks = {};  ///< on what it says and the reader did not use
 };
 
 /// InvalidInput "<file>: <what>".

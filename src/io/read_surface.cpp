@@ -57,12 +57,19 @@ double size_along(const std::filesystem::path& file, const char* field,
 
 namespace detail {
 
-void refuse(const std::filesystem::path& file, const std::string& what) {
-  // What is quoted from a damaged file must neither break the line nor command the terminal.
-  std::string line = what;
+namespace {
+
+/// What is quoted from a file must neither break the line nor command the terminal.
+std::string printable_line(std::string line) {
   std::ranges::replace_if(
       line, [](char symbol) { return (symbol >= '\0' && symbol < ' ') || symbol == '\x7f'; }, '?');
-  throw InvalidInput(file.string(), line);
+  return line;
+}
+
+}  // namespace
+
+void refuse(const std::filesystem::path& file, const std::string& what) {
+  throw InvalidInput(file.string(), printable_line(what));
 }
 
 Field heights_of(const std::filesystem::path& file, Index nx, Index ny) {
@@ -114,6 +121,9 @@ ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
     refuse(file, "holds an infinite height; mark undefined points as nan");
   surface.periodic = options.periodic.value_or(loaded.periodic.value_or(false));
   surface.origin = file.string();
+  if (options.remarks)
+    for (const std::string& remark : loaded.remarks)
+      options.remarks->push_back(file.string() + ": " + printable_line(remark));
   return read;
 }
 

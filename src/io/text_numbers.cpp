@@ -38,10 +38,11 @@ void require_room(const std::filesystem::path& file, std::size_t full) {
                      " are available; crop it or use fewer points");
 }
 
-/// What stands at a place of a line, short and printable.
-std::string excerpt(const char* at, const char* end) {
+/// What stands at a place of a line, short and printable, up to one of `stops`.
+std::string excerpt(const char* at, const char* end, std::string_view stops = "") {
   std::string text;
-  for (; at != end && text.size() < 16; ++at) text += *at >= ' ' && *at < '\x7f' ? *at : '?';
+  for (; at != end && text.size() < 16 && stops.find(*at) == stops.npos; ++at)
+    text += *at >= ' ' && *at < '\x7f' ? *at : '?';
   return text;
 }
 
@@ -70,6 +71,49 @@ const char* parse_comma_number(const char* at, const char* end, double& value) {
   return stop ? at + (stop - buffer.data()) : nullptr;
 }
 
+bool is_separator(char symbol) { return is_blank(symbol) || symbol == ',' || symbol == ';'; }
+
+/// The end of a mark of an undefined point, as instruments write them; null if there is none.
+const char* parse_mark(const char* at, const char* end) {
+  const auto closed = [&](const char* stop) { return stop == end || is_separator(*stop); };
+  for (const char symbol : {'*', '-'}) {
+    const char* stop = at;
+    while (stop != end && *stop == symbol) ++stop;
+    if (stop - at >= 2 && closed(stop)) return stop;
+  }
+  const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
+  for (const std::string_view word : {"no data", "nodata", "bad", "n/a", "na"}) {
+    const auto size = static_cast<std::ptrdiff_t>(word.size());
+    if (end - at >= size &&
+        std::equal(word.begin(), word.end(), at, [&](char b, char a) { return same(a, b); }) &&
+        closed(at + size))
+      return at + size;
+  }
+  return nullptr;
+}
+
+/// Whether the line has several values, all of them numbers or marks and not all of them dashes.
+/// Commas may be decimal: either way they leave numbers.
+bool is_row(std::string_view line) {
+  const char* at = line.data();
+  const char* const end = at + line.size();
+  int values = 0, dashes = 0;
+  while (at != end) {
+    if (is_separator(*at)) {
+      ++at;
+      continue;
+    }
+    double value;
+    const char* mark = parse_mark(at, end);
+    const char* stop = mark ? mark : parse_number(at, end, value);
+    if (!stop || (stop != end && !is_separator(*stop))) return false;
+    ++values;
+    if (mark && *at == '-') ++dashes;
+    at = stop;
+  }
+  return values > 1 && dashes < values;
+}
+
 bool is_utf8(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const auto byte = static_cast<unsigned char>(text[i]);
@@ -84,6 +128,13 @@ bool is_utf8(std::string_view text) {
     i += length;
   }
   return true;
+}
+
+/// Whether the blank is that of "No Data".
+bool within_mark(std::string_view line, std::size_t blank) {
+  if (blank < 2) return false;
+  const char* mark = parse_mark(line.data() + blank - 2, line.data() + line.size());
+  return mark && mark > line.data() + blank;
 }
 
 /// How one line would be read.
@@ -101,7 +152,7 @@ NumberFormat format_of(const std::filesystem::path& file, std::string_view line,
       ++commas;
       if (at_end || is_blank(line[i + 1])) ++commas_before_blank;
     } else if (is_blank(line[i]) && i > 0 && line[i - 1] != ',' && !is_blank(line[i - 1]) &&
-               !at_end && line[i + 1] != ',') {
+               !at_end && line[i + 1] != ',' && !within_mark(line, i)) {
       ++blanks_after_digit;
     }
   }
@@ -173,9 +224,15 @@ bool starts_with_number(std::string_view line) {
   line = trimmed(line);
   if (line.empty()) return false;
   double value;
-  const char* stop = parse_number(line.data(), line.data() + line.size(), value);
-  if (!stop) return false;
-  return stop == line.data() + line.size() || is_blank(*stop) || *stop == ',' || *stop == ';';
+  const char *at = line.data(), *end = at + line.size();
+  if (const char* stop = parse_number(at, end, value)) return stop == end || is_separator(*stop);
+  return parse_mark(at, end) && is_row(line);
+}
+
+bool ends_with_separator(std::string_view line, const NumberFormat& format) {
+  line = trimmed(line);
+  return format.separator != Separator::blank &&
+         line.ends_with(format.separator == Separator::comma ? ',' : ';');
 }
 
 void settle_format(const std::filesystem::path& file, std::string_view line, int number,
@@ -208,7 +265,11 @@ void append_numbers(const std::filesystem::path& file, std::string_view line, in
     if (format.separator == Separator::blank || *at != symbol) {
       const char* stop =
           format.decimal_comma ? parse_comma_number(at, end, value) : parse_number(at, end, value);
-      if (!stop) refuse_line(file, number, "holds '" + excerpt(at, end) + "', which is no number");
+      if (!stop) stop = parse_mark(at, end);
+      if (!stop)
+        refuse_line(file, number,
+                    "holds '" + excerpt(at, end, format.decimal_comma ? " \t;" : " \t;,") +
+                        "', which is no number; an undefined point is written nan");
       if (std::isinf(value)) refuse_line(file, number, "holds an infinite value; correct it");
       const char* const after = skip_blanks(stop, end);
       const bool separated =

@@ -43,8 +43,12 @@ std::string_view require_text(const std::filesystem::path& file, std::string_vie
 /// Text that is not UTF-8 is taken for Latin-1, in which older programs write "µm" and "Höhe".
 std::string utf8(std::string_view text);
 
-/// Whether the first value of the line is a number, "nan" or (an undefined point) empty.
+/// Whether the first value of the line is a number or "nan", or a mark of an undefined point in a
+/// line of nothing but numbers and such marks. A rule of dashes is no line of numbers.
 bool starts_with_number(std::string_view line);
+
+/// Whether the line ends with a separator that is no blank: a value that is empty, or nothing.
+bool ends_with_separator(std::string_view line, const NumberFormat& format);
 
 /// How the values of a line of numbers are separated and written. Lines before it have the say, if
 /// `format` holds a value; a line of whole numbers leaves open whether commas are decimal. Throws
@@ -53,6 +57,8 @@ void settle_format(const std::filesystem::path& file, std::string_view line, int
                    std::optional<NumberFormat>& format);
 
 /// Appends the values of a line; an empty field is NaN, a separator at the end of the line none.
+/// The marks of undefined points are NaN: "***" and "---" of two characters or more, "NA", "N/A",
+/// "BAD" and "No Data".
 /// Throws InvalidInput naming the line and what was found in it. Cost: one pass, no allocation but
 /// values'.
 void append_numbers(const std::filesystem::path& file, std::string_view line, int number,

@@ -248,6 +248,40 @@ TEST_CASE("All missing options are named at once", "[bad-input]") {
   for (const char* option : {"--points", "--size-x"}) check_refused(none, option);
 }
 
+TEST_CASE("What is called otherwise elsewhere is answered with its name", "[bad-input]") {
+  const ProgramTest test;
+  check_refused(test.run("contact scan.txt --force 10N"),
+                "(did you mean --normal-force or --pressure?)");
+  check_refused(test.run("damping --law exponential --load 3N"),
+                "(did you mean --normal-force or --pressure?)");
+  check_refused(test.run("sweep scan.txt --force 10N"), "(did you mean --pressures?)");
+  check_refused(test.run("contact scan.txt --E 210GPa"),
+                "(did you mean --contact-modulus or --young?)");
+  check_refused(test.run("roughness scan.txt"), "is not a command (did you mean statistics?)");
+}
+
+TEST_CASE("A decimal comma and a missing Poisson's ratio are told as such", "[bad-input]") {
+  const ProgramTest test;
+  const std::string contact = "contact scan.txt --pressure 1MPa ";
+  for (const std::string modulus : {"--young 210GPa", "--contact-modulus 115GPa"})
+    check_refused(test.run(contact + modulus + " --poisson 0,3"),
+                  "--poisson: 0,3 has 2 values for 1 elastic body: a comma separates two bodies; "
+                  "write a decimal point, as in 0.3");
+  check_refused(test.run(contact + "--young 210GPa"), "--poisson: not given");
+  check_refused(test.run(contact + "--young 210GPa,70GPa --poisson 0.3"), "--poisson: 0.3 is one");
+}
+
+TEST_CASE("A surface in the place of a study file is told as such", "[bad-input]") {
+  const ProgramTest test;
+  test.write("scan.csv", "1.5e-9,2e-9\n3e-9,4e-9\n");
+  check_refused(test.run("study scan.csv"),
+                "CONFIG: scan.csv is a surface, no study file; give it as --surface scan.csv");
+  REQUIRE(test.run(recipe + "-o scan.h5 --quiet").status == 0);
+  check_refused(test.run("compare scan.h5"), "give it as --surface scan.h5");
+  test.write("broken.toml", "[surface]\npoints = \n");
+  check_refused(test.run("study broken.toml"), "broken.toml:2");
+}
+
 TEST_CASE("Options and keys of version 0.1 are answered with their new names", "[bad-input]") {
   const ProgramTest test;
   check_refused(test.run(recipe + "-o rough.h5 --force"), "(did you mean --overwrite?)");

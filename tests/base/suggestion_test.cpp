@@ -15,9 +15,20 @@ TEST_CASE("A misspelt name is told from the right one by its nearest neighbour",
   CHECK(nearest_name("rms", keys) == "rms_height");  // begun: the first that goes on so
 }
 
+TEST_CASE("Another word for a name comes before names that are near", "[suggestion]") {
+  for (const char* word : {"--force", "--load"}) {
+    CHECK(did_you_mean(word, {"--overwrite", "--pressure", "--normal-force", "--loading"}) ==
+          " (did you mean --normal-force or --pressure?)");
+    CHECK(did_you_mean(word, {"--overwrite", "--pressures"}) == " (did you mean --pressures?)");
+  }
+  CHECK(did_you_mean("--force", {"--overwrite", "--quiet"}) == " (did you mean --overwrite?)");
+  CHECK(did_you_mean("--E", {"--young", "--contact-modulus"}) ==
+        " (did you mean --contact-modulus or --young?)");
+  CHECK(nearest_name("roughness", {"statistics", "info"}) == "statistics");
+  CHECK(did_you_mean("friction", {"friction"}).empty());
+}
+
 TEST_CASE("An old name is answered with the new one, of an option as of a key", "[suggestion]") {
-  CHECK(nearest_name("--force", {"--force-amplitude", "--normal-force", "--overwrite"}) ==
-        "--overwrite");
   CHECK(nearest_name("--force-newton", {"--force-amplitude", "--normal-force"}) ==
         "--normal-force");
   CHECK(nearest_name("precision", {"points", "target_precision"}) == "target_precision");

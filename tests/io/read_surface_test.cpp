@@ -392,8 +392,8 @@ TEST_CASE("A damaged HDF5 file is refused, without a word on standard error", "[
 TEST_CASE("Heights whose slopes no surface has are doubted as they are read", "[read]") {
   const Scratch scratch;
   const auto remarks_of = [&](const std::string& header, const std::string& unit = "") {
-    const auto file = scratch.file("scan.txt", "# Width: 40 um\n# Height: 30 um\n" + header +
-                                                   "0 1 0 1\n1 0 1 0\n0 1 0 1\n");
+    const auto file = scratch.file(
+        "scan.txt", "# Width: 40 um\n# Height: 30 um\n" + header + "0 1 0 1\n1 0 1 0\n0 1 0 1\n");
     std::vector<std::string> remarks;
     ReadOptions options;
     options.height_unit = unit;
@@ -413,4 +413,164 @@ TEST_CASE("Heights whose slopes no surface has are doubted as they are read", "[
   const auto named = remarks_of("# Value units: mm\n");
   REQUIRE(named.size() == 1);
   CHECK_THAT(named[0], Contains("heights in \u00b5m?") && !Contains("height_unit"));
+}
+
+TEST_CASE("Units beside the names of columns are those of the points", "[read]") {
+  const Scratch scratch;
+  const auto points = [](const std::string& separator) {
+    std::string text;
+    for (int ix = 0; ix < 4; ++ix)
+      for (int iy = 0; iy < 3; ++iy)
+        text += std::to_string(1.5 * ix) + separator + std::to_string(2 * iy) + separator +
+                std::to_string(0.01 * (ix - iy)) + "\n";
+    return text;
+  };
+  const auto check = [&](const std::string& header, const std::string& separator,
+                         double plane = 1e-6, double height = 1e-6) {
+    INFO(header);
+    std::vector<std::string> remarks;
+    ReadOptions options;
+    options.remarks = &remarks;
+    const Surface surface =
+        read_surface(scratch.file("points.txt", header + "\n" + points(separator)), options);
+    CHECK(surface.grid.lx == Approx(6 * plane).epsilon(1e-12));
+    CHECK(surface.grid.ly == Approx(6 * plane).epsilon(1e-12));
+    CHECK(surface.heights(3, 0) == Approx(0.03 * height).epsilon(1e-12));
+    CHECK(remarks.empty());
+  };
+  check("X [\u00b5m]\tY [\u00b5m]\tZ [\u00b5m]", "\t");
+  check("X [\u00b5m] Y [\u00b5m] Z [\u00b5m]", " ");
+  check("X [\xb5m]\tY [\xb5m]\tZ [\xb5m]", "\t");  // Latin-1
+  check("# x (um), y (um), z (nm)", ",", 1e-6, 1e-9);
+  check("x/mm;y/mm;z/\u00c5", ";", 1e-3, 1e-10);
+  check("X \u00b5m Y \u00b5m Z \u00b5m", " ");
+  check("x in mm, y in mm, z in \u03bcm", ",", 1e-3);
+  check("X_um,Y_um,Height_nm", ",", 1e-6, 1e-9);
+  check("Position X [mm];Position Y [mm];H\u00f6he [\u00b5m]", ";", 1e-3);
+  check("\"X (mm)\",\"Y (mm)\",\"Height Sensor (\u00b5m)\"", ",", 1e-3);
+  check("X,Y,Z\nmm,mm,nm", ",", 1e-3, 1e-9);
+  check("# Columns: x [mm] y [mm] z [nm]", " ", 1e-3, 1e-9);
+  check("# XY unit: mm\n# Z unit: nm", " ", 1e-3, 1e-9);
+  check("Units=mm", " ", 1e-3, 1e-3);
+  // x and y may differ.
+  const Surface surface =
+      read_surface(scratch.file("mixed.txt", "X [mm] Y [um] Z [nm]\n" + points(" ")));
+  CHECK(surface.grid.lx == Approx(6e-3).epsilon(1e-12));
+  CHECK(surface.grid.ly == Approx(6e-6).epsilon(1e-12));
+}
+
+TEST_CASE("Headers of German and English instruments state sizes and units", "[read]") {
+  const Scratch scratch;
+  const auto check = [&](const std::string& header, double size_x, double size_y, double unit) {
+    INFO(header);
+    std::vector<std::string> remarks;
+    ReadOptions options;
+    options.remarks = &remarks;
+    const Surface surface = read_surface(
+        scratch.file("scan.csv", header + "\n0,01;0,02;0,03;0,01\n0,02;0,03;0,04;0,02\n"), options);
+    CHECK(surface.grid.lx == Approx(size_x).epsilon(1e-12));
+    CHECK(surface.grid.ly == Approx(size_y).epsilon(1e-12));
+    CHECK(surface.heights(2, 0) == Approx(0.03 * unit).epsilon(1e-12));
+    CHECK(remarks.empty());
+  };
+  check(
+      "Pixelgr\u00f6\u00dfe X: 1,1 \u00b5m\nPixelgr\u00f6\u00dfe Y: 1,3 \u00b5m\nEinheit "
+      "H\u00f6he: \u00b5m",
+      4.4e-6, 2.6e-6, 1e-6);
+  check(
+      "Pixelgr\xf6\xdf"
+      "e: 1,1 \xb5m\nEinheit H\xf6he;\xb5m",
+      4.4e-6, 2.2e-6, 1e-6);
+  check("Pixel size [\u00b5m] = 1.1\nHeight unit = nm", 4.4e-6, 2.2e-6, 1e-9);
+  check("Pixel spacing: 1.1 um/pixel\nZ [nm]", 4.4e-6, 2.2e-6, 1e-9);
+  check("Size X (mm): 0.35\nSize Y (mm): 0.31\nUnit: [\u00b5m]", 3.5e-4, 3.1e-4, 1e-6);
+}
+
+TEST_CASE("A line of the header that names a length and is not used is quoted", "[read]") {
+  const Scratch scratch;
+  const auto remarks_of = [&](const std::string& header) {
+    std::vector<std::string> remarks;
+    ReadOptions options;
+    options.size_x = options.size_y = 4e-6;
+    options.remarks = &remarks;
+    read_surface(scratch.file("scan.txt", header + "\n0 1e-9 0 0\n1e-9 0 1e-9 0\n0 1e-9 0 1e-9\n"),
+                 options);
+    return remarks;
+  };
+  for (const std::string line :
+       {"Objective 50x, 1.1 \u00b5m/pixel", "Sampling: 1.1 um", "Stylus of 2um", "Scan 5 m",
+        "Lateral resolution [nm] 200", "Pixel: 1,1 mm", "Scan size: 10 \u00b5m x 10 \u00b5m"}) {
+    INFO(line);
+    const auto remarks = remarks_of("Measured on Monday\n" + line);
+    REQUIRE(remarks.size() == 1);
+    CHECK_THAT(remarks[0],
+               Contains("scan.txt: line 2, '" + line + "', names a length and is not used"));
+  }
+  const auto two = remarks_of("Sampling: 1.1 um\nText\nTip radius 2 um\nFilter 8 um");
+  REQUIRE(two.size() == 1);
+  CHECK_THAT(two[0], Contains("line 1, 'Sampling: 1.1 um', and 2 more name lengths"));
+  for (const std::string line :
+       {"Measured by M. on 2026-03-17 at 10:30 pm", "Messung um 10:30", "Speed 10 um/s", "x y z",
+        "Magnification 50", "# Channel: heights", "Area 3 mm2", "Temperature 20 C", "Load 5 mN"}) {
+    INFO(line);
+    CHECK(remarks_of(line).empty());
+  }
+  // What a remark quotes cannot command a terminal.
+  CHECK_THAT(remarks_of("\x1b[31m 5 um").at(0), Contains("'?[31m 5 um'"));
+}
+
+TEST_CASE("An empty last field is an undefined point", "[read]") {
+  const Scratch scratch;
+  const auto read = [&](const std::string& text) {
+    return read_surface(scratch.file("scan.csv", text), {.size_x = 3, .size_y = 3}).heights;
+  };
+  const Field later = read("1;2;3;4\n5;6;7;\n8;9;1;2\n");
+  REQUIRE(later.rows() == 4);
+  CHECK(std::isnan(later(3, 1)));
+  CHECK(later(0, 2) == 8);
+  // Of the first rows too.
+  const Field first = read("1,5,0,\n3.5,4,0,\n5,6.5,0,7\n8,9,0,\n");
+  REQUIRE(first.rows() == 4);
+  CHECK(std::isnan(first(3, 0)));
+  CHECK(std::isnan(first(3, 1)));
+  CHECK(first(3, 2) == 7);
+  CHECK(std::isnan(first(3, 3)));
+  CHECK(first(0, 1) == 3.5);
+  CHECK(first(1, 3) == 9);
+  // Two of them.
+  CHECK(std::isnan(read("1;2;3;4\n4;5;;\n")(3, 1)));
+  // A separator behind every row says nothing, and there a value less is missing.
+  CHECK(read("1;2;3;4;\n4;5;6;7;\n").rows() == 4);
+  CHECK_THROWS_WITH(read("1;2;3;\n4;5;\n"), Contains("holds 2 values"));
+  CHECK_THROWS_WITH(read("1;2;3\n4;5\n"), Contains("holds 2 values"));
+}
+
+TEST_CASE("Marks of instruments are undefined points", "[read]") {
+  const Scratch scratch;
+  const auto read = [&](const std::string& text) {
+    return read_surface(scratch.file("scan.csv", text), {.size_x = 3, .size_y = 3}).heights;
+  };
+  for (const std::string mark :
+       {"***", "*****", "---", "NA", "n/a", "BAD", "bad", "No Data", "NODATA", "nan"}) {
+    INFO(mark);
+    for (const std::string separator : {";", ",", " ", "\t", ", "}) {
+      INFO(separator);
+      const Field heights =
+          read("1.5" + separator + mark + separator + "2.5" + separator + "7.5\n3.5" + separator +
+               "4.5" + separator + mark + separator + "5.5\n");
+      CHECK(std::isnan(heights(1, 0)));
+      CHECK(std::isnan(heights(2, 1)));
+      CHECK(heights(1, 1) == 4.5);
+    }
+    // In the first place of the first line too, with decimal commas.
+    const Field first = read(mark + ";1,4674;1,445;2\n2,5;1;" + mark + ";2\n");
+    REQUIRE(first.cols() == 2);
+    CHECK(std::isnan(first(0, 0)));
+    CHECK(first(1, 0) == 1.4674);
+    CHECK(std::isnan(first(2, 1)));
+  }
+  CHECK(std::isnan(read("***;***;***;***\n1;2;3;4\n")(1, 0)));
+  // Rules and titles of a header are none.
+  CHECK(read("*** Heights ***\nX Y\n--- ---\n-------\n1 2\n3 4\n").cols() == 2);
+  CHECK_THROWS_WITH(read("1;abc;2\n"), Contains("line 1 holds 'abc', which is no number"));
 }

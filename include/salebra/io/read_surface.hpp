@@ -35,12 +35,12 @@ struct ReadOptions {
 ///   GXYZF   Gwyddion XYZ Field of one channel whose points form a regular grid
 ///   SUR     Digital Surf, one surface of 16 or 32 bits
 ///   text    a matrix whose columns run along x and whose rows along y: heights(ix, iy) is the
-///           value in column ix of row iy. Headers of Gwyddion (English and German) and of
-///           instruments (h=, w=, pixel size=, height conversion factor=). Values separated by
-///           blanks, ';' or ','; decimal point, or decimal comma where that is not ambiguous; empty
-///           fields and "nan" are undefined points
-///   XYZ     text of three columns that form a complete or partly filled regular grid; "# Lateral
-///           units:" and "# Value units:" where it has them
+///           value in column ix of row iy. Headers of Gwyddion and of instruments, in English and
+///           German: sizes, distances of the points, units. Values separated by blanks, ';' or ',';
+///           decimal point, or decimal comma where that is not ambiguous. Undefined points are
+///           empty fields, "nan", "***", "---", "NA", "BAD" and "No Data"
+///   XYZ     text of three columns that form a complete or partly filled regular grid; units in the
+///           header or beside the names of its columns
 /// Undefined points become NaN. Heights are metres unless the file or the options name a unit.
 /// throws   InvalidInput "<file>: <what is wrong>; <what to do>" for a file that is absent, not one
 ///          of these, truncated, larger by its header than by its content, ambiguous, without a
