@@ -15,7 +15,7 @@ namespace salebra {
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
 
 /// " (did you mean rolloff?)", to stand in an error message; all names that a word is another word
-/// for: " (did you mean --normal-force or --pressure?)". Empty where no name is near.
+/// for: " (did you mean normal_force or pressure?)". Empty where no name is near.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace salebra
