@@ -8,6 +8,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/columns.hpp>
 #include <salebra/results/quantity_group.hpp>
 
 #include "figures.hpp"
@@ -61,16 +62,6 @@ Json constants(const DamperMap& map) {
     rows.push_back(row.size() == 1 ? row[0] : row);
   }
   return rows.size() == 1 ? rows[0] : rows;
-}
-
-Json decay_of(const OscillatorDecay& decay) {
-  return Json{{"contact_stiffness", decay.contact_stiffness},
-              {"natural_frequency", decay.natural_frequency},
-              {"damping_ratio", decay.damping_ratio},
-              {"quality_factor", decay.quality_factor},
-              {"decay_time", decay.decay_time},
-              {"logarithmic_decrement", decay.logarithmic_decrement},
-              {"frequency_ratio", decay.frequency_ratio}};
 }
 
 // For people, a map is a row for each pair of amplitude and frequency: in one table with the list
@@ -162,7 +153,7 @@ void run(const DamperArguments& arguments, Session& session) {
     const OscillatorDecay decay = oscillator_decay(
         *contact.law, position, {arguments.normal_amplitude.front(), omega.front()},
         {*arguments.mass, arguments.spring_stiffness.value_or(0)}, options);
-    object["decay"] = decay_of(decay);
+    object["decay"] = json_of(decay);
     figure.panels.push_back(decay_panel(decay));
   } else {
     require_that(!arguments.spring_stiffness, "--spring-stiffness",

@@ -62,42 +62,28 @@ std::vector<Sliding> sliding_at(const FrictionArguments& arguments, const Contac
   return all;
 }
 
-// What depends on the velocity, and what on the amplitude alone.
-using Column = std::pair<const char*, double SteadySliding::*>;
-constexpr Column of_velocity[]{{"mean_tangential_force", &SteadySliding::mean_tangential_force},
-                               {"friction_coefficient", &SteadySliding::friction_coefficient},
-                               {"sliding_damping", &SteadySliding::sliding_damping},
-                               {"relaxation_work", &SteadySliding::relaxation_work},
-                               {"slip_work", &SteadySliding::slip_work}};
-constexpr Column of_amplitude[]{
-    {"mean_force", &SteadySliding::mean_force},
-    {"critical_velocity", &SteadySliding::critical_velocity},
-    {"static_friction_coefficient", &SteadySliding::static_friction_coefficient},
-    {"low_speed_damping", &SteadySliding::low_speed_damping},
-    {"relaxation_damping", &SteadySliding::relaxation_damping}};
+// Columns of the amplitude alone; the others depend on the velocity too.
+constexpr std::string_view of_amplitude[]{"mean_force", "critical_velocity",
+                                          "static_friction_coefficient", "low_speed_damping",
+                                          "relaxation_damping"};
 
 // A row for each amplitude and velocity.
 ResultTable sliding_table(const std::vector<Sliding>& all, const FrictionArguments& arguments) {
+  std::vector<double> amplitudes, velocities, ratios;
+  std::vector<SteadySliding> states;
+  for (const Sliding& one : all) {
+    amplitudes.insert(amplitudes.end(), one.states.size(), one.normal_amplitude);
+    velocities.insert(velocities.end(), one.velocities.begin(), one.velocities.end());
+    ratios.insert(ratios.end(), arguments.velocity_ratios.begin(), arguments.velocity_ratios.end());
+    states.insert(states.end(), one.states.begin(), one.states.end());
+  }
   ResultTable table{.name = "sliding", .columns = {}};
-  const auto column = [&](const char* name, const auto& value_of) {
-    std::vector<double> values;
-    for (const Sliding& one : all)
-      for (std::size_t i = 0; i < one.states.size(); ++i) values.push_back(value_of(one, i));
-    table.columns.push_back({name, values});
-  };
-  const auto member = [&](const Column& of) {
-    column(of.first, [&](const Sliding& one, std::size_t i) { return one.states[i].*of.second; });
-  };
-  if (all.size() > 1)
-    column("normal_amplitude",
-           [](const Sliding& one, std::size_t) { return one.normal_amplitude; });
-  column("velocity", [](const Sliding& one, std::size_t i) { return one.velocities[i]; });
-  if (!arguments.velocity_ratios.empty())
-    column("velocity_ratio",
-           [&](const Sliding&, std::size_t i) { return arguments.velocity_ratios[i]; });
-  if (all.size() > 1)
-    for (const Column& of : of_amplitude) member(of);
-  for (const Column& of : of_velocity) member(of);
+  if (all.size() > 1) table.columns.push_back({"normal_amplitude", amplitudes});
+  table.columns.push_back({"velocity", velocities});
+  if (!ratios.empty()) table.columns.push_back({"velocity_ratio", ratios});
+  for (ResultColumn& column : table_of("sliding", states).columns)
+    if (all.size() > 1 || std::ranges::find(of_amplitude, column.name) == std::end(of_amplitude))
+      table.columns.push_back(std::move(column));
   return table;
 }
 
@@ -254,16 +240,17 @@ void run(const FrictionArguments& arguments, Session& session) {
   const Sliding& first = sliding.front();
   const SteadySliding& any = first.states.front();
   Json answer = Json::object();
-  if (sliding.size() == 1)
-    for (const auto& [name, member] : of_amplitude) answer[name] = any.*member;
+  if (sliding.size() == 1) {
+    const Json whole = json_of(any);
+    for (const std::string_view name : of_amplitude)
+      answer[name] = whole[name];
+  }
   std::vector<ResultTable> tables{sliding_table(sliding, arguments)};
   RegimeMap map;
   if (!arguments.excursions.empty()) {
     map = regime_map(*contact.law, any.indentation, {first.normal_amplitude, omega},
                      first.velocities, arguments.excursions, friction);
-    answer["no_slip_velocity"] = map.no_slip_velocity;
-    answer["sliding_excursion"] = map.sliding_excursion;
-    answer["full_stick_ratio"] = map.full_stick_ratio;
+    answer.add(json_of(map));
     tables.front().columns.push_back({"no_slip_excursion", map.no_slip_excursion});
     tables.push_back(regime_table(map));
   }

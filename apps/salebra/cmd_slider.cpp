@@ -33,34 +33,11 @@ struct SliderArguments {
   PremiseOptions premises;
 };
 
-Json json_of(const SliderMotion& motion) {
-  return {{"state", word_of(motion.state)},
-          {"slider_amplitude", motion.slider_amplitude},
-          {"slider_amplitude_error", motion.slider_amplitude_error},
-          {"slider_period", motion.slider_period},
-          {"stuck_fraction", motion.stuck_fraction},
-          {"mean_tangential_force", motion.mean_tangential_force},
-          {"friction_coefficient", motion.friction_coefficient},
-          {"max_spring_force", motion.max_spring_force},
-          {"drive_power", motion.drive_power},
-          {"contact_power", motion.contact_power},
-          {"support_power", motion.support_power},
-          {"falling_slope_power", motion.falling_slope_power},
-          {"energy_error", motion.energy_error}};
-}
-
-Json json_of(const SliderThreshold& threshold, double unit) {
+// unit: of the values in SI.
+Json threshold_json(const SliderThreshold& threshold, double unit) {
   return {{"value", threshold.value / unit},
           {"linear_estimate", threshold.linear_estimate / unit},
           {"linear_estimate_error", threshold.linear_estimate_error / unit}};
-}
-
-ResultTable motion_table(const std::string& name, const SliderMotion& motion) {
-  return {.name = name,
-          .columns = {{"time", motion.time},
-                      {"slider_offset", motion.slider_offset},
-                      {"slider_velocity", motion.slider_velocity},
-                      {"tangential_force", motion.tangential_force}}};
 }
 
 Figure slider_figure(const SliderMotion& full, const SliderMotion& averaged, double stiffness) {
@@ -152,9 +129,7 @@ void run(const SliderArguments& arguments, Session& session) {
   answer["mean_force"] = sliding.mean_force;
   if (oscillates) {
     answer["critical_velocity"] = sliding.critical_velocity;
-    answer["sliding_damping"] = stability.sliding_damping;
-    answer["sliding_damping_error"] = stability.sliding_damping_error;
-    answer["slider_damping"] = stability.slider_damping;
+    answer.add(json_of(stability));
   }
   answer["stable"] = stability.converged ? Json(stability.growth_rate < 0) : Json();
   if (slider.falling_slope > slider.support_damping && arguments.frequency.given()) {
@@ -165,19 +140,20 @@ void run(const SliderArguments& arguments, Session& session) {
         arguments.largest_amplitude.value_or(std::min(10 * std::max(normal.normal_amplitude, start),
                                                       covered_amplitude(law, sliding.indentation)));
     answer["threshold_amplitude"] =
-        json_of(threshold_amplitude(law, position, normal.angular_frequency, slider, friction,
-                                    largest, options),
-                1);
+        threshold_json(threshold_amplitude(law, position, normal.angular_frequency, slider,
+                                           friction, largest, options),
+                       1);
     if (oscillates)
-      answer["threshold_frequency"] =
-          json_of(threshold_angular_frequency(law, position, normal.normal_amplitude, slider,
-                                              friction, 10 * normal.angular_frequency, options),
-                  2 * std::numbers::pi);
+      answer["threshold_frequency"] = threshold_json(
+          threshold_angular_frequency(law, position, normal.normal_amplitude, slider, friction,
+                                      10 * normal.angular_frequency, options),
+          2 * std::numbers::pi);
   }
   for (const std::string& line : contact.doubts) session.warn(line);
   add_first_loading(answer, contact.first_loading);
-  write_tables(session, "slider", answer,
-               {motion_table("motion", full), motion_table("averaged_motion", averaged)});
+  write_tables(
+      session, "slider", answer,
+      {table_of("motion", lists_of(full)), table_of("averaged_motion", lists_of(averaged))});
   if (session.has_plot()) session.plot(slider_figure(full, averaged, slider.spring_stiffness));
 
   // No oscillation is the limit of small ones.

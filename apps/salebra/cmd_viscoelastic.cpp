@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <complex>
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
@@ -48,45 +49,21 @@ std::vector<PronyTerm> parse_terms(const std::string& text) {
 }
 
 struct ViscoelasticCase {
-  double angular_frequency = 0, elastic_work = 0;
+  double angular_frequency = 0, storage_modulus = 0, loss_modulus = 0, elastic_work = 0;
   ViscoelasticDamping loss;
 };
 
-double angular_frequency_of(const Oscillation& motion) {
-  return std::visit([](const auto& m) { return m.angular_frequency; }, motion);
+constexpr void describe(auto&& visit, std::type_identity<ViscoelasticCase>) {
+  using S = ViscoelasticCase;
+  visit(&S::angular_frequency, quantity::angular_frequency);
+  visit(&S::storage_modulus, find_quantity("storage_modulus"));
+  visit(&S::loss_modulus, find_quantity("loss_modulus"));
+  visit(&S::elastic_work, find_quantity("elastic_work"));
+  visit(&S::loss, Part{"loss", "losses of the viscoelastic body"});
 }
 
-ResultTable table_of(const std::vector<ViscoelasticCase>& cases, const PronySeries& prony,
-                     const std::pair<std::string, std::vector<double>>& varied) {
-  ResultTable table{.name = "motions", .columns = {}};
-  const auto column = [&](const char* name, const auto& value_of) {
-    std::vector<double> values;
-    for (const ViscoelasticCase& one : cases) values.push_back(value_of(one));
-    table.columns.push_back({name, values});
-  };
-  if (!varied.second.empty() && varied.first != "angular_frequency")
-    table.columns.push_back({varied.first, varied.second});
-  column("angular_frequency", [](const ViscoelasticCase& one) { return one.angular_frequency; });
-  column("storage_modulus", [&](const ViscoelasticCase& one) {
-    return prony.complex_modulus(one.angular_frequency).real();
-  });
-  column("loss_modulus", [&](const ViscoelasticCase& one) {
-    return prony.complex_modulus(one.angular_frequency).imag();
-  });
-  const auto member = [&](const char* name, double ViscoelasticDamping::*of) {
-    column(name, [of](const ViscoelasticCase& one) { return one.loss.*of; });
-  };
-  member("work_per_cycle", &ViscoelasticDamping::work_per_cycle);
-  member("normal_material_work", &ViscoelasticDamping::normal_material_work);
-  member("tangential_material_work", &ViscoelasticDamping::tangential_material_work);
-  member("relaxation_work", &ViscoelasticDamping::relaxation_work);
-  column("elastic_work", [](const ViscoelasticCase& one) { return one.elastic_work; });
-  member("power", &ViscoelasticDamping::power);
-  member("damping_constant", &ViscoelasticDamping::damping_constant);
-  member("mean_force", &ViscoelasticDamping::mean_force);
-  member("min_contact_radius", &ViscoelasticDamping::min_contact_radius);
-  member("max_contact_radius", &ViscoelasticDamping::max_contact_radius);
-  return table;
+double angular_frequency_of(const Oscillation& motion) {
+  return std::visit([](const auto& m) { return m.angular_frequency; }, motion);
 }
 
 Figure loss_figure(const ResultTable& table) {
@@ -150,6 +127,9 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   for (const Oscillation& motion : motions) {
     ViscoelasticCase& one = cases.emplace_back();
     one.angular_frequency = angular_frequency_of(motion);
+    const std::complex<double> modulus = prony.complex_modulus(one.angular_frequency);
+    one.storage_modulus = modulus.real();
+    one.loss_modulus = modulus.imag();
     // Refuses what lies outside the law, before the longer computation.
     one.elastic_work = relaxation_damping(law, AtIndentation{indentation}, motion).work_per_cycle;
     one.loss = viscoelastic_damping(law, prony, sample(motion, indentation, arguments.steps),
@@ -170,10 +150,12 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   Json answer = {{"indentation", indentation},
                  {"force", law.force(indentation)},
                  {"normal_stiffness", law.normal_stiffness(indentation)},
-                 {"tangential_stiffness", law.tangential_stiffness(indentation)},
-                 {"relaxed_modulus", prony.relaxed_modulus},
-                 {"unrelaxed_modulus", prony.unrelaxed_modulus()}};
-  const ResultTable table = table_of(cases, prony, arguments.motion.varied());
+                 {"tangential_stiffness", law.tangential_stiffness(indentation)}};
+  answer.add(json_of(prony));
+  ResultTable table = table_of("motions", cases);
+  const auto [quantity, values] = arguments.motion.varied();
+  if (!values.empty() && quantity != "angular_frequency")
+    table.columns.insert(table.columns.begin(), {quantity, values});
   write_tables(session, "viscoelastic", answer, {table});
   for (const ResultColumn& column : table.columns) answer[column.name] = column.values;
   if (session.has_plot()) session.plot(loss_figure(table));

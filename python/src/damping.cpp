@@ -183,19 +183,9 @@ list of DampingResult
 }
 
 void bind_damper(nb::module_& m) {
-  nb::class_<OscillatorDecay>(
+  described_class<OscillatorDecay>(
       m, "OscillatorDecay",
-      "Decay of a tangential oscillator under fast normal oscillation of its contact.")
-      .def_ro("damping_constant", &OscillatorDecay::damping_constant, "γ, N s/m.")
-      .def_ro("contact_stiffness", &OscillatorDecay::contact_stiffness,
-              "K_t of what is never let go, N/m.")
-      .def_ro("natural_frequency", &OscillatorDecay::natural_frequency, "ω0, rad/s.")
-      .def_ro("damping_ratio", &OscillatorDecay::damping_ratio, "ζ = γ/(2mω0).")
-      .def_ro("quality_factor", &OscillatorDecay::quality_factor, "1/(2ζ).")
-      .def_ro("decay_time", &OscillatorDecay::decay_time, "s")
-      .def_ro("logarithmic_decrement", &OscillatorDecay::logarithmic_decrement)
-      .def_ro("frequency_ratio", &OscillatorDecay::frequency_ratio,
-              "ω0/ω; the description assumes that it is small.");
+      "Decay of a tangential oscillator under fast normal oscillation of its contact.");
   m.def(
       "oscillator_decay",
       [](const ContactLaw& law, double normal_amplitude, double angular_frequency, double mass,
@@ -213,11 +203,8 @@ void bind_damper(nb::module_& m) {
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation", nb::arg("tolerance") = 1e-10,
       "A mass (kg) on a spring (N/m) and on the contact: m ẍ + γ ẋ + (k + K_t,min) x = 0.");
 
-  nb::class_<DamperMap> map(m, "DamperMap", "γ over normal amplitudes × angular frequencies.");
-  view_property(map, "normal_amplitude", &DamperMap::normal_amplitude, "m");
-  view_property(map, "angular_frequency", &DamperMap::angular_frequency, "rad/s");
-  view_property(map, "damping_constant", &DamperMap::damping_constant,
-                "γ (amplitudes, frequencies), N s/m.");
+  auto map =
+      described_class<DamperMap>(m, "DamperMap", "γ over normal amplitudes × angular frequencies.");
   result_methods(map, true);
   m.def(
       "damper_map",

@@ -9,6 +9,7 @@
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -16,17 +17,9 @@ namespace salebra::python {
 namespace {
 
 void bind_friction_map(nb::module_& m) {
-  nb::class_<FrictionMap> friction(
+  auto friction = described_class<FrictionMap>(
       m, "FrictionMap",
       "How far the paper's \"infinite\" friction reaches: losses over the full-stick loss.");
-  view_property(friction, "friction_number", &FrictionMap::friction_number, "M = μE*u_z/(G*u_x).");
-  view_property(friction, "phase", &FrictionMap::phase, "φ0, rad.");
-  view_property(friction, "loss_ratio", &FrictionMap::loss_ratio,
-                "W(μ)/W(∞), (friction numbers, phases).");
-  view_property(friction, "relaxation_ratio", &FrictionMap::relaxation_ratio,
-                "Its part from levels that open and close.");
-  view_property(friction, "slip_ratio", &FrictionMap::slip_ratio,
-                "Its part from slip in permanent contact.");
   result_methods(friction, true);
   m.def(
       "friction_map",
@@ -45,15 +38,10 @@ void bind_friction_map(nb::module_& m) {
 }
 
 void bind_stress_map(nb::module_& m) {
-  nb::class_<StressMap> stress(m, "StressMap",
-                               "Stresses under an axisymmetric indenter over phases and radii: "
-                               "Fig. 4 of doi:10.1038/srep16189.");
-  view_property(stress, "angle", &StressMap::angle, "θ, rad.");
-  view_property(stress, "radial_position", &StressMap::radial_position, "r, m.");
-  view_property(stress, "contact_radius", &StressMap::contact_radius, "a of each phase, m.");
-  view_property(stress, "tangential_force", &StressMap::tangential_force, "F_x of each phase, N.");
-  view_property(stress, "shear", &StressMap::shear, "τ (phases, radii), Pa, Eq. (17).");
-  view_property(stress, "contact_pressure", &StressMap::contact_pressure, "p (phases, radii), Pa.");
+  auto stress = described_class<StressMap>(
+      m, "StressMap",
+      "Stresses under an axisymmetric indenter over phases and radii: Fig. 4 of "
+      "doi:10.1038/srep16189.");
   result_methods(stress, true);
   m.def(
       "stress_map",
@@ -71,19 +59,8 @@ void bind_stress_map(nb::module_& m) {
 }
 
 void bind_asperities(nb::module_& m) {
-  nb::class_<AsperityDamping> asperity(m, "AsperityDamping",
-                                       "The relaxation damping of every summit of a surface.");
-  view_property(asperity, "work", &AsperityDamping::work, "W_i of each summit, J.");
-  asperity.def_ro("work_per_cycle", &AsperityDamping::work_per_cycle, "Σ W_i, J.")
-      .def_ro("intermittent_work", &AsperityDamping::intermittent_work,
-              "Of it, by summits that lose contact during the cycle, J.")
-      .def_ro("small_amplitude_work", &AsperityDamping::small_amplitude_work,
-              "Eq. (12) or (15) with F'' of all summits, J.")
-      .def_ro("contacts_most", &AsperityDamping::contacts_most,
-              "Summits in contact where the body is closest …")
-      .def_ro("contacts_least", &AsperityDamping::contacts_least, "… and farthest.")
-      .def_ro("power", &AsperityDamping::power, "W")
-      .def_ro("damping_constant", &AsperityDamping::damping_constant, "γ, N s/m.");
+  described_class<AsperityDamping>(m, "AsperityDamping",
+                                   "The relaxation damping of every summit of a surface.");
   m.def(
       "asperity_damping",
       [](const SummitList& summits, const Material& material, double separation,

@@ -136,38 +136,9 @@ void bind_loss_with_slip(nb::module_& m) {
 }
 
 void bind_regime_map(nb::module_& m) {
-  nb::class_<RegimeMap> map(m, "RegimeMap",
-                            "What slips in a slow tangential motion, over its velocity and its "
-                            "excursion.");
-  view_property(map, "velocity", &RegimeMap::velocity, "v, m/s.");
-  view_property(map, "excursion", &RegimeMap::excursion, "X between turning points, m.");
-  view_property(map, "loss_ratio", &RegimeMap::loss_ratio,
-                "W over W without slip, (velocities, excursions); NaN where X is shorter than the "
-                "way in one normal cycle.");
-  view_property(map, "slip_ratio", &RegimeMap::slip_ratio,
-                "Its part from levels that stay closed.");
-  view_property(map, "no_slip_excursion", &RegimeMap::no_slip_excursion,
-                "X up to which there is no slip at each velocity, m; 0: none, NaN: every one.");
-  map.def_prop_ro(
-         "regime",
-         [](const RegimeMap& self) {
-           std::vector<std::vector<std::string>> rows;
-           for (const std::vector<Regime>& row : self.regime) {
-             std::vector<std::string>& names = rows.emplace_back();
-             for (const Regime regime : row) names.push_back(std::string(word_of(regime)));
-           }
-           return rows;
-         },
-         "'no slip', 'partial slip', 'sliding' or 'unknown', for each velocity a list over the "
-         "excursions.")
-      .def_ro("no_slip_velocity", &RegimeMap::no_slip_velocity,
-              "v up to which there may be no slip, m/s.")
-      .def_ro("sliding_excursion", &RegimeMap::sliding_excursion,
-              "X from which the contact slides, m.")
-      .def_ro("critical_velocity", &RegimeMap::critical_velocity,
-              "v_c, m/s: beyond it levels never stick.")
-      .def_ro("full_stick_ratio", &RegimeMap::full_stick_ratio,
-              "W without slip over its small-amplitude form.");
+  auto map = described_class<RegimeMap>(
+      m, "RegimeMap",
+      "What slips in a slow tangential motion, over its velocity and its excursion.");
   result_methods(map, true);
   m.def(
       "regime_map",
@@ -187,30 +158,9 @@ void bind_regime_map(nb::module_& m) {
 }
 
 void bind_steady_sliding(nb::module_& m) {
-  nb::class_<SteadySliding>(m, "SteadySliding",
-                            "A contact that slides steadily while it oscillates in the normal "
-                            "direction; NaN is unknown.")
-      .def_ro("indentation", &SteadySliding::indentation, "Mean indentation of the cycle, m.")
-      .def_ro("mean_tangential_force", &SteadySliding::mean_tangential_force, "T̄, N.")
-      .def_ro("mean_force", &SteadySliding::mean_force, "F̄, N.")
-      .def_ro("friction_coefficient", &SteadySliding::friction_coefficient,
-              "T̄/F̄: what a slow observer measures.")
-      .def_ro("static_friction_coefficient", &SteadySliding::static_friction_coefficient,
-              "μF(δ_min)/F̄, its limit as v → 0.")
-      .def_ro("critical_velocity", &SteadySliding::critical_velocity, "From it on T̄ = μF̄, m/s.")
-      .def_ro("low_speed_damping", &SteadySliding::low_speed_damping,
-              "Γ of T̄ = μF(δ_min) + Γv + O(v^(3/2)), N s/m.")
-      .def_ro("sliding_damping", &SteadySliding::sliding_damping,
-              "dT̄/dv at this velocity, N s/m: Γ as v → 0.")
-      .def_ro("relaxation_damping", &SteadySliding::relaxation_damping,
-              "γ of case (b) without slip, N s/m.")
-      .def_ro("relaxation_work", &SteadySliding::relaxation_work,
-              "Lost per period by levels that open and close, J.")
-      .def_ro("slip_work", &SteadySliding::slip_work,
-              "Lost per period by levels that stay closed, J.")
-      .def_ro("error_estimate", &SteadySliding::error_estimate,
-              "Of mean_tangential_force, N: quadrature, not the law's.")
-      .def_ro("converged", &SteadySliding::converged, "False: do not use the forces.");
+  described_class<SteadySliding>(m, "SteadySliding",
+                                 "A contact that slides steadily while it oscillates in the normal "
+                                 "direction; NaN is unknown.");
   m.def(
       "steady_sliding",
       [](const ContactLaw& law, const Drag& motion, double friction_coefficient,

@@ -12,14 +12,15 @@
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/cycle_motion.hpp"
+#include "interop/described.hpp"
 #include "interop/running.hpp"
 
 namespace salebra::python {
 namespace {
 
 void bind_slider_classes(nb::module_& m) {
-  nb::class_<Slider>(m, "Slider",
-                     R"(A mass that a spring and a dashpot drag over a contact.
+  described_class<Slider>(m, "Slider",
+                          R"(A mass that a spring and a dashpot drag over a contact.
 
 .. math:: m\ddot x + c(\dot x - V) - b\dot x + k(x - Vt) + T = 0
 
@@ -43,67 +44,18 @@ falling_slope : float
             new (self) Slider{mass, spring_stiffness, velocity, support_damping, falling_slope};
           },
           nb::kw_only(), nb::arg("mass"), nb::arg("spring_stiffness"), nb::arg("velocity"),
-          nb::arg("support_damping") = 0.0, nb::arg("falling_slope") = 0.0)
-      .def_ro("mass", &Slider::mass, "kg")
-      .def_ro("spring_stiffness", &Slider::spring_stiffness, "N/m")
-      .def_ro("velocity", &Slider::velocity, "Of the drive, m/s.")
-      .def_ro("support_damping", &Slider::support_damping, "N s/m")
-      .def_ro("falling_slope", &Slider::falling_slope, "N s/m");
+          nb::arg("support_damping") = 0.0, nb::arg("falling_slope") = 0.0);
 
-  using Motion = SliderMotion;
-  nb::class_<Motion> motion(m, "SliderMotion",
-                            "The motion in which a slider ends, means over slow cycles; NaN is "
-                            "unknown.");
-  motion
-      .def_prop_ro(
-          "state",
-          [](const Motion& self) { return Choice<SliderState>{std::string(word_of(self.state))}; },
-          "Sliding at the drive's velocity, slowly pulsating, or stick–slip.")
-      .def_ro("slider_amplitude", &Motion::slider_amplitude,
-              "Half the range of x − Vt in a slow cycle, m.")
-      .def_ro("slider_amplitude_error", &Motion::slider_amplitude_error, "Its numerical error, m.")
-      .def_ro("slider_period", &Motion::slider_period, "Of a slow cycle, s.")
-      .def_ro("stuck_fraction", &Motion::stuck_fraction, "Part of the time in which it sticks.")
-      .def_ro("mean_tangential_force", &Motion::mean_tangential_force,
-              "Of T, N, without the falling part.")
-      .def_ro("friction_coefficient", &Motion::friction_coefficient,
-              "That over the mean normal force.")
-      .def_ro("max_spring_force", &Motion::max_spring_force, "k(Vt − x) in a slow cycle, N.")
-      .def_ro("drive_power", &Motion::drive_power, "What the drive puts in, W.")
-      .def_ro("contact_power", &Motion::contact_power, "Lost in the contact, W.")
-      .def_ro("support_power", &Motion::support_power, "Lost in the dashpot, W.")
-      .def_ro("falling_slope_power", &Motion::falling_slope_power,
-              "b⟨ẋ²⟩, by which friction loses less, W.")
-      .def_ro("energy_error", &Motion::energy_error, "Rest of the balance over drive_power.")
-      .def_ro("cycles", &Motion::cycles, "Slow cycles that were averaged.")
-      .def_ro("converged", &Motion::converged, "False: do not use the numbers.");
-  view_property(motion, "time", &Motion::time, "Of some last cycles, s.");
-  view_property(motion, "slider_offset", &Motion::slider_offset, "x − Vt there, m.");
-  view_property(motion, "slider_velocity", &Motion::slider_velocity, "ẋ there, m/s.");
-  view_property(motion, "tangential_force", &Motion::tangential_force,
-                "T where δ is least, N; of the averaged equation T̄.");
-
-  using Stability = SliderStability;
-  nb::class_<Stability>(m, "SliderStability",
-                        "What becomes of a small disturbance of steady sliding; NaN is unknown.")
-      .def_ro("sliding_damping", &Stability::sliding_damping, "dT̄/dv, N s/m.")
-      .def_ro("sliding_damping_error", &Stability::sliding_damping_error,
-              "Bound of its difference from slider_damping, N s/m.")
-      .def_ro("slider_damping", &Stability::slider_damping,
-              "What takes its place in the full equation, N s/m.")
-      .def_ro("growth_rate", &Stability::growth_rate, "Of the full equation, 1/s.")
-      .def_ro("averaged_growth_rate", &Stability::averaged_growth_rate,
-              "Of the averaged equation, 1/s.")
-      .def_ro("converged", &Stability::converged,
-              "False: no sliding without turning back was found.");
-
-  nb::class_<SliderThreshold>(m, "SliderThreshold",
-                              "Least amplitude (m) or angular frequency (rad/s) of the normal "
-                              "oscillation at which sliding is stable; NaN: none in the range.")
-      .def_ro("value", &SliderThreshold::value, "Of the full equation.")
-      .def_ro("linear_estimate", &SliderThreshold::linear_estimate, "Where dT̄/dv + c = b.")
-      .def_ro("linear_estimate_error", &SliderThreshold::linear_estimate_error,
-              "Of it, from the slider's mass.");
+  described_class<SliderMotion>(m, "SliderMotion",
+                                "The motion in which a slider ends, means over slow cycles; NaN is "
+                                "unknown.");
+  described_class<SliderStability>(
+      m, "SliderStability",
+      "What becomes of a small disturbance of steady sliding; NaN is unknown.");
+  described_class<SliderThreshold>(
+      m, "SliderThreshold",
+      "Least amplitude (m) or angular frequency (rad/s) of the normal "
+      "oscillation at which sliding is stable; NaN: none in the range.");
 }
 
 void bind_functions(nb::module_& m) {

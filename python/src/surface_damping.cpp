@@ -11,34 +11,15 @@
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/cycle_motion.hpp"
+#include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
 namespace salebra::python {
 
 void bind_surface_damping(nb::module_& m) {
-  nb::class_<SurfaceDamping>(m, "SurfaceDamping",
-                             "Damping of one surface at one load, with its error; NaN is unknown.")
-      .def_ro("work_per_cycle", &SurfaceDamping::work_per_cycle, "W, J.")
-      .def_ro("damping_constant", &SurfaceDamping::damping_constant, "γ, N s/m.")
-      .def_prop_ro("damping_constant_error", &SurfaceDamping::damping_constant_error,
-                   "Error of γ, N s/m.")
-      .def_ro("error", &SurfaceDamping::error,
-              "Of work_per_cycle, J: the root of the sum of the squares of all that follow.")
-      .def_ro("cell_error", &SurfaceDamping::cell_error, "Of the size of the cells, J.")
-      .def_ro("scatter", &SurfaceDamping::scatter,
-              "Of the chance at which whole cells, and spots, touch, J.")
-      .def_ro("level_error", &SurfaceDamping::level_error, "Of the number of levels, J.")
-      .def_ro("ratio_error", &SurfaceDamping::ratio_error, "Of K_t/((G*/E*)K), J.")
-      .def_ro("seam_error", &SurfaceDamping::seam_error,
-              "Of the edges of a surface that is not periodic, J; 0 where not asked for.")
-      .def_ro("solver_error", &SurfaceDamping::solver_error, "Of the solver's tolerance, J.")
-      .def_ro("stiffness_ratio", &SurfaceDamping::stiffness_ratio, "K_t/((G*/E*)K).")
-      .def_ro("window", &SurfaceDamping::window,
-              "Half the range of indentations that were solved, m.")
-      .def_ro("levels", &SurfaceDamping::levels, "Intervals between contact levels.")
-      .def_ro("points", &SurfaceDamping::points, "Along x, of the grid that W belongs to.")
-      .def_ro("converged", &SurfaceDamping::converged, "False: do not use work_per_cycle.")
+  described_class<SurfaceDamping>(
+      m, "SurfaceDamping", "Damping of one surface at one load, with its error; NaN is unknown.")
       .def("__repr__", [](const SurfaceDamping& self) {
         return describe("SurfaceDamping",
                         {{"damping_constant", self.damping_constant},

@@ -123,10 +123,7 @@ void bind_values(nb::module_& m) {
   value_classes<ForceCurve, ElasticBody, Material, BoundContact, ContactSpot, ContactSpots,
                 StickStiffness, PunchStiffness, PartialSlipReport, RoughnessShell,
                 PerssonTheory::Asymptote, SummitEnsemble, AsperityContact, MonteCarloCurve>();
-  value_classes<SteadySliding, Slider, SliderMotion, SliderStability, SliderThreshold,
-                SurfaceDamping, OscillatorDecay, DamperMap, FrictionMap, RegimeMap, StressMap,
-                AsperityDamping, PronySeries, ViscoelasticIndentation, ViscoelasticDamping,
-                ContactSetAt, CycleResult, LevelQuadratureResult>();
+  value_classes<ContactSetAt, CycleResult, LevelQuadratureResult>();
   value_classes<StudyConfiguration, EnsembleMean, StudyFlag, StudyResult, Check, Report>();
   auto grid = nb::borrow<nb::class_<Grid2D>>(nb::type<Grid2D>());
   value_methods(grid);

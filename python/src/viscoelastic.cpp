@@ -9,6 +9,7 @@
 #include "bindings.hpp"
 #include "interop/arrays.hpp"
 #include "interop/citations.hpp"
+#include "interop/described.hpp"
 #include "interop/running.hpp"
 
 namespace salebra::python {
@@ -23,7 +24,7 @@ std::vector<PronyTerm> terms_of(const Terms& pairs) {
 }
 
 void bind_series(nb::module_& m) {
-  nb::class_<PronySeries>(
+  nb::class_<PronySeries> series(
       m, "PronySeries",
       R"(Shear relaxation modulus of an isotropic material with a constant Poisson's ratio.
 
@@ -35,7 +36,8 @@ relaxed_modulus : float
     G∞, Pa.
 terms : list of (float, float)
     G_i, Pa, and τ_i, s; one is the standard linear solid.
-)")
+)");
+  series
       .def(
           "__init__",
           [](PronySeries* self, double relaxed_modulus, const Terms& terms) {
@@ -66,21 +68,13 @@ terms : list of (float, float)
           "Pairs of G_i, Pa, and τ_i, s.")
       .def("complex_modulus", &PronySeries::complex_modulus, nb::arg("angular_frequency"),
            "G' + iG'', Pa, at ω, rad/s.");
+  value_methods(series);
 }
 
 void bind_indentation(nb::module_& m) {
-  nb::class_<ViscoelasticIndentation> path(
+  described_class<ViscoelasticIndentation>(
       m, "ViscoelasticIndentation",
       "An indenter on a viscoelastic body along a path, and the springs at its end.");
-  view_property(path, "force", &ViscoelasticIndentation::force, "F at the samples, N.");
-  view_property(path, "contact_radius", &ViscoelasticIndentation::contact_radius,
-                "a at the samples, m.");
-  view_property(path, "spring_position", &ViscoelasticIndentation::spring_position,
-                "x of the springs, m.");
-  view_property(path, "spring_load", &ViscoelasticIndentation::spring_load,
-                "q_z(x) of both sides at the last sample, N/m.");
-  view_property(path, "spring_displacement", &ViscoelasticIndentation::spring_displacement,
-                "w(x) at the last sample, m.");
   m.def(
       "viscoelastic_indentation",
       [](const IndenterLaw& law, const PronySeries& prony, const Values& time,
@@ -109,24 +103,8 @@ springs : int
 }
 
 void bind_damping_of_period(nb::module_& m) {
-  using Damping = ViscoelasticDamping;
-  nb::class_<Damping> damping(m, "ViscoelasticDamping",
-                              "What a viscoelastic contact that sticks loses in a period.");
-  damping.def_ro("work_per_cycle", &Damping::work_per_cycle, "All of it, J.")
-      .def_ro("normal_material_work", &Damping::normal_material_work,
-              "By the material under the normal motion, J.")
-      .def_ro("tangential_material_work", &Damping::tangential_material_work,
-              "By the material in contact under the tangential motion, J.")
-      .def_ro("relaxation_work", &Damping::relaxation_work,
-              "By springs that are let go stretched, J.")
-      .def_ro("power", &Damping::power, "work_per_cycle over the period, W.")
-      .def_ro("damping_constant", &Damping::damping_constant,
-              "Of the tangential losses over ⟨ẋ²⟩, N s/m.")
-      .def_ro("mean_force", &Damping::mean_force, "Of the normal force over the period, N.")
-      .def_ro("min_contact_radius", &Damping::min_contact_radius, "Of what never opens, m.")
-      .def_ro("max_contact_radius", &Damping::max_contact_radius, "m")
-      .def_ro("converged", &Damping::converged, "False: do not use the losses.");
-  view_property(damping, "force", &Damping::force, "F at the samples of the trajectory, N.");
+  described_class<ViscoelasticDamping>(
+      m, "ViscoelasticDamping", "What a viscoelastic contact that sticks loses in a period.");
   m.def(
       "viscoelastic_damping",
       [](const IndenterLaw& law, const PronySeries& prony, const SampledMotion& trajectory,

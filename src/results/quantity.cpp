@@ -9,11 +9,18 @@
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/damping/cycle.hpp>
+#include <salebra/damping/damper.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/premises.hpp>
+#include <salebra/damping/slider.hpp>
+#include <salebra/damping/steady_sliding.hpp>
+#include <salebra/damping/stress_map.hpp>
+#include <salebra/damping/surface_damping.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
+#include <salebra/damping/viscoelastic_damping.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/results/columns.hpp>
 #include <salebra/results/quantity.hpp>
@@ -93,7 +100,6 @@ const Quantity others[] = {
     Quantity{"peklenik", dimensionless, "correlation length along x over that along y"},
     Quantity{"spectrum_mismatch", dimensionless, "relative error of the spectrum of the heights"},
     Quantity{"modulus_ratio", dimensionless, "G*/E*"},
-    Quantity{"contact_pressure", pressure, "contact pressure"},
     Quantity{"max_pressure", pressure, "largest contact pressure"},
     Quantity{"gap", length, "gap of the deformed surfaces"},
     Quantity{"elastic_energy", energy, "elastic energy"},
@@ -114,7 +120,6 @@ const Quantity others[] = {
     Quantity{"deviation_min", dimensionless, "minimum deviation over the pressures"},
     Quantity{"deviation_max", dimensionless, "maximum deviation over the pressures"},
     Quantity{"frequency", frequency, "frequency"},
-    Quantity{"frequency_ratio", dimensionless, "tangential over normal frequency"},
     Quantity{"force_amplitude", force, "amplitude of the normal force"},
     Quantity{"tangential_frequency", frequency, "frequency of the tangential motion"},
     Quantity{"slow_limit_power", Dimension::power, "mean power if the tangential motion were slow"},
@@ -164,78 +169,23 @@ const Quantity others[] = {
     Quantity{"contact_area_min", length_squared, "minimum contact area of a cycle"},
     Quantity{"contact_area_max", length_squared, "maximum contact area of a cycle"},
     Quantity{"closed_form", energy, "energy dissipated in a cycle, closed form"},
-    Quantity{"damping_constant_error", damping, "numerical error of the damping constant"},
     Quantity{"damping_constant_with_slip", damping, "damping constant P/v^2 with friction"},
-    Quantity{"contact_radius", length, "contact radius"},
-    Quantity{"min_contact_radius", length, "contact radius at the minimum indentation"},
-    Quantity{"max_contact_radius", length, "contact radius at the maximum indentation"},
-    Quantity{"normal_material_work", energy,
-             "energy dissipated in a cycle by the material under normal motion"},
-    Quantity{"tangential_material_work", energy,
-             "energy dissipated in a cycle by the material under tangential motion"},
     Quantity{"elastic_work", energy,
              "energy dissipated in a cycle by the elastic body of the relaxed modulus"},
-    Quantity{"relaxed_modulus", pressure, "shear modulus after a long time"},
-    Quantity{"unrelaxed_modulus", pressure, "shear modulus after a short time"},
-    Quantity{"relaxation_time", Dimension::time, "relaxation time"},
     Quantity{"storage_modulus", pressure, "real part of the complex shear modulus"},
     Quantity{"loss_modulus", pressure, "imaginary part of the complex shear modulus"},
-    Quantity{"contact_stiffness", stiffness, "tangential stiffness of what is always in contact"},
-    Quantity{"natural_frequency", angular_frequency, "natural angular frequency of the oscillator"},
-    Quantity{"damping_ratio", dimensionless, "damping over critical damping"},
-    Quantity{"quality_factor", dimensionless, "quality factor"},
-    Quantity{"decay_time", Dimension::time, "time in which the amplitude falls by e"},
-    Quantity{"logarithmic_decrement", dimensionless, "logarithmic decrement"},
-    Quantity{"mass", mass, "mass of the oscillator"},
-    Quantity{"spring_stiffness", stiffness, "stiffness of the spring, without the contact"},
     Quantity{"stiffness_ratio", dimensionless, "stiffness of the contact over that of the spring"},
-    Quantity{"falling_slope", damping, "decrease of friction with velocity"},
     Quantity{"stabilising_amplitude", length,
              "minimum normal amplitude that stabilises the slider"},
     Quantity{"stable", dimensionless, "steady sliding is stable"},
-    Quantity{"friction_number", dimensionless, "M = mu E* u_z/(G* u_x)"},
     Quantity{"transverse", length, "displacement along y"},
-    Quantity{"velocity", velocity, "sliding velocity"},
-    Quantity{"mean_tangential_force", force, "tangential force, mean over a cycle"},
     Quantity{"velocity_ratio", dimensionless, "velocity over critical velocity"},
     Quantity{"regime", dimensionless, "0 no slip, 1 partial slip, 2 sliding, 3 unknown"},
-    Quantity{"no_slip_velocity", velocity, "largest velocity of a slow motion without slip"},
     Quantity{"no_slip_excursion", length,
              "largest excursion without slip; 0: none, n/a: all excursions"},
-    Quantity{"sliding_excursion", length, "excursion from which the contact slides"},
-    Quantity{"full_stick_ratio", dimensionless,
-             "energy dissipated in a cycle without slip over its small-amplitude form"},
-    Quantity{"static_friction_coefficient", dimensionless, "friction coefficient as v -> 0"},
-    Quantity{"critical_velocity", velocity, "velocity from which nothing sticks"},
-    Quantity{"low_speed_damping", damping, "damping constant of slow sliding, Eq. (S2)"},
-    Quantity{"sliding_damping", damping, "growth of the mean friction force with velocity, dT/dv"},
-    Quantity{"relaxation_damping", damping, "damping constant without slip, case (b)"},
-    Quantity{"support_damping", damping, "damping constant of the dashpot parallel to the spring"},
-    Quantity{"sliding_damping_error", damping, "error of sliding_damping by the slider's mass"},
-    Quantity{"slider_damping", damping, "sliding_damping of the full equation of motion"},
     Quantity{"threshold_amplitude", length, "minimum normal amplitude at which sliding is stable"},
     Quantity{"threshold_frequency", frequency,
              "minimum frequency of the normal oscillation at which sliding is stable"},
-    Quantity{"slider_amplitude", length,
-             "half the range of the displacement from the drive's in a slow cycle"},
-    Quantity{"slider_amplitude_error", length, "numerical error of slider_amplitude"},
-    Quantity{"slider_period", Dimension::time, "period of a slow cycle"},
-    Quantity{"stuck_fraction", dimensionless, "part of the time in which the slider sticks"},
-    Quantity{"max_spring_force", force, "largest force of the spring in a slow cycle"},
-    Quantity{"drive_power", Dimension::power, "mean power of the drive"},
-    Quantity{"contact_power", Dimension::power, "mean power dissipated by the contact"},
-    Quantity{"support_power", Dimension::power, "mean power dissipated by the dashpot"},
-    Quantity{"falling_slope_power", Dimension::power,
-             "mean power by which the falling slope lowers the dissipation"},
-    Quantity{"energy_error", dimensionless, "rest of the energy balance over drive_power"},
-    Quantity{"slider_offset", length, "displacement from the drive's"},
-    Quantity{"slider_velocity", velocity, "velocity of the slider"},
-    Quantity{"loss_ratio", dimensionless, "W(mu)/W(infinity)"},
-    Quantity{"relaxation_ratio", dimensionless, "part of it from springs that open and close"},
-    Quantity{"slip_ratio", dimensionless, "part of it from slip in permanent contact"},
-    Quantity{"angle", angle, "phase of the normal motion, 0 at its top"},
-    Quantity{"radial_position", length, "distance from the axis"},
-    Quantity{"shear", pressure, "tangential stress, Eq. (17)"},
     Quantity{"limit_5_percent", dimensionless, "value at which the loss changes by 5 %"},
     Quantity{"limit_20_percent", dimensionless, "value at which the loss changes by 20 %"},
 };
@@ -258,7 +208,9 @@ const Quantity* entry_of(std::string_view name) {
                     SelfAffineParameters, Material, ForceCurve, ForceSample, FirstLoading,
                     ExponentialFit, ExponentialTest, WindowSensitivity, LocalDecayLength,
                     CycleSample, EqualFrequency, Drag, DampingResult, CommonPeriod, ContactFacts,
-                    LargestMotion, LossWithSlip, TrajectoryDamping, JointLoss>();
+                    LargestMotion, LossWithSlip, TrajectoryDamping, JointLoss, SteadySliding,
+                    Slider, SliderMotion, SliderStability, OscillatorDecay, FrictionMap, StressMap,
+                    RegimeMap, PronyTerm, PronySeries, ViscoelasticDamping, SurfaceDamping>();
   const auto found = std::ranges::find(quantities, name, &Quantity::name);
   return found != quantities.end() ? &*found : nullptr;
 }

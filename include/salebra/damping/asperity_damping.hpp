@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <vector>
@@ -19,6 +20,23 @@ struct AsperityDamping {
   double power = 0;             ///< P, W; NaN where ω is not known
   double damping_constant = 0;  ///< γ, N s/m; NaN where ω or the velocity is not known
 };
+
+constexpr void describe(auto&& visit, std::type_identity<AsperityDamping>) {
+  using enum Dimension;
+  using S = AsperityDamping;
+  visit(&S::work, Kept{"work", "energy that each summit dissipates in a cycle", energy});
+  visit(&S::work_per_cycle, Kept{"work_per_cycle", "their sum", energy});
+  visit(&S::intermittent_work,
+        Kept{"intermittent_work", "part of it by summits that lose contact during the cycle",
+             energy});
+  visit(&S::small_amplitude_work,
+        Kept{"small_amplitude_work", "Eq. (12) or (15) with F'' of all summits", energy});
+  visit(&S::contacts_most, Kept{"contacts_most", "summits in contact where the body is closest"});
+  visit(&S::contacts_least,
+        Kept{"contacts_least", "summits in contact where the body is farthest"});
+  visit(&S::power, Kept{"power", "mean dissipated power", Dimension::power});
+  visit(&S::damping_constant, Kept{"damping_constant", "damping constant", damping});
+}
 
 /// Each summit is an elastic foundation of its own (docs/theory.md, section 6, g = x²/R) that
 /// sticks: a spring of width dx touched at the level ζ = x²/R is released by the distance s of Eq.

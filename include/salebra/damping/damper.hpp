@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/dissipation.hpp>
@@ -36,6 +37,25 @@ struct OscillatorDecay {
   double frequency_ratio = 0;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<OscillatorDecay>) {
+  using enum Dimension;
+  using S = OscillatorDecay;
+  visit(&S::damping_constant, Kept{"damping_constant", "damping constant", damping});
+  visit(&S::contact_stiffness, Quantity{"contact_stiffness", stiffness,
+                                        "tangential stiffness of what is always in contact"});
+  visit(&S::natural_frequency, Quantity{"natural_frequency", angular_frequency,
+                                        "natural angular frequency of the oscillator"});
+  visit(&S::damping_ratio,
+        Quantity{"damping_ratio", dimensionless, "damping over critical damping"});
+  visit(&S::quality_factor, Quantity{"quality_factor", dimensionless, "quality factor"});
+  visit(&S::decay_time,
+        Quantity{"decay_time", Dimension::time, "time in which the amplitude falls by e"});
+  visit(&S::logarithmic_decrement,
+        Quantity{"logarithmic_decrement", dimensionless, "logarithmic decrement"});
+  visit(&S::frequency_ratio,
+        Quantity{"frequency_ratio", dimensionless, "tangential over normal frequency"});
+}
+
 /// Decay of a tangential oscillator under fast normal oscillation of its contact. Throws
 /// InvalidInput as relaxation_damping, and for an oscillator without mass or without any stiffness.
 OscillatorDecay oscillator_decay(const ContactLaw& law, const Position& position,
@@ -49,6 +69,18 @@ struct DamperMap {
   std::vector<double> angular_frequency;  ///< rad/s
   Field damping_constant;                 ///< γ (amplitudes, frequencies), N s/m
 };
+
+constexpr void describe(auto&& visit, std::type_identity<DamperMap>) {
+  using enum Dimension;
+  using S = DamperMap;
+  visit(&S::normal_amplitude,
+        Kept{"normal_amplitude", "amplitudes of the normal oscillation", length});
+  visit(&S::angular_frequency,
+        Kept{"angular_frequency", "angular frequencies of the normal oscillation",
+             Dimension::angular_frequency});
+  visit(&S::damping_constant,
+        Kept{"damping_constant", "damping constant (amplitudes, frequencies)", damping});
+}
 
 /// γ = (const of the amplitude)/ω exactly, so that each amplitude is computed once.
 DamperMap damper_map(const ContactLaw& law, const Position& position,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/contact/law/law.hpp>
@@ -23,6 +24,18 @@ struct FrictionMap {
   Field relaxation_ratio;               ///< its part from levels that open and close
   Field slip_ratio;                     ///< its part from slip in permanent contact
 };
+
+constexpr void describe(auto&& visit, std::type_identity<FrictionMap>) {
+  using enum Dimension;
+  using S = FrictionMap;
+  visit(&S::friction_number, Quantity{"friction_number", dimensionless, "M = mu E* u_z/(G* u_x)"});
+  visit(&S::phase, Kept{"phase", "phases between the oscillations", angle});
+  visit(&S::loss_ratio, Quantity{"loss_ratio", dimensionless, "W(mu)/W(infinity)"});
+  visit(&S::relaxation_ratio,
+        Quantity{"relaxation_ratio", dimensionless, "part of it from springs that open and close"});
+  visit(&S::slip_ratio,
+        Quantity{"slip_ratio", dimensionless, "part of it from slip in permanent contact"});
+}
 
 /// Phases with sin φ0 = 0 have no relaxation loss and give NaN. Cost: steps × 2 for each entry, in
 /// parallel.

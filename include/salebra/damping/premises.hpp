@@ -298,6 +298,33 @@ struct RegimeMap {
   double full_stick_ratio = ContactFacts::unknown;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<RegimeMap>) {
+  using enum Dimension;
+  using S = RegimeMap;
+  visit(&S::velocity, Kept{"velocity", "velocities of the slow motion", Dimension::velocity});
+  visit(&S::excursion, Kept{"excursion", "distances between the turning points", length});
+  visit(&S::regime, Kept{"regime",
+                         "'no slip', 'partial slip', 'sliding' or 'unknown', for each velocity a "
+                         "list over the excursions"});
+  visit(&S::loss_ratio,
+        Kept{"loss_ratio",
+             "energy dissipated over that without slip (velocities, excursions); NaN where the "
+             "excursion is shorter than the way in one normal cycle"});
+  visit(&S::slip_ratio, Kept{"slip_ratio", "part of it from levels that stay closed"});
+  visit(&S::no_slip_excursion,
+        Kept{"no_slip_excursion",
+             "largest excursion without slip at each velocity; 0: none, NaN: all", length});
+  visit(&S::no_slip_velocity, Quantity{"no_slip_velocity", Dimension::velocity,
+                                       "largest velocity of a slow motion without slip"});
+  visit(&S::sliding_excursion,
+        Quantity{"sliding_excursion", length, "excursion from which the contact slides"});
+  visit(&S::critical_velocity,
+        Quantity{"critical_velocity", Dimension::velocity, "velocity from which nothing sticks"});
+  visit(&S::full_stick_ratio,
+        Quantity{"full_stick_ratio", dimensionless,
+                 "energy dissipated in a cycle without slip over its small-amplitude form"});
+}
+
 /// throws  InvalidInput for a velocity, an excursion, an amplitude, a frequency or a μ that is not
 ///         > 0, and as relaxation_damping()
 /// cost    some 10 ms, 1 ms for each velocity, and 256 evaluations of the law for each velocity and

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <limits>
+#include <salebra/base/describe.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/base/words.hpp>
 #include <salebra/damping/damper.hpp>
+#include <salebra/damping/quantities.hpp>
 #include <vector>
 
 /// A slider on a spring: stick–slip, and the normal oscillation that suppresses it.
@@ -22,6 +24,19 @@ struct Slider {
   double support_damping = 0;   ///< c >= 0, N s/m
   double falling_slope = 0;     ///< b >= 0, N s/m
 };
+
+constexpr void describe(auto&& visit, std::type_identity<Slider>) {
+  using enum Dimension;
+  using S = Slider;
+  visit(&S::mass, Quantity{"mass", Dimension::mass, "mass of the oscillator"});
+  visit(&S::spring_stiffness,
+        Quantity{"spring_stiffness", stiffness, "stiffness of the spring, without the contact"});
+  visit(&S::velocity, Quantity{"velocity", Dimension::velocity, "sliding velocity"});
+  visit(&S::support_damping, Quantity{"support_damping", damping,
+                                      "damping constant of the dashpot parallel to the spring"});
+  visit(&S::falling_slope,
+        Quantity{"falling_slope", damping, "decrease of friction with velocity"});
+}
 
 enum class SliderStart {
   rest,    ///< at rest, dragged to the point of slipping
@@ -69,7 +84,8 @@ struct SliderMotion {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   SliderState state = SliderState::steady;
   double slider_amplitude = unknown;  ///< half the range of x − Vt in a slow cycle, m; 0: steady
-  double slider_period = unknown;     ///< of a slow cycle, s; NaN: steady
+  double slider_amplitude_error = unknown;  ///< m: halved steps, and the spread of the cycles
+  double slider_period = unknown;           ///< of a slow cycle, s; NaN: steady
   /// Part of the time in which not all levels slip in a normal period, so that the contact as a
   /// whole stays where it is.
   double stuck_fraction = unknown;
@@ -83,8 +99,7 @@ struct SliderMotion {
   /// What the balance of these and of the stored energy leaves, over drive_power: error of the
   /// steps.
   double energy_error = unknown;
-  double slider_amplitude_error = unknown;  ///< m: halved steps, and the spread of the cycles
-  int cycles = 0;                           ///< slow cycles that were averaged
+  int cycles = 0;          ///< slow cycles that were averaged
   bool converged = false;  ///< whether a motion that repeats was found, to the tolerance
   /// Some last cycles, where δ is least.
   std::vector<double> time;              ///< s
@@ -92,6 +107,43 @@ struct SliderMotion {
   std::vector<double> slider_velocity;   ///< ẋ, m/s
   std::vector<double> tangential_force;  ///< T, N; of the averaged equation its mean T̄
 };
+
+constexpr void describe(auto&& visit, std::type_identity<SliderMotion>) {
+  using enum Dimension;
+  using S = SliderMotion;
+  visit(&S::state,
+        Quantity{"state", dimensionless,
+                 "sliding at the velocity of the drive, slowly pulsating, or stick-slip"});
+  visit(&S::slider_amplitude,
+        Quantity{"slider_amplitude", length,
+                 "half the range of the displacement from the drive's in a slow cycle"});
+  visit(&S::slider_amplitude_error,
+        Quantity{"slider_amplitude_error", length, "numerical error of slider_amplitude"});
+  visit(&S::slider_period, Quantity{"slider_period", Dimension::time, "period of a slow cycle"});
+  visit(&S::stuck_fraction,
+        Quantity{"stuck_fraction", dimensionless, "part of the time in which the slider sticks"});
+  visit(&S::mean_tangential_force,
+        Quantity{"mean_tangential_force", force, "tangential force, mean over a cycle"});
+  visit(&S::friction_coefficient, quantity::friction_coefficient);
+  visit(&S::max_spring_force,
+        Quantity{"max_spring_force", force, "largest force of the spring in a slow cycle"});
+  visit(&S::drive_power, Quantity{"drive_power", power, "mean power of the drive"});
+  visit(&S::contact_power,
+        Quantity{"contact_power", power, "mean power dissipated by the contact"});
+  visit(&S::support_power,
+        Quantity{"support_power", power, "mean power dissipated by the dashpot"});
+  visit(&S::falling_slope_power,
+        Quantity{"falling_slope_power", power,
+                 "mean power by which the falling slope lowers the dissipation"});
+  visit(&S::energy_error,
+        Quantity{"energy_error", dimensionless, "rest of the energy balance over drive_power"});
+  visit(&S::cycles, Kept{"cycles", "slow cycles that were averaged"});
+  visit(&S::converged, Kept{"converged", "false: do not use the numbers"});
+  visit(&S::time, quantity::time);
+  visit(&S::slider_offset, Quantity{"slider_offset", length, "displacement from the drive's"});
+  visit(&S::slider_velocity, Quantity{"slider_velocity", velocity, "velocity of the slider"});
+  visit(&S::tangential_force, quantity::tangential_force);
+}
 
 /// The full equation: T from the contact's levels with the history of each (TangentialContact),
 /// step by step until the motion repeats. Steps of second order; the motion is followed with
@@ -116,19 +168,34 @@ SliderMotion averaged_slider_motion(const ContactLaw& law, const Position& posit
 /// What becomes of a small disturbance of steady sliding.
 struct SliderStability {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double sliding_damping = unknown;       ///< dT̄/dv at V, by steady_sliding(), N s/m
-  double averaged_growth_rate = unknown;  ///< 1/s, of m s² + (dT̄/dv + c − b)s + k; < 0: it dies
-                                          ///< out
-  double growth_rate = unknown;           ///< of the full equation, 1/s
-  /// What has to take the place of dT̄/dv for the mass and the spring alone to have the full
-  /// equation's growth, N s/m; NaN where K_t/m is so large that the contact swings within a period.
-  double slider_damping = unknown;
+  double sliding_damping = unknown;  ///< dT̄/dv at V, by steady_sliding(), N s/m
   /// Of sliding_damping beside slider_damping, N s/m: what the mass does within a period. NaN: too
   /// much for an estimate.
   double sliding_damping_error = unknown;
+  /// What has to take the place of dT̄/dv for the mass and the spring alone to have the full
+  /// equation's growth, N s/m; NaN where K_t/m is so large that the contact swings within a period.
+  double slider_damping = unknown;
+  double growth_rate = unknown;           ///< of the full equation, 1/s
+  double averaged_growth_rate = unknown;  ///< 1/s, of m s² + (dT̄/dv + c − b)s + k; < 0: it dies
+                                          ///< out
   bool converged =
       false;  ///< false: no steady sliding without turning back was found; growth_rate is NaN
 };
+
+constexpr void describe(auto&& visit, std::type_identity<SliderStability>) {
+  using enum Dimension;
+  using S = SliderStability;
+  visit(&S::sliding_damping, Quantity{"sliding_damping", damping,
+                                      "growth of the mean friction force with velocity, dT/dv"});
+  visit(&S::sliding_damping_error, Quantity{"sliding_damping_error", damping,
+                                            "error of sliding_damping by the slider's mass"});
+  visit(&S::slider_damping,
+        Quantity{"slider_damping", damping, "sliding_damping of the full equation of motion"});
+  visit(&S::growth_rate, Kept{"growth_rate", "growth of a disturbance by the full equation, 1/s"});
+  visit(&S::averaged_growth_rate,
+        Kept{"averaged_growth_rate", "growth of a disturbance by the averaged equation, 1/s"});
+  visit(&S::converged, Kept{"converged", "false: no sliding without turning back was found"});
+}
 
 /// While the slider never turns back, all levels that touch are at the limit of their stretch
 /// whenever δ is least: the state there is (x − Vt, ẋ) and a period of the full equation is a map
@@ -153,6 +220,14 @@ struct SliderThreshold {
   /// the range.
   double linear_estimate_error = unknown;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<SliderThreshold>) {
+  using S = SliderThreshold;
+  visit(&S::value, Kept{"value", "threshold of the full equation"});
+  visit(&S::linear_estimate, Kept{"linear_estimate", "threshold where dT/dv + c = b"});
+  visit(&S::linear_estimate_error,
+        Kept{"linear_estimate_error", "error of linear_estimate by the slider's mass"});
+}
 
 /// Both look upwards from where v_c = V, below which nothing sticks, in ratios of 1.05. The
 /// estimate has an upper end too, for Γ falls with either.

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <limits>
+#include <salebra/base/describe.hpp>
 #include <salebra/damping/damper.hpp>
+#include <salebra/damping/quantities.hpp>
 #include <span>
 #include <vector>
 
@@ -11,22 +13,47 @@ namespace salebra {
 /// A contact that slides steadily at constant velocity while it oscillates in the normal direction.
 struct SteadySliding {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double indentation = unknown;            ///< δ0, m
-  double mean_tangential_force = unknown;  ///< T̄, N
-  double mean_force = unknown;             ///< F̄, mean normal force of the cycle, N
-  double friction_coefficient = unknown;   ///< T̄/F̄: what a slow observer measures
-  /// μF(δ_min)/F̄: limit of the former as v → 0, the friction to be overcome to start.
-  double static_friction_coefficient = unknown;
+  double indentation = unknown;        ///< δ0, m
+  double mean_force = unknown;         ///< F̄, mean normal force of the cycle, N
   double critical_velocity = unknown;  ///< v_c = μK/K_t·u_z ω, m/s; T̄ = μF̄ from it on
+  /// μF(δ_min)/F̄: limit of T̄/F̄ as v → 0, the friction to be overcome to start.
+  double static_friction_coefficient = unknown;
   double low_speed_damping =
       unknown;  ///< Γ, N s/m: T̄ = μF(δ_min) + Γv + O(v^{3/2}); NaN for u_z = 0
+  double relaxation_damping = unknown;     ///< γ of case (b) without slip, N s/m
+  double mean_tangential_force = unknown;  ///< T̄, N
+  double friction_coefficient = unknown;   ///< T̄/F̄: what a slow observer measures
   double sliding_damping = unknown;  ///< dT̄/dv at this velocity, N s/m: Γ as v → 0, 0 from v_c on
-  double relaxation_damping = unknown;  ///< γ of case (b) without slip, N s/m
-  double relaxation_work = unknown;     ///< lost per period by levels that open and close, J
-  double slip_work = unknown;           ///< lost per period by levels that stay closed, J
-  double error_estimate = unknown;      ///< of mean_tangential_force, N: quadrature, not the law's
-  bool converged = false;               ///< whether the quadratures reached the tolerance
+  double relaxation_work = unknown;  ///< lost per period by levels that open and close, J
+  double slip_work = unknown;        ///< lost per period by levels that stay closed, J
+  double error_estimate = unknown;   ///< of mean_tangential_force, N: quadrature, not the law's
+  bool converged = false;            ///< whether the quadratures reached the tolerance
 };
+
+constexpr void describe(auto&& visit, std::type_identity<SteadySliding>) {
+  using enum Dimension;
+  using S = SteadySliding;
+  visit(&S::indentation, Kept{"indentation", "mean indentation of the cycle", length});
+  visit(&S::mean_force, quantity::mean_force);
+  visit(&S::critical_velocity,
+        Quantity{"critical_velocity", velocity, "velocity from which nothing sticks"});
+  visit(&S::static_friction_coefficient,
+        Quantity{"static_friction_coefficient", dimensionless, "friction coefficient as v -> 0"});
+  visit(&S::low_speed_damping,
+        Quantity{"low_speed_damping", damping, "damping constant of slow sliding, Eq. (S2)"});
+  visit(&S::relaxation_damping,
+        Quantity{"relaxation_damping", damping, "damping constant without slip, case (b)"});
+  visit(&S::mean_tangential_force,
+        Quantity{"mean_tangential_force", force, "tangential force, mean over a cycle"});
+  visit(&S::friction_coefficient, quantity::friction_coefficient);
+  visit(&S::sliding_damping, Quantity{"sliding_damping", damping,
+                                      "growth of the mean friction force with velocity, dT/dv"});
+  visit(&S::relaxation_work, quantity::relaxation_work);
+  visit(&S::slip_work, quantity::slip_work);
+  visit(&S::error_estimate,
+        Kept{"error_estimate", "numerical error of mean_tangential_force", force});
+  visit(&S::converged, Kept{"converged", "false: do not use the numbers"});
+}
 
 /// Mean tangential force of steady sliding with Coulomb's friction under a normal oscillation δ =
 /// δ0 − u_z cosφ. A level ζ of indentation sticks or slips at the stretch limit (μK/K_t)(δ − ζ).

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/oscillation.hpp>
+#include <salebra/damping/quantities.hpp>
 #include <vector>
 
 namespace salebra {
@@ -51,6 +53,17 @@ struct StressMap {
   Field shear;                           ///< τ (phases, radii), Pa
   Field contact_pressure;                ///< p (phases, radii), Pa
 };
+
+constexpr void describe(auto&& visit, std::type_identity<StressMap>) {
+  using enum Dimension;
+  using S = StressMap;
+  visit(&S::angle, Quantity{"angle", Dimension::angle, "phase of the normal motion, 0 at its top"});
+  visit(&S::radial_position, Quantity{"radial_position", length, "distance from the axis"});
+  visit(&S::contact_radius, Quantity{"contact_radius", length, "contact radius"});
+  visit(&S::tangential_force, quantity::tangential_force);
+  visit(&S::shear, Quantity{"shear", pressure, "tangential stress, Eq. (17)"});
+  visit(&S::contact_pressure, Quantity{"contact_pressure", pressure, "contact pressure"});
+}
 
 /// The map of Fig. 4: `phases` + 1 angles from −π to π, both ends included, and `radii` cells from
 /// 0 to 1.05 times the largest contact radius, with the stresses at their middles. In parallel over

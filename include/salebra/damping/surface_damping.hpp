@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <optional>
+#include <salebra/base/describe.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/base/words.hpp>
 #include <salebra/contact/half_space/half_space.hpp>
@@ -10,6 +11,7 @@
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
+#include <salebra/damping/quantities.hpp>
 #include <vector>
 
 namespace salebra {
@@ -90,6 +92,33 @@ struct SurfaceDamping {
 
   double damping_constant_error() const { return error * damping_constant / work_per_cycle; }
 };
+
+constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
+  using enum Dimension;
+  using S = SurfaceDamping;
+  visit(&S::work_per_cycle, quantity::work_per_cycle);
+  visit(&S::damping_constant, quantity::damping_constant);
+  visit(&S::error,
+        Kept{"error", "error of work_per_cycle: root of the sum of the squares of all that follow",
+             energy});
+  visit(&S::cell_error, Kept{"cell_error", "error by the size of the cells", energy});
+  visit(&S::scatter,
+        Kept{"scatter", "error by the chance at which whole cells, and spots, touch", energy});
+  visit(&S::level_error, Kept{"level_error", "error by the number of levels", energy});
+  visit(&S::ratio_error, Kept{"ratio_error", "error of K_t/((G*/E*)K)", energy});
+  visit(
+      &S::seam_error,
+      Kept{"seam_error",
+           "error by the edges of a surface that is not periodic; 0 where not asked for", energy});
+  visit(&S::solver_error, Kept{"solver_error", "error by the solver's tolerance", energy});
+  visit(&S::stiffness_ratio, Kept{"stiffness_ratio", "K_t/((G*/E*)K)"});
+  visit(&S::window, Kept{"window", "half the range of indentations that were solved", length});
+  visit(&S::levels, Kept{"levels", "intervals between contact levels"});
+  visit(&S::points, Kept{"points", "points along x of the grid that work_per_cycle belongs to"});
+  visit(&S::converged, Kept{"converged", "false: do not use work_per_cycle"});
+  visit(&S::damping_constant_error,
+        Quantity{"damping_constant_error", damping, "numerical error of the damping constant"});
+}
 
 /// Relaxation damping of one surface at each load of its curve, from contacts at indentations
 /// inside the oscillation, and no interpolation between loads: W = ½∮ s² dK_t by parts

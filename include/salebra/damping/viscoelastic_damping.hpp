@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/contact/mdr/viscoelastic.hpp>
 #include <salebra/damping/oscillation.hpp>
+#include <salebra/damping/quantities.hpp>
 #include <vector>
 
 namespace salebra {
@@ -30,6 +32,29 @@ struct ViscoelasticDamping {
   /// exceed some 1e9 periods.
   bool converged = false;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<ViscoelasticDamping>) {
+  using enum Dimension;
+  using S = ViscoelasticDamping;
+  visit(&S::work_per_cycle, quantity::work_per_cycle);
+  visit(&S::normal_material_work,
+        Quantity{"normal_material_work", energy,
+                 "energy dissipated in a cycle by the material under normal motion"});
+  visit(&S::tangential_material_work,
+        Quantity{"tangential_material_work", energy,
+                 "energy dissipated in a cycle by the material under tangential motion"});
+  visit(&S::relaxation_work, quantity::relaxation_work);
+  visit(&S::power, quantity::power);
+  visit(&S::damping_constant, quantity::damping_constant);
+  visit(&S::force,
+        Kept{"force", "normal force at the samples of the trajectory", Dimension::force});
+  visit(&S::mean_force, quantity::mean_force);
+  visit(&S::min_contact_radius,
+        Quantity{"min_contact_radius", length, "contact radius at the minimum indentation"});
+  visit(&S::max_contact_radius,
+        Quantity{"max_contact_radius", length, "contact radius at the maximum indentation"});
+  visit(&S::converged, Kept{"converged", "false: do not use the losses"});
+}
 
 /// Steady state of a viscoelastic body under a periodic trajectory without slip. Springs of the
 /// foundation as in viscoelastic_indentation(), of the tangential stiffness G* where they have E*

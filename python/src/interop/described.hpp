@@ -31,6 +31,22 @@ inline std::string described_text(const Part& part) {
   return described_text(part.meaning, Dimension::dimensionless);
 }
 
+/// Words of an enumeration, or of lists of them.
+template <class Value>
+constexpr bool has_words = std::is_enum_v<Value>;
+template <class Item>
+constexpr bool has_words<std::vector<Item>> = has_words<Item>;
+
+inline auto words(const auto& value) {
+  if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>) {
+    return std::string(word_of(value));
+  } else {
+    std::vector<decltype(words(value.front()))> all;
+    for (const auto& item : value) all.push_back(words(item));
+    return all;
+  }
+}
+
 /// A read-only property of a described member: views of arrays, words of enumerations, the columns
 /// of a table.
 template <class Bound, class Member, class Line>
@@ -47,11 +63,10 @@ void described_property(nb::class_<Bound>& bound, Member member, const Line& lin
     const std::string name(line.name), text = described_text(line);
     if constexpr (requires(const Value& value) { view(value, nb::handle()); })
       view_property(bound, name.c_str(), member, text.c_str());
-    else if constexpr (std::is_enum_v<Value>)
+    else if constexpr (has_words<Value>)
       bound.def_prop_ro(
           name.c_str(),
-          [member](const Bound& self) { return std::string(word_of(std::invoke(member, self))); },
-          text.c_str());
+          [member](const Bound& self) { return words(std::invoke(member, self)); }, text.c_str());
     else if constexpr (std::is_member_object_pointer_v<Member>)
       bound.def_ro(name.c_str(), member, text.c_str());
     else

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <complex>
+#include <salebra/base/describe.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
 #include <span>
 #include <vector>
@@ -15,6 +16,13 @@ struct PronyTerm {
   double modulus = 0;          ///< G > 0, Pa
   double relaxation_time = 0;  ///< τ > 0, s
 };
+
+constexpr void describe(auto&& visit, std::type_identity<PronyTerm>) {
+  using enum Dimension;
+  using S = PronyTerm;
+  visit(&S::modulus, Kept{"modulus", "shear modulus of the term", pressure});
+  visit(&S::relaxation_time, Quantity{"relaxation_time", Dimension::time, "relaxation time"});
+}
 
 /// Shear relaxation modulus of an isotropic material, G(t) = G∞ + Σ G_i exp(−t/τ_i): one term is
 /// the standard linear solid, none is elastic. Poisson's ratio is taken as constant; 1/2 is the
@@ -34,6 +42,16 @@ struct PronySeries {
   void validate() const;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<PronySeries>) {
+  using enum Dimension;
+  using S = PronySeries;
+  visit(&S::relaxed_modulus,
+        Quantity{"relaxed_modulus", pressure, "shear modulus after a long time"});
+  visit(&S::terms, Kept{"terms", "moduli and relaxation times"});
+  visit(&S::unrelaxed_modulus,
+        Quantity{"unrelaxed_modulus", pressure, "shear modulus after a short time"});
+}
+
 /// The contact along a path, and the springs of the foundation at its end.
 struct ViscoelasticIndentation {
   std::vector<double> force;            ///< F at the samples, N
@@ -44,6 +62,19 @@ struct ViscoelasticIndentation {
   std::vector<double>
       spring_displacement;  ///< w(x) at the last sample, m, > δ − g(x) outside the contact
 };
+
+constexpr void describe(auto&& visit, std::type_identity<ViscoelasticIndentation>) {
+  using enum Dimension;
+  using S = ViscoelasticIndentation;
+  visit(&S::force, Kept{"force", "normal force at the samples", Dimension::force});
+  visit(&S::contact_radius, Kept{"contact_radius", "contact radius at the samples", length});
+  visit(&S::spring_position, Kept{"spring_position", "position of the springs", length});
+  visit(
+      &S::spring_load,
+      Kept{"spring_load", "load of both sides on a spring at the last sample over its width, N/m"});
+  visit(&S::spring_displacement,
+        Kept{"spring_displacement", "displacement of the springs at the last sample", length});
+}
 
 /// A body at rest, never touched before, is indented along δ(t), straight between the samples. Each
 /// spring of the foundation obeys
