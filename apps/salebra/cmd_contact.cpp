@@ -11,6 +11,8 @@
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
+#include <salebra/results/columns.hpp>
+#include <salebra/results/describe.hpp>
 #include <salebra/results/quantity_group.hpp>
 
 #include "contact_checkpoint.hpp"
@@ -83,12 +85,9 @@ void write_contact(const ContactArguments& arguments, const Session& session, co
     if (has_pressure) group.dataset("contact_pressure", state.pressure, "x", "y", type);
     if (has_gap) group.dataset("gap", state.gap, "x", "y", type);
     group.attribute("pressure", state.mean_pressure);
-    group.attribute("force", state.force);
-    group.attribute("mean_gap", state.mean_gap);
-    group.attribute("indentation", state.indentation);
-    group.attribute("contact_area_fraction", state.contact_area_fraction);
-    group.attribute("elastic_energy", state.elastic_energy);
-    group.attribute("residual", state.residual);
+    for_each_number<NormalContactState>([&](const auto& number, const Quantity& quantity) {
+      group.attribute(std::string(quantity.name), number(state));
+    });
   });
   file->commit();
 }
@@ -201,18 +200,9 @@ void run(const ContactArguments& arguments, Session& session) {
                     session.write_options());
   }
   Json answer = {{"pressure", state.mean_pressure},
-                 {"force", state.force},
-                 {"contact_area_fraction", state.contact_area_fraction},
-                 {"mean_gap", state.mean_gap},
-                 {"indentation", state.indentation},
-                 {"max_pressure", max_pressure(session.ranks(), state)},
-                 {"elastic_energy", state.elastic_energy},
-                 {"iterations", state.iterations},
-                 {"fft_count", state.fft_count},
-                 {"ladder_count", state.ladder_count},
-                 {"residual", state.residual},
-                 {"converged", state.converged},
-                 {"seconds", elapsed.count()}};
+                 {"max_pressure", max_pressure(session.ranks(), state)}};
+  answer.add(json_of(state));
+  answer["seconds"] = elapsed.count();
   add_first_loading(answer, first_loading);
   if (arguments.stiffness && state.converged) {
     const double stiffness = normal_stiffness(state, surface.grid, contact_modulus, options);

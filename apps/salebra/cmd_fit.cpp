@@ -2,12 +2,11 @@
 // `salebra fit`: exponential law of a force curve from a file, with its test.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/contact/law/fit.hpp>
+#include <salebra/results/columns.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
 #include "answer_file.hpp"
@@ -25,10 +24,6 @@ struct FitArguments {
   std::vector<double> window;
   std::string weights = "spacing";
 };
-
-constexpr std::array weightings{std::pair{"spacing", FitWeights::spacing},
-                                std::pair{"equal", FitWeights::equal},
-                                std::pair{"force", FitWeights::force}};
 
 std::string length_text(double value) { return format_quantity(value, Dimension::length, 3); }
 
@@ -57,30 +52,22 @@ void run(const FitArguments& arguments, Session& session) {
             "--pressure-window", arguments.window.size(), "values must be two, LOWER,UPPER");
     window = PressureWindow{arguments.window[0], arguments.window[1], 0};
   }
-  const FitWeights weights = std::ranges::find(weightings, arguments.weights, [](const auto& item) {
-                               return std::string(item.first);
-                             })->second;
+  const FitWeights weights = *value_of<FitWeights>(arguments.weights);
   const ExponentialFit fit = fit_exponential(curve, window, weights);
   const bool noisy = weights != FitWeights::spacing;
-  Json answer = {{"decay_length", fit.decay_length}};
-  if (noisy) {
-    answer["decay_length_low"] = fit.decay_length_low;
-    answer["decay_length_high"] = fit.decay_length_high;
-  }
-  answer["reference_pressure"] = fit.reference_pressure;
-  answer["r_squared"] = fit.r_squared;
-  answer["window"] = {{"pressure_min", fit.window.pressure_min},
-                      {"pressure_max", fit.window.pressure_max},
-                      {"points", fit.window.points}};
-  answer["decay_length_over_rms_height"] = fit.decay_length_over_rms_height;
+  Json answer = json_of(fit);
+  for (const char* name : {"pressure_min", "pressure_max"}) answer.erase(name);
+  if (!noisy)
+    for (const char* name : {"decay_length_low", "decay_length_high"}) answer.erase(name);
+  answer["window"] = json_of(fit.window);
+  answer["window"]["points"] = fit.window.points;
   Json by_weights = Json::object();
-  for (const auto& [name, other] : weightings)
+  for (const auto& [other, name] : Words<FitWeights>::values)
     by_weights[name] = fit_exponential(curve, window, other).decay_length;
   answer["weights"] = arguments.weights;
   answer["decay_length_by_weights"] = by_weights;
   const WindowSensitivity parts = window_sensitivity(curve, window, weights);
-  answer["window_sensitivity"] = {{"decay_length_min", parts.decay_length_min},
-                                  {"decay_length_max", parts.decay_length_max}};
+  answer["window_sensitivity"] = json_of(parts);
   std::string verdict = "Four samples in the window would be needed to test the law.\n";
   if (fit.window.points >= 4) {
     const ExponentialTest test = test_exponential(curve, window, weights);
@@ -95,8 +82,7 @@ void run(const FitArguments& arguments, Session& session) {
   write_answer(session, "fit", answer);
   // Too long for the answer in words, and not a part of the fit.
   Json complete = answer;
-  const LocalDecayLength local = local_decay_length(curve);
-  complete["local"] = {{"mean_gap", local.mean_gap}, {"local_decay_length", local.decay_length}};
+  complete["local"] = lists_of(local_decay_length(curve));
   if (session.has_plot()) session.plot(curve_figure(curve, fit));
   session.answer(complete, to_text(answer) + "\n" + verdict);
 }
@@ -117,12 +103,11 @@ void add_fit_command(Program& program) {
       ->file(FileUse::input);
   add_values(command, "--pressure-window", arguments->window, Dimension::pressure,
              "LOWER,UPPER; default: mean gaps of 1 to 2.5 rms heights");
-  command
-      .add_option("--weights", arguments->weights,
-                  "what a sample counts: spacing, the length of gap it stands for (computed "
-                  "curves); equal (noise in proportion to F); force, F^2 (noise of one size). The "
-                  "last two give a 95 % interval of l too")
-      ->choices({"spacing", "equal", "force"});
+  add_choice<FitWeights>(
+      command, "--weights", arguments->weights,
+      "what a sample counts: spacing, the length of gap it stands for (computed curves); equal "
+      "(noise in proportion to F); force, F^2 (noise of one size). The last two give a 95 % "
+      "interval of l too");
 }
 
 }  // namespace salebra::cli

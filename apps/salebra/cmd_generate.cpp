@@ -68,10 +68,7 @@ Json rms_of(const SpectralMoments& moments) {
 
 Json all_of(const SpectralMoments& moments) {
   Json object = rms_of(moments);
-  object["moment0"] = moments.moment0;
-  object["moment2"] = moments.moment2();
-  object["moment4"] = moments.moment4();
-  object["nayak"] = moments.nayak();
+  object.add(json_of(moments));
   return object;
 }
 
@@ -146,10 +143,8 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
           fmt::format("generate: the spectrum still changes after {} iterations; "
                       "raise --max-iterations",
                       made.iterations));
-    answer["distribution"] = {{"name", distribution->name},
-                              {"iterations", made.iterations},
-                              {"spectrum_mismatch", made.spectrum_mismatch},
-                              {"converged", made.converged}};
+    answer["distribution"] = {{"name", distribution->name}};
+    answer["distribution"].add(json_of(made));
     return std::move(made.surface);
   }
   if (method == "random-phase")
@@ -231,7 +226,7 @@ void run(const GenerateArguments& arguments, Session& session) {
   const Grid2D grid = grid_of(arguments);
   for (const std::string& line : doubts_of_cells(grid)) session.warn(line);
   if (arguments.dry_run.dry_run) return estimate(arguments, grid, session);
-  Json answer = {{"nx", grid.nx}, {"ny", grid.ny}, {"size_x", grid.lx}, {"size_y", grid.ly}};
+  Json answer = Json::object();
   Surface surface;
   if (arguments.shape.given()) {
     surface = arguments.shape.surface(grid);
@@ -250,20 +245,12 @@ void run(const GenerateArguments& arguments, Session& session) {
   }
   if (!arguments.crop.empty()) {
     surface = cropped(arguments, surface);
-    answer["nx"] = surface.grid.nx;
-    answer["ny"] = surface.grid.ny;
-    answer["size_x"] = surface.grid.lx;
-    answer["size_y"] = surface.grid.ly;
     answer["periodic"] = surface.periodic;
   }
   // Wave by wave where the surface is periodic, by differences of its points elsewhere.
   if (surface.periodic || (surface.grid.nx >= 3 && surface.grid.ny >= 3))
     answer["realised"] = all_of(surface_moments(surface));
-  if (arguments.non_gaussian()) {
-    const HeightStatistics heights = height_statistics(surface);
-    answer["realised"]["skewness"] = heights.skewness;
-    answer["realised"]["kurtosis"] = heights.kurtosis;
-  }
+  if (arguments.non_gaussian()) answer["realised"].add(json_of(height_statistics(surface)));
   if (session.stopped()) throw Interrupted("generate: interrupted; no surface was written");
   if (session.has_output()) {
     Provenance provenance = session.provenance();
@@ -274,7 +261,9 @@ void run(const GenerateArguments& arguments, Session& session) {
     session.note("no file was written; add --output FILE to keep the surface");
   }
   if (session.has_plot()) session.plot(surface_figure(surface, spectrum_of(surface)));
-  session.answer(answer);
+  Json whole = json_of(surface.grid);
+  whole.add(answer);
+  session.answer(whole);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/results/columns.hpp>
 #include <salebra/results/force_curve_file.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/summits.hpp>
@@ -33,12 +34,9 @@ struct DescribedLaw {
 };
 
 Json summits_json(const SummitEnsemble& ensemble) {
-  return Json{{"summit_density", ensemble.density},
-              {"radius", ensemble.radius},
-              {"summit_rms", ensemble.summit_rms},
-              {"mean_height", ensemble.mean_height},
-              {"distribution", std::string(word_of(ensemble.distribution))},
-              {"rms_height", ensemble.rms_height}};
+  Json object = json_of(ensemble);
+  object["distribution"] = word_of(ensemble.distribution);
+  return object;
 }
 
 DescribedLaw of_surface(const GwArguments& arguments, const Material& material, Session& session) {

@@ -2,6 +2,7 @@
 // `salebra info`: short description of a surface file.
 #include <memory>
 #include <salebra/base/error.hpp>
+#include <salebra/results/columns.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/summits.hpp>
 
@@ -15,29 +16,15 @@ namespace {
 
 Json describe(const Surface& surface, const HurstEstimate& hurst) {
   const HeightStatistics heights = height_statistics(surface);
-  const SpectralMoments moments =
-      surface.undefined_points() > 0 ? difference_moments(surface) : surface_moments(surface);
-  const SummitStatistics summits = summit_statistics(find_summits(surface));
-  return {{"nx", surface.grid.nx},
-          {"ny", surface.grid.ny},
-          {"size_x", surface.grid.lx},
-          {"size_y", surface.grid.ly},
-          {"undefined_points", surface.undefined_points()},
-          {"mean", heights.mean},
-          {"rms_height", heights.rms_height},
-          {"rms_slope", moments.rms_slope()},
-          {"skewness", heights.skewness},
-          {"kurtosis", heights.kurtosis},
-          {"moment0", moments.moment0},
-          {"moment2", moments.moment2()},
-          {"moment4", moments.moment4()},
-          {"nayak", moments.nayak()},
-          {"hurst", {{"value", hurst.value}, {"low", hurst.low}, {"high", hurst.high}}},
-          {"summits",
-           {{"summit_density", summits.density},
-            {"mean_height", summits.mean_height},
-            {"rms_height", summits.rms_height},
-            {"mean_radius", summits.mean_radius}}}};
+  Json answer = json_of(surface.grid);
+  answer["undefined_points"] = surface.undefined_points();
+  answer["mean"] = heights.mean;
+  answer.add(json_of(heights));
+  answer.add(json_of(surface.undefined_points() > 0 ? difference_moments(surface)
+                                                    : surface_moments(surface)));
+  answer["hurst"] = {{"value", hurst.value}, {"low", hurst.low}, {"high", hurst.high}};
+  answer["summits"] = json_of(summit_statistics(find_summits(surface)));
+  return answer;
 }
 
 void run(const SurfaceOptions& options, Session& session) {

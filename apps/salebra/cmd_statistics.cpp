@@ -2,7 +2,6 @@
 // `salebra statistics`: roughness parameters, spectra and correlations of a surface.
 #include <fmt/format.h>
 
-#include <limits>
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/surface/areal_parameters.hpp>
@@ -33,64 +32,30 @@ struct StatisticsArguments {
   std::optional<double> tip_radius, resolution;
 };
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-std::vector<double> as_numbers(const std::vector<Index>& counts) {
-  return {counts.begin(), counts.end()};
-}
-
 ResultTable psd_table(const std::string& name, const ConvertedPsd& psd,
                       const std::vector<Index>& modes) {
   return {name,
           {{"wavenumber", psd.wavenumber, psd.wavenumber_unit},
            {name == "psd" ? "psd" : "profile_psd", psd.psd, psd.psd_unit},
-           {"modes", as_numbers(modes)}},
+           {"modes", {modes.begin(), modes.end()}}},
           psd.normalisation};
-}
-
-ResultTable correlation_table(const std::string& name, const Correlation& correlation) {
-  return {name,
-          {{"distance", correlation.distance},
-           {"autocorrelation", correlation.autocorrelation},
-           {"structure", correlation.structure},
-           {"pairs", correlation.pairs}}};
-}
-
-ResultTable scale_table(const std::string& name, const ScaleDependence& scales) {
-  return {name,
-          {{"spacing", scales.spacing},
-           {"profile_slope", scales.profile_slope},
-           {"profile_curvature", scales.profile_curvature},
-           {"min_curvature", scales.min_curvature},
-           {"stencils", as_numbers(scales.stencils)}}};
 }
 
 std::vector<ResultTable> height_tables(const Surface& surface) {
   const BearingCurve curve(surface);
-  const HeightHistogram histogram = height_histogram(curve);
   std::vector<double> fraction, height;
   for (int percent = 0; percent <= 100; ++percent) {
     fraction.push_back(percent / 100.0);
     height.push_back(curve.height(fraction.back()));
   }
   return {{"bearing", {{"area_fraction", fraction}, {"height", height}}},
-          {"histogram",
-           {{"height", histogram.height},
-            {"height_density", histogram.height_density},
-            {"points", as_numbers(histogram.points)}}}};
-}
-
-Json areal_json(const ArealParameters& p) {
-  return Json{{"Sa", p.Sa},     {"Sq", p.Sq},     {"Ssk", p.Ssk}, {"Sku", p.Sku}, {"Sp", p.Sp},
-              {"Sv", p.Sv},     {"Sz", p.Sz},     {"Sal", p.Sal}, {"Str", p.Str}, {"Std", p.Std},
-              {"Sdq", p.Sdq},   {"Sdr", p.Sdr},   {"Sk", p.Sk},   {"Spk", p.Spk}, {"Svk", p.Svk},
-              {"Smr1", p.Smr1}, {"Smr2", p.Smr2}, {"Spd", p.Spd}, {"Spc", p.Spc}};
+          table_of("histogram", lists_of(height_histogram(curve)))};
 }
 
 Json moments_json(const SpectralMoments& moments) {
-  return Json{{"rms_height", moments.rms_height()}, {"rms_slope", moments.rms_slope()},
-              {"moment0", moments.moment0},         {"moment2", moments.moment2()},
-              {"moment4", moments.moment4()},       {"nayak", moments.nayak()}};
+  Json object = {{"rms_height", moments.rms_height()}};
+  object.add(json_of(moments));
+  return object;
 }
 
 Json interval_json(const IntervalEstimate& estimate) {
@@ -118,36 +83,23 @@ void run(const StatisticsArguments& arguments, Session& session) {
   const Surface surface = arguments.surface.read(session);
   const bool whole = surface.ranks.alone();
   const Index undefined = surface.grid.points() - height_statistics(surface).defined_points;
-  Json answer = {{"nx", surface.grid.nx},
-                 {"ny", surface.grid.ny},
-                 {"size_x", surface.grid.lx},
-                 {"size_y", surface.grid.ly},
-                 {"periodic", surface.periodic},
-                 {"undefined_points", undefined},
-                 {"filled_points", arguments.fill ? undefined : 0},
-                 {"filter", "none"},
-                 {"areal", areal_json(areal_parameters(surface))},
-                 {"differences", moments_json(difference_moments(surface))}};
+  Json answer = json_of(surface.grid);
+  answer.add({{"periodic", surface.periodic},
+              {"undefined_points", undefined},
+              {"filled_points", arguments.fill ? undefined : 0},
+              {"filter", "none"},
+              {"areal", json_of(areal_parameters(surface))},
+              {"differences", moments_json(difference_moments(surface))}});
   if (surface.periodic && undefined == 0)
     answer["spectral"] = moments_json(spectral_moments(surface));
-  const SummitStatistics summits = summit_statistics(find_summits(surface));
-  answer["summits"] = {{"summit_density", summits.density},
-                       {"mean_height", summits.mean_height},
-                       {"rms_height", summits.rms_height},
-                       {"mean_radius", summits.mean_radius}};
-  const ReliabilityLimit limit = short_wavelength_limit(
-      surface, {.tip_radius = arguments.tip_radius, .resolution = arguments.resolution});
-  answer["reliability"] = {{"pixel_limit", limit.pixel},
-                           {"tip_limit", limit.tip.value_or(none)},
-                           {"resolution", limit.resolution.value_or(none)},
-                           {"wavelength", limit.wavelength()}};
+  answer["summits"] = json_of(summit_statistics(find_summits(surface)));
+  answer["reliability"] = json_of(short_wavelength_limit(
+      surface, {.tip_radius = arguments.tip_radius, .resolution = arguments.resolution}));
 
   std::vector<ResultTable> tables;
   Surface without_holes;
   std::optional<PowerSpectrum> spectrum;
   SelfAffineFit fit;
-  fit.hurst.value = fit.hurst.low = fit.hurst.high = none;
-  fit.rolloff = fit.short_cutoff = {none, none, none};
   if (undefined == 0 || arguments.fill) {
     const Surface& complete = undefined == 0 ? surface : (without_holes = filled(surface));
     const Window window = *value_of<Window>(arguments.window);
@@ -170,19 +122,19 @@ void run(const StatisticsArguments& arguments, Session& session) {
         "{} undefined points: no power spectrum; --fill fills them by the smoothest surface",
         undefined));
   }
-  answer["hurst"] = {{"value", fit.hurst.value}, {"low", fit.hurst.low}, {"high", fit.hurst.high}};
+  answer["hurst"] = interval_json(fit.hurst);
   answer["rolloff"] = interval_json(fit.rolloff);
   answer["short_cutoff"] = interval_json(fit.short_cutoff);
   if (whole) {
     const CorrelationMap map = correlation_map(surface);
-    tables.push_back(correlation_table("correlation", radial_correlation(map)));
-    tables.push_back(correlation_table("correlation_x", profile_correlation(map, Axis::x)));
-    tables.push_back(correlation_table("correlation_y", profile_correlation(map, Axis::y)));
+    tables.push_back(table_of("correlation", lists_of(radial_correlation(map))));
+    tables.push_back(table_of("correlation_x", lists_of(profile_correlation(map, Axis::x))));
+    tables.push_back(table_of("correlation_y", lists_of(profile_correlation(map, Axis::y))));
   } else {
     session.note(needs_whole);
   }
-  tables.push_back(scale_table("scale_x", scale_dependence(surface, Axis::x)));
-  tables.push_back(scale_table("scale_y", scale_dependence(surface, Axis::y)));
+  tables.push_back(table_of("scale_x", lists_of(scale_dependence(surface, Axis::x))));
+  tables.push_back(table_of("scale_y", lists_of(scale_dependence(surface, Axis::y))));
   if (whole)
     for (ResultTable& table : height_tables(surface)) tables.push_back(std::move(table));
 

@@ -7,7 +7,8 @@
 
 namespace salebra::cli {
 
-/// A list for each column of ForceSample, without the separation where no sample has one.
+/// A list for each column of ForceSample, without separation and stiffnesses per area where no
+/// sample has them.
 Json to_json(const ForceCurve& curve);
 
 }  // namespace salebra::cli

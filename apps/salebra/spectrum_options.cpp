@@ -7,6 +7,7 @@
 #include <salebra/generators/anisotropic_spectrum.hpp>
 #include <salebra/generators/radial_spectrum.hpp>
 #include <salebra/io/number_table.hpp>
+#include <salebra/results/columns.hpp>
 #include <utility>
 
 #include "options.hpp"
@@ -148,10 +149,7 @@ Json SpectrumOptions::anisotropy() const {
   const Anisotropy stretch{.along = stretch_along.value_or(1),
                            .across = stretch_across.value_or(1),
                            .angle = lay_angle.value_or(0)};
-  Json object = {{"stretch_along", stretch.along},
-                 {"stretch_across", stretch.across},
-                 {"lay_angle", stretch.angle},
-                 {"peklenik", stretch.peklenik()}};
+  Json object = json_of(stretch);
   if (correlation_length) {
     object["correlation_length_along"] = stretch.along * *correlation_length;
     object["correlation_length_across"] = stretch.across * *correlation_length;

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/moments.hpp>
@@ -97,8 +96,6 @@ PlotPanel map_panel(const Grid2D& grid, const Field& values, const std::string& 
 
 SurfaceSpectrum spectrum_of(const Surface& surface) {
   SurfaceSpectrum result;
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  result.hurst.value = result.hurst.low = result.hurst.high = none;
   if (surface.undefined_points() > 0) return result;
   result.spectrum = power_spectrum(surface);
   result.hurst = estimate_hurst(*result.spectrum);

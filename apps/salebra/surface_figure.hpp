@@ -9,8 +9,7 @@
 
 namespace salebra::cli {
 
-/// A spectrum needs every point: without one there is none, and the exponent and its interval are
-/// NaN.
+/// A spectrum needs every point: without one there is none.
 struct SurfaceSpectrum {
   std::optional<PowerSpectrum> spectrum;
   HurstEstimate hurst;  ///< estimated from it

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import pandas
 
 # How a property's text names its unit, at its end: "mean gap, m." or "N/m".
-_UNIT = re.compile(r"(?:^|, |\s)(m|m²|m³|m⁴|1/m|1/m²|Pa|1/Pa|N|N/m|N/m²|N s/m|J|W|s|Hz|rad|rad/s|rad/m|kg|°)(?:$|[.;,])")
+_UNIT = re.compile(r"(?:^|, |\s)(m(?:\^?[²³⁴234])?|1/m(?:²|\^2)?|Pa|1/Pa|N|N/m(?:²|\^2)?|N s/m|J|W|s|Hz|rad|rad/s|rad/m|kg|°)(?:$|[.;,])")
 _PREFIXED = {"m", "Pa", "N", "J", "W", "N/m", "N s/m", "s", "Hz", "rad/s"}
 _PREFIX = {-15: "f", -12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 

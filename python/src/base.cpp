@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bindings of base: errors, units, grids, moments, threads, and the list of works to cite.
-#include <pthread.h>
-
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <salebra/base/error.hpp>
@@ -19,6 +18,7 @@
 
 #include "bindings.hpp"
 #include "interop/citations.hpp"
+#include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -155,19 +155,9 @@ Examples
   m.def("_cited", &cited, "Keys of what this session used.");
   m.def("_forget_citations", &forget_citations, "Begins the list of citations anew.");
 
-  nb::class_<Report>(
+  described_class<Report>(
       m, "ProgressReport",
-      "What a long computation tells: `progress` functions take one and return False to stop.")
-      .def_ro("stage", &Report::stage, "Such as \"contact\", \"sweep\", \"realisation\".")
-      .def_ro("fraction", &Report::fraction,
-              "Of this stage, 0 … 1; a guess where the end is not known.")
-      .def_ro("step", &Report::step, "Iterations or items done.")
-      .def_ro("residual", &Report::residual, "Of an iteration; 0 where there is none.")
-      .def("__repr__", [](const Report& report) {
-        return "ProgressReport(stage='" + report.stage +
-               "', fraction=" + std::to_string(report.fraction) +
-               ", step=" + std::to_string(report.step) + ")";
-      });
+      "What a long computation tells: `progress` functions take one and return False to stop.");
 
   nb::class_<Grid2D>(m, "Grid2D",
                      R"(Regular grid of nx × ny cells on a rectangle of lx × ly metres.
@@ -208,28 +198,13 @@ lx, ly : float
                ", ly=" + format_quantity(grid.ly, Dimension::length) + ")";
       });
 
-  nb::class_<SpectralMoments>(m, "SpectralMoments",
-                              R"(Profile moments along both axes, of a surface or of a spectrum.
+  described_class<SpectralMoments>(
+      m, "SpectralMoments",
+      R"(Profile moments along both axes, of a surface or of a spectrum.
 
 .. math:: m_0 = \langle h^2\rangle,\quad m_2 = \langle(\partial h/\partial x)^2\rangle,\quad
           m_4 = \langle(\partial^2 h/\partial x^2)^2\rangle
-)")
-      .def_ro("moment0", &SpectralMoments::moment0, "m0 = ⟨h²⟩, m².")
-      .def_ro("moment2_x", &SpectralMoments::moment2_x, "⟨(∂h/∂x)²⟩.")
-      .def_ro("moment2_y", &SpectralMoments::moment2_y, "⟨(∂h/∂y)²⟩.")
-      .def_ro("moment4_x", &SpectralMoments::moment4_x, "⟨(∂²h/∂x²)²⟩, 1/m².")
-      .def_ro("moment4_y", &SpectralMoments::moment4_y, "⟨(∂²h/∂y²)²⟩, 1/m².")
-      .def_prop_ro("moment2", &SpectralMoments::moment2, "m2, mean of both axes.")
-      .def_prop_ro("moment4", &SpectralMoments::moment4, "m4, mean of both axes, 1/m².")
-      .def_prop_ro("rms_height", &SpectralMoments::rms_height, "√m0, m.")
-      .def_prop_ro("rms_slope", &SpectralMoments::rms_slope, "``√⟨|∇h|²⟩`` = √(2 m2).")
-      .def_prop_ro("nayak", &SpectralMoments::nayak,
-                   "α = m0 m4/m2²; at least 1.5 for a Gaussian isotropic surface.")
-      .def("__repr__", [](const SpectralMoments& moments) {
-        return describe("SpectralMoments", {{"rms_height", moments.rms_height()},
-                                            {"rms_slope", moments.rms_slope()},
-                                            {"nayak", moments.nayak()}});
-      });
+)");
 }
 
 }  // namespace salebra::python

@@ -28,21 +28,18 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 void bind_material(nb::module_& m) {
-  nb::class_<ElasticBody>(m, "ElasticBody",
-                          "One elastic half-space: Young's modulus E, Pa, and Poisson's ratio ν. "
-                          "An infinite modulus (the "
-                          "default) is a rigid body.")
+  described_class<ElasticBody>(
+      m, "ElasticBody",
+      "One elastic half-space: Young's modulus E, Pa, and Poisson's ratio ν. An infinite modulus "
+      "(the default) is a rigid body.")
       .def(
           "__init__",
           [](ElasticBody* self, double young, double poisson) {
             new (self) ElasticBody{young, poisson};
           },
-          nb::arg("young") = infinite, nb::arg("poisson") = 0.0)
-      .def_ro("young", &ElasticBody::young, "E, Pa.")
-      .def_ro("poisson", &ElasticBody::poisson, "ν.")
-      .def_prop_ro("shear", &ElasticBody::shear, "G = E/(2(1+ν)), Pa.");
+          nb::arg("young") = infinite, nb::arg("poisson") = 0.0);
 
-  nb::class_<Material>(m, "Material", R"(What a contact knows of its two bodies.
+  described_class<Material>(m, "Material", R"(What a contact knows of its two bodies.
 
 .. math:: \frac{1}{E^*} = \sum_i\frac{1-\nu_i^2}{E_i} \quad\text{Eq. (1)}, \qquad
           \frac{1}{G^*} = \sum_i\frac{2-\nu_i}{4G_i} \quad\text{Eq. (2)}
@@ -74,18 +71,7 @@ tangential_modulus : float, optional
           nb::arg("tangential_modulus") = nb::none())
       .def_static("of_bodies", &Material::of_bodies, nb::arg("first"),
                   nb::arg("second") = ElasticBody{},
-                  "The material of two elastic bodies; at least one of them is not rigid.")
-      .def_ro("contact_modulus", &Material::contact_modulus, "E*, Pa.")
-      .def_ro("tangential_modulus", &Material::tangential_modulus,
-              "G*, Pa; NaN where only E* was given.")
-      .def_ro("cerruti_isotropic", &Material::cerruti_isotropic, "Σ (1−ν_i)/(2πG_i), 1/Pa.")
-      .def_ro("cerruti_directed", &Material::cerruti_directed, "Σ ν_i/(2πG_i), 1/Pa.")
-      .def_prop_ro("modulus_ratio", &Material::modulus_ratio,
-                   "G*/E*. Raises InvalidInput where G* is not known.")
-      .def("__repr__", [](const Material& material) {
-        return describe("Material", {{"contact_modulus", material.contact_modulus},
-                                     {"tangential_modulus", material.tangential_modulus}});
-      });
+                  "The material of two elastic bodies; at least one of them is not rigid.");
   m.def("_doubt_of_pressure", &doubt_of_pressure, nb::arg("pressure"), nb::arg("contact_modulus"),
         "What is most likely a slip in the unit of one of them, or None.");
 }
@@ -149,14 +135,12 @@ doi:10.1115/1.2833523.
 )";
 
 void bind_state(nb::module_& m) {
-  nb::class_<BoundContact> state(m, "NormalContactState",
-                                 R"(Result of a normal contact; its fields are views, not copies.
+  auto state = described_class<BoundContact>(
+      m, "NormalContactState", R"(Result of a normal contact; its fields are views, not copies.
 
 Unless `converged`, the numbers describe the last iterate and must not be used as the answer.
 )");
-  view_property(state, "contact_pressure", &NormalContactState::pressure, "(nx, ny), Pa, >= 0.");
-  view_property(state, "gap", &NormalContactState::gap, "(nx, ny), m, >= 0 up to the tolerance.");
-  state.def_ro("grid", &BoundContact::grid, "Points and size.")
+  state
       .def_prop_ro(
           "rows",
           [](const BoundContact& self) { return range_of(Share(self.ranks, self.grid.nx)); },
@@ -180,34 +164,7 @@ Unless `converged`, the numbers describe the last iterate and must not be used a
           nb::arg("root") = 0,
           nb::sig("def gather(self, root: int = 0) -> NormalContactState | None"),
           "The state with its whole fields in one process, None in the others; see "
-          ":meth:`Surface.gather`.")
-      .def_ro("contact_modulus", &BoundContact::contact_modulus, "E*, Pa, as given.")
-      .def_prop_ro(
-          "boundary", [](const BoundContact& self) { return std::string(word_of(self.boundary)); },
-          "\"periodic\" or \"free\", as given.")
-      .def_ro("mean_pressure", &BoundContact::mean_pressure, "Nominal pressure, Pa.")
-      .def_ro("force", &BoundContact::force, "N.")
-      .def_ro("mean_gap", &BoundContact::mean_gap, "ū: mean of the gap over all cells, m.")
-      .def_ro("indentation", &BoundContact::indentation, "Rigid approach from first touch, m.")
-      .def_ro("contact_area_fraction", &BoundContact::contact_area_fraction,
-              "Cells with p > 0 over all cells.")
-      .def_ro("elastic_energy", &BoundContact::elastic_energy,
-              "½∫pu dA with zero-mean u (periodic), J.")
-      .def_ro("residual", &BoundContact::residual, "e_c reached.")
-      .def_ro("iterations", &BoundContact::iterations, "On the finest level.")
-      .def_ro("fft_count", &BoundContact::fft_count,
-              "Forward-and-backward pairs of the finest level.")
-      .def_ro("ladder_count", &BoundContact::ladder_count,
-              "Applications of the near-field ladder there, each in place of a pair.")
-      .def_ro("converged", &BoundContact::converged)
-      .def_ro("interrupted", &BoundContact::interrupted, "The progress function said stop.")
-      .def("__repr__", [](const BoundContact& s) {
-        return describe("NormalContactState",
-                        {{"pressure", s.mean_pressure},
-                         {"mean_gap", s.mean_gap},
-                         {"contact_area_fraction", s.contact_area_fraction}},
-                        s.converged ? "converged=True" : "converged=False");
-      });
+          ":meth:`Surface.gather`.");
   result_methods(state, true);
 }
 
@@ -375,22 +332,10 @@ section 6.4.
 }
 
 void bind_spots(nb::module_& m) {
-  nb::class_<ContactSpot>(m, "ContactSpot", "A connected part of the contact area.")
-      .def_ro("area", &ContactSpot::area, "m²")
-      .def_ro("force", &ContactSpot::force, "N");
-  nb::class_<ContactSpots> spots(m, "ContactSpots",
-                                 "The contact spots, largest area first; columns are views.");
-  spots
-      .def_ro("contact_area_fraction", &ContactSpots::contact_area_fraction,
-              "Cells with p > 0 over all cells.")
-      .def_ro("perimeter", &ContactSpots::perimeter, "Of all spots, along cell edges, m.")
-      .def_ro("corrected_area_fraction", &ContactSpots::corrected_area_fraction,
-              "A/A0 without the cells counted in excess along the edges, A_cells − (π − 1 + ln "
-              "2)/24·perimeter·cell width, "
-              "doi:10.1016/j.triboint.2017.04.023.")
+  described_class<ContactSpot>(m, "ContactSpot", "A connected part of the contact area.");
+  described_class<ContactSpots>(m, "ContactSpots",
+                                "The contact spots, largest area first; columns are views.")
       .def("__len__", [](const ContactSpots& self) { return self.spots.size(); });
-  column_property(spots, "area", &ContactSpots::spots, &ContactSpot::area, "m²");
-  column_property(spots, "force", &ContactSpots::spots, &ContactSpot::force, "N");
   m.def(
       "contact_spots",
       [](const BoundContact& state) {

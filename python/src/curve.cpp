@@ -23,7 +23,7 @@ namespace salebra::python {
 namespace {
 
 void bind_force_curve(nb::module_& m) {
-  nb::class_<ForceCurve> curve(
+  auto curve = described_class<ForceCurve>(
       m, "ForceCurve", R"(What every contact model returns, from the lowest force to the highest.
 
 Columns are views of one table, not copies; a quantity that the model does not have is NaN.
@@ -82,20 +82,7 @@ model : str
       nb::arg("contact_area_fraction") = nb::none(), nb::arg("normal_stiffness") = nb::none(),
       nb::arg("tangential_stiffness") = nb::none(), nb::arg("rms_height") = ForceSample::unknown,
       nb::arg("model") = "measured");
-  describe(
-      [&](auto member, const Quantity& quantity) {
-        column_property(curve, std::string(quantity.name).c_str(), &ForceCurve::samples, member,
-                        described_text(quantity).c_str());
-      },
-      std::type_identity<ForceSample>{});
-  curve.def_ro("model", &ForceCurve::model, "\"bem\", \"greenwood-williamson\", …")
-      .def_ro("nominal_area", &ForceCurve::nominal_area, "A0, m².")
-      .def_ro("rms_height", &ForceCurve::rms_height, "h_rms of the surface, m.")
-      .def("__len__", [](const ForceCurve& self) { return self.samples.size(); })
-      .def("__repr__", [](const ForceCurve& self) {
-        return "ForceCurve(model='" + self.model + "', " + std::to_string(self.samples.size()) +
-               " samples)";
-      });
+  curve.def("__len__", [](const ForceCurve& self) { return self.samples.size(); });
   result_methods(curve, true);
 }
 
@@ -169,11 +156,7 @@ void bind_fit(nb::module_& m) {
   described_class<ExponentialFit>(
       m, "ExponentialFit",
       "p = reference_pressure·exp(−ū/decay_length). The 95 % limits are those of a curve "
-      "with independent noise; the residuals of a computed curve are misfit.")
-      .def("__repr__", [](const ExponentialFit& fit) {
-        return describe("ExponentialFit", {{"decay_length", fit.decay_length},
-                                           {"reference_pressure", fit.reference_pressure}});
-      });
+      "with independent noise; the residuals of a computed curve are misfit.");
   m.def(
       "fit_exponential",
       [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window,
@@ -209,12 +192,7 @@ The interval holds for independent errors of ln p. With a computed curve it meas
       m, "ExponentialTest",
       "Whether ln p bends: ln p = a + b ū + c ū², and Student's t-test of c = 0.")
       .def("refuted", &ExponentialTest::refuted, nb::arg("level") = 0.05,
-           "The law is refuted at this level.")
-      .def("__repr__", [](const ExponentialTest& test) {
-        return describe("ExponentialTest", {{"significance", test.significance},
-                                            {"decay_length_closest", test.decay_length_closest},
-                                            {"decay_length_farthest", test.decay_length_farthest}});
-      });
+           "The law is refuted at this level.");
   m.def(
       "test_exponential",
       [](const ForceCurve& curve, const std::optional<std::pair<double, double>>& window,

@@ -19,6 +19,7 @@
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/described.hpp"
 #include "interop/processes.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
@@ -114,10 +115,12 @@ rms_slope : float, optional
       "for each wave; :class:`TabulatedSpectrum` is not.")
       .def(nb::init<std::function<double(double)>, double, double, std::string>(),
            nb::arg("density"), nb::arg("lowest"), nb::arg("highest"), nb::arg("name") = "function");
-  nb::class_<Anisotropy>(m, "Anisotropy",
-                         "How an isotropic surface is stretched: correlation lengths along·ℓ and "
-                         "across·ℓ; `angle` from the x "
-                         "axis to the direction of `along`, rad.")
+  nb::class_<Anisotropy> stretch(
+      m, "Anisotropy",
+      "How an isotropic surface is stretched: correlation lengths along·ℓ and across·ℓ; `angle` "
+      "from the x axis to the direction of `along`, rad.");
+  value_methods(stretch);
+  stretch
       .def(
           "__init__",
           [](Anisotropy* self, double along, double across, double angle) {
@@ -147,13 +150,8 @@ rms_slope : float, optional
 }
 
 void bind_forecast(nb::module_& m) {
-  nb::class_<Forecast>(m, "Forecast", "What can be said of a generated surface before it is made.")
-      .def_ro("target", &Forecast::target, "Moments of the continuum: what was asked.")
-      .def_ro("lattice", &Forecast::lattice, "What surfaces on this grid have in the mean.")
-      .def_ro("rms_height_scatter", &Forecast::rms_height_scatter,
-              "Relative standard deviation of the rms height of filtered noise.")
-      .def_ro("memory", &Forecast::memory, "Peak memory of the generation, bytes.")
-      .def_ro("warnings", &Forecast::warnings, "Sentences for the user.");
+  described_class<Forecast>(m, "Forecast",
+                            "What can be said of a generated surface before it is made.");
   m.def(
       "forecast",
       [](const Grid2D& grid, const Spectrum& spectrum, const ProgressArgument& progress) {
@@ -298,42 +296,34 @@ void bind_non_gaussian(nb::module_& m) {
       nb::arg("heights"),
       "The distribution of given heights, such as those of a measured surface.");
 
-  struct BoundNonGaussian {
-    NonGaussianSurface result;
-    nb::object surface;
+  struct BoundNonGaussian : NonGaussianSurface {
+    nb::object made;
   };
   nb::class_<BoundNonGaussian> made(m, "NonGaussianSurface",
                                     "A surface and how its iteration ended.");
   plot_method(made);
-  made.def_ro("surface", &BoundNonGaussian::surface, nb::sig("def surface(self) -> Surface"))
-      .def_prop_ro("iterations",
-                   [](const BoundNonGaussian& self) { return self.result.iterations; })
-      .def_prop_ro(
-          "spectrum_mismatch",
-          [](const BoundNonGaussian& self) { return self.result.spectrum_mismatch; },
-          "``√(Σ(|a| − a_target)²/Σa_target²)`` over all modes.")
-      .def_prop_ro(
-          "converged", [](const BoundNonGaussian& self) { return self.result.converged; },
-          "The mismatch has stopped falling.")
-      .def_prop_ro("interrupted",
-                   [](const BoundNonGaussian& self) { return self.result.interrupted; })
+  describe(
+      [&]<class Member>(Member NonGaussianSurface::*member, const auto& line) {
+        if constexpr (!std::is_same_v<Member, Surface>) described_property(made, member, line);
+      },
+      std::type_identity<NonGaussianSurface>{});
+  made.def_ro("surface", &BoundNonGaussian::made, nb::sig("def surface(self) -> Surface"))
       .def(
           "__getstate__",
           [](const BoundNonGaussian& self) {
-            return nb::make_tuple(self.surface, self.result.iterations,
-                                  self.result.spectrum_mismatch, self.result.converged,
-                                  self.result.interrupted);
+            return nb::make_tuple(self.made, self.iterations, self.spectrum_mismatch,
+                                  self.converged, self.interrupted);
           },
           nb::sig("def __getstate__(self) -> tuple[Surface, int, float, bool, bool]"))
       .def(
           "__setstate__",
           [](BoundNonGaussian* self, const nb::tuple& state) {
             new (self) BoundNonGaussian{};
-            self->surface = state[0];
-            self->result.iterations = nb::cast<int>(state[1]);
-            self->result.spectrum_mismatch = nb::cast<double>(state[2]);
-            self->result.converged = nb::cast<bool>(state[3]);
-            self->result.interrupted = nb::cast<bool>(state[4]);
+            self->made = state[0];
+            self->iterations = nb::cast<int>(state[1]);
+            self->spectrum_mismatch = nb::cast<double>(state[2]);
+            self->converged = nb::cast<bool>(state[3]);
+            self->interrupted = nb::cast<bool>(state[4]);
           },
           nb::sig(
               "def __setstate__(self, state: tuple[Surface, int, float, bool, bool], /) -> None"))
@@ -380,12 +370,8 @@ progress : bool or callable
 }
 
 void bind_profiles(nb::module_& m) {
-  nb::class_<Profile> profile(m, "Profile",
-                              "A periodic line of heights: point k lies at x = k·length/n.");
-  profile.def_ro("length", &Profile::length, "m")
-      .def_prop_ro("dx", &Profile::dx, "m")
-      .def_ro("origin", &Profile::origin);
-  view_property(profile, "heights", &Profile::heights, "m");
+  described_class<Profile>(m, "Profile",
+                           "A periodic line of heights: point k lies at x = k·length/n.");
   nb::class_<ProfileSpectrum>(m, "ProfileSpectrum", nb::dynamic_attr(),
                               "Power spectral density C₁(q) of a random profile, h_rms² = ∫C₁ dq.")
       .def("density", &ProfileSpectrum::density, nb::arg("q"), "``C₁(|q|)``, m³.")

@@ -16,6 +16,7 @@
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -23,7 +24,7 @@ namespace salebra::python {
 namespace {
 
 void bind_ensemble(nb::module_& m) {
-  nb::class_<SummitEnsemble>(
+  described_class<SummitEnsemble>(
       m, "SummitEnsemble",
       R"(A statistical ensemble of equal spherical caps whose heights z are distributed as φ(z).
 
@@ -58,22 +59,7 @@ table : list of (float, float)
           nb::kw_only(), nb::arg("summit_density"), nb::arg("radius"), nb::arg("summit_rms") = 0.0,
           nb::arg("mean_height") = 0.0, nb::arg("distribution") = "gaussian",
           nb::arg("rms_height") = ForceSample::unknown,
-          nb::arg("table") = std::vector<std::pair<double, double>>{})
-      .def_ro("summit_density", &SummitEnsemble::density, "η, 1/m².")
-      .def_ro("radius", &SummitEnsemble::radius, "R, m.")
-      .def_ro("summit_rms", &SummitEnsemble::summit_rms, "σ_s, m.")
-      .def_ro("mean_height", &SummitEnsemble::mean_height, "m")
-      .def_prop_ro(
-          "distribution",
-          [](const SummitEnsemble& self) { return std::string(word_of(self.distribution)); })
-      .def_ro("rms_height", &SummitEnsemble::rms_height, "m")
-      .def("__repr__", [](const SummitEnsemble& self) {
-        return describe("SummitEnsemble",
-                        {{"summit_density", self.density},
-                         {"radius", self.radius},
-                         {"summit_rms", self.summit_rms}},
-                        "distribution='" + std::string(word_of(self.distribution)) + "'");
-      });
+          nb::arg("table") = std::vector<std::pair<double, double>>{});
   m.def(
       "summit_ensemble",
       [](const SpectralMoments& moments) {
@@ -103,14 +89,7 @@ Nayak, doi:10.1115/1.3451608; McCool, doi:10.1016/0043-1648(86)90045-1.
 }
 
 void bind_models(nb::module_& m) {
-  nb::class_<AsperityContact>(m, "AsperityContact", "Sums over the summits in contact.")
-      .def_ro("contacts", &AsperityContact::contacts,
-              "N; an expectation for a statistical ensemble.")
-      .def_ro("contact_area", &AsperityContact::contact_area, "A_c, m².")
-      .def_ro("force", &AsperityContact::force, "F, N.")
-      .def_ro("normal_stiffness", &AsperityContact::normal_stiffness, "K, N/m.")
-      .def_ro("force_curvature", &AsperityContact::curvature, "F'', N/m².")
-      .def_ro("converged", &AsperityContact::converged, "Only a model that iterates may say no.");
+  described_class<AsperityContact>(m, "AsperityContact", "Sums over the summits in contact.");
   nb::class_<AsperityModel>(
       m, "AsperityModel", nb::dynamic_attr(),
       "A smooth rigid plane at separation s from the plane z = 0 of an ensemble of summits.")
@@ -277,14 +256,11 @@ void bind_sampling(nb::module_& m) {
       nb::arg("ensemble"), nb::arg("count"), nb::arg("size"), nb::arg("seed"),
       nb::arg("realisation") = 0,
       "Summits drawn from an ensemble over a square of side `size`, m.");
-  nb::class_<MonteCarloCurve> curve(m, "MonteCarloCurve",
-                                    "What surfaces of finite size do: means over realisations.");
-  curve.def_ro("mean", &MonteCarloCurve::mean)
-      .def_ro("realisations", &MonteCarloCurve::realisations)
-      .def_ro("summits", &MonteCarloCurve::summits, "Of each realisation.")
-      .def("interval", &MonteCarloCurve::interval, nb::arg("standard_deviation"),
-           "Half-width of the 95 % interval of the mean of a quantity with this standard "
-           "deviation.");
+  auto curve = described_class<MonteCarloCurve>(
+      m, "MonteCarloCurve", "What surfaces of finite size do: means over realisations.");
+  curve.def("interval", &MonteCarloCurve::interval, nb::arg("standard_deviation"),
+            "Half-width of the 95 % interval of the mean of a quantity with this standard "
+            "deviation.");
   column_property(curve, "force_deviation", &MonteCarloCurve::deviation, &AsperityContact::force,
                   "Standard deviation of F over realisations, N.");
   column_property(curve, "contact_area_deviation", &MonteCarloCurve::deviation,

@@ -61,7 +61,6 @@ Indentation δ grows with approach. Functions take a number or an array and retu
                    "+∞ unless the law is a table, m.")
       .def_prop_ro(
           "break_points", [](const ContactLaw& self) { return array_of(self.break_points()); },
-          nb::sig("def break_points(self) -> numpy.typing.NDArray[numpy.float64]"),
           "Indentations at which F, K, K_t or a first derivative jumps, m.")
       .def_prop_ro("modulus_ratio", &ContactLaw::modulus_ratio, "G*/E*.")
       .def(

@@ -23,7 +23,7 @@ nb::object array_in(const ResultReader& reader, const std::string& dataset) {
     return nb::module_::import_("numpy").attr("array")(nb::cast(reader.labels(dataset)), "U");
   nb::list shape;
   for (const Index extent : reader.shape(dataset)) shape.append(extent);
-  nb::object values = array_of(reader.numbers(dataset)).attr("reshape")(nb::tuple(shape));
+  nb::object values = nb::cast(array_of(reader.numbers(dataset))).attr("reshape")(nb::tuple(shape));
   const bool flags = reader.text_attribute(dataset, "dtype") == "bool";
   return flags ? values.attr("astype")("bool") : values;
 }

@@ -14,6 +14,7 @@
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
@@ -21,37 +22,14 @@ namespace salebra::python {
 namespace {
 
 void bind_spectra(nb::module_& m) {
-  nb::class_<PowerSpectrum> power(m, "PowerSpectrum",
-                                  R"(Two-dimensional power spectral density of a surface.
+  auto power =
+      described_class<PowerSpectrum>(m, "PowerSpectrum",
+                                     R"(Two-dimensional power spectral density of a surface.
 
 .. math:: C(q) = (2\pi)^{-2}\int\langle h(0)h(x)\rangle e^{-iq\cdot x}\,d^2x, \qquad h_{rms}^2 = \int C\,d^2q
 
 on the half-spectrum of wave vectors (i, j), j = 0 … ny/2. Of a surface that is spread over processes each holds some of the columns j.
 )");
-  view_property(power, "psd", &PowerSpectrum::psd, "C, (nx, ny/2+1), m⁴.");
-  power.def_ro("grid", &PowerSpectrum::grid)
-      .def_ro("windowed", &PowerSpectrum::windowed,
-              "A window made the heights fade out at the edges.")
-      .def_prop_ro(
-          "wavenumber_x",
-          [](const PowerSpectrum& self) {
-            std::vector<double> q;
-            for (Index i = 0; i < self.psd.rows(); ++i) q.push_back(self.wavenumber_x(i));
-            return array_of(std::move(q));
-          },
-          nb::sig("def wavenumber_x(self) -> numpy.typing.NDArray[numpy.float64]"),
-          "q_x of each row, rad/m, −π/dx < q_x <= π/dx.")
-      .def_prop_ro(
-          "wavenumber_y",
-          [](const PowerSpectrum& self) {
-            std::vector<double> q;
-            const Index begin = self.columns().begin();
-            for (Index j = 0; j < self.psd.cols(); ++j) q.push_back(self.wavenumber_y(begin + j));
-            return array_of(std::move(q));
-          },
-          nb::sig("def wavenumber_y(self) -> numpy.typing.NDArray[numpy.float64]"),
-          "q_y >= 0 of each column, rad/m.")
-      .def_prop_ro("cell", &PowerSpectrum::cell, "d²q of one mode, 1/m².");
   result_methods(power, false);
   m.def(
       "power_spectrum",
@@ -70,23 +48,14 @@ window : {"default", "none", "hann", "blackman", "radial_hann"}
     "default": none for a periodic surface, "hann" for any other.
 )");
 
-  nb::class_<RadialSpectrum> radial(m, "RadialSpectrum", "C averaged over rings of wave vectors.");
-  view_property(radial, "wavenumber", &RadialSpectrum::wavenumber,
-                "Mean wave number of the modes in the bin, rad/m.");
-  view_property(radial, "psd", &RadialSpectrum::psd, "Mean C, m⁴.");
-  view_property(radial, "modes", &RadialSpectrum::modes, "In the bin, of the full spectrum.");
+  auto radial = described_class<RadialSpectrum>(m, "RadialSpectrum",
+                                                "C averaged over rings of wave vectors.");
   result_methods(radial, true);
   m.def("radial_spectrum", &radial_spectrum, nb::arg("spectrum"), nb::arg("bins_per_octave") = 4,
         "C over rings whose limits are in the ratio 2^(1/bins_per_octave).");
 
-  nb::class_<ProfilePsd> profile(
+  auto profile = described_class<ProfilePsd>(
       m, "ProfilePsd", "Power spectral density of profiles, C₁(q) = ∫C dq_y, h_rms² = ∫C₁ dq.");
-  view_property(profile, "wavenumber", &ProfilePsd::wavenumber, "q, rad/m.");
-  view_property(profile, "profile_psd", &ProfilePsd::psd, "C₁, m³.");
-  view_property(profile, "modes", &ProfilePsd::modes, "q and −q of all profiles.");
-  profile.def_ro("profiles", &ProfilePsd::profiles)
-      .def_ro("length", &ProfilePsd::length, "m")
-      .def_prop_ro("step", &ProfilePsd::step, "dq = 2π/length, rad/m.");
   result_methods(profile, true);
   m.def(
       "profile_psd",
@@ -98,14 +67,9 @@ window : {"default", "none", "hann", "blackman", "radial_hann"}
       nb::arg("surface"), nb::arg("axis") = "x", nb::arg("window") = "default",
       "Mean power spectral density of all profiles along an axis.");
 
-  nb::class_<ConvertedPsd> converted_psd(
+  described_class<ConvertedPsd>(
       m, "ConvertedPsd",
       "A power spectral density in another convention, with what it takes to read it.");
-  view_property(converted_psd, "wavenumber", &ConvertedPsd::wavenumber, "In wavenumber_unit.");
-  view_property(converted_psd, "psd", &ConvertedPsd::psd, "In psd_unit.");
-  converted_psd.def_ro("wavenumber_unit", &ConvertedPsd::wavenumber_unit)
-      .def_ro("psd_unit", &ConvertedPsd::psd_unit)
-      .def_ro("normalisation", &ConvertedPsd::normalisation, "What the mean square height is.");
   m.def(
       "converted",
       [](const RadialSpectrum& spectrum, const Grid2D& grid,
@@ -127,39 +91,21 @@ wave numbers, m²; "rfgen" (2π/dx)²C over cycles in a sample, m².
 }
 
 void bind_hurst(nb::module_& m) {
-  nb::class_<HurstEstimate>(
+  described_class<HurstEstimate>(
       m, "HurstEstimate",
-      "Hurst exponent of the self-affine range, with its 95 % interval; NaN where there is none.")
-      .def_ro("value", &HurstEstimate::value)
-      .def_ro("low", &HurstEstimate::low)
-      .def_ro("high", &HurstEstimate::high)
-      .def_ro("wavenumber_min", &HurstEstimate::wavenumber_min, "The range that was fitted, rad/m.")
-      .def_ro("wavenumber_max", &HurstEstimate::wavenumber_max, "rad/m")
-      .def_ro("modes", &HurstEstimate::modes)
-      .def_prop_ro("found", &HurstEstimate::found)
-      .def("__repr__", [](const HurstEstimate& h) {
-        return describe("HurstEstimate", {{"value", h.value}, {"low", h.low}, {"high", h.high}});
-      });
+      "Hurst exponent of the self-affine range, with its 95 % interval; NaN where there is none.");
   m.def("estimate_hurst", &estimate_hurst, nb::arg("spectrum"),
         "Hurst exponent by maximum quasi-likelihood over the power-law part of a "
         ":class:`PowerSpectrum`, C ∝ q^{−2(1+H)}.");
-  nb::class_<IntervalEstimate>(m, "IntervalEstimate",
-                               "A value with its 95 % interval; NaN where there is none.")
-      .def_ro("value", &IntervalEstimate::value)
-      .def_ro("low", &IntervalEstimate::low)
-      .def_ro("high", &IntervalEstimate::high)
-      .def_prop_ro("found", &IntervalEstimate::found);
-  nb::class_<SelfAffineFit>(m, "SelfAffineFit", "The self-affine model of a surface.")
-      .def_ro("hurst", &SelfAffineFit::hurst)
-      .def_ro("rolloff", &SelfAffineFit::rolloff, "Wavelength, m; NaN unless a plateau is seen.")
-      .def_ro("short_cutoff", &SelfAffineFit::short_cutoff,
-              "Wavelength, m; NaN unless the spectrum ends within the lattice.");
+  described_class<IntervalEstimate>(m, "IntervalEstimate",
+                                    "A value with its 95 % interval; NaN where there is none.");
+  described_class<SelfAffineFit>(m, "SelfAffineFit", "The self-affine model of a surface.");
   m.def("fit_self_affine", &fit_self_affine, nb::arg("spectrum"),
         "Hurst exponent, roll-off and shortest wavelength of a :class:`PowerSpectrum`.");
 }
 
 void bind_correlation(nb::module_& m) {
-  nb::class_<CorrelationMap> map(
+  described_class<CorrelationMap>(
       m, "CorrelationMap",
       R"(Autocorrelation and structure function over distance vectors up to half the surface.
 
@@ -167,23 +113,14 @@ void bind_correlation(nb::module_& m) {
 
 Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
 )");
-  map.def_ro("grid", &CorrelationMap::grid, "Of the surface.");
-  view_property(map, "autocorrelation", &CorrelationMap::autocorrelation,
-                "m²; NaN where there is no pair.");
-  view_property(map, "structure", &CorrelationMap::structure, "m²; NaN where there is no pair.");
-  view_property(map, "pairs", &CorrelationMap::pairs, "Number of pairs.");
   m.def(
       "correlation_map",
       [](const BoundSurface& surface) {
         return unlocked([&] { return correlation_map(surface.surface); });
       },
       nb::arg("surface"), "Correlation of a surface; undefined points take no part.");
-  nb::class_<Correlation> correlation(m, "Correlation",
-                                      "Autocorrelation and structure function over distance.");
-  view_property(correlation, "distance", &Correlation::distance, "m");
-  view_property(correlation, "autocorrelation", &Correlation::autocorrelation, "m²");
-  view_property(correlation, "structure", &Correlation::structure, "m²");
-  view_property(correlation, "pairs", &Correlation::pairs, "Number of pairs.");
+  auto correlation = described_class<Correlation>(
+      m, "Correlation", "Autocorrelation and structure function over distance.");
   result_methods(correlation, true);
   m.def(
       "profile_correlation",
@@ -194,14 +131,10 @@ Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
   m.def("radial_correlation", &radial_correlation, nb::arg("map"), nb::arg("bins_per_octave") = 4,
         "Mean over all directions, in rings.");
 
-  nb::class_<ScaleDependence> scale(m, "ScaleDependence",
-                                    "Slope and curvature along one axis over the distance of their "
-                                    "differences, doi:10.1016/j.apsadv.2021.100190.");
-  view_property(scale, "spacing", &ScaleDependence::spacing, "s, m.");
-  view_property(scale, "profile_slope", &ScaleDependence::profile_slope, "√⟨slope²⟩ = √S(s)/s.");
-  view_property(scale, "profile_curvature", &ScaleDependence::profile_curvature, "1/m");
-  view_property(scale, "min_curvature", &ScaleDependence::min_curvature, "The sharpest peak, 1/m.");
-  view_property(scale, "stencils", &ScaleDependence::stencils, "Of the curvature.");
+  auto scale = described_class<ScaleDependence>(
+      m, "ScaleDependence",
+      "Slope and curvature along one axis over the distance of their differences, "
+      "doi:10.1016/j.apsadv.2021.100190.");
   result_methods(scale, true);
   m.def(
       "scale_dependence",
@@ -213,13 +146,9 @@ Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
       nb::arg("surface"), nb::arg("axis") = "x",
       "Slope and curvature over scale, doi:10.1016/j.apsadv.2021.100190.");
 
-  nb::class_<ReliabilityLimit>(
+  described_class<ReliabilityLimit>(
       m, "ReliabilityLimit",
-      "Wavelengths below which a measured surface is the instrument's rather than its own.")
-      .def_ro("pixel", &ReliabilityLimit::pixel, "2·max(dx, dy), m.")
-      .def_ro("tip", &ReliabilityLimit::tip, "From the tip's radius, m.")
-      .def_ro("resolution", &ReliabilityLimit::resolution, "As given, m.")
-      .def_prop_ro("wavelength", &ReliabilityLimit::wavelength, "The longest of them, m.");
+      "Wavelengths below which a measured surface is the instrument's rather than its own.");
   m.def(
       "short_wavelength_limit",
       [](const BoundSurface& surface, std::optional<double> tip_radius,
@@ -267,20 +196,11 @@ void bind_bearing(nb::module_& m) {
             return view(nb::cast<const BearingCurve&>(nb::handle(self)).heights(), self);
           },
           "Falling, m.");
-  nb::class_<CoreParameters>(m, "CoreParameters",
-                             "Core, peaks and valleys of a bearing curve by ISO 25178-2.")
-      .def_ro("core_height", &CoreParameters::core_height, "Sk, m.")
-      .def_ro("peak_height", &CoreParameters::peak_height, "Spk, m.")
-      .def_ro("valley_depth", &CoreParameters::valley_depth, "Svk, m.")
-      .def_ro("peak_fraction", &CoreParameters::peak_fraction, "Smr1.")
-      .def_ro("core_fraction", &CoreParameters::core_fraction, "Smr2.");
+  described_class<CoreParameters>(m, "CoreParameters",
+                                  "Core, peaks and valleys of a bearing curve by ISO 25178-2.");
   m.def("core_parameters", &core_parameters, nb::arg("curve"), "Sk, Spk, Svk, Smr1, Smr2.");
-  nb::class_<HeightHistogram> histogram(m, "HeightHistogram", "Heights in bins of equal width.");
-  view_property(histogram, "height", &HeightHistogram::height, "Middle of the bin, m.");
-  view_property(histogram, "height_density", &HeightHistogram::height_density,
-                "Part of the points over the width, 1/m.");
-  view_property(histogram, "points", &HeightHistogram::points, "In the bin.");
-  histogram.def_ro("width", &HeightHistogram::width, "Of a bin, m.");
+  auto histogram = described_class<HeightHistogram>(
+      m, "HeightHistogram", "Heights in bins of equal width, at their middles.");
   result_methods(histogram, true);
   m.def("height_histogram", &height_histogram, nb::arg("curve"), nb::arg("bins") = 0,
         "bins = 0: of width 2·(interquartile range)/N^(1/3), doi:10.1007/BF01025868.");

@@ -13,6 +13,7 @@
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/contact.hpp"
+#include "interop/described.hpp"
 #include "interop/processes.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
@@ -23,21 +24,9 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 void bind_stiffness(nb::module_& m) {
-  nb::class_<StickStiffness>(
+  described_class<StickStiffness>(
       m, "StickStiffness",
-      "Tangential stiffness of a contact set in full stick: F_x = xx·x + xy·y, F_y = xy·x + yy·y.")
-      .def_ro("xx", &StickStiffness::xx, "N/m")
-      .def_ro("yy", &StickStiffness::yy, "N/m")
-      .def_ro("xy", &StickStiffness::xy, "N/m")
-      .def_ro("iterations", &StickStiffness::iterations)
-      .def_ro("fft_count", &StickStiffness::fft_count)
-      .def_ro("ladder_count", &StickStiffness::ladder_count)
-      .def_ro("residual", &StickStiffness::residual)
-      .def_ro("converged", &StickStiffness::converged)
-      .def("__repr__", [](const StickStiffness& s) {
-        return describe("StickStiffness", {{"tangential_stiffness", s.xx}},
-                        s.converged ? "converged=True" : "converged=False");
-      });
+      "Tangential stiffness of a contact set in full stick: F_x = xx·x + xy·y, F_y = xy·x + yy·y.");
   m.def(
       "stick_stiffness",
       [](const ContactArgument& contact, const Grid2D& grid, const Material& material,
@@ -85,15 +74,8 @@ Raises
 InvalidInput
     If every cell of a periodic grid is in contact: it has no finite stiffness.
 )");
-  nb::class_<PunchStiffness>(m, "PunchStiffness",
-                             "Normal stiffness of a contact set: a flat punch of that shape.")
-      .def_ro("normal_stiffness", &PunchStiffness::normal_stiffness, "N/m")
-      .def_ro("iterations", &PunchStiffness::iterations)
-      .def_ro("fft_count", &PunchStiffness::fft_count)
-      .def_ro("ladder_count", &PunchStiffness::ladder_count)
-      .def_ro("residual", &PunchStiffness::residual)
-      .def_ro("converged", &PunchStiffness::converged)
-      .def_ro("interrupted", &PunchStiffness::interrupted);
+  described_class<PunchStiffness>(m, "PunchStiffness",
+                                  "Normal stiffness of a contact set: a flat punch of that shape.");
   m.def(
       "punch_stiffness",
       [](const ContactArgument& contact, const Grid2D& grid, const MaterialArgument& material,
@@ -116,14 +98,7 @@ InvalidInput
 }
 
 void bind_sliding(nb::module_& m) {
-  nb::class_<PartialSlipReport>(m, "PartialSlipReport", "How a partial-slip solve ended.")
-      .def_ro("steps", &PartialSlipReport::steps, "Newton steps.")
-      .def_ro("iterations", &PartialSlipReport::iterations)
-      .def_ro("fft_count", &PartialSlipReport::fft_count)
-      .def_ro("residual", &PartialSlipReport::residual)
-      .def_ro("slipping", &PartialSlipReport::slipping, "Cells that slip.")
-      .def_ro("converged", &PartialSlipReport::converged)
-      .def_ro("interrupted", &PartialSlipReport::interrupted);
+  described_class<PartialSlipReport>(m, "PartialSlipReport", "How a partial-slip solve ended.");
   nb::class_<SlidingContact> sliding(
       m, "SlidingContact",
       R"(A rough contact with friction that remembers where each of its cells has been drawn to.

@@ -18,6 +18,7 @@
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/described.hpp"
 #include "interop/running.hpp"
 
 namespace salebra::python {
@@ -211,22 +212,10 @@ Examples
 }
 
 void bind_height_statistics(nb::module_& m) {
-  nb::class_<HeightStatistics>(
+  described_class<HeightStatistics>(
       m, "HeightStatistics",
-      "Moments of the height distribution over all defined points; no filter is applied.")
-      .def_ro("defined_points", &HeightStatistics::defined_points, "Number of defined points.")
-      .def_ro("minimum", &HeightStatistics::minimum, "m")
-      .def_ro("maximum", &HeightStatistics::maximum, "m")
-      .def_ro("mean", &HeightStatistics::mean, "⟨h⟩, m")
-      .def_ro("rms_height", &HeightStatistics::rms_height, "√⟨(h − ⟨h⟩)²⟩, m")
-      .def_ro("skewness", &HeightStatistics::skewness, "NaN for a flat surface.")
-      .def_ro("kurtosis", &HeightStatistics::kurtosis,
-              "3 for a Gaussian surface; NaN for a flat one.")
-      .def("__repr__", [](const HeightStatistics& s) {
-        return describe(
-            "HeightStatistics",
-            {{"rms_height", s.rms_height}, {"skewness", s.skewness}, {"kurtosis", s.kurtosis}});
-      });
+      "Moments of the height distribution over all defined points; no filter is applied. Skewness "
+      "and kurtosis of a flat surface are NaN.");
   m.def(
       "height_statistics",
       [](const BoundSurface& surface) {
@@ -287,22 +276,9 @@ counts with (2 sin(q dx/2)/dx)² in place of q².
 }
 
 void bind_summits(nb::module_& m) {
-  nb::class_<Summit>(m, "Summit", "A local maximum and the paraboloid that osculates it.")
-      .def_ro("x", &Summit::x, "m")
-      .def_ro("y", &Summit::y, "m")
-      .def_ro("height", &Summit::height, "Of the vertex, from the zero of the heights, m.")
-      .def_ro("curvature1", &Summit::curvature1, "The larger principal curvature, 1/m.")
-      .def_ro("curvature2", &Summit::curvature2, "The smaller one, 1/m.")
-      .def_prop_ro("mean_radius", &Summit::mean_radius, "2/(curvature1 + curvature2), m.")
-      .def("__repr__", [](const Summit& s) {
-        return describe(
-            "Summit",
-            {{"x", s.x}, {"y", s.y}, {"mean_height", s.height}, {"mean_radius", s.mean_radius()}});
-      });
+  described_class<Summit>(m, "Summit", "A local maximum and the paraboloid that osculates it.");
 
-  nb::class_<SummitList> list(m, "SummitList", "The summits of a surface; its columns are views.");
-  list.def_ro("searched_area", &SummitList::searched_area,
-              "Cells whose eight neighbours exist and are defined, m².")
+  described_class<SummitList>(m, "SummitList", "The summits of a surface; its columns are views.")
       .def("__len__", [](const SummitList& self) { return self.summits.size(); })
       .def(
           "__getitem__",
@@ -312,29 +288,12 @@ void bind_summits(nb::module_& m) {
             if (index < 0 || index >= size) throw nb::index_error();
             return self.summits[static_cast<std::size_t>(index)];
           },
-          nb::arg("index"))
-      .def("__repr__", [](const SummitList& self) {
-        return "SummitList(" + std::to_string(self.summits.size()) + " summits)";
-      });
-  column_property(list, "x", &SummitList::summits, &Summit::x, "m");
-  column_property(list, "y", &SummitList::summits, &Summit::y, "m");
-  column_property(list, "height", &SummitList::summits, &Summit::height, "m");
-  column_property(list, "curvature1", &SummitList::summits, &Summit::curvature1, "1/m");
-  column_property(list, "curvature2", &SummitList::summits, &Summit::curvature2, "1/m");
+          nb::arg("index"));
 
-  nb::class_<SummitStatistics>(m, "SummitStatistics",
-                               "An ensemble of summits as the Greenwood–Williamson theory uses it.")
-      .def_ro("summit_density", &SummitStatistics::density, "Summits per searched area, 1/m².")
-      .def_ro("mean_height", &SummitStatistics::mean_height, "From the zero of the heights, m.")
-      .def_ro("rms_height", &SummitStatistics::rms_height,
-              "Standard deviation of the summit heights, m.")
-      .def_ro("mean_radius", &SummitStatistics::mean_radius, "1/⟨mean curvature⟩, m.")
-      .def("__repr__", [](const SummitStatistics& s) {
-        return describe("SummitStatistics", {{"summit_density", s.density},
-                                             {"mean_height", s.mean_height},
-                                             {"rms_height", s.rms_height},
-                                             {"mean_radius", s.mean_radius}});
-      });
+  described_class<SummitStatistics>(
+      m, "SummitStatistics",
+      "An ensemble of summits as the Greenwood–Williamson theory uses it; heights are from the "
+      "zero of those of the surface.");
   m.def(
       "find_summits",
       [](const BoundSurface& surface) {
@@ -350,13 +309,7 @@ Of a surface that is spread over processes each gets the summits of its rows; :f
       "summit_statistics", [](const SummitList& summits) { return summit_statistics(summits); },
       nb::arg("summits"), "Density, mean and standard deviation of the heights, and mean radius.");
 
-  nb::class_<Peak>(m, "Peak", "A peak by ISO 25178-2: the highest point of a hill.")
-      .def_ro("ix", &Peak::ix)
-      .def_ro("iy", &Peak::iy)
-      .def_ro("height", &Peak::height, "m")
-      .def_ro("prominence", &Peak::prominence,
-              "Above the highest saddle that leads to a higher peak, m.")
-      .def_ro("mean_curvature", &Peak::mean_curvature, "1/m");
+  described_class<Peak>(m, "Peak", "A peak by ISO 25178-2: the highest point of a hill.");
   m.def(
       "significant_peaks",
       [](const BoundSurface& surface, double min_prominence) {
@@ -368,32 +321,9 @@ Of a surface that is spread over processes each gets the summits of its rows; :f
 }
 
 void bind_areal_parameters(nb::module_& m) {
-  nb::class_<ArealParameters> areal(
+  described_class<ArealParameters>(
       m, "ArealParameters",
       "Areal parameters by the definitions of ISO 25178-2, under their names there.");
-#define SALEBRA_AREAL(name, text) areal.def_ro(#name, &ArealParameters::name, text)
-  SALEBRA_AREAL(Sa, "``⟨|h|⟩``, m");
-  SALEBRA_AREAL(Sq, "√⟨h²⟩, m");
-  SALEBRA_AREAL(Ssk, "Skewness.");
-  SALEBRA_AREAL(Sku, "Kurtosis.");
-  SALEBRA_AREAL(Sp, "Highest peak, m.");
-  SALEBRA_AREAL(Sv, "Deepest pit, > 0, m.");
-  SALEBRA_AREAL(Sz, "Sp + Sv, m.");
-  SALEBRA_AREAL(Sal,
-                "Shortest distance at which the autocorrelation has fallen to 0.2, m; NaN where it "
-                "does not.");
-  SALEBRA_AREAL(Str, "Sal over the longest such distance, 0 … 1.");
-  SALEBRA_AREAL(Std, "Direction of the greatest angular spectrum, [0, π) rad.");
-  SALEBRA_AREAL(Sdq, "Root mean square gradient.");
-  SALEBRA_AREAL(Sdr, "Developed area over its projection, less 1.");
-  SALEBRA_AREAL(Sk, "Core height, m.");
-  SALEBRA_AREAL(Spk, "Reduced peak height, m.");
-  SALEBRA_AREAL(Svk, "Reduced valley depth, m.");
-  SALEBRA_AREAL(Smr1, "Material ratio of the peaks, 0 … 1.");
-  SALEBRA_AREAL(Smr2, "Material ratio of the core, 0 … 1.");
-  SALEBRA_AREAL(Spd, "Peaks per area, 1/m².");
-  SALEBRA_AREAL(Spc, "Mean curvature of the peaks, 1/m.");
-#undef SALEBRA_AREAL
   m.def(
       "areal_parameters",
       [](const BoundSurface& surface) {

@@ -11,6 +11,7 @@
 #include "bindings.hpp"
 #include "interop/citations.hpp"
 #include "interop/contact.hpp"
+#include "interop/described.hpp"
 #include "interop/surface.hpp"
 
 namespace salebra::python {
@@ -56,15 +57,13 @@ void bind_theories(nb::module_& m) {
       "Persson, doi:10.1063/1.1388626: A/A0 = erf(√2 p/(E*h')), of slope √(8/π) at small pressures "
       "(Pa).");
 
-  nb::class_<RoughnessShell>(m, "RoughnessShell", "A narrow ring of a spectrum.")
+  described_class<RoughnessShell>(m, "RoughnessShell", "A narrow ring of a spectrum.")
       .def(
           "__init__",
           [](RoughnessShell* self, double wavenumber, double power) {
             new (self) RoughnessShell{wavenumber, power};
           },
-          nb::arg("wavenumber"), nb::arg("power"))
-      .def_ro("wavenumber", &RoughnessShell::wavenumber, "q, rad/m.")
-      .def_ro("power", &RoughnessShell::power, "∫C d²q over it, m².");
+          nb::arg("wavenumber"), nb::arg("power"));
   m.def(
       "roughness_shells",
       [](const IsotropicSpectrum& spectrum, double lowest, double highest, int count) {
@@ -74,10 +73,8 @@ void bind_theories(nb::module_& m) {
       nb::arg("spectrum"), nb::arg("lowest"), nb::arg("highest"), nb::arg("count") = 1000,
       "`count` shells of equal ratio of an isotropic spectrum between two wave numbers, rad/m.");
 
-  nb::class_<PerssonTheory::Asymptote>(
-      m, "PerssonAsymptote", "p = factor·E*·exp(−ū/decay_length), the limit of small pressures.")
-      .def_ro("decay_length", &PerssonTheory::Asymptote::decay_length, "u0, m; K/A0 = p/u0.")
-      .def_ro("factor", &PerssonTheory::Asymptote::factor, "β.");
+  described_class<PerssonTheory::Asymptote>(
+      m, "PerssonAsymptote", "p = factor·E*·exp(−ū/decay_length), the limit of small pressures.");
   nb::class_<PerssonTheory>(m, "PerssonTheory", nb::dynamic_attr(),
                             R"(Mean gap and stiffness by Persson's theory.
 

@@ -7,14 +7,8 @@
 
 #include <memory>
 #include <salebra/contact/asperity/asperity_sampling.hpp>
-#include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
-#include <salebra/contact/normal/first_loading.hpp>
-#include <salebra/contact/normal/punch.hpp>
-#include <salebra/contact/tangential/sliding_contact.hpp>
-#include <salebra/contact/tangential/stick.hpp>
-#include <salebra/contact/theories.hpp>
 #include <salebra/damping/asperity_damping.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/damper.hpp>
@@ -27,18 +21,13 @@
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
-#include <salebra/generators/anisotropic_spectrum.hpp>
-#include <salebra/generators/forecast.hpp>
 #include <salebra/generators/profile.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/study/verification.hpp>
-#include <salebra/surface/areal_parameters.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
-#include <salebra/surface/peaks.hpp>
 #include <salebra/surface/psd_convention.hpp>
 #include <salebra/surface/scale_dependence.hpp>
-#include <salebra/surface/self_affine_fit.hpp>
 
 #include "bindings.hpp"
 #include "interop/contact.hpp"
@@ -115,16 +104,8 @@ void table_classes() {
 }  // namespace
 
 void bind_values(nb::module_& m) {
-  value_classes<SpectralMoments, HeightStatistics, Summit, SummitList, SummitStatistics, Peak,
-                ArealParameters, PowerSpectrum, RadialSpectrum, ProfilePsd, ConvertedPsd,
-                HurstEstimate, IntervalEstimate, SelfAffineFit, CorrelationMap, Correlation,
-                ScaleDependence, ReliabilityLimit, CoreParameters, HeightHistogram, Profile,
-                Anisotropy, Forecast>();
-  value_classes<ForceCurve, ElasticBody, Material, BoundContact, ContactSpot, ContactSpots,
-                StickStiffness, PunchStiffness, PartialSlipReport, RoughnessShell,
-                PerssonTheory::Asymptote, SummitEnsemble, AsperityContact, MonteCarloCurve>();
   value_classes<ContactSetAt, CycleResult, LevelQuadratureResult>();
-  value_classes<StudyConfiguration, EnsembleMean, StudyFlag, StudyResult, Check, Report>();
+  value_classes<StudyConfiguration, EnsembleMean, StudyFlag, StudyResult, Check>();
   auto grid = nb::borrow<nb::class_<Grid2D>>(nb::type<Grid2D>());
   value_methods(grid);
   auto surface = nb::borrow<nb::class_<BoundSurface>>(nb::type<BoundSurface>());

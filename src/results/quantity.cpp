@@ -8,6 +8,7 @@
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/dissipation.hpp>
@@ -21,10 +22,17 @@
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
+#include <salebra/generators/anisotropic_spectrum.hpp>
+#include <salebra/generators/non_gaussian.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/results/columns.hpp>
 #include <salebra/results/quantity.hpp>
+#include <salebra/surface/areal_parameters.hpp>
+#include <salebra/surface/bearing.hpp>
+#include <salebra/surface/correlation.hpp>
 #include <salebra/surface/moments.hpp>
+#include <salebra/surface/scale_dependence.hpp>
+#include <salebra/surface/spectrum.hpp>
 #include <salebra/surface/summits.hpp>
 #include <vector>
 
@@ -34,86 +42,24 @@ namespace {
 using enum Dimension;
 /// Names of results that no struct describes yet.
 const Quantity others[] = {
-    Quantity{"x", length, "position along x"},
-    Quantity{"y", length, "position along y"},
-    Quantity{"periodic", dimensionless, "whether the surface repeats itself"},
-    Quantity{"heights", length, "height, positive out of the material"},
-    Quantity{"points", dimensionless, "number of points"},
-    Quantity{"undefined_points", dimensionless, "points without a height"},
     Quantity{"filled_points", dimensionless, "points whose height was filled in"},
     Quantity{"stride", dimensionless, "points from one to the next that is kept"},
     Quantity{"first_load", dimensionless,
              "number of the lowest pressure of the curve at which the point touches; -1: none"},
     Quantity{"mean", length, "mean height"},
-    Quantity{"Sa", length, "ISO 25178-2 arithmetic mean height"},
-    Quantity{"Sq", length, "ISO 25178-2 root mean square height"},
-    Quantity{"Ssk", dimensionless, "ISO 25178-2 skewness"},
-    Quantity{"Sku", dimensionless, "ISO 25178-2 kurtosis"},
-    Quantity{"Sp", length, "ISO 25178-2 maximum peak height"},
-    Quantity{"Sv", length, "ISO 25178-2 maximum pit depth"},
-    Quantity{"Sz", length, "ISO 25178-2 maximum height"},
-    Quantity{"Sal", length, "ISO 25178-2 autocorrelation length, s = 0.2"},
-    Quantity{"Str", dimensionless, "ISO 25178-2 texture aspect ratio, s = 0.2"},
-    Quantity{"Std", angle, "ISO 25178-2 texture direction"},
-    Quantity{"Sdq", dimensionless, "ISO 25178-2 root mean square gradient"},
-    Quantity{"Sdr", dimensionless, "ISO 25178-2 developed interfacial area ratio"},
-    Quantity{"Sk", length, "ISO 25178-2 core height"},
-    Quantity{"Spk", length, "ISO 25178-2 reduced peak height"},
-    Quantity{"Svk", length, "ISO 25178-2 reduced valley depth"},
-    Quantity{"Smr1", dimensionless, "ISO 25178-2 material ratio of peaks and core"},
-    Quantity{"Smr2", dimensionless, "ISO 25178-2 material ratio of core and valleys"},
-    Quantity{"Spd", inverse_length_squared, "ISO 25178-2 density of peaks, pruned at 5 % of Sz"},
-    Quantity{"Spc", inverse_length, "ISO 25178-2 mean peak curvature"},
-    Quantity{"pixel_limit", length, "two cells, the shortest wavelength of the grid"},
-    Quantity{"tip_limit", length, "wavelength below which the tip shows in the curvatures"},
-    Quantity{"resolution", length, "lateral resolution of the instrument"},
-    Quantity{"wavelength", length, "shortest reliable wavelength"},
-    Quantity{"wavenumber", Dimension::wavenumber, "wave number"},
-    Quantity{"wavenumber_x", Dimension::wavenumber, "wave number along x"},
-    Quantity{"wavenumber_y", Dimension::wavenumber, "wave number along y"},
-    Quantity{"psd", length_to_the_fourth,
-             "power spectral density C, rms_height^2 = integral of C d^2q"},
     Quantity{"law_psd", length_to_the_fourth, "power spectral density of the self-affine law"},
-    Quantity{"profile_psd", length_cubed,
-             "power spectral density C1 of profiles, rms_height^2 = integral of C1 dq over all q"},
-    Quantity{"modes", dimensionless, "modes in the mean"},
-    Quantity{"distance", length, "distance of the points of a pair"},
-    Quantity{"autocorrelation", length_squared, "mean of h(x) h(x+r), h from the mean"},
-    Quantity{"structure", length_squared, "mean of (h(x+r) - h(x))^2"},
-    Quantity{"pairs", dimensionless, "pairs in the mean"},
-    Quantity{"spacing", length, "distance s of the differences"},
-    Quantity{"profile_slope", dimensionless, "rms of (h(x+s) - h(x))/s"},
-    Quantity{"profile_curvature", inverse_length, "rms of (h(x+s) - 2 h(x) + h(x-s))/s^2"},
-    Quantity{"min_curvature", inverse_length, "curvature of the sharpest peak"},
-    Quantity{"stencils", dimensionless, "stencils of the curvature"},
     Quantity{"area_fraction", dimensionless, "part of the surface above"},
-    Quantity{"height", length, "height above the mean"},
-    Quantity{"height_density", inverse_length, "share of the points in a bin over its width"},
     Quantity{"hurst_low", dimensionless, "Hurst exponent, lower 95 % limit"},
     Quantity{"hurst_high", dimensionless, "Hurst exponent, upper 95 % limit"},
     Quantity{"correlation_length", length, "correlation length"},
     Quantity{"correlation_length_along", length, "correlation length along the lay"},
     Quantity{"correlation_length_across", length, "correlation length across the lay"},
-    Quantity{"stretch_along", dimensionless, "stretch of the spectrum along the lay"},
-    Quantity{"stretch_across", dimensionless, "stretch of the spectrum across the lay"},
-    Quantity{"lay_angle", angle, "direction of the lay against x"},
-    Quantity{"peklenik", dimensionless, "correlation length along x over that along y"},
-    Quantity{"spectrum_mismatch", dimensionless, "relative error of the spectrum of the heights"},
-    Quantity{"modulus_ratio", dimensionless, "G*/E*"},
     Quantity{"max_pressure", pressure, "largest contact pressure"},
-    Quantity{"gap", length, "gap of the deformed surfaces"},
-    Quantity{"elastic_energy", energy, "elastic energy"},
-    Quantity{"residual", dimensionless, "residual of the contact"},
-    Quantity{"iterations", dimensionless, "iterations of the solver"},
-    Quantity{"fft_count", dimensionless, "Fourier transforms of the solver, in pairs"},
-    Quantity{"ladder_count", dimensionless, "applications of the near-field ladder"},
     Quantity{"relative_pressure", dimensionless, "nominal pressure over E* times rms slope"},
     Quantity{"bearing_area_fraction", dimensionless,
              "part of the undeformed surface above the mean gap of the contact"},
     Quantity{"persson_area_slope", dimensionless, "area slope of Persson's theory"},
     Quantity{"bgt_area_slope", dimensionless, "area slope of Bush, Gibson and Thomas"},
-    Quantity{"tangential_stiffness_per_area", Dimension::stiffness_per_area,
-             "tangential stiffness in full stick over nominal area"},
     Quantity{"seconds", Dimension::time, "wall time"},
     Quantity{"decay_length_by_weights", length, "decay length for each way to weight the loads"},
     Quantity{"fair", dimensionless, "whether one decay length describes the curve fairly"},
@@ -204,13 +150,16 @@ std::vector<Quantity> quantities_of() {
 /// The entry of a name, or none.
 const Quantity* entry_of(std::string_view name) {
   static const std::vector<Quantity> quantities =
-      quantities_of<Grid2D, HeightStatistics, SpectralMoments, SummitStatistics, SummitEnsemble,
-                    SelfAffineParameters, Material, ForceCurve, ForceSample, FirstLoading,
-                    ExponentialFit, ExponentialTest, WindowSensitivity, LocalDecayLength,
-                    CycleSample, EqualFrequency, Drag, DampingResult, CommonPeriod, ContactFacts,
-                    LargestMotion, LossWithSlip, TrajectoryDamping, JointLoss, SteadySliding,
-                    Slider, SliderMotion, SliderStability, OscillatorDecay, FrictionMap, StressMap,
-                    RegimeMap, PronyTerm, PronySeries, ViscoelasticDamping, SurfaceDamping>();
+      quantities_of<Surface, HeightStatistics, SpectralMoments, Summit, SummitStatistics,
+                    SummitEnsemble, ArealParameters, PowerSpectrum, RadialSpectrum, ProfilePsd,
+                    Correlation, ScaleDependence, ReliabilityLimit, HeightHistogram,
+                    SelfAffineParameters, Material, ForceCurve, ForceSample, NormalContactState,
+                    FirstLoading, ExponentialFit, ExponentialTest, WindowSensitivity,
+                    LocalDecayLength, CycleSample, EqualFrequency, Drag, DampingResult,
+                    CommonPeriod, ContactFacts, LargestMotion, LossWithSlip, TrajectoryDamping,
+                    JointLoss, SteadySliding, Slider, SliderMotion, SliderStability,
+                    OscillatorDecay, FrictionMap, StressMap, RegimeMap, PronyTerm, PronySeries,
+                    ViscoelasticDamping, SurfaceDamping, Anisotropy, NonGaussianSurface>();
   const auto found = std::ranges::find(quantities, name, &Quantity::name);
   return found != quantities.end() ? &*found : nullptr;
 }

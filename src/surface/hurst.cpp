@@ -220,10 +220,8 @@ Eigen::Vector2d fit_power_law(const ModesWithin& modes, double mean_power,
 }
 
 HurstEstimate found_or_not(const PowerSpectrum& spectrum) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const HurstEstimate not_found{none, none, none, none, none, 0};
   const RadialSpectrum radial = radial_spectrum(spectrum);
-  if (radial.modes.empty() || !(std::ranges::max(radial.psd) > 0)) return not_found;
+  if (radial.modes.empty() || !(std::ranges::max(radial.psd) > 0)) return {};
   Range range = self_affine_range(spectrum, radial);
   spectrum.ranks.broadcast(&range, sizeof range);
   ModesWithin modes(spectrum, range);
@@ -235,7 +233,7 @@ HurstEstimate found_or_not(const PowerSpectrum& spectrum) {
         sums[3] += mode.weight * mode.power;
         sums[4] += 2 * mode.weight;
       });
-  if (count < 3) return not_found;
+  if (count < 3) return {};
 
   double centre = moment / weight;
   spectrum.ranks.broadcast(&centre, sizeof centre);
@@ -269,17 +267,14 @@ HurstEstimate found_or_not(const PowerSpectrum& spectrum) {
   const double freedom = filled - 2;
   const double value = -1 - law(1) / 2;
   const double span = std::exp(greatest - least);
-  if (freedom < 1 || span < least_span * (1 - 1e-9) || !(value > -0.25 && value < 1.5))
-    return not_found;
+  if (freedom < 1 || span < least_span * (1 - 1e-9) || !(value > -0.25 && value < 1.5)) return {};
   // A window makes neighbouring modes alike: rings that happen to scatter less than that are luck,
   // not knowledge.
   const double dispersion =
       std::max(scatter / freedom, spectrum.windowed ? spectrum.correlated_modes : 0);
   const double error = std::sqrt(dispersion * detail::pseudo_inverse(information)(1, 1)) / 2;
   const double half_width = gsl_cdf_tdist_Pinv(0.975, freedom) * error;
-  return {value,
-          value - half_width,
-          value + half_width,
+  return {{value, value - half_width, value + half_width},
           std::exp(least + centre),
           std::exp(greatest + centre),
           static_cast<Index>(all)};

@@ -11,7 +11,6 @@
 #include <span>
 #include <vector>
 
-#include "base/special_values.hpp"
 #include "surface/dense_systems.hpp"
 
 namespace salebra {
@@ -19,8 +18,6 @@ namespace {
 
 using std::numbers::pi;
 
-using detail::unknown;
-constexpr IntervalEstimate not_found{unknown, unknown, unknown};
 constexpr double ended = 1e-3;        ///< of the law, where power counts as none
 constexpr double bins_per_unit = 64;  ///< of ln q, for the likelihood
 
@@ -122,7 +119,7 @@ IntervalEstimate fit_rolloff(const PowerSpectrum& spectrum, const HurstEstimate&
                             ? 3.5 * longest
                             : 0.999 * 2 * pi / std::max(spectrum.grid.lx, spectrum.grid.ly);
   const std::vector<Ring> rings = fine_rings(spectrum, lowest, hurst.wavenumber_max);
-  if (rings.size() < 8) return not_found;
+  if (rings.size() < 8) return {};
   const double first = rings.front().x, last = rings.back().x;
   // ±: a kink below the first ring is no plateau at all, and one near the last leaves no law.
   constexpr int steps = 200;
@@ -145,7 +142,7 @@ IntervalEstimate fit_rolloff(const PowerSpectrum& spectrum, const HurstEstimate&
   }
   const double kink = (left + right) / 2;
   const double threshold = std::min(*least, deviance(rings, kink)) + limit;
-  if (values.front() < threshold || values.back() < threshold) return not_found;
+  if (values.front() < threshold || values.back() < threshold) return {};
   // Where the deviance passes the threshold, from either side inwards.
   const auto crossing = [&](int from, int direction) {
     int k = from;
@@ -195,12 +192,12 @@ IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEst
   const double low = extreme(-1, hurst.wavenumber_min, true);
   const double high = extreme(1, low, false);
   const double last = extreme(-1, low, false);
-  if (!std::isfinite(low) || !std::isfinite(high)) return not_found;
+  if (!std::isfinite(low) || !std::isfinite(high)) return {};
   const Grid2D& grid = spectrum.grid;
   const double step = 2 * pi / std::min(grid.lx, grid.ly);
   // Modes of no power that lie beyond are all there are: with fewer than a ring of them the end may
   // be the lattice's own.
-  if (last < high + 4 * step) return not_found;
+  if (last < high + 4 * step) return {};
   const double margin = spectrum.windowed ? 2 * step : 0;
   const double middle = (low + high) / 2 - margin / 2;
   return {2 * pi / middle, 2 * pi / high, 2 * pi / (low - 2 * margin)};
@@ -209,7 +206,7 @@ IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEst
 }  // namespace
 
 SelfAffineFit fit_self_affine(const PowerSpectrum& spectrum) {
-  SelfAffineFit fit{estimate_hurst(spectrum), not_found, not_found};
+  SelfAffineFit fit{estimate_hurst(spectrum), {}, {}};
   if (!fit.hurst.found()) return fit;
   fit.rolloff = fit_rolloff(spectrum, fit.hurst);
   fit.short_cutoff = find_short_cutoff(spectrum, fit.hurst);

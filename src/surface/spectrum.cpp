@@ -91,6 +91,16 @@ double PowerSpectrum::wavenumber_x(Index i) const {
 double PowerSpectrum::wavenumber_y(Index j) const {
   return detail::wavenumber(j, grid.ny, grid.ly);
 }
+std::vector<double> PowerSpectrum::wavenumbers_x() const {
+  std::vector<double> all;
+  for (Index i = 0; i < grid.nx; ++i) all.push_back(wavenumber_x(i));
+  return all;
+}
+std::vector<double> PowerSpectrum::wavenumbers_y() const {
+  std::vector<double> all;
+  for (Index j = columns().begin(); j < columns().end(); ++j) all.push_back(wavenumber_y(j));
+  return all;
+}
 double PowerSpectrum::multiplicity(Index j) const { return detail::multiplicity(j, grid.ny); }
 double PowerSpectrum::cell() const { return 4 * pi * pi / grid.area(); }
 

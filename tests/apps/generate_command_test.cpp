@@ -44,7 +44,7 @@ TEST_CASE("A surface that was written is read back as it was made", "[generate]"
                                             "hurst", "summits"});
   CHECK(keys(seen["hurst"]) == std::set<std::string>{"value", "low", "high"});
   CHECK(keys(seen["summits"]) ==
-        std::set<std::string>{"summit_density", "mean_height", "rms_height", "mean_radius"});
+        std::set<std::string>{"summit_density", "mean_height", "summit_rms", "mean_radius"});
   for (const char* key : {"rms_height", "rms_slope", "moment0", "moment2", "moment4", "nayak"}) {
     INFO(key);
     // The mean, of the size of round-off, is subtracted on reading.

@@ -20,7 +20,7 @@
 ///     Extensive  a column that proportional to the nominal area; NAME_per_area is a column too
 ///     Part       a described struct, whose columns are columns of this one too
 ///     Table      a list of described structs, whose columns are columns of this one too
-///     Kept       anything else that belongs to the result
+///     Kept       anything else that belongs to the result; without a name no property of Python
 /// A const member function without arguments may be a column too: it is computed, and nowhere
 /// stored. A struct with a base calls the description of the base first.
 namespace salebra {

@@ -68,4 +68,16 @@ struct Surface {
   void require_complete_rows(const std::string& purpose) const;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<Surface>) {
+  using enum Dimension;
+  using S = Surface;
+  visit(&S::grid, Part{"grid", "points and size"});
+  visit(&S::heights, Quantity{"heights", length, "height, positive out of the material"});
+  visit(&S::periodic, Quantity{"periodic", dimensionless, "whether the surface repeats itself"});
+  visit(&S::origin, Kept{"origin", "file, or generator with its seed"});
+  visit(&S::ranks, Kept{});
+  visit(&S::undefined_points,
+        Quantity{"undefined_points", dimensionless, "points without a height"});
+}
+
 }  // namespace salebra

@@ -27,11 +27,12 @@ constexpr void describe(auto&& visit, std::type_identity<SpectralMoments>) {
   visit(&S::moment0, Quantity{"moment0", length_squared, "spectral moment m0"});
   visit(&S::moment2_x, Kept{"moment2_x", "mean square slope along x"});
   visit(&S::moment2_y, Kept{"moment2_y", "mean square slope along y"});
-  visit(&S::moment4_x, Kept{"moment4_x", "mean square curvature along x, 1/m^2"});
-  visit(&S::moment4_y, Kept{"moment4_y", "mean square curvature along y, 1/m^2"});
+  visit(&S::moment4_x, Kept{"moment4_x", "mean square curvature along x", inverse_length_squared});
+  visit(&S::moment4_y, Kept{"moment4_y", "mean square curvature along y", inverse_length_squared});
   visit(&S::moment2, Quantity{"moment2", dimensionless, "spectral moment m2 of a profile"});
   visit(&S::moment4,
         Quantity{"moment4", inverse_length_squared, "spectral moment m4 of a profile"});
+  visit(&S::rms_height, Kept{"rms_height", "root mean square height", length});
   visit(&S::rms_slope, Quantity{"rms_slope", dimensionless, "root mean square of the gradient"});
   visit(&S::nayak, Quantity{"nayak", dimensionless, "Nayak parameter m0 m4 / m2^2"});
 }

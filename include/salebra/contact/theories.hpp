@@ -26,6 +26,12 @@ struct RoughnessShell {
   double power = 0;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<RoughnessShell>) {
+  using S = RoughnessShell;
+  visit(&S::wavenumber, Kept{"wavenumber", "wave number", Dimension::wavenumber});
+  visit(&S::power, Kept{"power", "integral of C d^2q over the ring", Dimension::length_squared});
+}
+
 /// `count` shells of equal ratio of an isotropic spectrum C(q), m⁴, between two wave numbers, by
 /// the midpoint rule in ln q.
 std::vector<RoughnessShell> roughness_shells(const std::function<double(double)>& density,
@@ -72,6 +78,12 @@ class PerssonTheory {
   std::vector<Ring> rings_;
   double contact_modulus_, energy_factor_, rms_height_ = 0, rms_slope_ = 0;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<PerssonTheory::Asymptote>) {
+  using S = PerssonTheory::Asymptote;
+  visit(&S::decay_length, Kept{"decay_length", "u0; K/A0 = p/u0", Dimension::length});
+  visit(&S::factor, Kept{"factor", "β"});
+}
 
 /// Samples at the given pressures (> 0, any order), lowest first; K_t = (G*/E*)K where G* is known.
 ForceCurve persson_curve(const PerssonTheory& theory, const Material& material, double nominal_area,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 
 namespace salebra {
@@ -36,6 +37,32 @@ struct ArealParameters {
   double Spd = 0;
   double Spc = 0;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<ArealParameters>) {
+  using enum Dimension;
+  using S = ArealParameters;
+  visit(&S::Sa, Quantity{"Sa", length, "ISO 25178-2 arithmetic mean height"});
+  visit(&S::Sq, Quantity{"Sq", length, "ISO 25178-2 root mean square height"});
+  visit(&S::Ssk, Quantity{"Ssk", dimensionless, "ISO 25178-2 skewness"});
+  visit(&S::Sku, Quantity{"Sku", dimensionless, "ISO 25178-2 kurtosis"});
+  visit(&S::Sp, Quantity{"Sp", length, "ISO 25178-2 maximum peak height"});
+  visit(&S::Sv, Quantity{"Sv", length, "ISO 25178-2 maximum pit depth"});
+  visit(&S::Sz, Quantity{"Sz", length, "ISO 25178-2 maximum height"});
+  visit(&S::Sal, Quantity{"Sal", length, "ISO 25178-2 autocorrelation length, s = 0.2"});
+  visit(&S::Str, Quantity{"Str", dimensionless, "ISO 25178-2 texture aspect ratio, s = 0.2"});
+  visit(&S::Std, Quantity{"Std", angle, "ISO 25178-2 texture direction"});
+  visit(&S::Sdq, Quantity{"Sdq", dimensionless, "ISO 25178-2 root mean square gradient"});
+  visit(&S::Sdr, Quantity{"Sdr", dimensionless, "ISO 25178-2 developed interfacial area ratio"});
+  visit(&S::Sk, Quantity{"Sk", length, "ISO 25178-2 core height"});
+  visit(&S::Spk, Quantity{"Spk", length, "ISO 25178-2 reduced peak height"});
+  visit(&S::Svk, Quantity{"Svk", length, "ISO 25178-2 reduced valley depth"});
+  visit(&S::Smr1, Quantity{"Smr1", dimensionless, "ISO 25178-2 material ratio of peaks and core"});
+  visit(&S::Smr2,
+        Quantity{"Smr2", dimensionless, "ISO 25178-2 material ratio of core and valleys"});
+  visit(&S::Spd, Quantity{"Spd", inverse_length_squared,
+                          "ISO 25178-2 density of peaks, pruned at 5 % of Sz"});
+  visit(&S::Spc, Quantity{"Spc", inverse_length, "ISO 25178-2 mean peak curvature"});
+}
 
 /// Throws InvalidInput as height_statistics and for fewer than 3 × 3 points. Of a surface that is
 /// spread over processes Sal, Str, Std, Sk to Smr2, Spd and Spc are NaN, which need it whole;

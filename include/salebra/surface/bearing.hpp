@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <vector>
 
@@ -43,6 +44,16 @@ struct CoreParameters {
   double core_fraction = 0;  ///< Smr2, 0 … 1
 };
 
+constexpr void describe(auto&& visit, std::type_identity<CoreParameters>) {
+  using enum Dimension;
+  using S = CoreParameters;
+  visit(&S::core_height, Kept{"core_height", "Sk", length});
+  visit(&S::peak_height, Kept{"peak_height", "Spk", length});
+  visit(&S::valley_depth, Kept{"valley_depth", "Svk", length});
+  visit(&S::peak_fraction, Kept{"peak_fraction", "Smr1"});
+  visit(&S::core_fraction, Kept{"core_fraction", "Smr2"});
+}
+
 /// Cost: two passes.
 CoreParameters core_parameters(const BearingCurve& curve);
 
@@ -53,6 +64,16 @@ struct HeightHistogram {
   std::vector<Index> points;           ///< in the bin
   double width = 0;  ///< of a bin, m; 0, and an infinite density, if all heights are equal
 };
+
+constexpr void describe(auto&& visit, std::type_identity<HeightHistogram>) {
+  using enum Dimension;
+  using S = HeightHistogram;
+  visit(&S::height, Quantity{"height", length, "height"});
+  visit(&S::height_density,
+        Quantity{"height_density", inverse_length, "share of the points in a bin over its width"});
+  visit(&S::points, Quantity{"points", dimensionless, "number of points"});
+  visit(&S::width, Kept{"width", "width of a bin", length});
+}
 
 /// bins   0: of width 2·(interquartile range)/N^(1/3) of Freedman and Diaconis (1981), 10 … 200 of
 ///        them. One bin if all heights are

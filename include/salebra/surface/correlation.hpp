@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/surface/axis.hpp>
 #include <vector>
@@ -27,6 +28,16 @@ struct CorrelationMap {
   double lag_y(Index column) const { return static_cast<double>(column) * grid.dy(); }
 };
 
+constexpr void describe(auto&& visit, std::type_identity<CorrelationMap>) {
+  using enum Dimension;
+  using S = CorrelationMap;
+  visit(&S::grid, Kept{"grid", "points and size of the surface"});
+  visit(&S::autocorrelation,
+        Kept{"autocorrelation", "A; NaN where there is no pair", length_squared});
+  visit(&S::structure, Kept{"structure", "S; NaN where there is no pair", length_squared});
+  visit(&S::pairs, Kept{"pairs", "number of pairs"});
+}
+
 /// Undefined points take no part. Throws InvalidInput as height_statistics. Cost: six real FFTs of
 /// 1.5 times the points along each axis that is not periodic; two of the grid for a periodic
 /// complete surface.
@@ -39,6 +50,16 @@ struct Correlation {
   std::vector<double> structure;        ///< m²
   std::vector<double> pairs;            ///< number of pairs
 };
+
+constexpr void describe(auto&& visit, std::type_identity<Correlation>) {
+  using enum Dimension;
+  using S = Correlation;
+  visit(&S::distance, Quantity{"distance", length, "distance of the points of a pair"});
+  visit(&S::autocorrelation,
+        Quantity{"autocorrelation", length_squared, "mean of h(x) h(x+r), h from the mean"});
+  visit(&S::structure, Quantity{"structure", length_squared, "mean of (h(x+r) - h(x))^2"});
+  visit(&S::pairs, Quantity{"pairs", dimensionless, "pairs in the mean"});
+}
 
 /// Along one axis: the mean over all profiles, at multiples of the step.
 Correlation profile_correlation(const CorrelationMap& map, Axis axis);

@@ -24,9 +24,9 @@ constexpr void describe(auto&& visit, std::type_identity<HeightStatistics>) {
   using enum Dimension;
   using S = HeightStatistics;
   visit(&S::defined_points, Kept{"defined_points", "points with a height"});
-  visit(&S::minimum, Kept{"minimum", "lowest height, m"});
-  visit(&S::maximum, Kept{"maximum", "highest height, m"});
-  visit(&S::mean, Kept{"mean", "mean height, m"});
+  visit(&S::minimum, Kept{"minimum", "lowest height", length});
+  visit(&S::maximum, Kept{"maximum", "highest height", length});
+  visit(&S::mean, Kept{"mean", "mean height", length});
   visit(&S::rms_height, Quantity{"rms_height", length, "root mean square height"});
   visit(&S::skewness, Quantity{"skewness", dimensionless, "skewness of heights"});
   visit(&S::kurtosis, Quantity{"kurtosis", dimensionless, "kurtosis of heights, 3 for a Gaussian"});

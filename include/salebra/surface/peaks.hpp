@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <vector>
 
@@ -16,6 +17,17 @@ struct Peak {
   /// −½(∂²h/∂x² + ∂²h/∂y²) by second differences, 1/m.
   double mean_curvature = 0;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<Peak>) {
+  using enum Dimension;
+  using S = Peak;
+  visit(&S::ix, Kept{"ix", "place along x"});
+  visit(&S::iy, Kept{"iy", "place along y"});
+  visit(&S::height, Kept{"height", "height", length});
+  visit(&S::prominence,
+        Kept{"prominence", "height above the highest saddle that leads to a higher peak", length});
+  visit(&S::mean_curvature, Kept{"mean_curvature", "mean curvature", inverse_length});
+}
 
 /// The peaks that stand at least `min_prominence` (m, >= 0) above the saddle to a higher one:
 /// Wolf's pruning of hills, in the order of falling height. Eight neighbours; with wrap where the

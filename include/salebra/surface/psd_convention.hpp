@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/base/words.hpp>
 #include <salebra/surface/spectrum.hpp>
 #include <string>
@@ -36,6 +37,15 @@ struct ConvertedPsd {
   std::string psd_unit;         ///< "m^4", "m^3", "m^2"
   std::string normalisation;    ///< what the mean square height is
 };
+
+constexpr void describe(auto&& visit, std::type_identity<ConvertedPsd>) {
+  using S = ConvertedPsd;
+  visit(&S::wavenumber, Kept{"wavenumber", "wave number, in wavenumber_unit"});
+  visit(&S::psd, Kept{"psd", "power spectral density, in psd_unit"});
+  visit(&S::wavenumber_unit, Kept{"wavenumber_unit", "unit of the wave number"});
+  visit(&S::psd_unit, Kept{"psd_unit", "unit of the power spectral density"});
+  visit(&S::normalisation, Kept{"normalisation", "what the mean square height is"});
+}
 
 /// Throws InvalidInput for Tamaas' integers where lx and ly differ, and for cycles in a sample
 /// where dx and dy do.

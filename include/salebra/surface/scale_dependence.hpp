@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/surface/axis.hpp>
 #include <vector>
@@ -22,6 +23,18 @@ struct ScaleDependence {
   std::vector<double> min_curvature;      ///< of all stencils: the sharpest peak, 1/m
   std::vector<Index> stencils;            ///< of the curvature
 };
+
+constexpr void describe(auto&& visit, std::type_identity<ScaleDependence>) {
+  using enum Dimension;
+  using S = ScaleDependence;
+  visit(&S::spacing, Quantity{"spacing", length, "distance s of the differences"});
+  visit(&S::profile_slope, Quantity{"profile_slope", dimensionless, "rms of (h(x+s) - h(x))/s"});
+  visit(&S::profile_curvature,
+        Quantity{"profile_curvature", inverse_length, "rms of (h(x+s) - 2 h(x) + h(x-s))/s^2"});
+  visit(&S::min_curvature,
+        Quantity{"min_curvature", inverse_length, "curvature of the sharpest peak"});
+  visit(&S::stencils, Quantity{"stencils", dimensionless, "stencils of the curvature"});
+}
 
 /// Throws InvalidInput if the heights have not the shape of the grid or hold no complete stencil of
 /// three neighbours along the axis. Cost: one pass over memory, with about 40 over each profile of
@@ -45,6 +58,17 @@ struct ReliabilityLimit {
 
   double wavelength() const;  ///< the longest of them, m
 };
+
+constexpr void describe(auto&& visit, std::type_identity<ReliabilityLimit>) {
+  using enum Dimension;
+  using S = ReliabilityLimit;
+  visit(&S::pixel,
+        Quantity{"pixel_limit", length, "two cells, the shortest wavelength of the grid"});
+  visit(&S::tip,
+        Quantity{"tip_limit", length, "wavelength below which the tip shows in the curvatures"});
+  visit(&S::resolution, Quantity{"resolution", length, "lateral resolution of the instrument"});
+  visit(&S::wavelength, Quantity{"wavelength", length, "shortest reliable wavelength"});
+}
 
 /// Throws InvalidInput unless radius, resolution and factor are > 0, and as scale_dependence.
 ReliabilityLimit short_wavelength_limit(const Surface& surface, const ReliabilityOptions& options);

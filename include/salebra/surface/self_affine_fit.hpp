@@ -5,13 +5,6 @@
 
 namespace salebra {
 
-/// A value with its 95 % interval; NaN where there is none.
-struct IntervalEstimate {
-  double value = 0, low = 0, high = 0;
-
-  bool found() const { return value == value; }
-};
-
 /// The self-affine model of a surface: a plateau down to the roll-off wavelength, a power law C ∝
 /// q^{−2(1+H)} down to the shortest wavelength, nothing below.
 struct SelfAffineFit {
@@ -23,6 +16,16 @@ struct SelfAffineFit {
   /// the law within four modes.
   IntervalEstimate short_cutoff;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<SelfAffineFit>) {
+  using enum Dimension;
+  using S = SelfAffineFit;
+  visit(&S::hurst, Kept{"hurst", "Hurst exponent"});
+  visit(&S::rolloff, Kept{"rolloff", "wavelength; NaN unless a plateau is seen", length});
+  visit(
+      &S::short_cutoff,
+      Kept{"short_cutoff", "wavelength; NaN unless the spectrum ends within the lattice", length});
+}
 
 /// H as estimate_hurst. The roll-off is that of greatest quasi-likelihood, plateau and slope being
 /// free, over all modes up to the end of the fitted range (of a windowed spectrum without its three

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/base/words.hpp>
@@ -27,9 +29,25 @@ struct PowerSpectrum {
 
   double wavenumber_x(Index i) const;  ///< q_x, rad/m; −π/dx < q_x <= π/dx
   double wavenumber_y(Index j) const;  ///< q_y >= 0, rad/m
+  std::vector<double> wavenumbers_x() const;  ///< of all rows
+  std::vector<double> wavenumbers_y() const;  ///< of the columns of this process
   double multiplicity(Index j) const;  ///< 1 where column j holds its own conjugates, 2 elsewhere
   double cell() const;                 ///< d²q of one mode, (2π)²/(lx ly), m⁻²
 };
+
+constexpr void describe(auto&& visit, std::type_identity<PowerSpectrum>) {
+  using enum Dimension;
+  using S = PowerSpectrum;
+  visit(&S::grid, Kept{"grid", "points and size of the surface"});
+  visit(&S::psd, Kept{"psd", "C, (nx, ny/2+1)", length_to_the_fourth});
+  visit(&S::windowed, Kept{"windowed", "whether a window made the heights fade out at the edges"});
+  visit(&S::correlated_modes, Kept{});
+  visit(&S::ranks, Kept{});
+  visit(&S::wavenumbers_x, Quantity{"wavenumber_x", Dimension::wavenumber, "wave number along x"});
+  visit(&S::wavenumbers_y, Quantity{"wavenumber_y", Dimension::wavenumber, "wave number along y"});
+  visit(&S::cell,
+        Kept{"cell", "area of one mode in the plane of wave vectors", inverse_length_squared});
+}
 
 /// What the heights are multiplied by before they are transformed, ξ = (i+½)/nx and η = (j+½)/ny
 /// from edge to edge. A window takes the leakage of the steps between opposite edges out of the
@@ -76,6 +94,20 @@ struct ProfilePsd {
       const;  ///< dq = 2π/l, rad/m; ⟨h²⟩ of the profiles less their means = Σ modes·C₁·dq/profiles
 };
 
+constexpr void describe(auto&& visit, std::type_identity<ProfilePsd>) {
+  using enum Dimension;
+  using S = ProfilePsd;
+  visit(&S::wavenumber, Quantity{"wavenumber", Dimension::wavenumber, "wave number"});
+  visit(&S::psd,
+        Quantity{"profile_psd", length_cubed,
+                 "power spectral density C1 of profiles, rms_height^2 = integral of C1 dq over all "
+                 "q"});
+  visit(&S::modes, Quantity{"modes", dimensionless, "modes in the mean"});
+  visit(&S::profiles, Kept{"profiles", "profiles in the mean"});
+  visit(&S::length, Kept{"length", "length of a profile", length});
+  visit(&S::step, Kept{"step", "from one wave number to the next", Dimension::wavenumber});
+}
+
 /// radial_hann is as hann here. Throws InvalidInput unless the surface is complete. The surface may
 /// be spread over processes. Collective. Cost: transforms of all profiles.
 ProfilePsd profile_psd(const Surface& surface, Axis axis, Window window = Window::automatic);
@@ -87,22 +119,53 @@ struct RadialSpectrum {
   std::vector<Index> modes;  ///< in the bin, of the full spectrum; h_rms² = Σ modes·C·d²q
 };
 
+constexpr void describe(auto&& visit, std::type_identity<RadialSpectrum>) {
+  using enum Dimension;
+  using S = RadialSpectrum;
+  visit(&S::wavenumber, Quantity{"wavenumber", Dimension::wavenumber, "wave number"});
+  visit(&S::psd, Quantity{"psd", length_to_the_fourth,
+                          "power spectral density C, rms_height^2 = integral of C d^2q"});
+  visit(&S::modes, Quantity{"modes", dimensionless, "modes in the mean"});
+}
+
 /// Rings whose limits are in the ratio 2^(1/bins_per_octave), from the longest wave on; empty ones
 /// are left out. All modes are in: beyond π/max(dx, dy) only those in the corners of the lattice
 /// remain.
 RadialSpectrum radial_spectrum(const PowerSpectrum& spectrum, int bins_per_octave = 4);
 
-/// Hurst exponent of the self-affine range of a surface, C ∝ q^{−2(1+H)}, with its 95 % interval.
-struct HurstEstimate {
-  double value = 0;  ///< NaN where the spectrum has no such range
-  double low = 0;
-  double high = 0;
-  double wavenumber_min = 0;  ///< the range that was fitted, rad/m
-  double wavenumber_max = 0;
-  Index modes = 0;  ///< in it
+/// A value with its 95 % interval; NaN where there is none.
+struct IntervalEstimate {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double value = unknown, low = unknown, high = unknown;
 
-  bool found() const { return modes > 0; }
+  bool found() const { return value == value; }
 };
+
+constexpr void describe(auto&& visit, std::type_identity<IntervalEstimate>) {
+  using S = IntervalEstimate;
+  visit(&S::value, Kept{"value", "best estimate"});
+  visit(&S::low, Kept{"low", "lower 95 % limit"});
+  visit(&S::high, Kept{"high", "upper 95 % limit"});
+  visit(&S::found, Kept{"found", "whether there is one"});
+}
+
+/// Hurst exponent of the self-affine range of a surface, C ∝ q^{−2(1+H)}, with its 95 % interval;
+/// NaN where the spectrum has no such range.
+struct HurstEstimate : IntervalEstimate {
+  double wavenumber_min = unknown;  ///< the range that was fitted, rad/m
+  double wavenumber_max = unknown;
+  Index modes = 0;  ///< in it
+};
+
+constexpr void describe(auto&& visit, std::type_identity<HurstEstimate>) {
+  using S = HurstEstimate;
+  describe(visit, std::type_identity<IntervalEstimate>{});
+  visit(&S::wavenumber_min,
+        Kept{"wavenumber_min", "lower end of the range that was fitted", Dimension::wavenumber});
+  visit(&S::wavenumber_max,
+        Kept{"wavenumber_max", "upper end of the range that was fitted", Dimension::wavenumber});
+  visit(&S::modes, Kept{"modes", "modes in the range"});
+}
 
 /// The range is the middle of up to three pieces (plateau, power law, and a tail of other slope:
 /// noise, or what a tip or filter left) that describe ln C of the radial spectrum up to π/max(dx,

@@ -18,6 +18,17 @@ struct Summit {
   double mean_radius() const { return 2 / (curvature1 + curvature2); }  ///< 1/(mean curvature), m
 };
 
+constexpr void describe(auto&& visit, std::type_identity<Summit>) {
+  using enum Dimension;
+  using S = Summit;
+  visit(&S::x, Quantity{"x", length, "position along x"});
+  visit(&S::y, Quantity{"y", length, "position along y"});
+  visit(&S::height, Kept{"height", "height from the zero of the heights", length});
+  visit(&S::curvature1, Kept{"curvature1", "larger principal curvature", inverse_length});
+  visit(&S::curvature2, Kept{"curvature2", "smaller principal curvature", inverse_length});
+  visit(&S::mean_radius, Kept{"mean_radius", "one over the mean curvature", length});
+}
+
 /// Of a surface that is spread over processes each has the summits of its rows.
 struct SummitList {
   std::vector<Summit> summits;
@@ -27,6 +38,17 @@ struct SummitList {
   Index rows = 0;                    ///< of the surface; 0 where the summits are of none
   std::vector<Index> in_block = {};  ///< summits in each block of rows of this process
 };
+
+constexpr void describe(auto&& visit, std::type_identity<SummitList>) {
+  using S = SummitList;
+  visit(&S::summits, Table{"summits", "in the order of their rows"});
+  visit(&S::searched_area,
+        Kept{"searched_area", "cells whose eight neighbours exist and are defined",
+             Dimension::length_squared});
+  visit(&S::ranks, Kept{});
+  visit(&S::rows, Kept{});
+  visit(&S::in_block, Kept{});
+}
 
 /// Every point that is higher than its eight neighbours (of equal neighbours the last in row order
 /// counts, so that a pair of equal points is one summit). The paraboloid is the least-squares one

@@ -85,21 +85,21 @@ Counts1 view(const std::vector<Index>& values, nb::handle owner) {
       reinterpret_cast<std::int64_t*>(const_cast<Index*>(values.data())), {values.size()}, owner};
 }
 
-nb::object array_of(std::vector<double> values) {
+Array1 array_of(std::vector<double> values) {
   auto owned = std::make_unique<std::vector<double>>(std::move(values));
   double* data = owned->data();
   const std::size_t size = owned->size();
   nb::capsule owner(owned.release(), [](void* pointer) noexcept {
     delete static_cast<std::vector<double>*>(pointer);
   });
-  return nb::cast(Array1(data, {size}, owner));
+  return {data, {size}, owner};
 }
-nb::object array_of(Field field) {
+Array2 array_of(Field field) {
   auto owned = std::make_unique<Field>(std::move(field));
-  Field* held = owned.get();
+  const Field* held = owned.get();
   nb::capsule owner(owned.release(),
                     [](void* pointer) noexcept { delete static_cast<Field*>(pointer); });
-  return nb::cast(view(*held, owner));
+  return view(*held, owner);
 }
 
 const double* data_of(const Numbers& numbers) {

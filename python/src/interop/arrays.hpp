@@ -93,8 +93,8 @@ nb::ndarray<nb::numpy, Member, nb::ndim<1>, nb::device::cpu> column_view(
 }
 
 /// Arrays that Python owns alone.
-nb::object array_of(std::vector<double> values);
-nb::object array_of(Field field);
+Array1 array_of(std::vector<double> values);
+Array2 array_of(Field field);
 
 /// Read-only properties that are views.
 template <class Class, class Bound, class Type>

@@ -20,14 +20,12 @@ struct BoundContact : NormalContactState {
   Boundary boundary = Boundary::periodic;
 };
 
-template <class Archive, class T>
-void archive(Archive& through, T& value);
-template <class Archive>
-void archive_members(Archive& through, BoundContact& own) {
-  archive(through, static_cast<NormalContactState&>(own));
-  archive(through, own.grid);
-  archive(through, own.contact_modulus);
-  archive(through, own.boundary);
+constexpr void describe(auto&& visit, std::type_identity<BoundContact>) {
+  using S = BoundContact;
+  describe(visit, std::type_identity<NormalContactState>{});
+  visit(&S::grid, Kept{"grid", "points and size"});
+  visit(&S::contact_modulus, Kept{"contact_modulus", "contact modulus E*", Dimension::pressure});
+  visit(&S::boundary, Kept{"boundary", "'periodic' or 'free'"});
 }
 
 /// Throws InvalidInput where several processes hold the state, as Surface::require_whole.

@@ -54,14 +54,23 @@ void described_property(nb::class_<Bound>& bound, Member member, const Line& lin
   using Value = std::remove_cvref_t<std::invoke_result_t<Member, const Bound&>>;
   if constexpr (std::is_same_v<Line, Table>) {
     describe(
-        [&](auto column, const auto& inner) {
-          column_property(bound, std::string(inner.name).c_str(), member, column,
-                          described_text(inner).c_str());
+        [&]<class Column>(Column column, const auto& inner) {
+          // A name that the whole has already is the whole's.
+          const std::string name(inner.name);
+          if constexpr (std::is_member_object_pointer_v<Column>)
+            if (!nb::hasattr(bound, name.c_str()))
+              column_property(bound, name.c_str(), member, column, described_text(inner).c_str());
         },
         std::type_identity<typename Value::value_type>{});
   } else {
     const std::string name(line.name), text = described_text(line);
-    if constexpr (requires(const Value& value) { view(value, nb::handle()); })
+    if (name.empty()) return;
+    if constexpr (!std::is_member_object_pointer_v<Member> &&
+                  requires(Value value) { array_of(std::move(value)); })
+      bound.def_prop_ro(
+          name.c_str(), [member](const Bound& self) { return array_of((self.*member)()); },
+          text.c_str());
+    else if constexpr (requires(const Value& value) { view(value, nb::handle()); })
       view_property(bound, name.c_str(), member, text.c_str());
     else if constexpr (has_words<Value>)
       bound.def_prop_ro(

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <salebra/base/communicator.hpp>
+#include <salebra/base/describe.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/progress.hpp>
 #include <string>
@@ -26,6 +27,14 @@ struct Report {
   int step = 0;
   double residual = 0;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<Report>) {
+  visit(&Report::stage, Kept{"stage", "such as 'contact', 'sweep', 'realisation'"});
+  visit(&Report::fraction,
+        Kept{"fraction", "done of this stage, 0 … 1; a guess where the end is not known"});
+  visit(&Report::step, Kept{"step", "iterations or items done"});
+  visit(&Report::residual, Kept{"residual", "of an iteration; 0 where there is none"});
+}
 
 /// The argument `progress`: False, True for a bar of tqdm, or a function of a ProgressReport that
 /// returns False to stop.

@@ -19,10 +19,6 @@ namespace {
 // Streams of the random numbers: heights and positions of one summit are independent.
 constexpr std::uint32_t height_stream = 0x67770001, position_stream = 0x67770002;
 
-constexpr double AsperityContact::*sums[] = {
-    &AsperityContact::contacts, &AsperityContact::contact_area, &AsperityContact::force,
-    &AsperityContact::normal_stiffness};
-
 }  // namespace
 
 std::vector<Summit> draw_summits(const SummitEnsemble& ensemble, int count, double size,
@@ -90,14 +86,16 @@ MonteCarloCurve monte_carlo_curve(const SummitEnsemble& ensemble, const Material
   const double count = options.realisations;
   for (std::size_t i = 0; i < descending.size(); ++i) {
     AsperityContact mean, deviation;
-    for (const auto sum : sums) {
-      for (const auto& contact : contacts) mean.*sum += contact[i].*sum / count;
-      for (const auto& contact : contacts) {
-        const double difference = contact[i].*sum - mean.*sum;
-        deviation.*sum += difference * difference / (count - 1);
+    for_each_member<AsperityContact>([&]<class Member>(Member AsperityContact::*sum) {
+      if constexpr (std::is_same_v<Member, double>) {
+        for (const auto& contact : contacts) mean.*sum += contact[i].*sum / count;
+        for (const auto& contact : contacts) {
+          const double difference = contact[i].*sum - mean.*sum;
+          deviation.*sum += difference * difference / (count - 1);
+        }
+        deviation.*sum = std::sqrt(deviation.*sum);
       }
-      deviation.*sum = std::sqrt(deviation.*sum);
-    }
+    });
     deviation.curvature = std::numeric_limits<double>::quiet_NaN();
     ForceSample& sample = result.mean.samples[i];
     sample.force = mean.force;

@@ -18,6 +18,18 @@ struct Anisotropy {
   double peklenik() const { return along / across; }
 };
 
+constexpr void describe(auto&& visit, std::type_identity<Anisotropy>) {
+  using enum Dimension;
+  using S = Anisotropy;
+  visit(&S::along,
+        Quantity{"stretch_along", dimensionless, "stretch of the spectrum along the lay"});
+  visit(&S::across,
+        Quantity{"stretch_across", dimensionless, "stretch of the spectrum across the lay"});
+  visit(&S::angle, Quantity{"lay_angle", Dimension::angle, "direction of the lay against x"});
+  visit(&S::peklenik,
+        Quantity{"peklenik", dimensionless, "correlation length along x over that along y"});
+}
+
 /// The spectrum of an isotropic surface stretched along two perpendicular directions e₁, e₂, with
 /// its rms height kept:
 ///     C(q) = along·across·C_iso(|(along·q₁, across·q₂)|),  q_i = q·e_i.

@@ -20,6 +20,17 @@ struct Forecast {
   std::vector<std::string> warnings;  ///< sentences for the user; empty if there is nothing to say
 };
 
+constexpr void describe(auto&& visit, std::type_identity<Forecast>) {
+  using S = Forecast;
+  visit(&S::target, Kept{"target", "moments of the continuum: what was asked"});
+  visit(&S::lattice, Kept{"lattice", "what surfaces on this grid have in the mean"});
+  visit(&S::rms_height_scatter,
+        Kept{"rms_height_scatter",
+             "relative standard deviation of the rms height of filtered noise"});
+  visit(&S::memory, Kept{"memory", "peak memory of the generation in bytes"});
+  visit(&S::warnings, Kept{"warnings", "sentences for the user"});
+}
+
 /// Warns of fewer than eight cells in the shortest wavelength (contact areas come out too large,
 /// docs/theory.md, section 7), of a lattice rms height more than 5 % from the target, and of an
 /// rms_height_scatter above 5 % (a roll-off longer than about an eighth of the cell). Throws as

@@ -41,6 +41,18 @@ struct NonGaussianSurface {
   bool interrupted = false;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<NonGaussianSurface>) {
+  using enum Dimension;
+  using S = NonGaussianSurface;
+  visit(&S::surface, Kept{"surface", "the surface"});
+  visit(&S::iterations, Quantity{"iterations", dimensionless, "iterations of the solver"});
+  visit(&S::spectrum_mismatch, Quantity{"spectrum_mismatch", dimensionless,
+                                        "relative error of the spectrum of the heights"});
+  visit(&S::converged,
+        Quantity{"converged", dimensionless, "whether the mismatch has stopped falling"});
+  visit(&S::interrupted, Kept{"interrupted", "whether the progress function said stop"});
+}
+
 /// A periodic surface with a given spectrum and a given height distribution, by the iterated
 /// amplitude-adjusted Fourier transform of Schreiber and Schmitz (1996): in turn, heights are
 /// replaced by those of the distribution in the same order, and mode amplitudes by those of the

@@ -17,6 +17,14 @@ struct Profile {
   double dx() const { return length / static_cast<double>(heights.size()); }
 };
 
+constexpr void describe(auto&& visit, std::type_identity<Profile>) {
+  using S = Profile;
+  visit(&S::length, Kept{"length", "period", Dimension::length});
+  visit(&S::heights, Kept{"heights", "height, positive out of the material", Dimension::length});
+  visit(&S::origin, Kept{"origin", "generator with its seed"});
+  visit(&S::dx, Kept{"dx", "from one point to the next", Dimension::length});
+}
+
 /// Power spectral density of a random profile, C₁(q) = (2π)⁻¹ ∫⟨h(0)h(x)⟩ e^{−iqx} dx for −∞ < q <
 /// ∞, so that h_rms² = ∫C₁ dq. The mode of wave number i has the mean power C₁(q)·2π/length.
 class ProfileSpectrum {

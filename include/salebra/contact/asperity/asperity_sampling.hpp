@@ -35,6 +35,14 @@ struct MonteCarloCurve {
   double interval(double standard_deviation) const;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<MonteCarloCurve>) {
+  using S = MonteCarloCurve;
+  visit(&S::mean, Kept{"mean", "means over realisations"});
+  visit(&S::deviation, Kept{});
+  visit(&S::realisations, Kept{"realisations", "number of realisations"});
+  visit(&S::summits, Kept{"summits", "summits of each realisation"});
+}
+
 /// Presses realisations of an ensemble, each with round(ηA0) >= 1 summits drawn from φ.
 /// separations: m, any order. The result has the same bits for every thread count. Cost:
 /// realisations × summits × separations.

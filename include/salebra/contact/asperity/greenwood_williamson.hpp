@@ -63,9 +63,9 @@ constexpr void describe(auto&& visit, std::type_identity<SummitEnsemble>) {
   visit(&S::summit_rms, Quantity{"summit_rms", length, "standard deviation of summit heights"});
   visit(&S::mean_height,
         Quantity{"mean_height", length, "mean summit height above the mean plane"});
-  visit(&S::distribution, Kept{"distribution", "of the summit heights"});
+  visit(&S::distribution, Kept{"distribution", "'gaussian', 'exponential' or 'tabulated'"});
   visit(&S::rms_height, Quantity{"rms_height", length, "root mean square height"});
-  visit(&S::table, Kept{"table", "density of the heights, where it is tabulated"});
+  visit(&S::table, Kept{});
 }
 
 /// The ensemble of a Gaussian isotropic surface, from its profile moments m0, m2, m4 by Nayak
@@ -90,6 +90,18 @@ struct AsperityContact {
   double curvature = 0;         ///< F'', N/m²
   bool converged = true;        ///< only a model that iterates may say no
 };
+
+constexpr void describe(auto&& visit, std::type_identity<AsperityContact>) {
+  using S = AsperityContact;
+  visit(&S::contacts, Kept{"contacts", "summits in contact; an expectation for an ensemble"});
+  visit(&S::contact_area, Kept{"contact_area", "contact area", Dimension::length_squared});
+  visit(&S::force, Kept{"force", "normal force", Dimension::force});
+  visit(&S::normal_stiffness,
+        Kept{"normal_stiffness", "normal stiffness dF/d(indentation)", Dimension::stiffness});
+  visit(&S::curvature, Kept{"force_curvature", "second derivative of force by indentation",
+                            Dimension::force_curvature});
+  visit(&S::converged, Kept{"converged", "only a model that iterates may say no"});
+}
 
 /// A smooth rigid plane at separation s from the plane z = 0 of an ensemble of summits. Immutable.
 class AsperityModel {

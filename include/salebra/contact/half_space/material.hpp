@@ -16,6 +16,13 @@ struct ElasticBody {
   double shear() const { return young / (2 * (1 + poisson)); }  ///< G, Pa
 };
 
+constexpr void describe(auto&& visit, std::type_identity<ElasticBody>) {
+  using S = ElasticBody;
+  visit(&S::young, Kept{"young", "Young's modulus E", Dimension::pressure});
+  visit(&S::poisson, Kept{"poisson", "Poisson's ratio"});
+  visit(&S::shear, Kept{"shear", "shear modulus G = E/(2(1+ν))", Dimension::pressure});
+}
+
 /// What a contact knows of its two bodies.
 ///     1/E* = Σ (1−ν_i²)/E_i        Eq. (1)        1/G* = Σ (2−ν_i)/(4 G_i)        Eq. (2)
 struct Material {
@@ -49,6 +56,7 @@ constexpr void describe(auto&& visit, std::type_identity<Material>) {
         Quantity{"tangential_modulus", Dimension::pressure, "tangential modulus G*"});
   visit(&Material::cerruti_isotropic, Kept{"cerruti_isotropic", "sum of (1 - nu)/(2 pi G), 1/Pa"});
   visit(&Material::cerruti_directed, Kept{"cerruti_directed", "sum of nu/(2 pi G), 1/Pa"});
+  visit(&Material::modulus_ratio, Quantity{"modulus_ratio", Dimension::dimensionless, "G*/E*"});
 }
 
 /// A nominal pressure above a tenth of E*, where strains of the whole surface are no longer small:

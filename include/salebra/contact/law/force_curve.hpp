@@ -36,9 +36,9 @@ constexpr void describe(auto&& visit, std::type_identity<ForceSample>) {
   visit(&S::contact_area_fraction,
         Quantity{"contact_area_fraction", dimensionless, "contact area over nominal area"});
   visit(&S::normal_stiffness,
-        Quantity{"normal_stiffness", stiffness, "normal stiffness dF/d(indentation)"});
+        Extensive{"normal_stiffness", stiffness, "normal stiffness dF/d(indentation)"});
   visit(&S::tangential_stiffness,
-        Quantity{"tangential_stiffness", stiffness, "tangential stiffness in full stick"});
+        Extensive{"tangential_stiffness", stiffness, "tangential stiffness in full stick"});
   visit(&S::converged, Quantity{"converged", dimensionless, "whether the contact converged"});
 }
 
@@ -58,7 +58,7 @@ constexpr void describe(auto&& visit, std::type_identity<ForceCurve>) {
   visit(&ForceCurve::model, Kept{"model", "contact model"});
   visit(&ForceCurve::nominal_area, Quantity{"nominal_area", length_squared, "nominal area"});
   visit(&ForceCurve::rms_height, Quantity{"rms_height", length, "root mean square height"});
-  visit(&ForceCurve::samples, Kept{"samples", "from the lowest force to the highest"});
+  visit(&ForceCurve::samples, Table{"samples", "from the lowest force to the highest"});
 }
 
 }  // namespace salebra

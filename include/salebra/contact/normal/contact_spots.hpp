@@ -12,6 +12,11 @@ struct ContactSpot {
   double force = 0;  ///< N
 };
 
+constexpr void describe(auto&& visit, std::type_identity<ContactSpot>) {
+  visit(&ContactSpot::area, Kept{"area", "area of a spot", Dimension::length_squared});
+  visit(&ContactSpot::force, Kept{"force", "normal force on it", Dimension::force});
+}
+
 struct ContactSpots {
   std::vector<ContactSpot> spots;    ///< largest area first
   double contact_area_fraction = 0;  ///< cells with p > 0 over all cells
@@ -22,6 +27,18 @@ struct ContactSpots {
   /// by Yastrebov et al. (2017). Never below 0.
   double corrected_area_fraction = 0;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<ContactSpots>) {
+  using S = ContactSpots;
+  visit(&S::spots, Table{"spots", "largest area first"});
+  visit(&S::contact_area_fraction,
+        Kept{"contact_area_fraction", "cells with p > 0 over all cells"});
+  visit(&S::perimeter, Kept{"perimeter", "of all spots, along cell edges", Dimension::length});
+  visit(&S::corrected_area_fraction,
+        Kept{"corrected_area_fraction",
+             "contact area over nominal area, without the cells counted in excess along the edges, "
+             "doi:10.1016/j.triboint.2017.04.023"});
+}
 
 /// Spots of a pressure field (nx, ny), Pa; neighbours wrap for Boundary::periodic, while at a free
 /// boundary the edge of the grid is an edge of the contact. Throws InvalidInput unless pressure has

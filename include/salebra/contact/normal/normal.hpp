@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <limits>
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/base/words.hpp>
@@ -61,6 +62,29 @@ struct NormalContactState {
   bool interrupted = false;  ///< the progress callback said stop
   Communicator ranks = {};   ///< the processes that hold the fields, as those of the surface
 };
+
+constexpr void describe(auto&& visit, std::type_identity<NormalContactState>) {
+  using enum Dimension;
+  using S = NormalContactState;
+  visit(&S::pressure, Quantity{"contact_pressure", Dimension::pressure, "contact pressure"});
+  visit(&S::gap, Quantity{"gap", length, "gap of the deformed surfaces"});
+  visit(&S::mean_pressure, Kept{"mean_pressure", "nominal pressure", Dimension::pressure});
+  visit(&S::force, Quantity{"force", Dimension::force, "normal force"});
+  visit(&S::mean_gap, Quantity{"mean_gap", length, "mean gap of the deformed surfaces"});
+  visit(&S::indentation, Quantity{"indentation", length, "indentation"});
+  visit(&S::contact_area_fraction,
+        Quantity{"contact_area_fraction", dimensionless, "contact area over nominal area"});
+  visit(&S::elastic_energy, Quantity{"elastic_energy", energy, "elastic energy"});
+  visit(&S::residual, Quantity{"residual", dimensionless, "residual of the contact"});
+  visit(&S::iterations, Quantity{"iterations", dimensionless, "iterations of the solver"});
+  visit(&S::fft_count,
+        Quantity{"fft_count", dimensionless, "Fourier transforms of the solver, in pairs"});
+  visit(&S::ladder_count,
+        Quantity{"ladder_count", dimensionless, "applications of the near-field ladder"});
+  visit(&S::converged, Quantity{"converged", dimensionless, "whether the contact converged"});
+  visit(&S::interrupted, Kept{"interrupted", "whether the progress function said stop"});
+  visit(&S::ranks, Kept{});
+}
 
 /// Cells with p > 0.
 ContactSet contact_set(const NormalContactState& state);

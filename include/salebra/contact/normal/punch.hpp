@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
@@ -29,6 +30,18 @@ struct PunchStiffness {
   bool converged = false;    ///< K settled to the square of the tolerance, or to 1e-14
   bool interrupted = false;  ///< the progress callback said stop
 };
+
+constexpr void describe(auto&& visit, std::type_identity<PunchStiffness>) {
+  using S = PunchStiffness;
+  visit(&S::normal_stiffness,
+        Kept{"normal_stiffness", "normal stiffness dF/d(indentation)", Dimension::stiffness});
+  visit(&S::iterations, Kept{"iterations", "iterations of the solver"});
+  visit(&S::fft_count, Kept{"fft_count", "Fourier transforms of the solver, in pairs"});
+  visit(&S::ladder_count, Kept{"ladder_count", "applications of the near-field ladder"});
+  visit(&S::residual, Kept{"residual", "rms error of the displacement over the set, relative"});
+  visit(&S::converged, Kept{"converged", "false: do not use the stiffness"});
+  visit(&S::interrupted, Kept{"interrupted", "whether the progress function said stop"});
+}
 
 /// pressure, where given, receives that of a unit approach, Pa/m.
 /// Throws InvalidInput for a bad grid or option, and if every cell of a periodic grid is in

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/tangential/stick.hpp>
@@ -22,6 +23,17 @@ struct PartialSlipReport {
   bool converged = false;
   bool interrupted = false;  ///< the progress callback said stop
 };
+
+constexpr void describe(auto&& visit, std::type_identity<PartialSlipReport>) {
+  using S = PartialSlipReport;
+  visit(&S::steps, Kept{"steps", "Newton steps"});
+  visit(&S::iterations, Kept{"iterations", "iterations of conjugate gradients in all steps"});
+  visit(&S::fft_count, Kept{"fft_count", "Fourier transforms of scalar fields, in pairs"});
+  visit(&S::residual, Kept{"residual", "rms of the projected gradient over the set, relative"});
+  visit(&S::slipping, Kept{"slipping", "cells that slip"});
+  visit(&S::converged, Kept{"converged", "false: do not use the tractions"});
+  visit(&S::interrupted, Kept{"interrupted", "whether the progress function said stop"});
+}
 
 /// Coulomb friction on a contact set, one step in time: which tractions does a move of the body
 /// leave? Given v, the displacement that each cell would have if it stuck, and the limit μp, the

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
@@ -87,6 +88,18 @@ struct StickStiffness {
   double residual = 0;   ///< the larger of both
   bool converged = false;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<StickStiffness>) {
+  using S = StickStiffness;
+  visit(&S::xx, Kept{"xx", "force along x over displacement along x", Dimension::stiffness});
+  visit(&S::yy, Kept{"yy", "force along y over displacement along y", Dimension::stiffness});
+  visit(&S::xy, Kept{"xy", "force along x over displacement along y", Dimension::stiffness});
+  visit(&S::iterations, Kept{"iterations", "iterations of both solves"});
+  visit(&S::fft_count, Kept{"fft_count", "Fourier transforms of both solves, in pairs"});
+  visit(&S::ladder_count, Kept{"ladder_count", "applications of the near-field ladder"});
+  visit(&S::residual, Kept{"residual", "rms error of the displacement over the set, relative"});
+  visit(&S::converged, Kept{"converged", "false: do not use the stiffness"});
+}
 
 /// K_t of a contact set by two stick solves. With hold_lateral off each is a motion with no force
 /// across it, and xy = 0. The stiffness of one direction alone (yy = xy = NaN) costs half:
