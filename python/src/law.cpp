@@ -61,6 +61,7 @@ Indentation δ grows with approach. Functions take a number or an array and retu
                    "+∞ unless the law is a table, m.")
       .def_prop_ro(
           "break_points", [](const ContactLaw& self) { return array_of(self.break_points()); },
+          nb::rv_policy::automatic,
           "Indentations at which F, K, K_t or a first derivative jumps, m.")
       .def_prop_ro("modulus_ratio", &ContactLaw::modulus_ratio, "G*/E*.")
       .def(

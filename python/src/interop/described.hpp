@@ -69,13 +69,13 @@ void described_property(nb::class_<Bound>& bound, Member member, const Line& lin
                   requires(Value value) { array_of(std::move(value)); })
       bound.def_prop_ro(
           name.c_str(), [member](const Bound& self) { return array_of((self.*member)()); },
-          text.c_str());
+          nb::rv_policy::automatic, text.c_str());  // it owns what it returns
     else if constexpr (requires(const Value& value) { view(value, nb::handle()); })
       view_property(bound, name.c_str(), member, text.c_str());
     else if constexpr (has_words<Value>)
       bound.def_prop_ro(
-          name.c_str(),
-          [member](const Bound& self) { return words(std::invoke(member, self)); }, text.c_str());
+          name.c_str(), [member](const Bound& self) { return words(std::invoke(member, self)); },
+          text.c_str());
     else if constexpr (std::is_member_object_pointer_v<Member>)
       bound.def_ro(name.c_str(), member, text.c_str());
     else
