@@ -10,6 +10,7 @@
 #include <regex>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/io/result_file.hpp>
+#include <sstream>
 #include <thread>
 #include <tuple>
 
@@ -26,8 +27,9 @@ const std::string quiet = "--quiet --threads 1 ";
 
 const std::string environment = "export " SALEBRA_MPI_ENVIRONMENT ";";
 
-// The launcher with these arguments. Its own lines on standard error, of which it has some, are
-// left out of the result: those of the processes go into a file.
+// The launcher with these arguments. Of standard error the result has the lines of the program alone:
+// those of the launcher are apart from those of the processes, and there the MPI library and hwloc
+// begin theirs with who speaks, in brackets.
 ProgramTest::Result launched(const ProgramTest& test, const std::string& arguments,
                              const std::string& before = "") {
   const ProgramTest file;
@@ -35,7 +37,16 @@ ProgramTest::Result launched(const ProgramTest& test, const std::string& argumen
       arguments, fmt::format("export SALEBRA_MPI_STDERR='{}/err';", file.folder().string()) +
                      environment + before);
   CHECK_THAT(result.err, Contains("a line of the launcher"));
-  result.err = file.read("err");
+  std::istringstream lines(file.read("err"));
+  result.err.clear();
+  bool library = false;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("[")) {
+      library = true;
+    } else {
+      result.err += line + "\n";
+    }
+  CHECK(library);
   return result;
 }
 
