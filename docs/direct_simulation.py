@@ -181,7 +181,7 @@ def rough(runs, arguments):
         for (name, _, _, _, load, k, case), a in zip(keys, runs.all(run, keys)):
             w = a["work_per_cycle"]
             rows.append([name, str(load), str(k), "(b)" if case == "b" else "(a) 45°",
-                         percent(a["work_by_whole_cells"] / w - 1), *routes(a), percent(a["predicted_finite"] / w - 1), percent(a["predicted"] / w - 1),
+                         percent(a["work_by_whole_cells"] / w - 1), *routes(a), percent(a["work_by_force"] / w - 1), percent(a["small_amplitude_work"] / w - 1),
                          percent(a["predicted_exponential"] / w - 1),
                          percent(a["predicted_exponential_finite"] / w - 1),
                          f"{abs(a['dissipated'] / w - 1):.0e}"])

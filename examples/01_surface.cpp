@@ -48,7 +48,7 @@ int main(int argc, char** argv) try {
   const SummitStatistics summits = summit_statistics(find_summits(surface));
   const double nayak_density =
       realised.moment4() / (6 * std::sqrt(3.0) * std::numbers::pi * realised.moment2());
-  std::printf("%-22s %.4g per mm², Nayak: %.4g\n", "summit density", summits.density * 1e-6,
+  std::printf("%-22s %.4g per mm², Nayak: %.4g\n", "summit density", summits.summit_density * 1e-6,
               nayak_density * 1e-6);
   std::printf("%-22s %s\n", "mean summit radius",
               format_quantity(summits.mean_radius, Dimension::length).c_str());

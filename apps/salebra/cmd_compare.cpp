@@ -178,7 +178,7 @@ std::string damping_table(const StudyResult& result, const StudyPremises& premis
     rows.front().push_back(number(result.pressures[k] / result.contact_scale, 2));
   const std::pair<const char*, double DampingPoint::*> routes[] = {
       {drag ? "Eq. (16)" : "Eq. (12), l", &DampingPoint::work_per_cycle_eq16},
-      {drag ? "Eq. (15)" : "Eq. (12)", &DampingPoint::small_work_per_cycle},
+      {drag ? "Eq. (15)" : "Eq. (12)", &DampingPoint::small_amplitude_work},
       {"theorem", &DampingPoint::work_per_cycle}};
   for (const StudyModel& model : result.models()) {
     std::string title = model.title;

@@ -82,7 +82,7 @@ void write_contact(const ContactArguments& arguments, const Session& session, co
     file.emplace(session.output(), session.provenance(), session.write_options(), session.ranks());
     QuantityGroup group(file->group("contact"));
     if (has_pressure) write_axes(group, grid);
-    if (has_pressure) group.dataset("contact_pressure", state.pressure, "x", "y", type);
+    if (has_pressure) group.dataset("contact_pressure", state.contact_pressure, "x", "y", type);
     if (has_gap) group.dataset("gap", state.gap, "x", "y", type);
     group.attribute("pressure", state.mean_pressure);
     for_each_number<NormalContactState>([&](const auto& number, const Quantity& quantity) {
@@ -94,7 +94,8 @@ void write_contact(const ContactArguments& arguments, const Session& session, co
 
 /// The largest pressure of all processes.
 double max_pressure(const Communicator& ranks, const NormalContactState& state) {
-  return -ranks.least_of(state.pressure.size() > 0 ? -state.pressure.maxCoeff() : 0.0);
+  return -ranks.least_of(state.contact_pressure.size() > 0 ? -state.contact_pressure.maxCoeff()
+                                                           : 0.0);
 }
 
 /// Of the rows of this process.
@@ -177,12 +178,12 @@ void run(const ContactArguments& arguments, Session& session) {
   const NormalContactState state = solve(arguments.position, surface, contact_modulus, options);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const bool kept =
-      !state.converged && arguments.checkpoint.write(session, surface.grid, state.pressure);
+      !state.converged && arguments.checkpoint.write(session, surface.grid, state.contact_pressure);
   if (state.interrupted)
     throw Interrupted(kept ? fmt::format("contact: interrupted; continue with --initial {}",
                                          arguments.checkpoint.file)
                            : "contact: interrupted; nothing was written");
-  if (options.boundary == Boundary::free && reaches_edge(surface, state.pressure))
+  if (options.boundary == Boundary::free && reaches_edge(surface, state.contact_pressure))
     session.warn(
         "the contact reaches the edge of the surface, beyond which there is nothing; press less, "
         "or take a larger piece of the surface");
@@ -209,7 +210,7 @@ void run(const ContactArguments& arguments, Session& session) {
     answer["normal_stiffness"] = stiffness;
     answer["normal_stiffness_per_area"] = stiffness / surface.grid.area();
     if (session.stopped()) {
-      arguments.checkpoint.write(session, surface.grid, state.pressure);
+      arguments.checkpoint.write(session, surface.grid, state.contact_pressure);
       throw Interrupted("contact: interrupted; the stiffness was not computed");
     }
   }

@@ -182,7 +182,7 @@ void follow_motion(const DampingArguments& arguments, const LawOptions::Contact&
   const TrajectoryDamping loss = follow(law, one.motion, path, arguments.follow.coefficient());
   Json object = json_of(loss);
   object["full_stick_work"] = full_stick.work_per_cycle;
-  object["force_curvature"] = full_stick.curvature;
+  object["force_curvature"] = full_stick.force_curvature;
   object["force"] = full_stick.force;
   object["indentation"] = full_stick.indentation;
   add_first_loading(object, contact.first_loading);

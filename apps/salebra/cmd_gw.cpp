@@ -68,7 +68,7 @@ DescribedLaw of_surface(const GwArguments& arguments, const Material& material, 
 DescribedLaw of_parameters(const GwArguments& arguments, const Material& material) {
   constexpr std::string_view reason = "there is no SURFACE to take it from";
   SummitEnsemble ensemble;
-  ensemble.density = required(arguments.summit_density, "--summit-density", reason);
+  ensemble.summit_density = required(arguments.summit_density, "--summit-density", reason);
   ensemble.radius = required(arguments.radius, "--radius", reason);
   ensemble.summit_rms = required(arguments.summit_rms, "--summit-rms", reason);
   if (arguments.distribution == "exponential") {

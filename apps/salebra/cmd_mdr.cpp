@@ -84,7 +84,7 @@ void add_state(Json& object, const IndenterLaw& law, double indentation) {
   object["force"] = law.force(indentation);
   object["normal_stiffness"] = law.normal_stiffness(indentation);
   object["tangential_stiffness"] = law.tangential_stiffness(indentation);
-  object["force_curvature"] = law.curvature(indentation);
+  object["force_curvature"] = law.force_curvature(indentation);
 }
 
 void run(const MdrArguments& arguments, Session& session) {

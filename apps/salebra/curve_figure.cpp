@@ -75,7 +75,7 @@ Figure curve_figure(const ForceCurve& curve, const std::optional<ExponentialFit>
 Figure pressure_figure(const Grid2D& grid, const NormalContactState& state) {
   Figure figure;
   figure.panels.push_back(
-      map_panel(grid, state.pressure, "contact pressure", {.label = "p", .unit = "Pa"}));
+      map_panel(grid, state.contact_pressure, "contact pressure", {.label = "p", .unit = "Pa"}));
   figure.panels.push_back(map_panel(grid, state.gap, "gap", {.label = "g", .unit = "m"}));
   figure.columns = 2;
   return figure;

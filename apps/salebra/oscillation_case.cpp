@@ -40,7 +40,7 @@ Json or_null(const std::optional<double>& value) { return value ? Json(*value) :
 
 const std::vector<std::string>& shape_names() {
   static const std::vector<std::string> names{"cylinder",  "parabola", "pyramids",
-                                              "sinusoids", "cone",     "ellipsoid"};
+                                              "sinusoids", "cone",     "elliptic-paraboloid"};
   return names;
 }
 
@@ -56,7 +56,7 @@ Body shape_body(const std::string& shape, const Grid2D& grid) {
     return {paraboloid_surface(grid, 4 * size, center), Boundary::free, 0.02 * size, 0.006 * size};
   if (shape == "cone")
     return {cone_surface(grid, 0.05, center), Boundary::free, 0.02 * size, 0.006 * size};
-  if (shape == "ellipsoid")
+  if (shape == "elliptic-paraboloid")
     return {elliptic_paraboloid_surface(grid, 6 * size, 2 * size, center), Boundary::free,
             0.02 * size, 0.006 * size};
   if (shape == "pyramids")
@@ -164,14 +164,14 @@ Json to_json(const OscillationOutcome& outcome) {
         std::abs(levels.work_per_cycle - outcome.cycle->work_per_cycle) <=
         levels.error_estimate + outcome.cycle->step_error + no_loss * outcome.elastic_energy();
   const bool bends_down = outcome.bends_down();
-  object["predicted"] = bends_down ? Json() : Json(levels.small_amplitude_work);
+  object["small_amplitude_work"] = bends_down ? Json() : Json(levels.small_amplitude_work);
   object["ratio"] = bends_down ? Json() : or_null(outcome.over(levels.small_amplitude_work));
-  object["predicted_finite"] = levels.work_by_force;
+  object["work_by_force"] = levels.work_by_force;
   object["ratio_finite"] = or_null(outcome.over(levels.work_by_force));
   object["work_over_elastic_energy"] = outcome.work_per_cycle() / outcome.elastic_energy();
   object["indentation"] = outcome.run.indentation;
   object["force"] = levels.force;
-  object["force_curvature"] = bends_down ? Json() : Json(levels.curvature);
+  object["force_curvature"] = bends_down ? Json() : Json(levels.force_curvature);
   object["nx"] = grid.nx;
   object["ny"] = grid.ny;
   // The two ends of the sweep are levels without a tangential solve, but for the last of a drag.
@@ -257,8 +257,8 @@ void write_outcome(ResultFile& file, const std::string& prefix, const Oscillatio
     write_cycle(group, *outcome.cycle, outcome.run.body.surface.grid);
     group.dataset("heights", outcome.run.body.surface.heights);
     group.attribute("error_estimate", outcome.cycle->step_error);
-    group.attribute("predicted", outcome.levels.small_amplitude_work);
-    group.attribute("predicted_finite", outcome.levels.work_by_force);
+    group.attribute("small_amplitude_work", outcome.levels.small_amplitude_work);
+    group.attribute("work_by_force", outcome.levels.work_by_force);
   }
   QuantityGroup group(file.group(prefix + "levels"));
   const ForceCurve& curve = outcome.levels.curve;

@@ -91,11 +91,11 @@ void press(Outcomes& table, const std::string& family, const test::AwkwardContac
     options.precision = precision;
     options.tolerance = tolerance_of(precision);
     const auto again = [&](const NormalContactState& state) {
-      return test::independent_residual(state.pressure, surface, 1, boundary);
+      return test::independent_residual(state.contact_pressure, surface, 1, boundary);
     };
     const auto state = press_to_pressure(surface, 1, contact.pressure, options);
     table.add(family + ", by pressure", precision, contact.name, state, again(state),
-              std::abs(state.pressure.mean() / contact.pressure - 1), 1e-10);
+              std::abs(state.contact_pressure.mean() / contact.pressure - 1), 1e-10);
     const double first_touch = surface.heights.maxCoeff() - surface.heights.mean();
     const bool periodic = boundary == Boundary::periodic;
     // In full contact the gap tells the pressure no more.
@@ -128,7 +128,7 @@ void press_sinusoids(Outcomes& table) {
       const auto state = press_to_pressure(surface, 1, load * full, options);
       const double gap = load < 1 ? amplitude * (1 - load * (1 - std::log(load))) : 0;
       const double area = load < 1 ? 2 / pi * std::asin(std::sqrt(load)) : 1;
-      const double residual = test::independent_residual(state.pressure, surface, 1);
+      const double residual = test::independent_residual(state.contact_pressure, surface, 1);
       const std::string name = std::to_string(load) + " of the pressure of full contact";
       table.add("sinusoid, mean gap by Westergaard", precision, name, state, residual,
                 std::abs(state.mean_gap - gap) / amplitude,
@@ -160,12 +160,12 @@ int main(int argc, char** argv) {
         options.tolerance = tolerance_of(precision);
         const auto state = press_to_pressure(*flat, 1, pressure, options);
         table.add("constant height, periodic", precision, "pressure " + std::to_string(pressure),
-                  state, state.gap.abs().maxCoeff(), std::abs(state.pressure.mean() / pressure - 1),
-                  1e-10);
+                  state, state.gap.abs().maxCoeff(),
+                  std::abs(state.contact_pressure.mean() / pressure - 1), 1e-10);
         options.boundary = Boundary::free;
         const auto alone = press_to_pressure(*flat, 1, pressure, options);
         table.add("constant height, free", precision, "pressure " + std::to_string(pressure), alone,
-                  alone.residual, std::abs(alone.pressure.mean() / pressure - 1), 1e-10);
+                  alone.residual, std::abs(alone.contact_pressure.mean() / pressure - 1), 1e-10);
       }
   }
 

@@ -62,6 +62,6 @@ int main(int argc, char** argv) {
       wall, setup_seconds(surface), spent, bytes_more, state.fft_count, state.iterations,
       state.residual, state.converged ? "true" : "false");
   std::ofstream(argv[6], std::ios::binary)
-      .write(reinterpret_cast<const char*>(state.pressure.data()), bytes);
+      .write(reinterpret_cast<const char*>(state.contact_pressure.data()), bytes);
   return state.converged ? 0 : 1;
 }

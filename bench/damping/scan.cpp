@@ -46,7 +46,7 @@ class WarmLevels {
     ContactSetAt level{contact_set(state), state.force, state.converged};
     before_ = std::move(last_);
     before_at_ = last_at_;
-    last_ = std::move(state.pressure);
+    last_ = std::move(state.contact_pressure);
     last_at_ = state.indentation;
     return level;
   }
@@ -76,7 +76,8 @@ int main(int count, char** words) {
                          indentation, options);
     const auto constant = [&](double work) { return closed_form::damping_constant(work, motion); };
     std::printf("%.5g %.6g %.3g %.5g %.6g %.0f %.0f%s\n", pressure, constant(result.work_per_cycle),
-                constant(result.error_estimate), result.curvature, constant(result.work_by_force),
+                constant(result.error_estimate), result.force_curvature,
+                constant(result.work_by_force),
                 (result.curve.samples.back().contact_area_fraction -
                  result.curve.samples.front().contact_area_fraction) *
                     double(surface.grid.points()),

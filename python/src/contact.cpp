@@ -155,7 +155,7 @@ Unless `converged`, the numbers describe the last iterate and must not be used a
                 const Share rows(mine.ranks, mine.grid.nx);
                 auto whole = std::make_unique<BoundContact>(mine);
                 whole->ranks = {};
-                whole->pressure = gathered(rows, mine.pressure, root);
+                whole->contact_pressure = gathered(rows, mine.contact_pressure, root);
                 whole->gap = gathered(rows, mine.gap, root);
                 return whole;
               });
@@ -341,7 +341,7 @@ void bind_spots(nb::module_& m) {
       [](const BoundContact& state) {
         cite({"yastrebov2017"});
         return unlocked(
-            [&] { return contact_spots(state.pressure, state.grid, state.boundary, state.ranks); });
+            [&] { return contact_spots(state.contact_pressure, state.grid, state.boundary, state.ranks); });
       },
       nb::arg("state"),
       "Contact spots: connected cells with p > 0; neighbours wrap for periodic boundaries. Of a "

@@ -382,7 +382,7 @@ void bind_quadrature(nb::module_& m) {
       .def_ro("small_amplitude_work", &Result::small_amplitude_work,
               "Eq. (12) or (15) with F'' of the same fit, J.")
       .def_ro("force", &Result::force, "F at the mean indentation, N.")
-      .def_ro("force_curvature", &Result::curvature, "F'' there, N/m².")
+      .def_ro("force_curvature", &Result::force_curvature, "F'' there, N/m².")
       .def_ro("stiffness_ratio", &Result::stiffness_ratio, "work_per_cycle/work_by_force.")
       .def_ro("curve", &Result::curve, "The levels.")
       .def_ro("converged", &Result::converged)

@@ -44,7 +44,7 @@ Indentation δ grows with approach. Functions take a number or an array and retu
              "F(δ), N.");
   evaluation(law, "normal_stiffness", "indentation", &ContactLaw::normal_stiffness,
              SALEBRA_OF_INDENTATION("normal_stiffness"), "K = F', N/m.");
-  evaluation(law, "force_curvature", "indentation", &ContactLaw::curvature,
+  evaluation(law, "force_curvature", "indentation", &ContactLaw::force_curvature,
              SALEBRA_OF_INDENTATION("force_curvature"), "K' = F'', N/m².");
   evaluation(law, "tangential_stiffness", "indentation", &ContactLaw::tangential_stiffness,
              SALEBRA_OF_INDENTATION("tangential_stiffness"),

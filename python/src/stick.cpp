@@ -56,7 +56,7 @@ void bind_stiffness(nb::module_& m) {
 Parameters
 ----------
 contact : array_like of bool
-    (nx, ny). Cells in contact, such as ``state.pressure > 0``.
+    (nx, ny). Cells in contact, such as ``state.contact_pressure > 0``.
 grid : Grid2D
 material : Material
     With the constants of its bodies.
@@ -151,9 +151,9 @@ tolerance, max_iterations, boundary
           "The state after endless sliding along (x, y) at these pressures; sets work and losses "
           "to 0.")
       .def_prop_ro(
-          "pressure",
+          "contact_pressure",
           [](nb::handle_t<SlidingContact> self) {
-            return view(nb::cast<SlidingContact&>(nb::handle(self)).pressure(), self);
+            return view(nb::cast<SlidingContact&>(nb::handle(self)).contact_pressure(), self);
           },
           "Pa")
       .def_prop_ro(

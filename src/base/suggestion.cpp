@@ -26,30 +26,29 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-/// What else options, keys of a study file and commands are called: in other programs, on paper, or
-/// in version 0.1. Options have "--" and dashes. Where none of the names of a line is known, the
+/// What else options, keys and commands are called: in other programs, on paper, or in version
+/// 0.1.0. Options have "--" and dashes. Where none of the names of a line is known, the
 /// next line of the word counts.
 struct Synonym {
   std::string_view word;
   std::array<std::string_view, 3> names;
 };
 constexpr Synonym synonyms[]{
-    {"coupling", {"dundurs"}},
-    {"curvature", {"force_curvature"}},
-    {"customary", {"default"}},
-    {"density", {"summit_density"}},
+    {"closed_form", {"small_amplitude_work"}},
     {"e", {"contact_modulus", "young"}},
+    {"ellipsoid", {"elliptic_paraboloid"}},
     {"force", {"normal_force", "pressure", "pressures"}},
     {"force", {"overwrite"}},
-    {"force_newton", {"normal_force"}},
     {"friction", {"friction_coefficient"}},
-    {"least_prominence", {"min_prominence"}},
-    {"least_realisations", {"min_realisations"}},
     {"load", {"normal_force", "pressure", "pressures"}},
     {"mu", {"friction_coefficient", "friction"}},
     {"nu", {"poisson"}},
     {"precision", {"target_precision"}},
+    {"predicted", {"small_amplitude_work"}},
+    {"predicted_finite", {"work_by_force"}},
     {"roughness", {"statistics"}},
+    {"small_damping_constant", {"small_amplitude_damping_constant"}},
+    {"small_work_per_cycle", {"small_amplitude_work"}},
 };
 
 /// Of an option, the key of the same name, in lower case.

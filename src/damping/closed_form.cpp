@@ -68,15 +68,15 @@ double exponential_ratio_scaled(const Oscillation& motion, double k) {
                                                         : drag_integral_scaled(k) / (pi * pi - 4);
 }
 
-double work_at(double modulus_ratio, double curvature, const Oscillation& motion) {
-  return std::visit([&](const auto& m) { return work_per_cycle(modulus_ratio, curvature, m); },
-                    motion);
+double work_at(double modulus_ratio, double force_curvature, const Oscillation& motion) {
+  return std::visit(
+      [&](const auto& m) { return work_per_cycle(modulus_ratio, force_curvature, m); }, motion);
 }
 
 }  // namespace
 
-double edge_slope(double contact_modulus, double curvature) {
-  return 2 * contact_modulus / curvature;
+double edge_slope(double contact_modulus, double force_curvature) {
+  return 2 * contact_modulus / force_curvature;
 }
 
 bool intermittent_contact(double level, double amplitude) {
@@ -119,13 +119,13 @@ double work_per_cycle_by_slope(double tangential_modulus, double slope, const Dr
          square(motion.drag_velocity / motion.angular_frequency);
 }
 
-double work_per_cycle(double modulus_ratio, double curvature, const EqualFrequency& motion) {
-  return 8.0 / 3 * modulus_ratio * curvature * square(motion.tangential_amplitude) *
+double work_per_cycle(double modulus_ratio, double force_curvature, const EqualFrequency& motion) {
+  return 8.0 / 3 * modulus_ratio * force_curvature * square(motion.tangential_amplitude) *
          std::abs(motion.normal_amplitude) * square(std::sin(motion.phase));
 }
 
-double work_per_cycle(double modulus_ratio, double curvature, const Drag& motion) {
-  return 2 * (pi * pi - 4) * modulus_ratio * curvature * std::abs(motion.normal_amplitude) *
+double work_per_cycle(double modulus_ratio, double force_curvature, const Drag& motion) {
+  return 2 * (pi * pi - 4) * modulus_ratio * force_curvature * std::abs(motion.normal_amplitude) *
          square(motion.drag_velocity / motion.angular_frequency);
 }
 

@@ -182,7 +182,7 @@ void set_state(DampingResult& result, const ContactLaw& law, double indentation)
   result.indentation = indentation;
   result.force = law.force(indentation);
   result.normal_stiffness = law.normal_stiffness(indentation);
-  result.curvature = law.curvature(indentation);
+  result.force_curvature = law.force_curvature(indentation);
   result.tangential_curvature = law.tangential_curvature(indentation);
 }
 
@@ -205,7 +205,7 @@ DampingResult damping_of(const ContactLaw& law, const Position& position, const 
   check(options);
   const double amplitude = kernel.normal_amplitude;
   const double settled = settled_indentation(law, position);
-  const double small_factor = small_amplitude_factor(law, law.curvature(settled), kernel);
+  const double small_factor = small_amplitude_factor(law, law.force_curvature(settled), kernel);
   DampingResult result;
   if (options.amplitude == Amplitude::small) {
     set_state(result, law, settled);
@@ -249,7 +249,7 @@ DampingResult force_controlled(const ContactLaw& law, double mean_force, double 
   set_state(result, law, law.indentation_of(mean_force));
   result.mean_force = mean_force;
   kernel.normal_amplitude = force_amplitude / result.normal_stiffness;
-  const double small_factor = small_amplitude_factor(law, result.curvature, kernel);
+  const double small_factor = small_amplitude_factor(law, result.force_curvature, kernel);
   if (options.amplitude == Amplitude::small) {
     set_work(result, {small_factor, 0, true}, kernel);
   } else {

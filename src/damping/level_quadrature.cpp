@@ -227,10 +227,10 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
   // The loss is an integral and forgives a fit that follows the cells; a second derivative at a
   // point does not.
   const Series smooth = best_fit(normal, std::min(highest, 5));
-  result.curvature = smooth.second_slope_at_middle() / (amplitude * amplitude);
+  result.force_curvature = smooth.second_slope_at_middle() / (amplitude * amplitude);
   result.small_amplitude_work = std::visit(
       [&](const auto& m) {
-        return closed_form::work_per_cycle(modulus_ratio, result.curvature, m);
+        return closed_form::work_per_cycle(modulus_ratio, result.force_curvature, m);
       },
       motion);
   // The same integral from the stiffness of the levels as they are, and from a fit of more freedom.
@@ -268,7 +268,7 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
   }
   result.stiffness_ratio =
       result.work_by_force != 0 ? result.work_per_cycle / result.work_by_force : 0;
-  result.curve.model = "boundary-elements";
+  result.curve.model = "bem";
   result.curve.nominal_area = grid.area();
   for (auto level = values.rbegin(); level != values.rend(); ++level)
     result.curve.samples.push_back(level->sample);

@@ -46,10 +46,10 @@ class ContinuedLaw final : public ContactLaw {
     return end ? end->force / end->length * end->growth(indentation)
                : law_.normal_stiffness(indentation);
   }
-  double curvature(double indentation) const override {
+  double force_curvature(double indentation) const override {
     const End* end = beyond(indentation);
     return end ? end->force / (end->length * end->length) * end->growth(indentation)
-               : law_.curvature(indentation);
+               : law_.force_curvature(indentation);
   }
   double tangential_stiffness(double indentation) const override {
     const End* end = beyond(indentation);
@@ -97,7 +97,9 @@ class OpeningLevels final : public ContactLaw {
   double normal_stiffness(double indentation) const override {
     return law_.normal_stiffness(indentation);
   }
-  double curvature(double indentation) const override { return law_.curvature(indentation); }
+  double force_curvature(double indentation) const override {
+    return law_.force_curvature(indentation);
+  }
   double tangential_stiffness(double indentation) const override {
     return law_.tangential_stiffness(indentation) - stiffness_;
   }

@@ -76,7 +76,7 @@ class SlidingBody : public detail::CycleBody {
   }
   int steps() const { return steps_; }
   detail::CycleReading reading_of(const SlidingContact& contact) const {
-    return {.contact = contact.pressure() > 0,
+    return {.contact = contact.contact_pressure() > 0,
             .tangential_force = component(contact.tangential_force()),
             .work = contact.work(),
             .loss = &contact.loss(),
@@ -106,7 +106,7 @@ class FrictionalBody : public SlidingBody {
                   .stick = options.stick}) {
     ContactSet largest = ContactSet::Constant(grid.nx, grid.ny, false);
     for (int k = 0; k <= options.steps; ++k) {
-      const Field& pressure = pressures_.at(k).pressure;
+      const Field& pressure = pressures_.at(k).contact_pressure;
       require(pressure.rows() == grid.nx && pressure.cols() == grid.ny, "levels", pressure.size(),
               "pressures do not match the grid");
       largest = largest || (pressure > 0);
@@ -116,9 +116,9 @@ class FrictionalBody : public SlidingBody {
       contact_.restore(*state);
     else if (std::isfinite(options.friction_coefficient) &&
              std::hypot(drift().x, drift().y) > 1e-9 * range.tangential())
-      contact_.slide(pressures_.at(0).pressure, drift());
+      contact_.slide(pressures_.at(0).contact_pressure, drift());
     else
-      contact_.advance(pressures_.at(0).pressure);
+      contact_.advance(pressures_.at(0).contact_pressure);
   }
 
   detail::CycleReading reading() const override {
@@ -138,7 +138,7 @@ class FrictionalBody : public SlidingBody {
 
  private:
   void move(int step, const TangentialMove& by) override {
-    contact_.advance(level(step).pressure, by);
+    contact_.advance(level(step).contact_pressure, by);
     at_step(step);
   }
 
@@ -159,7 +159,7 @@ class ForcedBody final : public FrictionalBody {
     for (int k = 0; k <= options.steps; ++k) {
       forces_.push_back(force(time(k)));
       const double limit =
-          options.friction_coefficient * grid.cell_area() * level(k).pressure.sum();
+          options.friction_coefficient * grid.cell_area() * level(k).contact_pressure.sum();
       std::ostringstream constraint;
       constraint << "N must be below " << limit << " N, at which the contact slides";
       require(std::abs(forces_.back()) < limit, "tangential_force", forces_.back(),
@@ -167,7 +167,7 @@ class ForcedBody final : public FrictionalBody {
       greatest = std::max(greatest, std::abs(forces_.back()));
     }
     require_positive(greatest, "tangential_force");
-    const StickStiffness stiffness = stick_stiffness(level(0).pressure > 0, grid, material,
+    const StickStiffness stiffness = stick_stiffness(level(0).contact_pressure > 0, grid, material,
                                                      options.stick, /*along_x_only=*/true);
     converged_ = stiffness.converged;
     stiffness_ = stiffness.xx;
@@ -177,7 +177,7 @@ class ForcedBody final : public FrictionalBody {
 
   // F_x grows with the distance: secants within a bracket, from the slope of full stick.
   double advance(int step, double from) override {
-    const Field& pressure = level(step).pressure;
+    const Field& pressure = level(step).contact_pressure;
     double low = -std::numeric_limits<double>::infinity(), high = -low;
     double distance = 0, slope = stiffness_, last_distance = 0, last_excess = 0;
     std::optional<SlidingContact::Increment> increment;
@@ -272,9 +272,9 @@ PressureLevels boundary_element_pressures(Surface surface, double contact_modulu
   surface.require_whole("an oscillating contact");
   return [surface = std::move(surface), contact_modulus, options](double indentation) {
     if (indentation <= 0)
-      return PressureAt{.pressure = Field::Zero(surface.grid.nx, surface.grid.ny)};
+      return PressureAt{.contact_pressure = Field::Zero(surface.grid.nx, surface.grid.ny)};
     NormalContactState state = press_to_indentation(surface, contact_modulus, indentation, options);
-    return PressureAt{std::move(state.pressure), state.force, state.converged};
+    return PressureAt{std::move(state.contact_pressure), state.force, state.converged};
   };
 }
 

@@ -168,7 +168,7 @@ class Levels {
   }
   Contact contact_of(const NormalContactState& state) const {
     const ContactSpots spots =
-        contact_spots(state.pressure, surface_.grid, options_.boundary, surface_.ranks);
+        contact_spots(state.contact_pressure, surface_.grid, options_.boundary, surface_.ranks);
     return {
         .force = state.force,
         .cells =
@@ -184,7 +184,7 @@ class Levels {
     converged_ = converged_ && state.converged;
     before_ = std::move(last_);
     before_at_ = last_at_;
-    last_ = std::move(state.pressure);
+    last_ = std::move(state.contact_pressure);
     return last_at_ = state.indentation;
   }
 

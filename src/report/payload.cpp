@@ -300,16 +300,19 @@ class Point {
     Json json;
     if (!has("damping/force")) return json;
     json["force"] = list(part("damping/force", 0, pressures_.size()));
-    for (const char* route : {"law", "small", "curve"}) {
+    struct Route {
+      const char *name, *work, *constant;  // the columns of a study
+    };
+    for (const Route& route :
+         {Route{"law", "work_per_cycle_eq16", "damping_constant_eq16"},
+          Route{"small", "small_amplitude_work", "small_amplitude_damping_constant"},
+          Route{"curve", "work_per_cycle", "damping_constant"}}) {
       Json found;
-      for (const char* name : {"work_per_cycle", "damping_constant"}) {
-        const std::string column = std::string(route) == "law"     ? std::string(name) + "_eq16"
-                                   : std::string(route) == "curve" ? std::string(name)
-                                                                   : "small_" + std::string(name);
+      for (const auto& [name, column] :
+           {std::pair{"work_per_cycle", route.work}, {"damping_constant", route.constant}})
         if (Json means = by_model("damping/ensemble_", {column}); !means.is_null())
           found[name] = std::move(means[column]);
-      }
-      add(json, route, std::move(found));
+      add(json, route.name, std::move(found));
     }
     if (const std::string errors = "damping/ensemble_damping_constant_error_mean";
         has(errors) && bem() < models_.size() && json.contains("curve"))

@@ -62,7 +62,7 @@ void describe_body(Body& body, Visitor& visit) {
       visit("contact", body.contact, "1 in contact");
       visit("unit_traction", body.unit_traction, "Pa/m", "shear traction of a unit move");
     } else {
-      visit("pressure", body.pressure, "Pa", "pressure");
+      visit("contact_pressure", body.contact_pressure, "Pa", "contact pressure");
       visit("shift", body.shift, "m", "displacement by other causes");
       visit("loss", body.loss, "J", "energy dissipated in each cell since the start");
       visit("prepared", body.prepared, "1 within the window of the kernels");

@@ -83,10 +83,10 @@ void CycleFields::write(const CycleState& state, double time, const NormalContac
       coupled ? &coupled->sliding : std::get_if<SlidingState>(&state.body);
   const TangentialField& traction = stuck ? stuck->traction : sliding->traction;
   const TangentialField& displacement = stuck ? stuck->displacement : sliding->displacement;
-  Field pressure = sliding ? sliding->pressure : normal.pressure;
+  Field pressure = sliding ? sliding->contact_pressure : normal.contact_pressure;
   if (pressure.size() == 0) pressure = Field::Zero(grid_.nx, grid_.ny);
-  Field contact =
-      stuck ? Field(stuck->contact.cast<double>()) : Field((sliding->pressure > 0).cast<double>());
+  Field contact = stuck ? Field(stuck->contact.cast<double>())
+                        : Field((sliding->contact_pressure > 0).cast<double>());
   std::vector<std::pair<std::string, Field>> values{
       {"contact", std::move(contact)},
       {"traction_x", traction.x},

@@ -52,7 +52,7 @@ ModelResult boundary_elements(ModelWork& work) {
   realisation.spots.resize(work.pressures.size());
   sweep.on_state = [&](std::size_t k, const NormalContactState& state) {
     realisation.spots[k] = spot_statistics(
-        contact_spots(state.pressure, surface.grid, Boundary::periodic, surface.ranks),
+        contact_spots(state.contact_pressure, surface.grid, Boundary::periodic, surface.ranks),
         surface.grid);
     if (realisation.picture.empty()) return;
     const std::scoped_lock lock(picture_guard);
@@ -87,7 +87,7 @@ ModelResult drawn_summits(ModelWork& work) {
   if (!work.realisation.has_random_summits()) return no_curve(work);
   const SummitEnsemble& ensemble = work.realisation.ensemble;
   const double area = work.surface.grid.area();
-  const int count = std::max(1, int(std::lround(ensemble.density * area)));
+  const int count = std::max(1, int(std::lround(ensemble.summit_density * area)));
   const DeterministicSummits summits(
       draw_summits(ensemble, count, std::sqrt(area), work.realisation.seed),
       work.configuration.material, area, -ensemble.mean_height,

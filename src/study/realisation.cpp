@@ -158,8 +158,8 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
       try {
         const auto by_curvature =
             relaxation_damping(*curve_law, position, configuration.motion, small);
-        point.small_work_per_cycle = by_curvature.work_per_cycle;
-        point.small_damping_constant = by_curvature.damping_constant;
+        point.small_amplitude_work = by_curvature.work_per_cycle;
+        point.small_amplitude_damping_constant = by_curvature.damping_constant;
         const auto by_curve =
             relaxation_damping(*curve_law, position, configuration.motion, configuration.damping);
         if (by_curve.converged) {

@@ -224,7 +224,7 @@ void write_damping(Table table, const StudyResult& result) {
   group.attribute("interval_method", result.interval_method());
   group.attribute("law",
                   "Eq. (16) (drag) or Eq. (12) with F'' = F/l^2, l fitted to the model's curve");
-  group.attribute("small", "Eq. (15) (drag) or Eq. (12) with F'' of the model's curve");
+  group.attribute("small_amplitude", "Eq. (15) (drag) or Eq. (12) with F'' of the model's curve");
   group.attribute("curve", "W = 1/2 oint s^2 dK_t on the model's curve itself");
   group.attribute("tangential_stiffness", stick_solves(result.configuration)
                                               ? "boundary elements: stick solves on the contacts"

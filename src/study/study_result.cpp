@@ -86,7 +86,7 @@ std::vector<std::pair<std::string, std::vector<EnsembleMean>>> StudyResult::comp
   std::vector<std::pair<std::string, std::vector<EnsembleMean>>> ratios;
   for (const char* name : {"mean_gap", "contact_area_fraction", "normal_stiffness"})
     ratios.emplace_back(name, over_bem(number_of<ForceSample>(name, "quantity"), model));
-  for (const char* name : {"work_per_cycle_eq16", "small_work_per_cycle", "work_per_cycle"})
+  for (const char* name : {"work_per_cycle_eq16", "small_amplitude_work", "work_per_cycle"})
     ratios.emplace_back(name, damping_over_bem(number_of<DampingPoint>(name, "quantity"), model));
   return ratios;
 }

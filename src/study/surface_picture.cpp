@@ -118,14 +118,14 @@ void SurfacePicture::add_contact(std::int16_t k, const NormalContactState& state
   if (k == mapped_load) contact_pressure.clear(), gap.clear();
   std::size_t point = 0;
   for (Index ix = rows_of(surface).begin() * stride - surface.share().begin();
-       ix < state.pressure.rows(); ix += stride) {
-    for (Index iy = 0; iy < state.pressure.cols(); iy += stride, ++point) {
+       ix < state.contact_pressure.rows(); ix += stride) {
+    for (Index iy = 0; iy < state.contact_pressure.cols(); iy += stride, ++point) {
       std::int16_t& first = first_load[point];
       if (k == mapped_load) {
-        contact_pressure.push_back(float(state.pressure(ix, iy)));
+        contact_pressure.push_back(float(state.contact_pressure(ix, iy)));
         gap.push_back(float(state.gap(ix, iy)));
       }
-      if (state.pressure(ix, iy) > 0 && (first < 0 || k < first)) first = k;
+      if (state.contact_pressure(ix, iy) > 0 && (first < 0 || k < first)) first = k;
     }
   }
 }

@@ -36,7 +36,7 @@ void check_hertz(Checks& checks) {
   checks.push_back({"Hertz force", sphere.force(indentation), force, 1e-13});
   checks.push_back({"Hertz stiffness 2E*a", sphere.normal_stiffness(indentation),
                     2 * modulus * contact_radius, 1e-13});
-  checks.push_back({"Hertz curvature 2E*/g'(a)", sphere.curvature(indentation),
+  checks.push_back({"Hertz curvature 2E*/g'(a)", sphere.force_curvature(indentation),
                     modulus * radius / contact_radius, 1e-13});
 }
 
@@ -64,7 +64,7 @@ void check_hertz_by_boundary_elements(Checks& checks) {
                     state.converged ? state.indentation : ForceSample::unknown,
                     contact_radius * contact_radius / radius, 2e-3});
   checks.push_back({"Hertz peak pressure by boundary elements",
-                    state.converged ? state.pressure.maxCoeff() : ForceSample::unknown,
+                    state.converged ? state.contact_pressure.maxCoeff() : ForceSample::unknown,
                     2 * modulus * contact_radius / (pi * radius), 2e-3});
 }
 
@@ -82,12 +82,12 @@ void check_westergaard(Checks& checks) {
   // One Fourier mode, so no error of the grid: what the solver leaves.
   checks.push_back({"Westergaard full contact: area fraction", state.contact_area_fraction, 1, 0});
   checks.push_back({"Westergaard full contact: peak pressure",
-                    state.converged ? state.pressure.maxCoeff() : ForceSample::unknown, 2.01 * full,
-                    1e-8});
+                    state.converged ? state.contact_pressure.maxCoeff() : ForceSample::unknown,
+                    2.01 * full, 1e-8});
 }
 
 void check_greenwood_williamson(Checks& checks) {
-  const SummitEnsemble ensemble{.density = 1e12,
+  const SummitEnsemble ensemble{.summit_density = 1e12,
                                 .radius = 1e-7,
                                 .summit_rms = 2e-8,
                                 .distribution = SummitDistribution::exponential};
@@ -114,7 +114,7 @@ void check_theorem(Checks& checks) {
   const double ratio = steel.modulus_ratio(), force = 1, decay_length = 5e-9;
   const ExponentialLaw rough(force, decay_length, ratio);
   const IndenterLaw cone(cone_profile(0.1), steel);
-  const double indentation = 1e-7, curvature = cone.curvature(indentation);
+  const double indentation = 1e-7, curvature = cone.force_curvature(indentation);
   // Quadrature to 1e-10 against closed forms.
   const auto compare = [&](const char* name, const ContactLaw& law, double at,
                            const Oscillation& motion, double expected) {

@@ -282,18 +282,10 @@ TEST_CASE("A surface in the place of a study file is told as such", "[bad-input]
   check_refused(test.run("study broken.toml"), "broken.toml:2");
 }
 
-TEST_CASE("Options and keys of version 0.1 are answered with their new names", "[bad-input]") {
+TEST_CASE("A name that has changed is answered with the new one", "[bad-input]") {
   const ProgramTest test;
-  check_refused(test.run(recipe + "-o rough.h5 --force"), "(did you mean --overwrite?)");
-  check_refused(test.run("damping --law exponential --force-newton 1"),
-                "(did you mean --normal-force?)");
-  check_refused(test.run("oscillate --shape cone --coupled --coupling 0.1"),
-                "(did you mean --dundurs?)");
-  check_refused(test.run("study --precision 5%"), "(did you mean --target-precision?)");
-  test.write("old.toml", "[ensemble]\nprecision = 0.1\n");
-  check_refused(test.run("study old.toml"), "(did you mean target_precision?)");
-  test.write("older.toml", "[ensemble]\nleast_realisations = 9\n");
-  check_refused(test.run("study older.toml"), "(did you mean min_realisations?)");
+  check_refused(test.run("oscillate --shape ellipsoid --contact-modulus 1GPa --poisson 0.3"),
+                "(did you mean elliptic-paraboloid?)");
 }
 
 TEST_CASE("On a full disk nothing half-written stays", "[bad-input]") {

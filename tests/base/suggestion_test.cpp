@@ -29,13 +29,11 @@ TEST_CASE("Another word for a name comes before names that are near", "[suggesti
 }
 
 TEST_CASE("An old name is answered with the new one, of an option as of a key", "[suggestion]") {
-  CHECK(nearest_name("--force-newton", {"--force-amplitude", "--normal-force"}) ==
-        "--normal-force");
-  CHECK(nearest_name("precision", {"points", "target_precision"}) == "target_precision");
-  CHECK(nearest_name("--precision", {"--points", "--target-precision"}) == "--target-precision");
-  CHECK(nearest_name("least_realisations", {"realisations", "min_realisations"}) ==
-        "min_realisations");
-  CHECK(nearest_name("coupling", {"points"}).empty());  // the new name is none of this place
+  CHECK(nearest_name("predicted", {"work_per_cycle", "small_amplitude_work"}) ==
+        "small_amplitude_work");
+  CHECK(nearest_name("ellipsoid", {"cone", "elliptic-paraboloid"}) == "elliptic-paraboloid");
+  CHECK(nearest_name("--predicted-finite", {"--points", "--work-by-force"}) == "--work-by-force");
+  CHECK(nearest_name("closed_form", {"points"}).empty());  // the new name is none of this place
 }
 
 TEST_CASE("Where no name is near, none is suggested", "[suggestion]") {

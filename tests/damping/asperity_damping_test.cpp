@@ -15,7 +15,7 @@ const Material soft = Material::of_contact_modulus(3.0, 0.2);
 
 std::vector<Summit> elliptical_summits(int count) {
   std::vector<Summit> summits =
-      draw_summits({.density = 1, .radius = 0.5, .summit_rms = 0.1}, count, 1, 7);
+      draw_summits({.summit_density = 1, .radius = 0.5, .summit_rms = 0.1}, count, 1, 7);
   for (std::size_t i = 0; i < summits.size(); ++i)
     summits[i].curvature2 *= 1 - 0.4 * static_cast<double>(i % 5) / 5;
   return summits;

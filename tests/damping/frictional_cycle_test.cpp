@@ -37,14 +37,14 @@ CycleOptions free_boundary(double friction, int steps) {
 // Nested pressures without any symmetry: islands that appear, grow and merge as δ goes from 0 to 1.
 PressureLevels islands(const Grid2D& grid, double peak) {
   return [grid, peak](double indentation) {
-    PressureAt level{.pressure = Field(grid.nx, grid.ny)};
+    PressureAt level{.contact_pressure = Field(grid.nx, grid.ny)};
     for (Index ix = 0; ix < grid.nx; ++ix)
       for (Index iy = 0; iy < grid.ny; ++iy) {
         const double x = 2 * pi * static_cast<double>(ix) / static_cast<double>(grid.nx);
         const double y = 2 * pi * static_cast<double>(iy) / static_cast<double>(grid.ny);
         const double depth = std::sin(x + 0.3) * std::cos(2 * y) + 0.7 * std::sin(3 * x - y) +
                              0.5 * std::cos(5 * x + 4 * y) - 1.4 + indentation;
-        level.pressure(ix, iy) = peak * std::sqrt(std::max(0.0, depth));
+        level.contact_pressure(ix, iy) = peak * std::sqrt(std::max(0.0, depth));
       }
     return level;
   };
@@ -173,7 +173,7 @@ TEST_CASE("A tangential force at which the contact slides is refused, and what i
   const Grid2D grid{18, 14, 1.3e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const PressureLevels levels = islands(grid, 2e7);
-  const double limit = 0.3 * grid.cell_area() * levels(0.6).pressure.sum();
+  const double limit = 0.3 * grid.cell_area() * levels(0.6).contact_pressure.sum();
   Trajectory path;
   path.indentation = [](double) { return 0.6; };
   path.tangential_force = [&](double t) { return 1.01 * limit * std::sin(2 * pi * t); };
@@ -190,7 +190,7 @@ TEST_CASE("A tangential force at which the contact slides is refused, and what i
           Approx(path.tangential_force(sample.t)).margin(1.1e-7 * 0.9 * limit));
   CHECK(cycle.dissipated == Approx(cycle.work_per_cycle).epsilon(1e-6));
   const auto sets = [&](double indentation) {
-    return ContactSetAt{levels(indentation).pressure > 0};
+    return ContactSetAt{levels(indentation).contact_pressure > 0};
   };
   path.tangential = [](double) { return 0.0; };
   CHECK_THROWS_WITH(simulate_cycle(sets, grid, material, path),
@@ -219,7 +219,7 @@ TEST_CASE("An oscillating cone loses what the method of dimensionality reduction
       {pi / 4, 1.0, 0.035},
       {pi / 4, 3.0, 0.006},
   }));
-  const double stuck = 8.0 / 3 * material.modulus_ratio() * law.curvature(indentation) *
+  const double stuck = 8.0 / 3 * material.modulus_ratio() * law.force_curvature(indentation) *
                        std::pow(amplitude, 3) * std::pow(std::sin(phase), 2);
   const FrictionMap map = friction_map(law, indentation, amplitude, amplitude, {number}, {phase});
   const CycleResult cycle = simulate_frictional_cycle(
@@ -241,7 +241,7 @@ TEST_CASE("Much friction is the stuck contact, whose losses are released", "[fri
   const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 1.1}, 0.5);
   const PressureLevels levels = islands(grid, 1e6);
   const ContactLevels sets = [&](double indentation) {
-    return ContactSetAt{levels(indentation).pressure > 0};
+    return ContactSetAt{levels(indentation).contact_pressure > 0};
   };
   const auto ratio = [&](int steps) {
     CycleOptions stuck{.steps = steps, .direction = 0.7};
@@ -291,7 +291,7 @@ TEST_CASE("Work and friction balance on any surface, and every cell obeys Coulom
                               {0.9, -1e-6, 0},   {0.6, -1e-6, 1e-6}, {0.3, 0, 1e-6},
                               {0.8, 1e-6, 2e-6}, {0, 1e-6, 0}};
     for (const auto& [indentation, x, y] : path) {
-      const Field pressure = levels(indentation).pressure;
+      const Field pressure = levels(indentation).contact_pressure;
       REQUIRE(contact.advance(pressure, {x, y}).converged);
       const Field traction = (contact.traction().x.square() + contact.traction().y.square()).sqrt();
       if (friction < infinite)
@@ -326,7 +326,7 @@ TEST_CASE("A sphere pressed obliquely slips nowhere below the angle of friction"
     for (int k = 1; k <= increments; ++k) {
       const double next = indentation * std::pow(static_cast<double>(k) / increments, 2);
       const PressureAt level = levels(next);
-      REQUIRE(contact.advance(level.pressure, {slope * (next - reached), 0}).converged);
+      REQUIRE(contact.advance(level.contact_pressure, {slope * (next - reached), 0}).converged);
       reached = next;
       force = level.force;
     }
@@ -344,7 +344,7 @@ TEST_CASE("A sphere pressed obliquely slips nowhere below the angle of friction"
 TEST_CASE("Endless sliding is what a long slide ends in", "[friction]") {
   const Grid2D grid{18, 14, 1.3e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
-  const Field pressure = islands(grid, 2e7)(0.5).pressure;
+  const Field pressure = islands(grid, 2e7)(0.5).contact_pressure;
   const double friction = 0.3, limit = friction * pressure.sum() * grid.cell_area();
   const SlidingContactOptions options{.friction_coefficient = friction, .motion_scale = 1e-6};
   SlidingContact pushed(grid, material, options), slid(grid, material, options);
@@ -397,14 +397,15 @@ TEST_CASE("A drag with friction starts in the state that it would end in", "[fri
   // falls short of μF.
   SlidingContact contact(grid, material,
                          {.friction_coefficient = friction, .motion_scale = std::abs(advance)});
-  REQUIRE(contact.advance(levels(0.4).pressure).converged);
+  REQUIRE(contact.advance(levels(0.4).contact_pressure).converged);
   double work = 0;
   for (int period = 0; period < 30; ++period) {
     work = -contact.work();
     for (int k = 1; k <= steps; ++k)
-      REQUIRE(
-          contact.advance(levels(motion.indentation(double(k) / steps)).pressure, {advance / steps})
-              .converged);
+      REQUIRE(contact
+                  .advance(levels(motion.indentation(double(k) / steps)).contact_pressure,
+                           {advance / steps})
+                  .converged);
     work += contact.work();
   }
   CHECK(cycle.work_per_cycle == Approx(work).epsilon(1e-4));
@@ -413,7 +414,7 @@ TEST_CASE("A drag with friction starts in the state that it would end in", "[fri
   double sliding = 0;
   for (int k = 1; k <= steps; ++k)
     sliding += friction * grid.cell_area() / steps *
-               levels(motion.indentation(double(k) / steps)).pressure.sum();
+               levels(motion.indentation(double(k) / steps)).contact_pressure.sum();
   CHECK(work < 0.9 * sliding * std::abs(advance));
   CHECK(cycle.samples.back().tangential == Approx(advance));
   CHECK(cycle.samples.back().dissipated == Approx(cycle.dissipated));
@@ -529,7 +530,7 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
   SlidingContactOptions few{.motion_scale = 1e-6,
                             .stick = {.tolerance = 1e-8, .max_iterations = 4}};
   SlidingContact opening(grid, material, few);
-  const Field wide = levels(0.9).pressure;
+  const Field wide = levels(0.9).contact_pressure;
   REQUIRE(opening.advance(wide).converged);
   Field lone = Field::Zero(grid.nx, grid.ny);
   Index open_x = 0, open_y = 0;

@@ -27,12 +27,12 @@ inline salebra::ContactLevels island_levels(const salebra::Grid2D& grid) {
 inline salebra::PressureLevels island_pressures(const salebra::Grid2D& grid) {
   using namespace salebra;
   return [grid, levels = island_levels(grid)](double indentation) {
-    PressureAt level{.pressure = Field::Zero(grid.nx, grid.ny), .force = indentation};
+    PressureAt level{.contact_pressure = Field::Zero(grid.nx, grid.ny), .force = indentation};
     const ContactSet contact = levels(indentation).contact;
     for (Index ix = 0; ix < grid.nx; ++ix)
       for (Index iy = 0; iy < grid.ny; ++iy)
         if (contact(ix, iy))
-          level.pressure(ix, iy) =
+          level.contact_pressure(ix, iy) =
               2e7 * (0.2 + indentation + 0.1 * std::sin(static_cast<double>(ix * iy)));
     return level;
   };

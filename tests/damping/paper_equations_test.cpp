@@ -185,7 +185,7 @@ TEST_CASE("Eq (6): F'' of Hertz gives the slope 2a/R of the image at the edge", 
   const double curvature = contact_modulus * std::sqrt(radius / indentation);
   CHECK(cf::edge_slope(contact_modulus, curvature) == Approx(2 * edge / radius).epsilon(1e-14));
   const IndenterLaw law(paraboloid_profile(radius), material);
-  CHECK(cf::edge_slope(contact_modulus, law.curvature(indentation)) ==
+  CHECK(cf::edge_slope(contact_modulus, law.force_curvature(indentation)) ==
         Approx(law.profile().image_slope(law.contact_radius(indentation))).epsilon(1e-12));
 }
 
@@ -269,7 +269,8 @@ TEST_CASE("Eq (11): case (a) for the cone at any amplitude", "[paper]") {
 
 TEST_CASE("Eq (12): case (a) by F'', for the cone at any amplitude", "[paper]") {
   const IndenterLaw law = cone();
-  const double closed = cf::work_per_cycle(modulus_ratio, law.curvature(cone_indentation), equal);
+  const double closed =
+      cf::work_per_cycle(modulus_ratio, law.force_curvature(cone_indentation), equal);
   CHECK(closed ==
         Approx(relaxation_damping(law, AtIndentation{cone_indentation}, equal).work_per_cycle)
             .epsilon(1e-9));
@@ -318,7 +319,8 @@ TEST_CASE("Eq (14): case (b) for the cone at any amplitude, and its power and γ
 
 TEST_CASE("Eq (15): case (b) by F'', for the cone at any amplitude", "[paper]") {
   const IndenterLaw law = cone();
-  const double closed = cf::work_per_cycle(modulus_ratio, law.curvature(cone_indentation), drag);
+  const double closed =
+      cf::work_per_cycle(modulus_ratio, law.force_curvature(cone_indentation), drag);
   CHECK(closed ==
         Approx(relaxation_damping(law, AtIndentation{cone_indentation}, drag).work_per_cycle)
             .epsilon(1e-9));

@@ -75,7 +75,7 @@ void check_same(const StuckState& a, const StuckState& b) {
   CHECK(a.fft_count == b.fft_count);
 }
 void check_same(const SlidingState& a, const SlidingState& b) {
-  check_same(a.pressure, b.pressure);
+  check_same(a.contact_pressure, b.contact_pressure);
   check_same(a.shift, b.shift);
   check_same(a.traction, b.traction);
   check_same(a.displacement, b.displacement);
@@ -258,7 +258,7 @@ TEST_CASE("The XDMF list names datasets that are there, with their sizes, and ev
   CycleFields fields(scratch / "a&b", surface, {});
   for (const std::size_t k : {4u, 0u}) fields.write(states[k], 0.125 * double(k), {});
   NormalContactState normal;
-  normal.pressure = Field::Random(grid.nx, grid.ny);
+  normal.contact_pressure = Field::Random(grid.nx, grid.ny);
   normal.gap = Field::Random(grid.nx, grid.ny);
   fields.write(states[6], 0.75, normal);
 
@@ -303,7 +303,7 @@ TEST_CASE("The XDMF list names datasets that are there, with their sizes, and ev
   // Without pressures to tell, the gap is that of undeformed bodies that just touch.
   CHECK(frame.field("fields/gap").minCoeff() == 0);
   const ResultReader last(scratch / "a&b-0006.h5");
-  CHECK((last.field("fields/contact_pressure") == normal.pressure).all());
+  CHECK((last.field("fields/contact_pressure") == normal.contact_pressure).all());
   CHECK((last.field("fields/gap") == normal.gap).all());
   const ContactSet& contact = std::get<StuckState>(states[6].body).contact;
   check_same(last.field("fields/contact"), contact.cast<double>());
@@ -345,10 +345,10 @@ TEST_CASE("Fields of a cycle with friction say where it was lost", "[io]") {
   const SlidingState& body = std::get<SlidingState>(state.body);
   const Field lost = body.loss - state.loss_at_period_start;
   CHECK(loss.sum() * grid.cell_area() == Approx(lost.sum()));
-  check_same(frame.field("fields/contact_pressure"), body.pressure);
+  check_same(frame.field("fields/contact_pressure"), body.contact_pressure);
   check_same(frame.field("fields/traction_y"), body.traction.y);
   check_same(frame.field("fields/displacement_x"), body.displacement.x);
-  CHECK((frame.field("fields/contact") == (body.pressure > 0).cast<double>()).all());
+  CHECK((frame.field("fields/contact") == (body.contact_pressure > 0).cast<double>()).all());
   CHECK(text_of(scratch / "f-friction.xdmf").find("f-friction-0003.h5:/fields/loss") !=
         std::string::npos);
   // Of a coupled one the gap is that of the state.

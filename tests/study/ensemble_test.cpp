@@ -44,7 +44,7 @@ TEST_CASE("Bootstrap intervals of a small Greenwood-Williamson study cover the e
           "[ensemble]") {
   // 60 summits, seven of them in contact: the force of a realisation is skew, and its mean is known
   // without chance.
-  const SummitEnsemble ensemble{.density = 6e11, .radius = 1e-6, .summit_rms = 1e-8};
+  const SummitEnsemble ensemble{.summit_density = 6e11, .radius = 1e-6, .summit_rms = 1e-8};
   const Material material = Material::of_contact_modulus(1e10);
   const double area = 1e-10, separation = 1.2e-8;
   const double exact = StatisticalSummits(ensemble, material, area).force(separation);
@@ -433,7 +433,7 @@ TEST_CASE("Each surface of a study has its own drawn summits", "[ensemble]") {
   const StudyResult result = run_study(configuration);
   for (const Realisation& r : result.realisations) {
     const double area = r.grid.area();
-    const int count = int(std::lround(r.ensemble.density * area));
+    const int count = int(std::lround(r.ensemble.summit_density * area));
     const DeterministicSummits drawn(draw_summits(r.ensemble, count, std::sqrt(area), r.seed),
                                      configuration.material, area, -r.ensemble.mean_height,
                                      r.heights.rms_height);
@@ -453,7 +453,8 @@ TEST_CASE("Two equal rough sides carry what the pairs of their summits carry", "
   const ForceSample& sample = r.of(ContactModel::greenwood_tripp).curve.samples[4];
   // A side has half of each moment: η and σ_s²/m0 of Nayak's theory depend on α alone, which stays;
   // R grows by √2.
-  const double density = r.ensemble.density, radius = std::numbers::sqrt2 * r.ensemble.radius,
+  const double density = r.ensemble.summit_density,
+               radius = std::numbers::sqrt2 * r.ensemble.radius,
                side_rms = r.ensemble.summit_rms / std::numbers::sqrt2;
   // F = (4/3)E*√(R/2) ∫∫ w^{3/2} over the positions and the heights of a pair, by Riemann sums: w =
   // z − s − r²/(4R).
@@ -502,7 +503,7 @@ TEST_CASE("A measured surface has the seam of its edges, and summits within them
   const SummitList summits = find_summits(level);
   CHECK(r.of(ContactModel::gw_deterministic).curve.nominal_area ==
         Approx(62 * 46 * part.grid.cell_area()).epsilon(1e-12));
-  CHECK(r.summits.density ==
+  CHECK(r.summits.summit_density ==
         Approx(double(summits.summits.size()) / summits.searched_area).epsilon(1e-12));
 }
 
@@ -613,7 +614,7 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
       press_to_pressure(surface, 1e10, result.pressures[6], {.tolerance = 1e-8});
   std::vector<double> sizes(13, 0.0);
   double largest = 0;
-  for (const ContactSpot& spot : contact_spots(state.pressure, surface.grid).spots) {
+  for (const ContactSpot& spot : contact_spots(state.contact_pressure, surface.grid).spots) {
     sizes[std::size_t(std::floor(std::log2(std::round(spot.area / surface.grid.cell_area()))))] +=
         1;
     largest = std::max(largest, spot.area);
@@ -646,7 +647,7 @@ TEST_CASE("A comparison computes the models it was asked for, and no others", "[
 }
 
 TEST_CASE("Exponential heights make Eq. (16) exact, with l = sigma", "[ensemble]") {
-  const SummitEnsemble ensemble{.density = 1e12,
+  const SummitEnsemble ensemble{.summit_density = 1e12,
                                 .radius = 1e-6,
                                 .summit_rms = 2e-8,
                                 .distribution = SummitDistribution::exponential};
@@ -692,7 +693,7 @@ TEST_CASE("Statistical, drawn and own summits agree on a Gaussian surface within
                                                          grid.area(), surface.heights.mean()));
     // As many summits of that density at random: by how much one surface of this size may differ
     // from the mean, and where the mean is.
-    const int count = int(std::lround(ensemble.density * grid.area()));
+    const int count = int(std::lround(ensemble.summit_density * grid.area()));
     std::vector<double> drawn;
     for (int draw = 0; draw < draws; ++draw)
       drawn.push_back(force_at_gap(

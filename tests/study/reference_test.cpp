@@ -45,7 +45,7 @@ TEST_CASE("The drag integral J(k) is that of an independent quadrature", "[refer
 
 TEST_CASE("Greenwood and Williamson's integrals are those of an independent quadrature",
           "[reference]") {
-  const SummitEnsemble ensemble{.density = 2e12, .radius = 1e-7, .summit_rms = 3e-8};
+  const SummitEnsemble ensemble{.summit_density = 2e12, .radius = 1e-7, .summit_rms = 3e-8};
   const double modulus = 1e10, area = 1e-9;
   const StatisticalSummits summits(ensemble, Material::of_contact_modulus(modulus), area);
   const auto rows = reference("gaussian_summits.csv");
@@ -53,12 +53,12 @@ TEST_CASE("Greenwood and Williamson's integrals are those of an independent quad
   for (const auto& row : rows) {
     INFO("h = " << row[0]);
     const AsperityContact contact = summits.at(row[0] * ensemble.summit_rms);
-    const double scale = modulus * std::sqrt(ensemble.radius) * ensemble.density * area;
+    const double scale = modulus * std::sqrt(ensemble.radius) * ensemble.summit_density * area;
     // The quadrature of the library promises 1e-10.
     CHECK(contact.normal_stiffness ==
           Approx(2 * scale * std::sqrt(ensemble.summit_rms) * row[1]).epsilon(1e-10).margin(0));
-    CHECK(contact.contact_area == Approx(std::acos(-1) * ensemble.radius * ensemble.density * area *
-                                         ensemble.summit_rms * row[2])
+    CHECK(contact.contact_area == Approx(std::acos(-1) * ensemble.radius * ensemble.summit_density *
+                                         area * ensemble.summit_rms * row[2])
                                       .epsilon(1e-10)
                                       .margin(0));
     CHECK(contact.force == Approx(4. / 3. * scale * std::pow(ensemble.summit_rms, 1.5) * row[3])

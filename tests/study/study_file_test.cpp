@@ -119,7 +119,8 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
   file.of_surfaces("surface/moment2", [](const auto& r) { return r.moments.moment2(); });
   file.of_surfaces("surface/moment4", [](const auto& r) { return r.moments.moment4(); });
   file.of_surfaces("surface/nayak", [](const auto& r) { return r.moments.nayak(); });
-  file.of_surfaces("surface/summit_density", [](const auto& r) { return r.summits.density; });
+  file.of_surfaces("surface/summit_density",
+                   [](const auto& r) { return r.summits.summit_density; });
   file.of_surfaces("surface/mean_height", [](const auto& r) { return r.summits.mean_height; });
   file.of_surfaces("surface/summit_rms", [](const auto& r) { return r.summits.rms_height; });
   file.of_surfaces("surface/mean_radius", [](const auto& r) { return r.summits.mean_radius; });
@@ -205,10 +206,10 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
 
   const std::pair<const char*, double DampingPoint::*> damping[] = {
       {"work_per_cycle_eq16", &DampingPoint::work_per_cycle_eq16},
-      {"small_work_per_cycle", &DampingPoint::small_work_per_cycle},
+      {"small_amplitude_work", &DampingPoint::small_amplitude_work},
       {"work_per_cycle", &DampingPoint::work_per_cycle},
       {"damping_constant_eq16", &DampingPoint::damping_constant_eq16},
-      {"small_damping_constant", &DampingPoint::small_damping_constant},
+      {"small_amplitude_damping_constant", &DampingPoint::small_amplitude_damping_constant},
       {"damping_constant", &DampingPoint::damping_constant}};
   for (const auto& [name, quantity] : damping) {
     const auto of = quantity;
@@ -270,7 +271,7 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
                            [&, of = quantity](auto model) { return result.over_bem(of, model); });
   for (const auto& [name, quantity] :
        {std::pair{"work_per_cycle_eq16", &DampingPoint::work_per_cycle_eq16},
-        {"small_work_per_cycle", &DampingPoint::small_work_per_cycle},
+        {"small_amplitude_work", &DampingPoint::small_amplitude_work},
         {"work_per_cycle", &DampingPoint::work_per_cycle}})
     file.interval_of_loads(std::string("comparison/") + name, [&, of = quantity](auto model) {
       return result.damping_over_bem(of, model);

@@ -90,7 +90,7 @@ void differences_of(const Surface& surface, Numbers& numbers) {
 void summits_of(const Surface& surface, Numbers& numbers) {
   const SummitList list = find_summits(surface);
   const SummitStatistics s = summit_statistics(list);
-  numbers.add({list.searched_area, s.density, s.mean_height, s.rms_height, s.mean_radius});
+  numbers.add({list.searched_area, s.summit_density, s.mean_height, s.rms_height, s.mean_radius});
   std::vector<double>& part = numbers.parts.emplace_back();
   for (const Summit& summit : list.summits)
     for (const double value :

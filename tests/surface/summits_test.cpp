@@ -44,7 +44,7 @@ TEST_CASE("An egg box has its summits' density, height and radius, at second ord
     return summit_statistics(list);
   };
   const SummitStatistics coarse = statistics(64), fine = statistics(128);
-  CHECK(fine.density == Approx(1 / (period * period)).epsilon(1e-12));
+  CHECK(fine.summit_density == Approx(1 / (period * period)).epsilon(1e-12));
   CHECK(fine.mean_height == Approx(2 * a).epsilon(1e-3));
   CHECK(fine.rms_height < 1e-9 * a);
   const double exact = 1 / (a * q * q);
@@ -64,7 +64,7 @@ TEST_CASE("Summits wrap around a periodic surface and keep off the border of ano
 TEST_CASE("Equal neighbours are one summit, a flat surface has none", "[summits]") {
   Surface surface = sampled({8, 8, 8, 8}, true, [](double, double) { return 0.0; });
   CHECK(find_summits(surface).summits.empty());
-  CHECK(summit_statistics(find_summits(surface)).density == 0);
+  CHECK(summit_statistics(find_summits(surface)).summit_density == 0);
   surface.heights(3, 3) = surface.heights(3, 4) = 1;
   CHECK(find_summits(surface).summits.size() == 1);
 }
@@ -75,7 +75,7 @@ TEST_CASE("Every point above its eight neighbours is a summit, however rough the
   // Independent heights: one point in nine is the highest of its nine; the count scatters by a few
   // per cent.
   const SummitStatistics statistics = summit_statistics(find_summits(rough));
-  CHECK(statistics.density == Approx(64 * 48 / 9.0).epsilon(0.1));
+  CHECK(statistics.summit_density == Approx(64 * 48 / 9.0).epsilon(0.1));
   CHECK(statistics.mean_radius > 0);
 }
 

@@ -8,14 +8,14 @@
 /// under its number, and the closed forms that go beyond them. All assume infinite friction,
 /// quasi-static motion and no coupling of normal and tangential motion. "level" is z0, the distance
 /// of a point of the indenter from first touch at the mean position (Fig. 2). modulus_ratio is
-/// G*/E*, curvature is F'' = ∂²F/∂δ². Units are SI. Arguments are not checked here: they are
+/// G*/E*, force_curvature is F'' = ∂²F/∂δ². Units are SI. Arguments are not checked here: they are
 /// formulas, and what they do outside their validity is what the formula does; dissipation.hpp
 /// checks its input.
 namespace salebra::closed_form {
 
 /// Eq. (6): slope c = 2E*/F'' of the one-dimensional profile at the edge of the contact. Every
 /// axisymmetric contact.
-double edge_slope(double contact_modulus, double curvature);
+double edge_slope(double contact_modulus, double force_curvature);
 
 /// Eq. (7): how far a spring at `level` is released, 2u_x √(1 − (z0/u_z)²) sin φ0. (x2 − x1 has the
 /// other sign; s enters squared.) Valid at any amplitude. 0 where Eq. (9) does not hold.
@@ -48,11 +48,11 @@ double work_per_cycle_by_slope(double tangential_modulus, double edge_slope, con
 /// Eq. (12): W = (8/3)(G*/E*)F''u_x²|u_z| sin²φ0, J. The limit u_z → 0 for every contact with K_t =
 /// (G*/E*)K; exact for F'' = const (the cone). The first correction is of order (u_z F''')²/F''²
 /// and u_z² F''''/F'': +k²/10 for the exponential law, k = u_z/l.
-double work_per_cycle(double modulus_ratio, double curvature, const EqualFrequency& motion);
+double work_per_cycle(double modulus_ratio, double force_curvature, const EqualFrequency& motion);
 
 /// Eq. (15): W = 2(π² − 4)(G*/E*)F''|u_z|(v/ω)², J. Validity as Eq. (12), but the first correction
 /// is linear in u_z F'''/F'': −0.42k for the exponential law.
-double work_per_cycle(double modulus_ratio, double curvature, const Drag& motion);
+double work_per_cycle(double modulus_ratio, double force_curvature, const Drag& motion);
 
 /// Eq. (16): Eq. (15) with F'' = F/l², nominally flat rough surfaces; J. Valid where F ∝ exp(−ū/l)
 /// holds over the sweep and u_z ≪ l.

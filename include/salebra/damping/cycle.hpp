@@ -25,8 +25,8 @@ struct ContactSetAt {
 };
 /// The pressures of the same.
 struct PressureAt {
-  Field pressure;    ///< (nx, ny), Pa
-  double force = 0;  ///< F, N
+  Field contact_pressure;  ///< (nx, ny), Pa
+  double force = 0;        ///< F, N
   bool converged = true;
 };
 

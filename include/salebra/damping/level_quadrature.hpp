@@ -25,7 +25,7 @@ struct LevelQuadratureResult {
   double work_by_force = 0;   ///< W with K_t = (G*/E*)F', normal contacts alone, J
   double small_amplitude_work = 0;  ///< Eq. (12) or (15) with F'' of the same fit, J
   double force = 0;                 ///< F at the mean indentation, N
-  double curvature = 0;             ///< F'' there, N/m²
+  double force_curvature = 0;       ///< F'' there, N/m²
   double stiffness_ratio = 0;       ///< work_per_cycle / work_by_force
   ForceCurve curve;                 ///< the levels; K_t is that along the motion
   long iterations = 0;              ///< of all linear solves on contact sets

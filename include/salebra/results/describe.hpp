@@ -7,9 +7,11 @@
 #include <optional>
 #include <salebra/base/describe.hpp>
 #include <salebra/base/error.hpp>
+#include <salebra/base/suggestion.hpp>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 /// What faces read from descriptions (base/describe.hpp).
 namespace salebra {
@@ -55,13 +57,16 @@ template <Described T>
 NumberOf<T> number_of(std::string_view name, std::string_view field) {
   NumberOf<T> found;
   std::string known;
+  std::vector<std::string> names;
   for_each_number<T>([&](NumberOf<T> number, const Quantity& quantity) {
     if (quantity.name == name) found = std::move(number);
-    known += (known.empty() ? "" : ", ") + std::string(quantity.name);
+    names.emplace_back(quantity.name);
+    known += (known.empty() ? "" : ", ") + names.back();
   });
   if (!found)
-    throw InvalidInput(field, "'" + std::string(name) + "'",
-                       "is none of " + known + "; choose one of them");
+    throw InvalidInput(
+        field, "'" + std::string(name) + "'",
+        "is none of " + known + did_you_mean(name, names) + "; choose one of them");
   return found;
 }
 

@@ -9,6 +9,7 @@
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
+#include <salebra/damping/quantities.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/study/surface_picture.hpp>
 #include <salebra/surface/moments.hpp>
@@ -26,8 +27,8 @@ struct DampingPoint {
   double work_per_cycle_eq16 = ForceSample::unknown;    ///< J
   double damping_constant_eq16 = ForceSample::unknown;  ///< N s/m
   /// Eq. (15) or (12) with the F'' that the curve itself has there: small amplitudes, no law.
-  double small_work_per_cycle = ForceSample::unknown;    ///< J
-  double small_damping_constant = ForceSample::unknown;  ///< N s/m
+  double small_amplitude_work = ForceSample::unknown;              ///< J
+  double small_amplitude_damping_constant = ForceSample::unknown;  ///< N s/m
   /// The theorem at the amplitude given. Boundary elements: from contacts inside the oscillation,
   /// surface_damping(). Other models: on their curve, whose loads are joined smoothly; NaN where
   /// the motion leaves it, and of a single surface where the error is no smaller.
@@ -55,11 +56,10 @@ constexpr void describe(auto&& visit, std::type_identity<DampingPoint>) {
                  "energy dissipated in a cycle, Eq. (16) or (12) with the fitted law"});
   visit(&S::damping_constant_eq16,
         Quantity{"damping_constant_eq16", damping, "damping constant P/v^2, by the fitted law"});
-  visit(&S::small_work_per_cycle,
-        Quantity{"small_work_per_cycle", energy,
-                 "energy dissipated in a cycle, Eq. (15) or (12) with F'' of the curve"});
-  visit(&S::small_damping_constant,
-        Quantity{"small_damping_constant", damping, "damping constant P/v^2, by F'' of the curve"});
+  visit(&S::small_amplitude_work, quantity::small_amplitude_work);
+  visit(&S::small_amplitude_damping_constant,
+        Quantity{"small_amplitude_damping_constant", damping,
+                 "damping constant P/v^2, by F'' of the curve"});
   visit(&S::work_per_cycle, Quantity{"work_per_cycle", energy, "energy dissipated in a cycle"});
   visit(&S::damping_constant, Quantity{"damping_constant", damping, "damping constant P/v^2"});
   visit(&S::damping_constant_error,

@@ -61,9 +61,9 @@ SummitList find_summits(const Surface& surface);
 
 /// Of an ensemble, as the Greenwood–Williamson theory uses it.
 struct SummitStatistics {
-  double density = 0;      ///< summits per searched area, 1/m²
-  double mean_height = 0;  ///< from the zero of the heights, m; NaN without summits
-  double rms_height = 0;   ///< standard deviation of the summit heights, m; NaN without summits
+  double summit_density = 0;  ///< summits per searched area, 1/m²
+  double mean_height = 0;     ///< from the zero of the heights, m; NaN without summits
+  double rms_height = 0;      ///< standard deviation of the summit heights, m; NaN without summits
   double mean_radius =
       0;  ///< 1/⟨mean curvature⟩, m, which is (3/8)√(π/m4) for a Gaussian isotropic surface
 };
@@ -71,7 +71,7 @@ struct SummitStatistics {
 constexpr void describe(auto&& visit, std::type_identity<SummitStatistics>) {
   using enum Dimension;
   using S = SummitStatistics;
-  visit(&S::density, Quantity{"summit_density", inverse_length_squared, "summits per area"});
+  visit(&S::summit_density, Quantity{"summit_density", inverse_length_squared, "summits per area"});
   visit(&S::mean_height,
         Quantity{"mean_height", length, "mean summit height above the mean plane"});
   visit(&S::rms_height, Quantity{"summit_rms", length, "standard deviation of summit heights"});

@@ -54,7 +54,7 @@ MonteCarloCurve monte_carlo_curve(const SummitEnsemble& ensemble, const Material
                                   const MonteCarloOptions& options) {
   require(options.realisations >= 2, "realisations", options.realisations, "must be >= 2");
   const StatisticalSummits statistical(ensemble, material, nominal_area);
-  const double expected = std::max(1.0, std::round(ensemble.density * nominal_area));
+  const double expected = std::max(1.0, std::round(ensemble.summit_density * nominal_area));
   require(expected < std::numeric_limits<int>::max(), "nominal_area", nominal_area,
           "holds too many summits to draw; use the statistical ensemble");
 
@@ -96,7 +96,7 @@ MonteCarloCurve monte_carlo_curve(const SummitEnsemble& ensemble, const Material
         deviation.*sum = std::sqrt(deviation.*sum);
       }
     });
-    deviation.curvature = std::numeric_limits<double>::quiet_NaN();
+    deviation.force_curvature = std::numeric_limits<double>::quiet_NaN();
     ForceSample& sample = result.mean.samples[i];
     sample.force = mean.force;
     sample.pressure = mean.force / nominal_area;

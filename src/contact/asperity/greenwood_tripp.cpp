@@ -13,14 +13,14 @@ namespace {
 /// The sum of two heights, as heights of an ensemble of its own.
 SummitEnsemble sum_of_sides(const SummitEnsemble& first, const SummitEnsemble& second) {
   for (const SummitEnsemble& side : {first, second}) {
-    require_positive(side.density, "summit_density");
+    require_positive(side.summit_density, "summit_density");
     require_positive(side.radius, "radius");
     require_positive(side.summit_rms, "summit_rms");
     require(side.distribution == SummitDistribution::gaussian, "distribution",
             side.distribution == SummitDistribution::exponential ? "exponential" : "tabulated",
             "has no closed sum; two rough sides need Gaussian heights");
   }
-  return {.density = first.density * second.density,
+  return {.summit_density = first.summit_density * second.summit_density,
           .radius = first.radius * second.radius / (first.radius + second.radius),
           .summit_rms = std::hypot(first.summit_rms, second.summit_rms),
           .mean_height = first.mean_height + second.mean_height,
@@ -45,7 +45,8 @@ GreenwoodTripp::GreenwoodTripp(const SummitEnsemble& first, const SummitEnsemble
       heights_(std::make_unique<const detail::HeightDensity>(sum_of_sides(first, second))) {
   const double radii = first.radius + second.radius;
   const double radius = first.radius * second.radius / radii;
-  pairs_ = 2 * std::numbers::pi * radii * first.density * second.density * nominal_area;
+  pairs_ =
+      2 * std::numbers::pi * radii * first.summit_density * second.summit_density * nominal_area;
   // Each pair has the area πRw; ∫_0^{z−s} w dw = (z−s)²/2.
   area_ = pairs_ * std::numbers::pi * radius / 2;
   // ∫_0^{z−s} w^{3/2} dw = (2/5)(z−s)^{5/2}.
@@ -62,7 +63,7 @@ double GreenwoodTripp::normal_stiffness(double separation) const {
   return scale_ * 5 / 2 * heights_->moment(1.5, separation);
 }
 
-double GreenwoodTripp::curvature(double separation) const {
+double GreenwoodTripp::force_curvature(double separation) const {
   return scale_ * 15 / 4 * heights_->moment(0.5, separation);
 }
 
@@ -71,7 +72,7 @@ AsperityContact GreenwoodTripp::at(double separation) const {
           .contact_area = area_ * heights_->moment(2, separation),
           .force = force(separation),
           .normal_stiffness = normal_stiffness(separation),
-          .curvature = curvature(separation)};
+          .force_curvature = force_curvature(separation)};
 }
 
 }  // namespace salebra

@@ -26,7 +26,7 @@ SummitEnsemble summit_ensemble(double moment0, double moment2, double moment4) {
   const double nayak = moment0 * moment4 / (moment2 * moment2);
   require(nayak >= 1, "nayak", nayak,
           "must be >= 1, as for any surface; check that the moments belong together");
-  return {.density = moment4 / (6 * std::sqrt(3.0) * pi * moment2),
+  return {.summit_density = moment4 / (6 * std::sqrt(3.0) * pi * moment2),
           .radius = 3.0 / 8 * std::sqrt(pi / moment4),
           .summit_rms = std::sqrt((1 - 0.8968 / nayak) * moment0),
           .mean_height = 4 * std::sqrt(moment0 / (pi * nayak)),
@@ -35,7 +35,7 @@ SummitEnsemble summit_ensemble(double moment0, double moment2, double moment4) {
 }
 
 SummitEnsemble summit_ensemble(const SummitStatistics& statistics, double mean_plane) {
-  return {.density = statistics.density,
+  return {.summit_density = statistics.summit_density,
           .radius = statistics.mean_radius,
           .summit_rms = statistics.rms_height,
           .mean_height = statistics.mean_height - mean_plane,
@@ -80,11 +80,11 @@ StatisticalSummits::StatisticalSummits(const SummitEnsemble& ensemble, const Mat
                      .upper_separation = heights->highest(),
                      .height_scale = heights->scale(),
                      .rms_height = ensemble.rms_height}),
-      count_(ensemble.density * nominal_area),
+      count_(ensemble.summit_density * nominal_area),
       radius_(ensemble.radius),
       scale_(material.contact_modulus * std::sqrt(ensemble.radius) * count_),
       heights_(std::move(heights)) {
-  require_positive(ensemble.density, "summit_density");
+  require_positive(ensemble.summit_density, "summit_density");
   require_positive(ensemble.radius, "radius");
   require(std::isfinite(ensemble.mean_height), "mean_height", ensemble.mean_height,
           "must be finite");
@@ -100,7 +100,7 @@ double StatisticalSummits::normal_stiffness(double separation) const {
   return 2 * scale_ * heights_->moment(0.5, separation);
 }
 
-double StatisticalSummits::curvature(double separation) const {
+double StatisticalSummits::force_curvature(double separation) const {
   return scale_ * heights_->moment(-0.5, separation);
 }
 
@@ -111,7 +111,7 @@ AsperityContact StatisticalSummits::at(double separation) const {
           .contact_area = pi * radius_ * count_ * heights_->moment(1, separation),
           .force = force(separation),
           .normal_stiffness = normal_stiffness(separation),
-          .curvature = curvature(separation)};
+          .force_curvature = force_curvature(separation)};
 }
 
 DeterministicSummits::DeterministicSummits(const std::vector<Summit>& summits,
@@ -141,7 +141,7 @@ AsperityContact DeterministicSummits::at(double separation) const {
     sum.contact_area += pi * cap.area_radius * indentation;
     sum.force += 4.0 / 3 * modulus * half_width * indentation;
     sum.normal_stiffness += 2 * modulus * half_width;
-    sum.curvature += modulus * cap.force_radius / half_width;
+    sum.force_curvature += modulus * cap.force_radius / half_width;
   }
   return sum;
 }
@@ -207,8 +207,8 @@ double GreenwoodWilliamsonLaw::normal_stiffness(double indentation) const {
   return model_->normal_stiffness(separation(indentation));
 }
 
-double GreenwoodWilliamsonLaw::curvature(double indentation) const {
-  return model_->curvature(separation(indentation));
+double GreenwoodWilliamsonLaw::force_curvature(double indentation) const {
+  return model_->force_curvature(separation(indentation));
 }
 
 double GreenwoodWilliamsonLaw::indentation_of(double force) const {

@@ -367,7 +367,7 @@ AsperityContact InteractingSummits::contact_of(const State& state, const Progres
                     (2 * roots[k] * roots[k] * state.indentation[contacts.members[k]]));
   const auto second = linear_solve(contacts, roots, right, options_.tolerance, false, watch);
   sum.normal_stiffness = modulus * dot(roots, first.scaled);
-  sum.curvature = modulus * dot(roots, second.scaled);
+  sum.force_curvature = modulus * dot(roots, second.scaled);
   sum.converged = state.converged && first.converged && second.converged;
   return sum;
 }

@@ -21,7 +21,7 @@ double ContactLaw::tangential_stiffness(double indentation) const {
 }
 
 double ContactLaw::tangential_curvature(double indentation) const {
-  return modulus_ratio_ * curvature(indentation);
+  return modulus_ratio_ * force_curvature(indentation);
 }
 
 double ContactLaw::lowest_indentation() const { return -std::numeric_limits<double>::infinity(); }
@@ -48,7 +48,7 @@ double PowerLaw::normal_stiffness(double indentation) const {
   return indentation > 0 ? coefficient_ * exponent_ * std::pow(indentation, exponent_ - 1) : 0;
 }
 
-double PowerLaw::curvature(double indentation) const {
+double PowerLaw::force_curvature(double indentation) const {
   return indentation > 0
              ? coefficient_ * exponent_ * (exponent_ - 1) * std::pow(indentation, exponent_ - 2)
              : 0;
@@ -73,7 +73,7 @@ double ExponentialLaw::normal_stiffness(double indentation) const {
   return force(indentation) / decay_length_;
 }
 
-double ExponentialLaw::curvature(double indentation) const {
+double ExponentialLaw::force_curvature(double indentation) const {
   return force(indentation) / (decay_length_ * decay_length_);
 }
 
@@ -182,7 +182,7 @@ double TabulatedLaw::normal_stiffness(double indentation) const {
   return std::exp(log_force.value) * log_force.slope;
 }
 
-double TabulatedLaw::curvature(double indentation) const {
+double TabulatedLaw::force_curvature(double indentation) const {
   const auto log_force = splines_->log_force.at(splines_->clamp(indentation));
   return std::exp(log_force.value) * (log_force.slope * log_force.slope + log_force.curvature);
 }

@@ -107,7 +107,7 @@ double IndenterLaw::normal_stiffness(double indentation) const {
   return 2 * contact_modulus_ * contact_radius(indentation);
 }
 
-double IndenterLaw::curvature(double indentation) const {
+double IndenterLaw::force_curvature(double indentation) const {
   if (!(indentation > 0)) return 0;
   const double edge = contact_radius(indentation);
   if (edge >= profile_->largest_radius() && profile_->has_side()) return 0;

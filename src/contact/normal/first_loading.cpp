@@ -28,7 +28,7 @@ FirstLoading sink_in(Field& heights, const Field& displacement, const NormalCont
            [&](Index begin, Index end) {
              Sums sums;
              for (Index k = begin * heights.cols(); k < end * heights.cols(); ++k) {
-               if (state.pressure.data()[k] < hardness) continue;
+               if (state.contact_pressure.data()[k] < hardness) continue;
                double& height = heights.data()[k];
                // Within the solver's tolerance, a saturated cell may stand off the plane.
                const double depth =
@@ -70,7 +70,7 @@ std::optional<NormalContactState> at_top(const Surface& residual, double contact
   if (options.boundary == Boundary::periodic &&
       top >= (residual.heights.maxCoeff() - residual.heights).mean())
     return {};
-  options.initial_pressure = &mean.pressure;
+  options.initial_pressure = &mean.contact_pressure;
   return press_to_indentation(residual, contact_modulus, top, options);
 }
 
@@ -80,14 +80,15 @@ ResidualSurface residual_surface(Surface surface, double contact_modulus,
                                  const NormalContactState& state,
                                  const NormalContactOptions& options) {
   surface.require_whole("a residual surface");
-  require(state.pressure.rows() == surface.grid.nx && state.pressure.cols() == surface.grid.ny,
-          "pressure", state.pressure.size(), "points do not fill the grid");
+  require(state.contact_pressure.rows() == surface.grid.nx &&
+              state.contact_pressure.cols() == surface.grid.ny,
+          "pressure", state.contact_pressure.size(), "points do not fill the grid");
   ResidualSurface residual{.surface = std::move(surface),
                            .first_loading = {},
                            .converged = state.converged,
                            .interrupted = state.interrupted};
   if (!state.converged) return residual;
-  if ((state.pressure < options.hardness).all()) {
+  if ((state.contact_pressure < options.hardness).all()) {
     residual.first_loading = {.pressure = state.mean_pressure,
                               .yielded_area_fraction = 0,
                               .mean_plastic_depth = 0,
@@ -99,7 +100,7 @@ ResidualSurface residual_surface(Surface surface, double contact_modulus,
                  "a residual surface");
   Field displacement(grid.nx, grid.ny);
   normal_compliance<double>(grid, contact_modulus, options.boundary)
-      .apply(state.pressure.data(), displacement.data());
+      .apply(state.contact_pressure.data(), displacement.data());
   residual.first_loading = sink_in(residual.surface.heights, displacement, state, options.hardness);
   return residual;
 }
@@ -117,13 +118,13 @@ ResidualSurface after_first_loading(Surface surface, double contact_modulus,
   for (int loading = 1; residual.converged; ++loading) {
     const std::optional<NormalContactState> top =
         at_top(residual.surface, contact_modulus, nominal_pressure, normal_amplitude,
-               state.pressure, options);
+               state.contact_pressure, options);
     if (!top) return residual;
     residual.converged = top->converged && loading < most_loadings;
     residual.interrupted = top->interrupted;
     if (!residual.converged) return residual;
     const double load = top->mean_pressure;
-    if (!residual.first_loading.yielded() && (top->pressure < options.hardness).all()) {
+    if (!residual.first_loading.yielded() && (top->contact_pressure < options.hardness).all()) {
       residual.first_loading.pressure = load;
       return residual;
     }
@@ -134,7 +135,7 @@ ResidualSurface after_first_loading(Surface surface, double contact_modulus,
                         "load or the normal amplitude",
                         format_quantity(load, Dimension::pressure)));
     NormalContactOptions further = options;
-    further.initial_pressure = &top->pressure;
+    further.initial_pressure = &top->contact_pressure;
     state = press_to_pressure(surface, contact_modulus, load, further);
     residual = residual_surface(surface, contact_modulus, state, options);
   }

@@ -269,7 +269,7 @@ NormalContactState state_of(Solution&& solution, const ContactTarget& target, co
   }
   const double points = static_cast<double>(surface.grid.points());
   state.ranks = surface.ranks;
-  state.pressure = std::move(solution.pressure);
+  state.contact_pressure = std::move(solution.pressure);
   state.gap = std::move(solution.gap);
   state.mean_pressure = total.pressure / points * scaled.pressure_unit;
   state.force = state.mean_pressure * surface.grid.area();
@@ -293,7 +293,8 @@ NormalContactState state_of(Solution&& solution, const ContactTarget& target, co
 // A plane touches everywhere under any pressure.
 NormalContactState full_contact_of_plane(const Surface& surface, double nominal_pressure) {
   NormalContactState state;
-  state.pressure = Field::Constant(surface.heights.rows(), surface.grid.ny, nominal_pressure);
+  state.contact_pressure =
+      Field::Constant(surface.heights.rows(), surface.grid.ny, nominal_pressure);
   state.gap = Field::Zero(surface.heights.rows(), surface.grid.ny);
   state.ranks = surface.ranks;
   state.mean_pressure = nominal_pressure;
@@ -327,7 +328,7 @@ NormalContactState press(const Surface& surface, double contact_modulus, const D
 
 }  // namespace
 
-ContactSet contact_set(const NormalContactState& state) { return state.pressure > 0; }
+ContactSet contact_set(const NormalContactState& state) { return state.contact_pressure > 0; }
 
 NormalContactState press_to_pressure(const Surface& surface, double contact_modulus,
                                      double nominal_pressure, const NormalContactOptions& options) {

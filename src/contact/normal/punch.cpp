@@ -293,17 +293,18 @@ double normal_stiffness(const NormalContactState& state, const Grid2D& grid, dou
   require_positive(contact_modulus, "contact_modulus");
   const Share rows(state.ranks, grid.nx);
   collectively(state.ranks, [&] {
-    require(state.pressure.rows() == rows.count() && state.pressure.cols() == grid.ny, "pressure",
-            state.pressure.size(), "points do not fill the grid");
+    require(
+        state.contact_pressure.rows() == rows.count() && state.contact_pressure.cols() == grid.ny,
+        "pressure", state.contact_pressure.size(), "points do not fill the grid");
   });
   // In full contact the periodic cell approaches no further: its compliance has no mean.
-  const auto elastic = state.pressure > 0 && state.pressure < options.hardness;
+  const auto elastic = state.contact_pressure > 0 && state.contact_pressure < options.hardness;
   if (options.boundary == Boundary::periodic && state.ranks.all_agree(elastic.all()))
     return std::numeric_limits<double>::infinity();
   if (state.ranks.all_agree(!elastic.any())) return 0;
   const PunchStiffness punch = press_punch(
-      state.pressure, options.hardness, grid, state.ranks, contact_modulus, options.boundary,
-      options.precision,
+      state.contact_pressure, options.hardness, grid, state.ranks, contact_modulus,
+      options.boundary, options.precision,
       {.max_iterations = options.max_iterations, .keep_going = keep_going(options.on_progress)},
       punch_pressure);
   return punch.converged ? punch.normal_stiffness : std::numeric_limits<double>::quiet_NaN();

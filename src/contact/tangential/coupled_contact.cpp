@@ -34,7 +34,7 @@ struct CoupledContact::Parts {
         sliding(given.grid, material, wanted.sliding),
         gap(highest - given.heights) {}
 
-  double force() const { return surface.grid.cell_area() * sliding.pressure().sum(); }
+  double force() const { return surface.grid.cell_area() * sliding.contact_pressure().sum(); }
 
   // The same rigid approach above a surface that the tractions have displaced by `sunk`; cells
   // `out` stay out of the contact, so that the others carry what these would. Their gap may be
@@ -51,7 +51,7 @@ struct CoupledContact::Parts {
     const double from_first_touch = approach + lowered.heights.maxCoeff() - highest;
     if (!(from_first_touch > 0)) {
       NormalContactState apart;
-      apart.pressure = Field::Zero(surface.grid.nx, surface.grid.ny);
+      apart.contact_pressure = Field::Zero(surface.grid.nx, surface.grid.ny);
       apart.gap = highest - (surface.heights - sunk) - approach;
       apart.converged = true;
       return apart;
@@ -88,7 +88,7 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   if (scale > 0) p.sliding.set_motion_scale(std::min(p.options.sliding.motion_scale, scale));
   CoupledReport report;
   SlidingContact::Increment increment;
-  increment.pressure = p.sliding.pressure();
+  increment.contact_pressure = p.sliding.contact_pressure();
   increment.traction = p.sliding.traction();
   Field gap;
   bool solved = false;
@@ -98,17 +98,17 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   ContactSet barred = ContactSet::Constant(p.surface.grid.nx, p.surface.grid.ny, false);
   while (report.sweeps < p.options.max_sweeps) {
     NormalContactState state =
-        p.press(indentation, p.coupling.normal_displacement(increment.traction), increment.pressure,
-                barred);
+        p.press(indentation, p.coupling.normal_displacement(increment.traction),
+                increment.contact_pressure, barred);
     if (report.sweeps > patience)
-      barred = barred || (increment.pressure > 0 && state.pressure <= 0);
-    const TangentialField shift = p.coupling.tangential_displacement(state.pressure);
-    SlidingContact::Increment next =
-        p.sliding.attempt(state.pressure, move, &shift, report.sweeps > 0 ? &increment : nullptr);
-    const double change = (next.pressure - increment.pressure).abs().sum() +
+      barred = barred || (increment.contact_pressure > 0 && state.contact_pressure <= 0);
+    const TangentialField shift = p.coupling.tangential_displacement(state.contact_pressure);
+    SlidingContact::Increment next = p.sliding.attempt(state.contact_pressure, move, &shift,
+                                                       report.sweeps > 0 ? &increment : nullptr);
+    const double change = (next.contact_pressure - increment.contact_pressure).abs().sum() +
                           (next.traction.x - increment.traction.x).abs().sum() +
                           (next.traction.y - increment.traction.y).abs().sum();
-    const double total = next.pressure.sum();
+    const double total = next.contact_pressure.sum();
     increment = std::move(next);
     gap = std::move(state.gap);
     solved = state.converged && increment.report.converged;
@@ -122,7 +122,7 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   report.converged = solved && report.change < p.options.tolerance && !report.interrupted;
   p.converged = p.converged && report.converged;
   p.interrupted = p.interrupted || report.interrupted;
-  const Field &pressure = p.sliding.pressure(), &next_pressure = increment.pressure;
+  const Field &pressure = p.sliding.contact_pressure(), &next_pressure = increment.contact_pressure;
   const Field across = (pressure <= 0).select(next_pressure * p.gap, 0.0) -
                        (next_pressure <= 0).select(pressure * gap, 0.0);
   p.gap_work += p.surface.grid.cell_area() / 2 * across.sum();
@@ -166,7 +166,8 @@ bool CoupledContact::interrupted() const { return parts_->interrupted; }
 double CoupledContact::stored_energy() const {
   const Parts& p = *parts_;
   // In contact the surface lies where the body is.
-  const Field normal = p.sliding.pressure() * (p.indentation - (p.highest - p.surface.heights));
+  const Field normal =
+      p.sliding.contact_pressure() * (p.indentation - (p.highest - p.surface.heights));
   return p.sliding.tangential_energy() + p.surface.grid.cell_area() / 2 * normal.sum();
 }
 

@@ -57,7 +57,7 @@ SlidingContact::SlidingContact(const Grid2D& grid, const Material& material,
       options_(options),
       solver_(grid, material, options.stick),
       contact_(ContactSet::Constant(grid.nx, grid.ny, false)) {
-  state_.pressure = state_.loss = Field::Zero(grid.nx, grid.ny);
+  state_.contact_pressure = state_.loss = Field::Zero(grid.nx, grid.ny);
   state_.shift = state_.traction = state_.displacement = zero(grid);
   validate(options);
   state_.motion_scale = options.motion_scale;
@@ -70,14 +70,14 @@ void SlidingContact::set_motion_scale(double scale) {
 
 void SlidingContact::restore(SlidingState state) {
   for (const Field* field :
-       {&state.pressure, &state.loss, &state.shift.x, &state.shift.y, &state.traction.x,
+       {&state.contact_pressure, &state.loss, &state.shift.x, &state.shift.y, &state.traction.x,
         &state.traction.y, &state.displacement.x, &state.displacement.y})
     require(field->rows() == contact_.rows() && field->cols() == contact_.cols(), "state",
             field->size(), "cells do not match the grid; resume with the run's own settings");
   require_positive(state.motion_scale, "motion_scale");
   state_ = std::move(state);
   if (state_.prepared.size() > 0) reserve(state_.prepared);
-  contact_ = limit_of(state_.pressure, options_.friction_coefficient) > 0;
+  contact_ = limit_of(state_.contact_pressure, options_.friction_coefficient) > 0;
 }
 
 SlidingState SlidingContact::state() const {
@@ -110,7 +110,7 @@ TangentialField SlidingContact::displacement_halfway(const TangentialMove& move,
   target.x -= contact_.select(halfway.x, 0.0);
   target.y -= contact_.select(halfway.y, 0.0);
   const PartialSlipReport report =
-      solver_.solve(limit_of(state_.pressure, options_.friction_coefficient), target,
+      solver_.solve(limit_of(state_.contact_pressure, options_.friction_coefficient), target,
                     state_.motion_scale, increment.traction_halfway, slip);
   count(report);
   increment.report.converged = report.converged;
@@ -119,7 +119,8 @@ TangentialField SlidingContact::displacement_halfway(const TangentialMove& move,
 }
 
 void SlidingContact::require_pressure(const Field& pressure) const {
-  require(pressure.rows() == state_.pressure.rows() && pressure.cols() == state_.pressure.cols(),
+  require(pressure.rows() == state_.contact_pressure.rows() &&
+              pressure.cols() == state_.contact_pressure.cols(),
           "pressure", pressure.size(), "values do not match the grid; give nx × ny values");
   require((pressure >= 0).all(), "pressure", pressure.minCoeff(), "must be >= 0 in every cell");
 }
@@ -134,7 +135,7 @@ void SlidingContact::slide(const Field& pressure, const TangentialMove& directio
   require_positive(length, "direction");
   const Field limit = limit_of(pressure, options_.friction_coefficient);
   contact_ = limit > 0;
-  state_.pressure = pressure;
+  state_.contact_pressure = pressure;
   state_.traction = {limit * (direction.x / length), limit * (direction.y / length)};
   state_.displacement = displacement_under(contact_, state_.traction, state_.shift, contact_);
   state_.loss.setZero();
@@ -150,7 +151,7 @@ SlidingContact::Increment SlidingContact::attempt(const Field& pressure, const T
           "along y must be 0 where the lateral displacement is free; turn the surface instead");
   const Field limit = limit_of(pressure, options_.friction_coefficient);
   const ContactSet contact = limit > 0, entering = contact && !contact_;
-  Increment increment{.pressure = pressure,
+  Increment increment{.contact_pressure = pressure,
                       .shift = shift ? *shift : state_.shift,
                       .traction = guess ? guess->traction : state_.traction,
                       .traction_halfway = guess ? guess->traction_halfway : state_.traction,
@@ -201,7 +202,8 @@ void SlidingContact::accept(Increment increment) {
   state_.converged = state_.converged && increment.report.converged;
   interrupted_ = interrupted_ || increment.report.interrupted;
   state_.slipping = increment.report.slipping;
-  const ContactSet contact = limit_of(increment.pressure, options_.friction_coefficient) > 0;
+  const ContactSet contact =
+      limit_of(increment.contact_pressure, options_.friction_coefficient) > 0;
   const ContactSet leaving = contact_ && !contact, entering = contact && !contact_;
   const TangentialField middle = mean(state_.traction, increment.traction);
   // The body's motion as the cells feel it, those that enter from their entry on.
@@ -224,7 +226,7 @@ void SlidingContact::accept(Increment increment) {
     state_.released += released.sum();
   }
   contact_ = contact;
-  state_.pressure = std::move(increment.pressure);
+  state_.contact_pressure = std::move(increment.contact_pressure);
   state_.shift = std::move(increment.shift);
   state_.traction = std::move(increment.traction);
   state_.displacement = std::move(increment.displacement);

@@ -12,8 +12,11 @@ namespace {
 const Material soft = Material::of_contact_modulus(1.0, 0.3);
 
 SummitEnsemble ensemble_of(SummitDistribution distribution) {
-  SummitEnsemble ensemble{
-      .density = 300, .radius = 2, .summit_rms = 1, .mean_height = 3, .distribution = distribution};
+  SummitEnsemble ensemble{.summit_density = 300,
+                          .radius = 2,
+                          .summit_rms = 1,
+                          .mean_height = 3,
+                          .distribution = distribution};
   if (distribution == SummitDistribution::tabulated)
     ensemble.table = {{-1, 0.5}, {0, 2}, {2, 0}, {2.5, 0}, {3, 0.1}};
   return ensemble;
@@ -51,7 +54,7 @@ TEST_CASE("Drawn summits press as their ensemble does, within the scatter that t
     CHECK(mean.indentation == -mean.separation);
   }
   CHECK(drawn.mean.samples[0].separation == 1.2);
-  CHECK(std::isnan(drawn.deviation[0].curvature));
+  CHECK(std::isnan(drawn.deviation[0].force_curvature));
   // Student's t for 199 degrees of freedom.
   CHECK(drawn.interval(1) == Approx(1.971957 / std::sqrt(200.0)).epsilon(1e-6));
 }

@@ -17,8 +17,10 @@ const Material soft = Material::of_contact_modulus(1.5, 0.3);
 TEST_CASE("Equal sides give Greenwood and Tripp's (16√2/15)π(ηβσ)²E*√(σ/β)F_{5/2}",
           "[greenwood-tripp]") {
   const double density = 40, radius = 0.7, sigma = 0.2;  // σ of the sum
-  const SummitEnsemble side{
-      .density = density, .radius = radius, .summit_rms = sigma / std::sqrt(2.0), .mean_height = 1};
+  const SummitEnsemble side{.summit_density = density,
+                            .radius = radius,
+                            .summit_rms = sigma / std::sqrt(2.0),
+                            .mean_height = 1};
   const GreenwoodTripp contact(side, side, soft, 3);
   const double number = density * radius * sigma;
   // F_n(0) = 2^{n/2} Γ((n+1)/2)/(2√π)
@@ -37,16 +39,17 @@ TEST_CASE("Equal sides give Greenwood and Tripp's (16√2/15)π(ηβσ)²E*√(�
 
 TEST_CASE("Two rough sides are an integral of one over the offset of their summits",
           "[greenwood-tripp]") {
-  const SummitEnsemble first{.density = 5, .radius = 0.7, .summit_rms = 0.2};
-  const SummitEnsemble second{.density = 8, .radius = 1.9, .summit_rms = 0.35};
+  const SummitEnsemble first{.summit_density = 5, .radius = 0.7, .summit_rms = 0.2};
+  const SummitEnsemble second{.summit_density = 8, .radius = 1.9, .summit_rms = 0.35};
   const GreenwoodTripp contact(first, second, soft, 1);
   // A pair at the offset r is one summit of the summed height on a plane that is r²/(2(R1+R2))
   // farther away.
   const double radii = first.radius + second.radius;
-  const StatisticalSummits at_offset({.density = first.density * second.density,
-                                      .radius = first.radius * second.radius / radii,
-                                      .summit_rms = std::hypot(0.2, 0.35)},
-                                     soft, 1);
+  const StatisticalSummits at_offset(
+      {.summit_density = first.summit_density * second.summit_density,
+       .radius = first.radius * second.radius / radii,
+       .summit_rms = std::hypot(0.2, 0.35)},
+      soft, 1);
   const double separation = GENERATE(-0.3, 0.1, 0.8);
   AsperityContact sum;
   // Simpson's rule in r; the integrand is smooth, and below 1e-14 beyond r²/(2·2.6) = 4.
@@ -59,19 +62,19 @@ TEST_CASE("Two rough sides are an integral of one over the offset of their summi
     sum.contact_area += weight * 2 * pi * r * part.contact_area;
     sum.force += weight * 2 * pi * r * part.force;
     sum.normal_stiffness += weight * 2 * pi * r * part.normal_stiffness;
-    sum.curvature += weight * 2 * pi * r * part.curvature;
+    sum.force_curvature += weight * 2 * pi * r * part.force_curvature;
   }
   const AsperityContact exact = contact.at(separation);
   CHECK(exact.contacts == Approx(sum.contacts).epsilon(1e-8));
   CHECK(exact.contact_area == Approx(sum.contact_area).epsilon(1e-8));
   CHECK(exact.force == Approx(sum.force).epsilon(1e-8));
   CHECK(exact.normal_stiffness == Approx(sum.normal_stiffness).epsilon(1e-8));
-  CHECK(exact.curvature == Approx(sum.curvature).epsilon(1e-8));
+  CHECK(exact.force_curvature == Approx(sum.force_curvature).epsilon(1e-8));
 }
 
 TEST_CASE("The two sides may be exchanged, but not be other than Gaussian", "[greenwood-tripp]") {
-  SummitEnsemble first{.density = 5, .radius = 0.7, .summit_rms = 0.2};
-  const SummitEnsemble second{.density = 8, .radius = 1.9, .summit_rms = 0.35};
+  SummitEnsemble first{.summit_density = 5, .radius = 0.7, .summit_rms = 0.2};
+  const SummitEnsemble second{.summit_density = 8, .radius = 1.9, .summit_rms = 0.35};
   CHECK(GreenwoodTripp(first, second, soft, 1).force(0.2) ==
         Approx(GreenwoodTripp(second, first, soft, 1).force(0.2)).epsilon(1e-14));
   // The heights of two independent sides add, their variances too.

@@ -19,7 +19,8 @@ const Material soft = Material::of_contact_modulus(1.0, 0.3);
 /// E* = R = η = A0 = σ_s = 1: F = (4/3) F_{3/2}(h), K = 2 F_{1/2}, F'' = F_{−1/2}, A_c = π F_1 in
 /// GW's notation.
 StatisticalSummits unit_summits(SummitDistribution distribution) {
-  return {{.density = 1, .radius = 1, .summit_rms = 1, .distribution = distribution}, soft, 1};
+  return {
+      {.summit_density = 1, .radius = 1, .summit_rms = 1, .distribution = distribution}, soft, 1};
 }
 
 double uniform(std::mt19937_64& random) {
@@ -78,7 +79,7 @@ TEST_CASE("Gaussian heights give the integrals F_n(h) of Greenwood and Williamso
     // The header promises 1e-10; the quadrature aims at 1e-12, and exp(−h²/2) adds h² times the
     // round-off.
     const AsperityContact contact = summits.at(row[0]);
-    CHECK(contact.curvature == Approx(row[1]).epsilon(2e-12));
+    CHECK(contact.force_curvature == Approx(row[1]).epsilon(2e-12));
     CHECK(contact.normal_stiffness == Approx(2 * row[2]).epsilon(2e-12));
     CHECK(contact.contact_area == Approx(pi * row[3]).epsilon(2e-12));
     CHECK(contact.force == Approx(4.0 / 3 * row[4]).epsilon(2e-12));
@@ -93,7 +94,7 @@ TEST_CASE("The curvature of Gaussian heights is a Bessel function", "[gw]") {
   const double h = GENERATE(0.013, 0.7, 1.9, 5.3);
   const double exact =
       std::sqrt(h / pi) / 2 * std::exp(-h * h / 4) * std::cyl_bessel_k(0.25, h * h / 4);
-  CHECK(summits.curvature(h) == Approx(exact).epsilon(1e-11));
+  CHECK(summits.force_curvature(h) == Approx(exact).epsilon(1e-11));
 }
 
 TEST_CASE("K = −dF/ds and F'' = −dK/ds for both height densities, deep and far", "[gw]") {
@@ -112,11 +113,11 @@ TEST_CASE("K = −dF/ds and F'' = −dK/ds for both height densities, deep and f
   CHECK(-slope([&](double s) { return summits.force(s); }) ==
         Approx(contact.normal_stiffness).epsilon(1e-6));
   CHECK(-slope([&](double s) { return summits.normal_stiffness(s); }) ==
-        Approx(contact.curvature).epsilon(1e-6));
+        Approx(contact.force_curvature).epsilon(1e-6));
 }
 
 TEST_CASE("Exponential heights carry an exactly exponential force with l = σ_s", "[gw]") {
-  const SummitEnsemble ensemble{.density = 3e9,
+  const SummitEnsemble ensemble{.summit_density = 3e9,
                                 .radius = 2e-6,
                                 .summit_rms = 1.3e-8,
                                 .distribution = SummitDistribution::exponential};
@@ -124,13 +125,13 @@ TEST_CASE("Exponential heights carry an exactly exponential force with l = σ_s"
   const GreenwoodWilliamsonLaw law(ensemble, Material::of_contact_modulus(modulus, 0.3), area);
   const double sigma = ensemble.summit_rms;
   // (4/3)E*√R ηA0 Γ(5/2) σ^{3/2} e^{−s/σ}
-  const double reference =
-      modulus * std::sqrt(ensemble.radius * pi * sigma * sigma * sigma) * ensemble.density * area;
+  const double reference = modulus * std::sqrt(ensemble.radius * pi * sigma * sigma * sigma) *
+                           ensemble.summit_density * area;
   for (double separation : {0.0, 0.3e-8, 5e-8, 40e-8}) {
     const double force = law.force(-separation);
     CHECK(force == Approx(reference * std::exp(-separation / sigma)).epsilon(1e-13));
     CHECK(law.normal_stiffness(-separation) == Approx(force / sigma).epsilon(1e-13));
-    CHECK(law.curvature(-separation) == Approx(force / (sigma * sigma)).epsilon(1e-13));
+    CHECK(law.force_curvature(-separation) == Approx(force / (sigma * sigma)).epsilon(1e-13));
     CHECK(law.tangential_curvature(-separation) ==
           Approx(law.modulus_ratio() * force / (sigma * sigma)).epsilon(1e-13));
     CHECK(law.indentation_of(force) == Approx(-separation).margin(1e-13 * sigma));
@@ -144,7 +145,7 @@ TEST_CASE("Below the lowest exponential summit the force grows as all of them de
                              {-20, 0.2183910225940261, 4.581331466296592, 96.31471629943648}};
   const StatisticalSummits summits = unit_summits(SummitDistribution::exponential);
   for (const auto& row : table) {
-    CHECK(summits.curvature(row[0]) == Approx(row[1]).epsilon(2e-12));
+    CHECK(summits.force_curvature(row[0]) == Approx(row[1]).epsilon(2e-12));
     CHECK(summits.normal_stiffness(row[0]) == Approx(2 * row[2]).epsilon(2e-12));
     CHECK(summits.force(row[0]) == Approx(4.0 / 3 * row[3]).epsilon(2e-12));
     CHECK(summits.at(row[0]).contacts == 1);
@@ -158,7 +159,8 @@ TEST_CASE("Moments of a flat spectrum give the summits that its surfaces have", 
   // C = const below q_s: m2 = m0 q_s²/4, m4 = m0 q_s⁴/8, hence α = 2.
   const SummitEnsemble theory =
       summit_ensemble(1, std::pow(cutoff, 2) / 4, std::pow(cutoff, 4) / 8);
-  CHECK(theory.density == Approx(cutoff * cutoff / (12 * std::sqrt(3.0) * pi)).epsilon(1e-14));
+  CHECK(theory.summit_density ==
+        Approx(cutoff * cutoff / (12 * std::sqrt(3.0) * pi)).epsilon(1e-14));
   CHECK(theory.summit_rms == Approx(std::sqrt(1 - 0.4484)).epsilon(1e-14));
   CHECK(theory.mean_height == Approx(4 / std::sqrt(2 * pi)).epsilon(1e-14));
   CHECK(theory.rms_height == 1);
@@ -169,7 +171,7 @@ TEST_CASE("Moments of a flat spectrum give the summits that its surfaces have", 
     const SummitList list =
         find_summits(flat_spectrum_surface(384, modes, static_cast<std::uint64_t>(seed)));
     const SummitStatistics statistics = summit_statistics(list);
-    density += statistics.density / surfaces;
+    density += statistics.summit_density / surfaces;
     height += statistics.mean_height / surfaces;
     square += statistics.rms_height * statistics.rms_height / surfaces;
     curvature += 1 / statistics.mean_radius / surfaces;
@@ -177,7 +179,7 @@ TEST_CASE("Moments of a flat spectrum give the summits that its surfaces have", 
   // 350 summits on each of four surfaces: σ_s is known to 1/√(2·1400) = 2 %, the mean height to
   // σ_s/√1400 = 2 % of σ_s, the density better than the Poisson value of 3 %. Three standard
   // errors, and 1 % for 16 cells a wave.
-  CHECK(density == Approx(theory.density).epsilon(0.08));
+  CHECK(density == Approx(theory.summit_density).epsilon(0.08));
   CHECK(height == Approx(theory.mean_height).margin(0.07 * theory.summit_rms));
   CHECK(std::sqrt(square) == Approx(theory.summit_rms).epsilon(0.07));
   CHECK(1 / curvature == Approx(theory.radius).epsilon(0.05));
@@ -185,10 +187,10 @@ TEST_CASE("Moments of a flat spectrum give the summits that its surfaces have", 
 
 TEST_CASE("Counted summits stand over the mean plane that is given", "[gw]") {
   const SummitStatistics counted{
-      .density = 3, .mean_height = 5.5, .rms_height = 0.25, .mean_radius = 2};
+      .summit_density = 3, .mean_height = 5.5, .rms_height = 0.25, .mean_radius = 2};
   const SummitEnsemble ensemble = summit_ensemble(counted, 5);
   CHECK(ensemble.mean_height == 0.5);
-  CHECK(ensemble.density == 3);
+  CHECK(ensemble.summit_density == 3);
   CHECK(ensemble.radius == 2);
   CHECK(ensemble.summit_rms == 0.25);
 }
@@ -204,7 +206,7 @@ TEST_CASE("Given summits drawn from a density agree with the integral over it", 
         {.height = mean + normal(random), .curvature1 = 1.2 / radius, .curvature2 = 0.8 / radius});
   const DeterministicSummits given(summits, soft, 1, mean - 3);
   const StatisticalSummits drawn(
-      {.density = count, .radius = radius, .summit_rms = 1, .mean_height = 3}, soft, 1);
+      {.summit_density = count, .radius = radius, .summit_rms = 1, .mean_height = 3}, soft, 1);
   const AsperityContact sum = given.at(separation), expected = drawn.at(separation);
   // A sum of `count` equal variables f(z): its variance is count·⟨f²⟩ at most. ⟨f²⟩ of force and
   // stiffness are the polynomial moments ∫(z−s)³φ and ∫(z−s)φ. Four standard errors; the mean of
@@ -218,9 +220,9 @@ TEST_CASE("Given summits drawn from a density agree with the integral over it", 
   CHECK(sum.force == Approx(expected.force)
                          .margin(4 * std::sqrt(count * 16.0 / 9 * radius * third) +
                                  4 * shift * expected.normal_stiffness));
-  CHECK(sum.normal_stiffness ==
-        Approx(expected.normal_stiffness)
-            .margin(4 * std::sqrt(count * 4 * radius * first) + 4 * shift * expected.curvature));
+  CHECK(sum.normal_stiffness == Approx(expected.normal_stiffness)
+                                    .margin(4 * std::sqrt(count * 4 * radius * first) +
+                                            4 * shift * expected.force_curvature));
   CHECK(given.mean_gap(s) == Approx(drawn.mean_gap(s)).margin(4 * shift));
 }
 
@@ -235,7 +237,8 @@ TEST_CASE("One summit is Hertz's contact, counted from first touch", "[gw]") {
     CHECK(law.force(indentation) == Approx(hertz.force(indentation)).epsilon(1e-13));
     CHECK(law.normal_stiffness(indentation) ==
           Approx(hertz.normal_stiffness(indentation)).epsilon(1e-13));
-    CHECK(law.curvature(indentation) == Approx(hertz.curvature(indentation)).epsilon(1e-13));
+    CHECK(law.force_curvature(indentation) ==
+          Approx(hertz.force_curvature(indentation)).epsilon(1e-13));
     CHECK(law.indentation_of(law.force(indentation)) == Approx(indentation).epsilon(1e-13));
     CHECK(model->at(-indentation).contact_area == Approx(pi * radius * indentation).epsilon(1e-13));
   }
@@ -270,7 +273,7 @@ TEST_CASE("Curves at given pressures have those pressures, in ascending order", 
 }
 
 TEST_CASE("A table of a GW curve is the GW law", "[gw]") {
-  const SummitEnsemble ensemble{.density = 1, .radius = 1, .summit_rms = 1};
+  const SummitEnsemble ensemble{.summit_density = 1, .radius = 1, .summit_rms = 1};
   const GreenwoodWilliamsonLaw exact(ensemble, soft, 1);
   std::vector<double> separations;
   for (int i = 0; i <= 40; ++i) separations.push_back(0.1 * i);
@@ -283,7 +286,7 @@ TEST_CASE("A table of a GW curve is the GW law", "[gw]") {
 
 TEST_CASE("A tabulated density is integrated exactly", "[gw]") {
   // A triangle from −1 over 0 to 2 (m), given three times too high: φ(0) = 2/3.
-  SummitEnsemble ensemble{.density = 1,
+  SummitEnsemble ensemble{.summit_density = 1,
                           .radius = 1,
                           .distribution = SummitDistribution::tabulated,
                           .table = {{-1, 0}, {0, 2}, {2, 0}}};
@@ -296,7 +299,7 @@ TEST_CASE("A tabulated density is integrated exactly", "[gw]") {
   CHECK(contact.force == Approx(4.0 / 3 * std::pow(reach, 3.5) / (3 * 2.5 * 3.5)).epsilon(1e-14));
   CHECK(contact.normal_stiffness ==
         Approx(2 * std::pow(reach, 2.5) / (3 * 1.5 * 2.5)).epsilon(1e-14));
-  CHECK(contact.curvature == Approx(std::pow(reach, 1.5) / (3 * 0.5 * 1.5)).epsilon(1e-14));
+  CHECK(contact.force_curvature == Approx(std::pow(reach, 1.5) / (3 * 0.5 * 1.5)).epsilon(1e-14));
   CHECK(triangle.at(-1.5).contacts == Approx(1).epsilon(1e-14));
   CHECK(triangle.force(2) == 0);
   CHECK(triangle.force(triangle.separation_of(1e-3)) == Approx(1e-3).epsilon(1e-12));
@@ -336,7 +339,7 @@ TEST_CASE("An elliptical summit is Hertz's ellipse", "[gw]") {
     const AsperityContact contact = ellipse.at(separation), same = sphere.at(separation);
     CHECK(contact.force == Approx(same.force).epsilon(1e-13));
     CHECK(contact.normal_stiffness == Approx(same.normal_stiffness).epsilon(1e-13));
-    CHECK(contact.curvature == Approx(same.curvature).epsilon(1e-13));
+    CHECK(contact.force_curvature == Approx(same.force_curvature).epsilon(1e-13));
     CHECK(contact.contact_area == Approx(pi * row[2] / curvature * 1e-9).epsilon(1e-13));
   }
   // A ridge has the force of one a thousand times as long as wide.
@@ -359,7 +362,7 @@ TEST_CASE("Mildly elliptical summits carry what spheres of their mean curvature 
 }
 
 TEST_CASE("Summits that cannot be pressed are refused", "[gw]") {
-  const SummitEnsemble good{.density = 1, .radius = 1, .summit_rms = 1};
+  const SummitEnsemble good{.summit_density = 1, .radius = 1, .summit_rms = 1};
   CHECK_THROWS_WITH(StatisticalSummits(good, soft, 0), Catch::Contains("nominal_area"));
   SummitEnsemble bad = good;
   bad.radius = -1;

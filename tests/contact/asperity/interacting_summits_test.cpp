@@ -36,7 +36,7 @@ double periodic_kernel(double x, double y, double lx, double ly) {
 }
 
 std::vector<Summit> random_summits(int count, double radius, double size) {
-  return draw_summits({.density = 1, .radius = radius, .summit_rms = 1}, count, size, 17);
+  return draw_summits({.summit_density = 1, .radius = radius, .summit_rms = 1}, count, size, 17);
 }
 
 Grid2D square(double size) { return {4, 4, size, size}; }
@@ -101,7 +101,7 @@ TEST_CASE("K and F'' are derivatives of the interacting force", "[interacting]")
   REQUIRE(closer.contacts == farther.contacts);
   CHECK(contact.normal_stiffness ==
         Approx((closer.force - farther.force) / (2 * step)).epsilon(1e-6));
-  CHECK(contact.curvature ==
+  CHECK(contact.force_curvature ==
         Approx((closer.normal_stiffness - farther.normal_stiffness) / (2 * step)).epsilon(1e-5));
 }
 

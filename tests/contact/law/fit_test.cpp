@@ -77,7 +77,7 @@ TEST_CASE("An exact exponential has its decay length, no interval and no bend", 
 }
 
 TEST_CASE("Exponential summits obey the law, Gaussian ones bend it", "[fit]") {
-  SummitEnsemble ensemble{.density = 1e10,
+  SummitEnsemble ensemble{.summit_density = 1e10,
                           .radius = 1e-6,
                           .summit_rms = 2e-8,
                           .mean_height = 3e-8,

@@ -17,7 +17,7 @@ struct Bent {
   static double log_slope(double x) { return 1.5 - 0.1 * x + 0.1 * std::cos(x); }
   static double force(double x) { return std::exp(1.5 * x - 0.05 * x * x + 0.1 * std::sin(x)); }
   static double stiffness(double x) { return force(x) * log_slope(x); }
-  static double curvature(double x) {
+  static double force_curvature(double x) {
     return force(x) * (log_slope(x) * log_slope(x) - 0.1 - 0.1 * std::sin(x));
   }
 };
@@ -53,7 +53,8 @@ TEST_CASE("A paraboloid's power law is Hertz: K = 2E*a, F'' = E*R/a", "[law]") {
   CHECK(hertz.force(indentation) ==
         Approx(4.0 / 3 * modulus * std::pow(contact_radius, 3) / radius).epsilon(1e-14));
   CHECK(hertz.normal_stiffness(indentation) == Approx(2 * modulus * contact_radius).epsilon(1e-14));
-  CHECK(hertz.curvature(indentation) == Approx(modulus * radius / contact_radius).epsilon(1e-14));
+  CHECK(hertz.force_curvature(indentation) ==
+        Approx(modulus * radius / contact_radius).epsilon(1e-14));
   CHECK(hertz.tangential_stiffness(indentation) ==
         Approx(0.8 * 2 * modulus * contact_radius).epsilon(1e-14));
   CHECK(hertz.tangential_curvature(indentation) ==
@@ -62,14 +63,14 @@ TEST_CASE("A paraboloid's power law is Hertz: K = 2E*a, F'' = E*R/a", "[law]") {
   // Out of contact there is no force, and no stiffness to lose.
   CHECK(hertz.force(-indentation) == 0);
   CHECK(hertz.normal_stiffness(-indentation) == 0);
-  CHECK(hertz.curvature(0) == 0);
+  CHECK(hertz.force_curvature(0) == 0);
 }
 
 TEST_CASE("The exponential law has F'' = K/l = F/l² and its own inverse", "[law]") {
   const ExponentialLaw law(2.0, 1e-7, 0.9);
   const double indentation = GENERATE(-3e-7, 0.0, 2e-7);
   CHECK(law.normal_stiffness(indentation) == Approx(law.force(indentation) / 1e-7).epsilon(1e-15));
-  CHECK(law.curvature(indentation) == Approx(law.force(indentation) / 1e-14).epsilon(1e-15));
+  CHECK(law.force_curvature(indentation) == Approx(law.force(indentation) / 1e-14).epsilon(1e-15));
   CHECK(law.indentation_of(law.force(indentation)) == Approx(indentation).margin(1e-22));
 }
 
@@ -87,7 +88,8 @@ TEST_CASE("A table of an exponential law is the exponential law", "[law]") {
     CHECK(law.force(indentation) == Approx(exact.force(indentation)).epsilon(1e-13));
     CHECK(law.normal_stiffness(indentation) ==
           Approx(exact.normal_stiffness(indentation)).epsilon(1e-12));
-    CHECK(law.curvature(indentation) == Approx(exact.curvature(indentation)).epsilon(1e-11));
+    CHECK(law.force_curvature(indentation) ==
+          Approx(exact.force_curvature(indentation)).epsilon(1e-11));
     CHECK(law.indentation_of(exact.force(indentation)) == Approx(indentation).epsilon(1e-13));
   }
 }
@@ -106,7 +108,7 @@ TEST_CASE("Force, stiffness and curvature of a table converge at orders 4, 3, 2"
   // most.
   CHECK(order(&TabulatedLaw::force, &Bent::force) == Approx(4).margin(0.25));
   CHECK(order(&TabulatedLaw::normal_stiffness, &Bent::stiffness) == Approx(3).margin(0.25));
-  CHECK(order(&TabulatedLaw::curvature, &Bent::curvature) == Approx(2).margin(0.25));
+  CHECK(order(&TabulatedLaw::force_curvature, &Bent::force_curvature) == Approx(2).margin(0.25));
 }
 
 TEST_CASE("The table's stiffness integrates to the difference of its forces", "[law]") {
@@ -142,10 +144,10 @@ TEST_CASE("A table's own tangential stiffness is used, and is interpolated in it
   CHECK(own.tangential_stiffness(x) ==
         Approx(0.8 * (1 + 0.01 * x) * Bent::stiffness(x)).epsilon(1e-5));
   CHECK(own.tangential_curvature(x) ==
-        Approx(0.8 * ((1 + 0.01 * x) * Bent::curvature(x) + 0.01 * Bent::stiffness(x)))
+        Approx(0.8 * ((1 + 0.01 * x) * Bent::force_curvature(x) + 0.01 * Bent::stiffness(x)))
             .epsilon(1e-3));
   CHECK(shared.tangential_stiffness(x) == 0.5 * shared.normal_stiffness(x));
-  CHECK(shared.tangential_curvature(x) == 0.5 * shared.curvature(x));
+  CHECK(shared.tangential_curvature(x) == 0.5 * shared.force_curvature(x));
 }
 
 TEST_CASE("A table says what it cannot use", "[law]") {
@@ -184,7 +186,8 @@ TEST_CASE("A curve known by its pressures alone gives the same law", "[law]") {
     sample.pressure = sample.force / 0.25;
     sample.force = ForceSample::unknown;
   }
-  CHECK(TabulatedLaw(by_pressure, 1).curvature(1.7) == TabulatedLaw(by_force, 1).curvature(1.7));
+  CHECK(TabulatedLaw(by_pressure, 1).force_curvature(1.7) ==
+        TabulatedLaw(by_force, 1).force_curvature(1.7));
 }
 
 TEST_CASE("Closed laws refuse what has no meaning", "[law]") {

@@ -114,7 +114,7 @@ TEST_CASE("Forces of cone, paraboloid and sphere are Sneddon's and Hertz's", "[m
   CHECK(sphere.force(1e-12) == Approx(hertz.force(1e-12)).epsilon(1e-9));
   const IndenterLaw punch(flat_punch_profile(1e-3), material);
   CHECK(punch.force(indentation) == Approx(2e9 * 1e-3 * indentation).epsilon(1e-14));
-  CHECK(punch.curvature(indentation) == 0);
+  CHECK(punch.force_curvature(indentation) == 0);
 }
 
 TEST_CASE("K is the derivative of F and F'' that of K, for every profile", "[mdr]") {
@@ -126,10 +126,10 @@ TEST_CASE("K is the derivative of F and F'' that of K, for every profile", "[mdr
       CHECK(law.normal_stiffness(indentation) ==
             Approx((law.force(indentation + step) - law.force(indentation - step)) / (2 * step))
                 .epsilon(1e-7));
-      CHECK(law.curvature(indentation) == Approx((law.normal_stiffness(indentation + step) -
-                                                  law.normal_stiffness(indentation - step)) /
-                                                 (2 * step))
-                                              .epsilon(1e-6));
+      CHECK(law.force_curvature(indentation) == Approx((law.normal_stiffness(indentation + step) -
+                                                        law.normal_stiffness(indentation - step)) /
+                                                       (2 * step))
+                                                    .epsilon(1e-6));
       CHECK(law.indentation_of(law.force(indentation)) == Approx(indentation).epsilon(1e-12));
     }
     CHECK(law.force(-1e-9) == 0);
@@ -144,7 +144,8 @@ TEST_CASE("A power profile is PowerLaw", "[mdr]") {
   const PowerLaw power(law.force(1e-6) / std::pow(1e-6, n), n, material.modulus_ratio());
   for (const double indentation : {1e-8, 3e-6}) {
     CHECK(law.force(indentation) == Approx(power.force(indentation)).epsilon(1e-12));
-    CHECK(law.curvature(indentation) == Approx(power.curvature(indentation)).epsilon(1e-12));
+    CHECK(law.force_curvature(indentation) ==
+          Approx(power.force_curvature(indentation)).epsilon(1e-12));
   }
 }
 

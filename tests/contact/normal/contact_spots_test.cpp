@@ -82,7 +82,7 @@ TEST_CASE("The corrected area of a coarse grid is that of a fine one", "[spots]"
       const NormalContactState state =
           press_to_pressure(surface, 1, 0.02 * 0.1, {.tolerance = 1e-8});
       REQUIRE(state.converged);
-      return contact_spots(state.pressure, surface.grid);
+      return contact_spots(state.contact_pressure, surface.grid);
     };
     const ContactSpots coarse = spots_of(64), fine = spots_of(256);
     counted += coarse.contact_area_fraction;

@@ -38,7 +38,7 @@ Surface rough() { return rough_surface({64, 64, 1e-3, 1e-3}); }
 /// Of rough(), Pa.
 double largest_elastic_pressure(Boundary boundary) {
   return press_to_pressure(rough(), contact_modulus, pressure, elastic(contact(boundary, 1)))
-      .pressure.maxCoeff();
+      .contact_pressure.maxCoeff();
 }
 
 }  // namespace
@@ -93,10 +93,10 @@ TEST_CASE("The residual surface carries the first load by elasticity alone", "[f
   CHECK(first.pressure == loaded.mean_pressure);
   CHECK(first.yielded());
   CHECK(first.yielded_area_fraction ==
-        Approx(double((loaded.pressure == options.hardness).count()) / 64 / 64));
+        Approx(double((loaded.contact_pressure == options.hardness).count()) / 64 / 64));
   const Field depth = surface.heights - residual.surface.heights;
   CHECK((depth >= 0).all());
-  CHECK(((depth == 0) || (loaded.pressure == options.hardness)).all());
+  CHECK(((depth == 0) || (loaded.contact_pressure == options.hardness)).all());
   CHECK(depth.mean() == Approx(first.mean_plastic_depth).epsilon(1e-9));
   CHECK(depth.maxCoeff() == Approx(first.max_plastic_depth).epsilon(1e-9));
 
@@ -105,7 +105,8 @@ TEST_CASE("The residual surface carries the first load by elasticity alone", "[f
   REQUIRE(unloading.converged);
   // e_c is a mean of gaps where there is contact: the energy, second order in the error of the
   // pressure, is good to it, pressures to its root, 1e-6. Gaps follow the displacement.
-  CHECK(((unloading.pressure - loaded.pressure).abs().maxCoeff() < 1e-4 * options.hardness));
+  CHECK(((unloading.contact_pressure - loaded.contact_pressure).abs().maxCoeff() <
+         1e-4 * options.hardness));
   CHECK(((unloading.gap - loaded.gap).abs().maxCoeff() < 1e-6 * rms_height(surface)));
   CHECK(unloading.force == Approx(loaded.force).epsilon(1e-10));
   CHECK(unloading.mean_gap == Approx(loaded.mean_gap).epsilon(1e-7));
@@ -169,8 +170,8 @@ TEST_CASE("An oscillation about the first load stays below the hardness", "[firs
   // The load of the oscillation is found to a thousandth; a pressure at the hardness grows no
   // faster than a few times the load.
   CHECK(top.mean_pressure == Approx(moved.first_loading.pressure).epsilon(1e-3));
-  CHECK(top.pressure.maxCoeff() < 1.005 * options.hardness);
-  CHECK(largest_pressure(still).pressure.maxCoeff() > 1.03 * options.hardness);
+  CHECK(top.contact_pressure.maxCoeff() < 1.005 * options.hardness);
+  CHECK(largest_pressure(still).contact_pressure.maxCoeff() > 1.03 * options.hardness);
 }
 
 TEST_CASE("A load that the hardness cannot carry is refused", "[first_loading]") {
@@ -189,7 +190,7 @@ TEST_CASE("A load that the hardness cannot carry is refused", "[first_loading]")
     CHECK_THROWS_WITH(after_first_loading(surface, contact_modulus, pressure, options, amplitude),
                       Catch::Contains("normal_amplitude"));
   NormalContactState other;
-  other.pressure = Field::Zero(4, 4);
+  other.contact_pressure = Field::Zero(4, 4);
   CHECK_THROWS_AS(residual_surface(surface, contact_modulus, other, options), InvalidInput);
 }
 

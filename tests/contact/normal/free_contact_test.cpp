@@ -170,7 +170,7 @@ TEST_CASE(
       };
       add(mean.force, held.force, force);
       add(mean.approach, loaded.indentation + touch, approach);
-      add(mean.peak, loaded.pressure.maxCoeff(), peak);
+      add(mean.peak, loaded.contact_pressure.maxCoeff(), peak);
       add(mean.radius, std::sqrt(held.contact_area_fraction * side * side / pi), contact_radius);
     }
     return mean;
@@ -247,7 +247,8 @@ TEST_CASE("A free contact does not feel the size of its grid", "[normal]") {
   const auto small = pressed(48, 0.6e-3), large = pressed(80, 1e-3);
   REQUIRE((small.converged && large.converged));
   CHECK(small.indentation == Approx(large.indentation).epsilon(1e-8));
-  CHECK(small.pressure.maxCoeff() == Approx(large.pressure.maxCoeff()).epsilon(1e-6));
+  CHECK(small.contact_pressure.maxCoeff() ==
+        Approx(large.contact_pressure.maxCoeff()).epsilon(1e-6));
 }
 
 TEST_CASE("A free contact does not feel where on its grid it lies, nor from where heights count",
@@ -286,19 +287,19 @@ TEST_CASE("Saturated cells carry exactly the hardness, and forces balance", "[no
   options.precision = precision;
   const double pressure = 1e7;
   const auto elastic = press_to_pressure(surface, contact_modulus, pressure, options);
-  options.hardness = 0.3 * elastic.pressure.maxCoeff();
+  options.hardness = 0.3 * elastic.contact_pressure.maxCoeff();
   const auto state = press_to_pressure(surface, contact_modulus, pressure, options);
   REQUIRE(state.converged);
-  CHECK(state.pressure.maxCoeff() == options.hardness);
-  const Index saturated = (state.pressure == options.hardness).count();
+  CHECK(state.contact_pressure.maxCoeff() == options.hardness);
+  const Index saturated = (state.contact_pressure == options.hardness).count();
   CHECK(saturated > 100);
-  CHECK(state.pressure.mean() == Approx(pressure).epsilon(1e-10));
+  CHECK(state.contact_pressure.mean() == Approx(pressure).epsilon(1e-10));
   CHECK((state.gap.minCoeff() > -1e-6 * rms_height(surface)));
-  CHECK(((state.pressure < options.hardness) || (state.gap == 0)).all());
+  CHECK(((state.contact_pressure < options.hardness) || (state.gap == 0)).all());
   CHECK(state.indentation > elastic.indentation);
   CHECK(normal_stiffness(state, surface.grid, contact_modulus, options) > 0);
   // A hardness that no cell reaches changes nothing.
-  options.hardness = 1.01 * elastic.pressure.maxCoeff();
+  options.hardness = 1.01 * elastic.contact_pressure.maxCoeff();
   CHECK(press_to_pressure(surface, contact_modulus, pressure, options).mean_gap ==
         Approx(elastic.mean_gap).epsilon(1e-6));
   options.hardness = pressure;
@@ -314,8 +315,8 @@ TEST_CASE("Hardness that most of the load meets: soft as a cushion, still a solu
   options.hardness = hardness;
   const auto state = press_to_pressure(surface, contact_modulus, 1e6, options);
   REQUIRE(state.converged);
-  CHECK(state.pressure.mean() == Approx(1e6).epsilon(1e-10));
-  CHECK(state.pressure.maxCoeff() == hardness);
+  CHECK(state.contact_pressure.mean() == Approx(1e6).epsilon(1e-10));
+  CHECK(state.contact_pressure.maxCoeff() == hardness);
   // No cell carries more than its hardness: at least so much area is in contact.
   CHECK(state.contact_area_fraction >= 1e6 / hardness);
 }

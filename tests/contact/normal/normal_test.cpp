@@ -27,7 +27,7 @@ NormalContactOptions tight(double tolerance = 1e-13, Precision precision = Preci
 }
 
 double residual_of(const NormalContactState& state, const Surface& surface) {
-  return independent_residual(state.pressure, surface, contact_modulus);
+  return independent_residual(state.contact_pressure, surface, contact_modulus);
 }
 
 }  // namespace
@@ -49,13 +49,14 @@ TEST_CASE("Contact agrees with Polonsky and Keer's solver in cells, mean gap and
   const auto state = press_to_pressure(surface, contact_modulus, pressure, tight(1e-14, precision));
   REQUIRE(reference.residual < 5e-13);  // its rounding ends at 2e-13
   REQUIRE(state.converged);
-  CHECK(((state.pressure > 0) == (reference.pressure > 0)).all());
+  CHECK(((state.contact_pressure > 0) == (reference.pressure > 0)).all());
   // e_c bounds the error of the energy; that of the gap is of order √e_c at worst.
   CHECK(state.mean_gap == Approx(reference.gap.mean()).epsilon(1e-8));
-  const double energy = 0.5 * surface.grid.cell_area() *
-                        (reference.pressure *
-                         half_space_displacement(reference.pressure, surface.grid, contact_modulus))
-                            .sum();
+  const double energy =
+      0.5 * surface.grid.cell_area() *
+      (reference.pressure *
+       half_space_displacement(reference.pressure, surface.grid, contact_modulus))
+          .sum();
   CHECK(state.elastic_energy == Approx(energy).epsilon(1e-8));
 }
 
@@ -72,9 +73,9 @@ TEST_CASE("Pressure and gap are complementary to the tolerance asked, on any gri
   CHECK(state.residual < 1e-12);
   // The reference transform rounds in another order: 1e-15 of the heights, against 1e-12.
   CHECK(residual_of(state, surface) < 1.1e-12);
-  CHECK((state.pressure >= 0).all());
+  CHECK((state.contact_pressure >= 0).all());
   CHECK(state.gap.minCoeff() > -1e-6 * rms_height(surface));
-  CHECK(state.pressure.mean() == Approx(2e6).epsilon(1e-12));
+  CHECK(state.contact_pressure.mean() == Approx(2e6).epsilon(1e-12));
   CHECK(state.force == Approx(2e6 * surface.grid.area()).epsilon(1e-12));
 }
 
@@ -94,7 +95,7 @@ TEST_CASE("Pressure, mean gap and indentation lead to each other and back", "[no
     // e_c is an energy: pressures follow to a part of its root, 3e-7.
     CHECK(state->mean_pressure == Approx(pressure).epsilon(1e-8));
     CHECK(state->mean_gap == Approx(first.mean_gap).epsilon(1e-8));
-    CHECK(((state->pressure > 0) == (first.pressure > 0)).all());
+    CHECK(((state->contact_pressure > 0) == (first.contact_pressure > 0)).all());
   }
   // What was asked for is met to rounding, whatever the residual.
   CHECK(at_gap.mean_gap == Approx(first.mean_gap).epsilon(1e-12));
@@ -122,7 +123,7 @@ TEST_CASE("The mean height and a translation by whole cells change nothing", "[n
   // Heights lose three decimals to the mean: 1e-13 of h_rms.
   const auto high = press_to_pressure(lifted, contact_modulus, pressure, tight(1e-13, precision));
   same(high);
-  CHECK(((high.pressure > 0) == (plain.pressure > 0)).all());
+  CHECK(((high.contact_pressure > 0) == (plain.contact_pressure > 0)).all());
   Surface moved = surface;
   const auto at = [&](Index i, Index j) { return std::pair{(i + 37) % nx, (j + 11) % 96}; };
   for (Index i = 0; i < nx; ++i)
@@ -135,7 +136,7 @@ TEST_CASE("The mean height and a translation by whole cells change nothing", "[n
   for (Index i = 0; i < nx; i += 5)
     for (Index j = 0; j < 96; ++j) {
       const auto [a, b] = at(i, j);
-      CHECK((shifted.pressure(a, b) > 0) == (plain.pressure(i, j) > 0));
+      CHECK((shifted.contact_pressure(a, b) > 0) == (plain.contact_pressure(i, j) > 0));
     }
 }
 
@@ -147,7 +148,7 @@ TEST_CASE("The contact has the same cells and pressures for one thread and for t
   const auto two = press_to_pressure(surface, contact_modulus, 3e6);
   parallel::set_threads(0);
   // Reductions run over fixed slabs, so the bits are equal, not only the digits.
-  CHECK((one.pressure == two.pressure).all());
+  CHECK((one.contact_pressure == two.contact_pressure).all());
   CHECK((one.gap == two.gap).all());
 }
 
@@ -158,7 +159,7 @@ TEST_CASE("Contact spreads to cells at rest within an iteration, not only at a c
   const Surface surface = rough_surface({256, 256, 1e-3, 1e-3}, smooth);
   NormalContactOptions options = tight(1e-8, Precision::mixed);
   const auto light = press_to_pressure(surface, contact_modulus, 2e5, options);
-  options.initial_pressure = &light.pressure;
+  options.initial_pressure = &light.contact_pressure;
   const auto state = press_to_pressure(surface, contact_modulus, 3e5, options);
   CHECK(state.converged);
   CHECK(state.iterations < 50);  // counted: 15, and 135 where cells at rest do not wake
@@ -175,7 +176,7 @@ TEST_CASE("A sinusoid closes completely at Westergaard's pressure", "[normal]") 
   const auto closed = press_to_pressure(surface, contact_modulus, 1.01 * full, tight());
   REQUIRE(closed.converged);
   CHECK(closed.contact_area_fraction == 1);
-  CHECK(closed.pressure.maxCoeff() == Approx(2.01 * full).epsilon(1e-6));
+  CHECK(closed.contact_pressure.maxCoeff() == Approx(2.01 * full).epsilon(1e-6));
   CHECK(closed.mean_gap < 1e-6 * amplitude);
   CHECK(std::isinf(normal_stiffness(closed, surface.grid, contact_modulus)));
   const auto open = press_to_pressure(surface, contact_modulus, 0.97 * full, tight());
@@ -273,7 +274,7 @@ TEST_CASE("Plane and single-cell surfaces, and targets that no contact meets", "
   const auto state = press_to_pressure(plane, contact_modulus, 7.0);
   CHECK(state.converged);
   CHECK(state.contact_area_fraction == 1);
-  CHECK((state.pressure == 7.0).all());
+  CHECK((state.contact_pressure == 7.0).all());
   CHECK(state.mean_gap == 0);
   CHECK_THROWS_AS(press_to_mean_gap(plane, contact_modulus, 1e-9), InvalidInput);
 

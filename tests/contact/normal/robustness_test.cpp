@@ -28,11 +28,12 @@ void check(const AwkwardContact& contact, Boundary boundary = Boundary::periodic
       CHECK(state.converged);
       CHECK(state.residual < tolerance);
       // Transforms of another kind round differently, by 1e-15 of the heights.
-      CHECK(independent_residual(state.pressure, contact.surface, 1, boundary) < 1.1 * tolerance);
+      CHECK(independent_residual(state.contact_pressure, contact.surface, 1, boundary) <
+            1.1 * tolerance);
     };
     const auto state = press_to_pressure(contact.surface, 1, contact.pressure, options);
     sound(state);
-    CHECK(state.pressure.mean() == Approx(contact.pressure).epsilon(1e-10));
+    CHECK(state.contact_pressure.mean() == Approx(contact.pressure).epsilon(1e-10));
     const double first_touch = contact.surface.heights.maxCoeff() - contact.surface.heights.mean();
     const bool periodic = boundary == Boundary::periodic;
     // In full contact the gap tells the pressure no more.
@@ -97,7 +98,7 @@ TEST_CASE("A contact is found by its mean gap where coarse grids have another me
   REQUIRE(state.mean_gap < 0.75 * lowered * rms);
   const auto back = press_to_mean_gap(surface, 1, state.mean_gap, options);
   CHECK(back.converged);
-  CHECK(independent_residual(back.pressure, surface, 1) < 1.1 * options.tolerance);
+  CHECK(independent_residual(back.contact_pressure, surface, 1) < 1.1 * options.tolerance);
   // e_c is an energy; pressures differ by its root.
   CHECK(back.mean_pressure == Approx(pressure).epsilon(10 * std::sqrt(options.tolerance)));
 }
@@ -114,11 +115,12 @@ TEST_CASE("A single point and constant heights are in full contact under any pre
       const auto state = press_to_pressure(plane, 1, pressure, options);
       CHECK(state.converged);
       CHECK(state.contact_area_fraction == 1);
-      CHECK(state.pressure.mean() == Approx(pressure).epsilon(1e-12));
+      CHECK(state.contact_pressure.mean() == Approx(pressure).epsilon(1e-12));
       // Uniform where the cell repeats; alone, a flat punch is pressed hardest at its edges. e_c is
       // an energy: gaps are of the order of its root.
       CHECK(state.gap.abs().maxCoeff() < 10 * std::sqrt(options.tolerance) * pressure);
-      if (boundary == Boundary::periodic || n == 1) CHECK((state.pressure == pressure).all());
+      if (boundary == Boundary::periodic || n == 1)
+        CHECK((state.contact_pressure == pressure).all());
     }
 }
 
@@ -206,8 +208,8 @@ TEST_CASE("A contact that the fallback solves carries the load asked, on cells o
     CHECK(state.converged);
     // The load is corrected to 1e-14, and its sum rounds by a few 1e-16.
     CHECK(state.mean_pressure == Approx(load).epsilon(2e-14).scale(0));
-    CHECK(state.pressure.maxCoeff() <= options.hardness);
-    saturated += (state.pressure == options.hardness).any();
+    CHECK(state.contact_pressure.maxCoeff() <= options.hardness);
+    saturated += (state.contact_pressure == options.hardness).any();
   }
   CHECK(saturated > 30);
 }
@@ -225,7 +227,7 @@ TEST_CASE("A start near the solution saves iterations and gives the same contact
   const Surface surface = rough_surface({128, 128, 1e-3, 1e-3});
   NormalContactOptions options;
   const auto cold = press_to_pressure(surface, 1e9, 3e6, options);
-  options.initial_pressure = &cold.pressure;
+  options.initial_pressure = &cold.contact_pressure;
   const auto warm = press_to_pressure(surface, 1e9, 3e6, options);
   CHECK(warm.converged);
   CHECK(warm.iterations < cold.iterations);

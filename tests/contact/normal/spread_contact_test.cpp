@@ -55,7 +55,7 @@ void require_same(const NormalContactState& alone, const NormalContactState& tog
       !same_bits(alone.elastic_energy, together.elastic_energy) ||
       !same_bits(alone.residual, together.residual))
     throw Error("other bits of a number");
-  if (!same_rows(alone.pressure, together.pressure, rows) ||
+  if (!same_rows(alone.contact_pressure, together.contact_pressure, rows) ||
       !same_rows(alone.gap, together.gap, rows))
     throw Error("other bits of a field");
 }
@@ -142,7 +142,7 @@ TEST_CASE("A contact over processes has the bits of one process", "[spread]") {
   }
   SECTION("from a start that is given") {
     const Surface surface = test::rough_surface({128, 128, 128, 128});
-    const Field start = press_to_pressure(surface, 1, 2e-3, options).pressure;
+    const Field start = press_to_pressure(surface, 1, 2e-3, options).contact_pressure;
     options.initial_pressure = &start;
     const NormalContactState alone = press_to_pressure(surface, 1, 3e-3, options);
     run_ranks(ranks, [&](const Communicator& all) {

@@ -213,7 +213,7 @@ TEST_CASE("Without coupling the coupled contact is the sliding one", "[coupling]
   SlidingContact alone(grid, material, free_boundary(friction, 1e-6).sliding);
   const Field pressure =
       press_to_indentation(surface, contact_modulus, indentation, {.boundary = Boundary::free})
-          .pressure;
+          .contact_pressure;
   alone.advance(pressure);
   alone.advance(pressure, {2e-6, 1e-6});
   CHECK(coupled.sliding().tangential_force().x == Approx(alone.tangential_force().x).epsilon(1e-6));

@@ -21,7 +21,7 @@ class GreenwoodTripp final : public AsperityModel {
   AsperityContact at(double separation) const override;
   double force(double separation) const override;
   double normal_stiffness(double separation) const override;
-  double curvature(double separation) const override;
+  double force_curvature(double separation) const override;
 
  private:
   std::unique_ptr<const detail::HeightDensity> heights_;  ///< of the sum of two heights

@@ -45,8 +45,8 @@ constexpr void describe(auto&& visit, std::type_identity<HeightDensityPoint>) {
 ///                   below their mean
 ///     tabulated     as `table` says
 struct SummitEnsemble {
-  double density = 0;  ///< η, 1/m²
-  double radius = 0;   ///< R, m
+  double summit_density = 0;  ///< η, 1/m²
+  double radius = 0;          ///< R, m
   /// σ_s, m: standard deviation (Gaussian), decay length (exponential); not used with a table.
   double summit_rms = 0;
   double mean_height = 0;  ///< height of the plane z = 0 above the mean plane of the surface, m
@@ -58,7 +58,7 @@ struct SummitEnsemble {
 constexpr void describe(auto&& visit, std::type_identity<SummitEnsemble>) {
   using enum Dimension;
   using S = SummitEnsemble;
-  visit(&S::density, Quantity{"summit_density", inverse_length_squared, "summits per area"});
+  visit(&S::summit_density, Quantity{"summit_density", inverse_length_squared, "summits per area"});
   visit(&S::radius, Quantity{"radius", length, "radius of summits"});
   visit(&S::summit_rms, Quantity{"summit_rms", length, "standard deviation of summit heights"});
   visit(&S::mean_height,
@@ -87,7 +87,7 @@ struct AsperityContact {
   double contact_area = 0;      ///< A_c, m²
   double force = 0;             ///< F, N
   double normal_stiffness = 0;  ///< K, N/m
-  double curvature = 0;         ///< F'', N/m²
+  double force_curvature = 0;   ///< F'', N/m²
   bool converged = true;        ///< only a model that iterates may say no
 };
 
@@ -98,7 +98,7 @@ constexpr void describe(auto&& visit, std::type_identity<AsperityContact>) {
   visit(&S::force, Kept{"force", "normal force", Dimension::force});
   visit(&S::normal_stiffness,
         Kept{"normal_stiffness", "normal stiffness dF/d(indentation)", Dimension::stiffness});
-  visit(&S::curvature, Kept{"force_curvature", "second derivative of force by indentation",
+  visit(&S::force_curvature, Kept{"force_curvature", "second derivative of force by indentation",
                             Dimension::force_curvature});
   visit(&S::converged, Kept{"converged", "only a model that iterates may say no"});
 }
@@ -127,7 +127,7 @@ class AsperityModel {
   virtual double normal_stiffness(double separation) const {
     return at(separation).normal_stiffness;
   }
-  virtual double curvature(double separation) const { return at(separation).curvature; }
+  virtual double force_curvature(double separation) const { return at(separation).force_curvature; }
   /// s at which F, K or K' is not smooth: where summits of given height touch, or where the height
   /// density begins or bends.
   virtual std::vector<double> break_separations() const { return {}; }
@@ -160,7 +160,7 @@ class StatisticalSummits final : public AsperityModel {
   AsperityContact at(double separation) const override;
   double force(double separation) const override;
   double normal_stiffness(double separation) const override;
-  double curvature(double separation) const override;
+  double force_curvature(double separation) const override;
   std::vector<double> break_separations() const override;
 
  private:
@@ -226,7 +226,7 @@ class GreenwoodWilliamsonLaw final : public ContactLaw {
                          double nominal_area);
   double force(double indentation) const override;
   double normal_stiffness(double indentation) const override;
-  double curvature(double indentation) const override;
+  double force_curvature(double indentation) const override;
   double indentation_of(double force) const override;
   std::vector<double> break_points() const override;
   const AsperityModel& model() const { return *model_; }

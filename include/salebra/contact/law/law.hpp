@@ -20,7 +20,7 @@ class ContactLaw {
 
   virtual double force(double indentation) const = 0;             ///< F(δ)
   virtual double normal_stiffness(double indentation) const = 0;  ///< K = F'
-  virtual double curvature(double indentation) const = 0;         ///< K' = F''
+  virtual double force_curvature(double indentation) const = 0;   ///< K' = F''
   /// K_t(δ); (G*/E*)K unless the law was given a K_t of its own.
   virtual double tangential_stiffness(double indentation) const;
   virtual double tangential_curvature(double indentation) const;  ///< K_t'(δ)
@@ -46,7 +46,7 @@ class PowerLaw final : public ContactLaw {
   PowerLaw(double coefficient, double exponent, double modulus_ratio);
   double force(double indentation) const override;
   double normal_stiffness(double indentation) const override;
-  double curvature(double indentation) const override;
+  double force_curvature(double indentation) const override;
   double indentation_of(double force) const override;
   std::vector<double> break_points() const override;  ///< first touch
   double coefficient() const { return coefficient_; }
@@ -63,7 +63,7 @@ class ExponentialLaw final : public ContactLaw {
   ExponentialLaw(double reference_force, double decay_length, double modulus_ratio);
   double force(double indentation) const override;
   double normal_stiffness(double indentation) const override;
-  double curvature(double indentation) const override;
+  double force_curvature(double indentation) const override;
   double indentation_of(double force) const override;
   double decay_length() const { return decay_length_; }
 
@@ -84,7 +84,7 @@ class TabulatedLaw final : public ContactLaw {
   ~TabulatedLaw() override;
   double force(double indentation) const override;
   double normal_stiffness(double indentation) const override;
-  double curvature(double indentation) const override;
+  double force_curvature(double indentation) const override;
   double tangential_stiffness(double indentation) const override;
   double tangential_curvature(double indentation) const override;
   double lowest_indentation() const override;

@@ -111,7 +111,7 @@ class IndenterLaw final : public ContactLaw {
   IndenterLaw(std::shared_ptr<const IndenterProfile> profile, const Material& material);
   double force(double indentation) const override;
   double normal_stiffness(double indentation) const override;
-  double curvature(double indentation) const override;
+  double force_curvature(double indentation) const override;
   double indentation_of(double force) const override;
   double highest_indentation() const override;
   std::vector<double> break_points() const override;

@@ -45,7 +45,7 @@ struct NormalContactOptions {
 /// Result of a normal contact. Unless converged, the numbers describe the last iterate and must not
 /// be used as the answer.
 struct NormalContactState {
-  Field pressure;            ///< (nx, ny) or the rows of this process, Pa, >= 0
+  Field contact_pressure;    ///< (nx, ny) or the rows of this process, Pa, >= 0
   Field gap;                 ///< the same, m, >= 0 up to the tolerance; 0 where pressure saturates
   double mean_pressure = 0;  ///< Pa
   double force = 0;          ///< N
@@ -66,7 +66,7 @@ struct NormalContactState {
 constexpr void describe(auto&& visit, std::type_identity<NormalContactState>) {
   using enum Dimension;
   using S = NormalContactState;
-  visit(&S::pressure, Quantity{"contact_pressure", Dimension::pressure, "contact pressure"});
+  visit(&S::contact_pressure, Quantity{"contact_pressure", Dimension::pressure, "contact pressure"});
   visit(&S::gap, Quantity{"gap", length, "gap of the deformed surfaces"});
   visit(&S::mean_pressure, Kept{"mean_pressure", "nominal pressure", Dimension::pressure});
   visit(&S::force, Quantity{"force", Dimension::force, "normal force"});

@@ -25,7 +25,7 @@ struct TangentialMove {
 
 /// All that a sliding contact remembers from one increment to the next.
 struct SlidingState {
-  Field pressure;                ///< (nx, ny), Pa
+  Field contact_pressure;        ///< (nx, ny), Pa
   TangentialField shift;         ///< displacement by other causes, m
   TangentialField traction;      ///< Pa
   TangentialField displacement;  ///< of the cells in contact, `shift` included, m
@@ -65,7 +65,7 @@ class SlidingContact {
 
   /// A state that an increment may lead to, and what it costs.
   struct Increment {
-    Field pressure;                       ///< (nx, ny), Pa
+    Field contact_pressure;               ///< (nx, ny), Pa
     TangentialField shift;                ///< displacement by other causes at the end, m
     TangentialField traction;             ///< Pa
     TangentialField traction_halfway;     ///< that led to the entering cells' displacement, Pa
@@ -102,7 +102,7 @@ class SlidingContact {
   /// InvalidInput for another grid.
   void restore(SlidingState state);
 
-  const Field& pressure() const { return state_.pressure; }
+  const Field& contact_pressure() const { return state_.contact_pressure; }
   const TangentialField& traction() const { return state_.traction; }
   TangentialMove tangential_force() const;  ///< the body's on the surface: x, y in N
   Index slipping() const {
