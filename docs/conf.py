@@ -25,7 +25,7 @@ if importlib.util.find_spec("salebra"):
     extensions += ["sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 autodoc_member_order = "groupwise"
 python_use_unqualified_type_names = True
-# Of a console block only what one types.
+# What one types is copied of a console block.
 copybutton_prompt_text = r"\$ |> "
 copybutton_prompt_is_regexp = True
 copybutton_line_continuation_character = "\\"

@@ -89,7 +89,7 @@ class ThreadTransport : public detail::Transport {
         chance_(static_cast<unsigned>(rank)) {}
   ThreadTransport(const ThreadTransport&) = delete;
   ThreadTransport& operator=(const ThreadTransport&) = delete;
-  // Of a group: nobody may wait for a rank that has let go of it.
+  // Nobody may wait for a rank that has let go of a group.
   ~ThreadTransport() override {
     if (of_group_) meeting_->leave();
   }
@@ -150,7 +150,7 @@ class ThreadTransport : public detail::Transport {
     gather_all(&mine, std::vector<std::size_t>(groups.size(), sizeof mine), groups.data());
     const auto first = static_cast<int>(std::ranges::find(groups, mine) - groups.begin());
     const auto members = static_cast<int>(std::ranges::count(groups, mine));
-    // That of the first rank of a group is the group's.
+    // The meeting of the first rank of a group is the group's.
     const auto made = std::make_shared<Meeting>(members);
     std::shared_ptr<Meeting> meeting;
     meeting_->meet(rank_, {"split", &made}, [&](const auto& calls) {

@@ -22,7 +22,7 @@ Quantity quantity_of(const std::string& name, const std::string& object);
 /// A number, 1 or 0 of a truth, NaN of null.
 double number_of(const Json& value);
 
-/// The same into a file that holds more.
+/// Writes the answer into a file that holds more.
 void write_answer(ResultFile& file, const std::string& group, const Json& object);
 
 }  // namespace salebra::cli

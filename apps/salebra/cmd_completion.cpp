@@ -68,7 +68,7 @@ complete -F _salebra salebra
                      command_names(program), options, choices);
 }
 
-/// For a word of zsh between single quotes, inside the brackets of _arguments.
+/// Escapes text for a word of zsh between single quotes, inside the brackets of _arguments.
 std::string zsh_text(std::string_view text) {
   std::string result;
   for (const char c : text) {

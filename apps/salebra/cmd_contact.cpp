@@ -61,7 +61,7 @@ NormalContactState solve(const PositionOptions& position, const Surface& surface
   return press_to_pressure(surface, contact_modulus, pressure, options);
 }
 
-/// Of any process.
+/// Whether the contact of any process reaches the edge.
 bool reaches_edge(const Surface& surface, const Field& pressure) {
   const Share share = surface.share();
   const Index rows = pressure.rows(), columns = pressure.cols();
@@ -98,7 +98,7 @@ double max_pressure(const Communicator& ranks, const NormalContactState& state) 
                                                            : 0.0);
 }
 
-/// Of the rows of this process.
+/// Reads the rows of this process.
 Field read_initial(const std::string& file, const Share& share) {
   const ResultReader reader(file);
   const std::string pressure = "contact/contact_pressure";
@@ -121,8 +121,7 @@ void check_residual(const ContactArguments& arguments, const Session& session) {
 void estimate(const ContactArguments& arguments, double contact_modulus, Session& session) {
   const SurfaceOutline outline = arguments.surface.outline(session);
   SurfaceWork work = planned(arguments.dry_run, outline.grid, session);
-  // Of a gap or an indentation the load is not known before: that of contact on a tenth of the
-  // cells.
+  // A gap or an indentation does not tell the load: contact on a tenth of the cells is assumed.
   double load = 0.05;
   if (const auto& [gap, pressure, indentation, force] = arguments.position; pressure || force)
     load = pressure.value_or(force.value_or(0) / outline.grid.area()) /

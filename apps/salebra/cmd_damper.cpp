@@ -95,7 +95,8 @@ void add_border(Figure& figure, const std::vector<double>& omega,
   panel.curves.push_back(border);
 }
 
-// Of each amplitude, at the highest frequency: slip does not depend on it, inertia grows with it.
+// Judges each amplitude at the highest frequency: slip does not depend on it, inertia grows with
+// it.
 PremiseReport premises_of_map(const DamperArguments& arguments, const LawOptions::Contact& contact,
                               const std::vector<double>& omega, const DampingOptions& options) {
   const ContactFacts facts = arguments.premises.facts(arguments.material);

@@ -120,8 +120,8 @@ Premises premises_of_case(const LawOptions::Contact& contact, const DampingCase&
                     motion);
 }
 
-// Of a surface nothing is interpolated between loads: contacts inside the oscillation give W and
-// its error. Returns the errors of γ.
+// A surface is not interpolated between loads: contacts inside the oscillation give W and its
+// error. Returns the errors of γ.
 std::vector<double> resolve_on_surface(const DampingArguments& arguments,
                                        const LawOptions::Contact& contact, const Motion& motion,
                                        const DampingOptions& options, Session& session,

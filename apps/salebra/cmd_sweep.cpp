@@ -31,7 +31,7 @@ struct SweepArguments {
   DryRunOptions dry_run;
 };
 
-/// Of surfaces that are generated, as many groups as memory holds; a file is read once.
+/// Surfaces that are generated take as many groups as memory holds; a file is read once.
 int groups_of(const SweepArguments& arguments, const SurfaceWork& work, Session& session) {
   if (arguments.groups > 0) return arguments.groups;
   if (arguments.surface.recipe.empty() || work.ranks == 1) return 1;

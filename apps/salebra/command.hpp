@@ -107,7 +107,7 @@ class Command {
   const std::string& what() const { return what_; }
   const std::array<std::string, 2>& examples() const { return examples_; }
   const std::function<void()>& action() const { return action_; }
-  /// In the order of their declaration, --help first.
+  /// The options in the order of their declaration, --help first.
   const std::deque<Option>& options() const { return options_; }
 
  private:

@@ -50,7 +50,7 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
                                                           : ForceSample::unknown;
       });
     };
-    // By the place among all models: a model keeps its colour whatever is drawn beside it.
+    // The place among all models decides: a model keeps its colour whatever is drawn beside it.
     const auto add = [&](PlotPanel& panel, const std::vector<double>& x,
                          const std::vector<EnsembleMean>& y) {
       panel.curves.push_back(band("", x, y));

@@ -15,7 +15,7 @@
 namespace salebra::cli {
 namespace {
 
-/// To one or two digits: more would claim what an estimate does not know.
+/// Rounds to one or two digits: more would claim what an estimate does not know.
 std::string about(double seconds) {
   if (seconds < 1) return "a second";
   const double unit = std::pow(10, std::floor(std::log10(seconds)) - (seconds < 100 ? 0 : 1));

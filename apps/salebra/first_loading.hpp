@@ -21,7 +21,7 @@ std::optional<FirstLoading> load_first(Surface& surface, const std::optional<dou
                                        double contact_modulus, double nominal_pressure,
                                        NormalContactOptions contact, double normal_amplitude = 0);
 
-/// Its columns under "first_loading", where there was one.
+/// Adds its columns under "first_loading", where there was one.
 void add_first_loading(Json& answer, const std::optional<FirstLoading>& loading);
 
 }  // namespace salebra::cli

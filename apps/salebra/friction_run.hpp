@@ -24,9 +24,9 @@ struct FrictionOptions {
   bool given() const { return friction_coefficient || coupled; }
   /// The option that was given, for messages.
   std::string name() const { return friction_coefficient ? "--friction" : "--coupled"; }
-  /// Before any work: that the options suit each other.
+  /// Refuses, before any work, options that do not suit each other.
   void check() const;
-  /// Before the cycles: that a coupled contact stays closed.
+  /// Refuses, before the cycles, a coupled contact that opens.
   void check(const Oscillation& motion, double indentation) const;
   /// The options of the cycles: μ, periods and, with --coupled, β/(πE*) by --dundurs or the
   /// material options.

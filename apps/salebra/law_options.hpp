@@ -39,8 +39,8 @@ struct LawOptions {
   /// The law alone, for a motion that brings its own indentations. The exponential law's
   /// --normal-force is F at indentation 0.
   std::unique_ptr<ContactLaw> law_alone(const MaterialOptions& material) const;
-  /// Of a surface after some ten contacts at pressures about those that were given; with a hardness
-  /// after the first loading to the largest of them and by an oscillation about it.
+  /// Takes the law of a surface after some ten contacts at pressures about those that were given;
+  /// with a hardness after the first loading to the largest of them and by an oscillation about it.
   Contact contact(const MaterialOptions& material, Session& session,
                   const std::optional<double>& hardness, double normal_amplitude) const;
 

@@ -16,7 +16,7 @@ void name_options(const Command& command);
 /// that option.
 std::string in_options(std::string_view message);
 
-/// The same of a refusal, whose field is the option that has its name.
+/// Does so with a refusal, whose field is the option that has its name.
 std::string with_option(const InvalidInput& refusal);
 
 }  // namespace salebra::cli

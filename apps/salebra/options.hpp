@@ -32,7 +32,7 @@ Option* add_values(Command& app, const std::string& name, std::vector<double>& t
 /// --name NAME out of a few; the target's present value is the default.
 Option* add_choice(Command& app, const std::string& name, std::string& target,
                    const std::vector<std::string>& choices, const std::string& help);
-/// The same out of the words of an enumeration.
+/// The choices are the words of an enumeration.
 template <class Enum>
 Option* add_choice(Command& app, const std::string& name, std::string& target,
                    const std::string& help) {
@@ -97,16 +97,16 @@ struct SurfaceOptions {
   /// Read or made, over the processes of the session, and, with --detrend or else as is customary
   /// for its kind, detrended. Warns of cells, sizes and heights that are most likely a slip.
   Surface read(Session& session) const { return read(session, session.ranks()); }
-  /// The same over one group of them.
+  /// Does so over one group of the processes.
   Surface read(Session& session, const Communicator& ranks) const;
-  /// Of a recipe at once; a file is read.
+  /// Reads a file; a recipe is not generated.
   SurfaceOutline outline(Session& session) const;
 };
 
-/// --dry-run, and the processes that it is for.
 /// --groups of processes; 0: not given. `work` says what each of them does.
 void add_groups(Command& command, int& groups, const std::string& work);
 
+/// --dry-run, and the processes that it is for.
 struct DryRunOptions {
   bool dry_run = false;
   int ranks = 0, nodes = 0;  ///< 0: those that run
@@ -157,14 +157,14 @@ struct MotionOptions {
            !phase.empty() || frequency.given() || !tangential_frequency.empty() ||
            !drag_velocity.empty();
   }
-  /// With what was not given as in a known motion, as far as the mode has it.
+  /// Takes what was not given from a known motion, as far as the mode has it.
   MotionOptions completed_from(const Oscillation& known) const;
   /// The options that the mode lacks.
   std::vector<std::string> missing() const;
   /// Motions of all combinations, which is one line of them: throws InvalidInput if two quantities
   /// have several values.
   std::vector<Oscillation> motions() const;
-  /// The same with --mode two-frequencies among them.
+  /// The motions, --mode two-frequencies among them.
   std::vector<Motion> all_motions() const;
   /// Name and values of the quantity with several values; empty if there is none.
   std::pair<std::string, std::vector<double>> varied() const;

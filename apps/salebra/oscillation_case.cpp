@@ -16,7 +16,7 @@
 namespace salebra::cli {
 namespace {
 
-// Of ½K u²: what is below it is what the solvers leave.
+// A loss below this part of ½K u² is what the solvers leave.
 constexpr double no_loss = 1e-7;
 
 double tangential_scale(const Oscillation& motion) {

@@ -58,8 +58,8 @@ struct OscillationOutcome {
   std::optional<CycleResult> frictional, coupled;
 
   double work_per_cycle() const;
-  /// Of work_per_cycle(), J: of the steps, or of the levels where there are none; of the cells too
-  /// where those were refined.
+  /// Error of work_per_cycle(), J: that of the steps, or of the levels where there are none; with
+  /// that of the cells where those were refined.
   double error_estimate() const;
   /// What is in it: "steps" or "levels", and "cells".
   std::vector<std::string> error_contains() const;
@@ -85,8 +85,8 @@ CycleResult simulate(const OscillationCase& run, const CycleOptions& options);
 void write_cycle(QuantityGroup& group, const CycleResult& cycle, const Grid2D& grid);
 
 Json to_json(const OscillationOutcome& outcome);
-/// From the force at the contact levels; nothing but what the facts say where fewer than four of
-/// them touch.
+/// Judges by the force at the contact levels; by the facts alone where fewer than four of them
+/// touch.
 Premises premises_of(const OscillationOutcome& outcome, ContactFacts facts);
 /// Groups PREFIXcycle and PREFIXlevels.
 void write_outcome(ResultFile& file, const std::string& prefix, const OscillationOutcome& outcome);

@@ -26,7 +26,7 @@ Json option_of(const std::string& fact) {
   return option;
 }
 
-/// Of the first case that could be judged.
+/// The largest motions of the first case that could be judged.
 const std::vector<LargestMotion>& any_largest(const std::vector<Premises>& cases) {
   const auto judged =
       std::ranges::find_if(cases, [](const Premises& p) { return !p.largest.empty(); });
@@ -129,7 +129,6 @@ std::string PremiseReport::open_points() const {
             (option.is_null() ? "" : fmt::format(" ({})", option.text()));
   }
   if (!open.empty()) open += "\n";
-  // Of the case that bears least.
   const std::vector<LargestMotion>& judged = any_largest(cases);
   for (std::size_t i = 0; i < judged.size(); ++i) {
     double velocity = HUGE_VAL, amplitude = HUGE_VAL;

@@ -39,8 +39,8 @@ struct PremiseReport {
   void answer(Session& session, Json object) const;
 };
 
-/// Of a case whose slip is computed, not left out: the premises of slip hold, and the others are
-/// judged.
+/// Judges a case whose slip is computed, not left out: the premises of slip hold, and the others
+/// are judged.
 PremiseReport premises_beside_slip(const ContactLaw& law, double indentation,
                                    const Oscillation& motion, const ContactFacts& facts);
 

@@ -264,7 +264,7 @@ void run(int argc, char** argv, const Launch& launch) {
 
 constexpr std::string_view no_memory = "memory: not enough for this grid; use fewer points";
 
-/// Without an allocation.
+/// Allocates nothing.
 void print_lack_of_memory() noexcept {
   print_remark(program_name());
   print_remark(": error: ");

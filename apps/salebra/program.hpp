@@ -34,7 +34,7 @@ class Program {
                        const std::array<std::string, 2>& examples, Action action,
                        const std::string& picture = "", OutputCheck check = OutputCheck::results);
 
-  /// In the order of the help; one stays where it is.
+  /// The commands in the order of the help; each keeps its address.
   const std::deque<Command>& commands() const { return commands_; }
 
  private:

@@ -18,10 +18,10 @@ struct RecordOptions {
   std::vector<double> field_steps;
 
   void add_to(Command& app);
-  /// Before any work: that the files suit what is asked for. cycles: names of those that are
-  /// recorded. Throws InvalidInput for a step that is none of the cycle's.
+  /// Refuses, before any work, files that do not suit what is requested. cycles: names of those
+  /// that are recorded. Throws InvalidInput for a step that is none of the cycle's.
   void check(int steps, const std::vector<std::string>& cycles, Session& session) const;
-  /// For the library.
+  /// The same as the library takes them.
   CycleRecordOptions options(int steps, const Session& session) const;
 
  private:

@@ -55,7 +55,7 @@ void require_tables(Session& session, const std::vector<std::string>& tables);
 /// The answer with an object for each table: {"x": […], "y": […], "units": {…}, "note": …}.
 Json with_tables(Json answer, const std::vector<ResultTable>& tables);
 
-/// For people: title with note, then columns headed "name [unit]".
+/// Text for people: title with note, then columns headed "name [unit]".
 std::string to_text(const ResultTable& table);
 
 }  // namespace salebra::cli

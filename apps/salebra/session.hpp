@@ -68,14 +68,14 @@ class Session {
   bool has_plot() const { return !options_.plot.empty(); }
   /// Draws what --plot asked for; nothing where it was not given.
   void plot(const Figure& figure);
-  /// For the library's writers. Throws InvalidInput in one of several tasks, which would all write
-  /// the same file.
+  /// The library's writers take these. Throws InvalidInput in one of several tasks, which would all
+  /// write the same file.
   WriteOptions write_options() const;
   bool overwrites() const { return options_.overwrite; }
   Provenance provenance() const;
 
-  /// For the library: draws the bar where one is wanted, and returns false after Ctrl-C of this
-  /// process.
+  /// The library reports to it: draws the bar where one is wanted, and returns false after Ctrl-C
+  /// of this process.
   Progress progress();
 
   /// A remark for the person at the terminal, on stderr; --quiet leaves out both, and errors only
@@ -87,7 +87,7 @@ class Session {
 
   /// The command's answer: the object with --json, the text without.
   void answer(const Json& object, const std::string& text);
-  /// The same with the object itself laid out as text; with_processes().
+  /// Prints the object itself laid out as text, with with_processes().
   void answer(const Json& object);
   /// An answer of salebra-mpi has the numbers of processes and threads too.
   Json with_processes(Json object) const;

@@ -57,8 +57,8 @@ class StudyReport {
   std::string write();
   /// Throws IoError where the system refused the page. Collective.
   void require_written() const;
-  /// The same where no page was made of these results yet, as of a study that was killed before it;
-  /// otherwise the path alone.
+  /// Makes the page where none was made of these results yet, as of a study that was killed before
+  /// it; otherwise returns the path alone.
   std::string complete();
 
  private:
@@ -106,7 +106,7 @@ Json columns_json(const MeansOf& means) {
   });
   return object;
 }
-/// The same with the numerical error.
+/// Means, intervals and numerical errors.
 Json to_json(const std::vector<StatedMean>& estimates);
 /// Throws NotConverged where a relative error was requested and is not met: the loads, with what
 /// was reached.

@@ -52,7 +52,7 @@ class Stopwatch {
   std::vector<double> seconds_;
 };
 
-/// Of this program alone: getrusage counts what the process that started it held.
+/// Peak memory of this program alone: getrusage counts what the process that started it held.
 double peak_memory() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
       {.hurst = 0.8, .rolloff = 0.125, .short_cutoff = cells / n, .rms_slope = 0.1});
 
   const auto points = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
-  // Before the arrays of the bare transform exist.
+  // The arrays of the bare transform do not exist yet.
   const double memory_before = peak_memory();
   const double start = seconds(CLOCK_MONOTONIC);
   { const Surface surface = filtered_noise(grid, spectrum, 1); }

@@ -54,8 +54,8 @@ void RandomModes::column(Index j, std::span<std::complex<double>> column) const 
   const Index nx = carried_.grid().nx;
   const Index i_max = carried_.i_max(j);
   const bool mirror = carried_.own_mirror(j);
-  // Of two conjugates one is drawn: the one with j > 0 or, where the column is its own mirror
-  // image, with i > 0.
+  // One of two conjugates is drawn: that with j > 0 or, where the column is its own mirror image,
+  // with i > 0.
   const Index first = mirror ? 0 : 2 * i_max == nx ? 1 - i_max : -i_max;
   std::vector<double> amplitudes(at(i_max - first + 1));
   const double qy = static_cast<double>(j) * carried_.step_y();

@@ -113,7 +113,7 @@ class TargetAmplitudes {
   }
 
  private:
-  // Over the whole spectrum: modes with a conjugate that is not stored count twice.
+  // Sums over the whole spectrum: modes with a conjugate that is not stored count twice.
   template <class Term>
   double sum(const Term& term) const {
     return parallel::sum_blocks(fft_.nx(), [&](Index begin, Index end) {

@@ -35,7 +35,7 @@ TEST_CASE("Exact rms meets the continuum's value on a lattice that has another",
   const Surface plain = random_phase(grid, spectrum, 4);
   const double factor = surface.heights(3, 5) / plain.heights(3, 5);
   CHECK((surface.heights - factor * plain.heights).abs().maxCoeff() < 1e-13 * 1e-6);
-  // The same factor at another resolution: the long waves stay the same.
+  // Another resolution has the same factor: the long waves stay the same.
   const Surface fine = exact_rms({128, 128, 1e-3, 1e-3}, spectrum, 4);
   CHECK(fine.heights(6, 10) == Approx(surface.heights(3, 5)).epsilon(1e-11));
 }

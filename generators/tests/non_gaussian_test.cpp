@@ -119,7 +119,7 @@ TEST_CASE("A non-Gaussian surface has the distribution exactly and the spectrum 
   CHECK(found.skewness == Approx(expected.skewness).margin(1e-9));
   CHECK(found.kurtosis == Approx(expected.kurtosis).epsilon(1e-9));
 
-  // By another route: amplitudes against those of the random-phase surface.
+  // Another route compares amplitudes with those of the random-phase surface.
   const FourierCoefficients a(result.surface), target(random_phase(grid, spectrum, 5));
   double difference = 0, total = 0;
   for (Index i = 0; i < grid.nx; ++i)

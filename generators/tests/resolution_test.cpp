@@ -52,7 +52,7 @@ TEST_CASE("Refining the grid keeps the heights at common points", "[generators][
     for (Index y = 0; y < pair.coarse.ny; ++y)
       worst = std::max(worst, std::abs(coarse_heights(x, y) -
                                        fine_heights(x * pair.factor_x, y * pair.factor_y)));
-  // The same sum by two transforms, each exact to a few 1e-16 of the rms height.
+  // Two transforms make the same sum, each exact to a few 1e-16 of the rms height.
   CHECK(worst < 1e-13 * rms(coarse_heights));
 }
 

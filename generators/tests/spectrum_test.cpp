@@ -117,7 +117,7 @@ TEST_CASE("The lattice sum does not depend on a resolution that carries the spec
   const SelfAffineSpectrum spectrum({.rolloff = 1e-3, .short_cutoff = 5e-5, .rms_height = 1e-6});
   const auto coarse = spectrum.lattice_moments({64, 50, 1e-3, 7e-4});
   const auto fine = spectrum.lattice_moments({125, 128, 1e-3, 7e-4});
-  // The same terms; only the Nyquist index and the grouping into slabs differ.
+  // Both sum the same terms; only the Nyquist index and the grouping into slabs differ.
   CHECK(coarse.moment0 == Approx(fine.moment0).epsilon(1e-13));
   CHECK(coarse.moment4_x == Approx(fine.moment4_x).epsilon(1e-13));
 }
@@ -168,7 +168,7 @@ TEST_CASE("The forecast warns where the grid makes something else of the spectru
   const Forecast of_coarse = forecast({512, 512, 1e-3, 1e-3}, spectrum);
   REQUIRE(of_coarse.warnings.size() == 1);
   CHECK_THAT(of_coarse.warnings[0], Contains("has 5.12 cells"));
-  // Of oblong cells the longer side counts.
+  // The longer side of oblong cells counts.
   const Forecast of_oblong = forecast({1024, 512, 1e-3, 1e-3}, spectrum);
   REQUIRE(of_oblong.warnings.size() == 1);
   CHECK_THAT(of_oblong.warnings[0], Contains("has 5.12 cells"));

@@ -88,7 +88,7 @@ struct Deal {
     }
     return {block * sizeof(Complex), std::move(sent), std::move(received)};
   }
-  // Of all batches.
+  // The columns of all batches.
   Index columns(Index rank, Index of_all) const {
     Index sum = 0;
     for (Index group = rank; group < groups; group += ranks)

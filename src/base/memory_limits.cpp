@@ -119,7 +119,7 @@ std::string group_of(const fs::path& proc, const Dialect& dialect) {
 void take_groups(const fs::path& root, std::vector<std::uint64_t>& left) {
   for (const Mount& mount : memory_mounts(root / "proc")) {
     fs::path group = group_of(root / "proc", *mount.dialect);
-    // Of a group that is not below what is mounted, as a container may see its own, the mounted
+    // A group may not be below what is mounted, as a container may see its own: then the mounted
     // folder is all that there is.
     const fs::path below = group.lexically_relative(mount.root);
     group = below.empty() || *below.begin() == ".." ? fs::path() : below;

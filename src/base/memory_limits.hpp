@@ -19,7 +19,7 @@ namespace salebra::detail {
 /// and cgroup-v2; proc(5), getrlimit(2).
 std::optional<std::uint64_t> memory_left(const std::filesystem::path& root);
 
-/// The same without the limits of the process: what the processes of a machine share.
+/// Memory without the limits of the process: what the processes of a machine share.
 std::optional<std::uint64_t> shared_memory_left(const std::filesystem::path& root);
 
 /// What one process says of its memory, bytes. 0: not known.

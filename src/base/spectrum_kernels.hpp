@@ -25,7 +25,7 @@ struct SpectrumKernels {
   // Blocks of 8 numbers of z and of mirrored to blocks of 16 numbers of x: 8 near = z + mirrored*,
   // then 8 far = −i(z − mirrored*).
   void (*separate)(const Real* z, const Real* mirrored, std::ptrdiff_t blocks, Real* x);
-  // And back: z = near + i far, mirrored = near* + i far*.
+  // Takes them back: z = near + i far, mirrored = near* + i far*.
   void (*join)(const Real* x, std::ptrdiff_t blocks, Real* z, Real* mirrored);
 
   // numbers[i] *= symbol[i] for i < count, and of the mirror images numbers[count + i] *=

@@ -39,7 +39,7 @@ MonotoneHermite::MonotoneHermite(std::vector<double> x, std::vector<double> y,
     slopes_.resize(nodes);
     for (std::size_t i = 0; i < nodes; ++i) {
       std::size_t first = std::min(i - std::min<std::size_t>(i, 1), nodes - 4);
-      // Of the two windows around an inner node the more compact one.
+      // The more compact one of the two windows around an inner node is taken.
       if (i >= 2 && i + 2 < nodes && x_[i] - x_[i - 2] < x_[i + 2] - x_[i]) first = i - 2;
       slopes_[i] = four_point_slope(x_, y_, first, i);
     }

@@ -26,7 +26,7 @@ class MonotoneHermite {
   const std::vector<double>& nodes() const { return x_; }
   /// y, y', y'' at x in [front, back]. At a node y'' belongs to the interval above it.
   Point at(double x) const;
-  /// The same on interval i, from node i to node i + 1: without the search.
+  /// The point on interval i, from node i to node i + 1: without the search.
   Point on(std::size_t i, double x) const;
   /// x with y(x) = value, for increasing y and value in [y(front), y(back)]; to round-off in x.
   double where(double value) const;

@@ -28,8 +28,8 @@ class CycleBody {
  public:
   virtual ~CycleBody() = default;
   virtual void start_period() {}
-  /// To the indentation and the place of a step, from the tangential position `from`; returns the
-  /// position reached, m.
+  /// Goes to the indentation and the place of a step, from the tangential position `from`; returns
+  /// the position reached, m.
   virtual double advance(int step, double from) = 0;
   virtual CycleReading reading() const = 0;
   virtual double stored_energy() const = 0;  ///< J

@@ -139,7 +139,7 @@ std::vector<double> break_angles(const ContactLaw& law, double mean_indentation,
   if (!(low < high)) return {0, pi};
   std::vector<double> angles;
   for (const double point : detail::sweep_breaks(law, low, high))
-    // By half angles: arccos loses half the digits at both ends.
+    // Half angles are taken: arccos loses half the digits at both ends.
     angles.push_back(2 * std::atan2(std::sqrt(high - point), std::sqrt(point - low)));
   std::ranges::reverse(angles);
   return angles;

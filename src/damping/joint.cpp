@@ -66,7 +66,7 @@ class SlippingLevels {
     converged_ = converged_ && found.converged;
     return found.value;
   }
-  // For integrals in which most of K_t cancels: what is small against ∫K_t need not be known.
+  // Allows integrals in which most of K_t cancels: what is small against ∫K_t need not be known.
   void allow_cancelling() { absolute_ = 1e-15 * pi * stiffness_at(0); }
   bool converged() const { return converged_; }
 
@@ -121,7 +121,7 @@ Followed follow(const ContactLaw& law, double mean, const TangentialOscillation&
       by_force ? by_force->amplitude : std::get<TangentialAmplitude>(motion).amplitude;
   std::vector<double> level(std::size_t(steps) + 1), target(level.size());
   for (std::size_t i = 0; i < level.size(); ++i) {
-    // From the least indentation on.
+    // The path begins at the least indentation.
     const double angle = pi + 2 * pi * double(i % std::size_t(steps)) / steps;
     level[i] = mean + normal_amplitude * std::cos(angle);
     target[i] = amplitude * std::cos(angle + phase);

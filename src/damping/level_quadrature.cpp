@@ -181,7 +181,7 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
     return values;
   };
 
-  // From the greatest indentation to the least.
+  // The nodes go from the greatest indentation to the least.
   const std::vector<Node> nodes = gauss_nodes(count);
   std::vector<double> theta{0.0};
   std::vector<LevelValues> values{at_level(0, false)};
@@ -233,7 +233,8 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
         return closed_form::work_per_cycle(modulus_ratio, result.force_curvature, m);
       },
       motion);
-  // The same integral from the stiffness of the levels as they are, and from a fit of more freedom.
+  // Two more values of the integral: from the stiffness of the levels as they are, and from a fit
+  // of more freedom.
   const double by_stiffness = loss(
       motion, nodes,
       [&](std::size_t k) { return modulus_ratio * values[k + 1].sample.normal_stiffness; },

@@ -16,7 +16,6 @@ constexpr int fine_nodes = 96;
 
 }  // namespace
 
-// By Newton's iteration from Chebyshev's nodes.
 std::vector<Node> gauss_nodes(int count) {
   std::vector<Node> nodes;
   for (int k = count; k >= 1; --k) {

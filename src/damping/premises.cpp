@@ -23,7 +23,8 @@ using detail::infinity;
 using detail::unknown;
 using std::numbers::pi;
 
-// Of ½K_t x²: what is below it is what the solvers of a table left of a contact that loses nothing.
+// A loss below this part of ½K_t x² is what the solvers of a table left of a contact that loses
+// nothing.
 constexpr double no_loss = 1e-7;
 constexpr int steps = 360;  // the ratio of two losses on one path is then good to 1e-4
 
@@ -244,8 +245,8 @@ class Springs {
 
   // Loss without slip at the displacement 1.
   double stick() const { return stick_ > no_loss * scale_ ? stick_ : 0; }
-  // Of the steady state at a displacement. ahead: how far the contact is dragged at its least
-  // indentation before.
+  // The loss of the steady state at a displacement. ahead: how far the contact is dragged at its
+  // least indentation before.
   Loss at(double displacement, double ahead = 0) {
     if (!contact_) return {};
     // Opening levels have no history.
@@ -401,7 +402,7 @@ SlipLimits slip_limits(const ContactLaw& law, const JudgedMotion& motion, double
           first_crossings([&](double x) { return springs.change(x); }, shortest, longest)};
 }
 
-// Of the least normal force: what may stick in sliding.
+// Part of the least normal force that may stick in sliding.
 constexpr double stuck_share = 0.05;
 
 // Whether all levels slip. displacement of case (a), v/ω and the excursion of case (b), in units of
@@ -502,7 +503,7 @@ Premise plasticity_of(const ContactFacts& facts, double mean_force) {
   }
   // Flow begins below a paraboloid's centre at 1.6 yield stresses, H is 2.8 of them.
   Premise premise{.limit_5_percent = 0.6, .limit_20_percent = 1};
-  // Of a paraboloid.
+  // A paraboloid has this ratio.
   constexpr double largest_over_mean = 1.5;
   double stress = unknown;
   for (const double one : {facts.largest_pressure, largest_over_mean * facts.mean_contact_pressure,

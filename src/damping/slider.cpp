@@ -167,7 +167,7 @@ class CycleMeter {
     return count >= 40 && drift_ < 0.05 * tolerance_;
   }
 
-  // Of the cycles that were found to repeat, which are averaged.
+  // The samples of the cycles that were found to repeat, which are averaged.
   std::size_t kept() const {
     return std::min(2 * std::max<std::size_t>(cycles_.size() / 4, 2), cycles_.size());
   }
@@ -364,7 +364,7 @@ double sliding_stiffness(const SliderContact& contact) {
   return 2 * sum / nodes;
 }
 
-// Of sliding_damping, as slider_stability() says.
+// The error of sliding_damping, which slider_stability() describes.
 double damping_error(const Case& at, const Slider& slider, double friction_coefficient) {
   const double damping = at.sliding.sliding_damping;
   if (!(damping > 0)) return 0;

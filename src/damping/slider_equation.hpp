@@ -62,7 +62,7 @@ class SliderEquation {
   double stored_energy() const;
 
  private:
-  // Of the oscillation: time since the least indentation, δ and dδ/dt.
+  // An instant of the oscillation: time since the least indentation, δ and dδ/dt.
   struct Instant {
     double time = 0, indentation = 0, speed = 0;
   };

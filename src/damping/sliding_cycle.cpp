@@ -70,7 +70,7 @@ class SlidingBody : public detail::CycleBody {
   }
   double time(int step) const { return static_cast<double>(step) / steps_; }
   double indentation(int step) const { return trajectory_.indentation(time(step)); }
-  /// Of a period.
+  /// The way of a period.
   TangentialMove drift() const {
     return along(trajectory_.tangential(1) - trajectory_.tangential(0));
   }

@@ -37,7 +37,7 @@ class Period {
     return slips_at(start, high - (high - start) * std::min(ratio_, 0.5));
   }
 
-  // The same by Newton's method from a guess, held between bounds.
+  // Finds it by Newton's method from a guess, held between bounds.
   double slips_at(double start, double guess) const {
     const auto lead = [&](double phase) {
       return 2 * std::sin(0.5 * (phase + start)) * std::sin(0.5 * (phase - start)) -
@@ -95,7 +95,7 @@ class HalfPeriod {
   HalfPeriod(const ContactLaw& law, double low, double amplitude)
       : law_(law), low_(low), amplitude_(amplitude) {
     breaks_.push_back(0);
-    // By half angles: arccos loses half the digits at both ends.
+    // Half angles are taken: arccos loses half the digits at both ends.
     const double high = low + 2 * amplitude;
     for (const double point : detail::sweep_breaks(law, low, high)) {
       const double phase = 2 * std::atan2(std::sqrt(std::max(point - low, 0.0)),
@@ -145,7 +145,7 @@ class HalfPeriod {
   std::vector<PhaseState> nodes_;
 };
 
-// Of one node: the force above μF(δ_min) and its derivative by v, both times 2π.
+// What one node adds: the force above μF(δ_min) and its derivative by v, both times 2π.
 struct PhaseShare {
   double force, damping;
 };
@@ -181,7 +181,7 @@ Force force_above_least(const HalfPeriod& half, const Period& period, double lim
       const PhaseState& node = nodes[static_cast<std::size_t>(j)];
       double slips = 0;
       if (node.phase > period.sticks_from() && node.phase < period.sticks_to()) {
-        // From the second on along the slope dφ_e/dφ.
+        // From the second one on, the guess follows the slope dφ_e/dφ.
         slips = before > 0 ? period.slips_at(node.phase,
                                              slipped + (std::sin(before) - period.ratio()) /
                                                            (std::sin(slipped) - period.ratio()) *

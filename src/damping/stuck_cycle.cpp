@@ -103,7 +103,8 @@ class StuckBody final : public detail::CycleBody {
     return cell_area_ * (direction_x_ * traction.x.sum() + direction_y_ * traction.y.sum());
   }
 
-  // With the body to its place at a time; the force is linear in the move. Returns that place.
+  // Moves with the body to its place at a time; the force is linear in the move. Returns that
+  // place.
   double move(double from, double t) {
     const double to = trajectory_.tangential(t), distance = to - from;
     if (!state_.contact.any()) return to;

@@ -33,10 +33,10 @@ using Eigen::VectorXd;
 using std::numbers::pi;
 
 constexpr int most_levels = 32;
-// Of the finest grid at the least: the scatter of W is then a tenth.
+// The finest grid has at least so many: the scatter of W is then a tenth.
 constexpr double enough_cells = 100;
 constexpr double widest_window = 0.25;  // of F/K
-// Of standard deviations: 90 % of normal deviates are smaller.
+// In standard deviations: 90 % of normal deviates are smaller.
 constexpr double coverage = 1.645;
 
 /// ρ = K_t/((G*/E*)K) about one load of the curve, linear in ln F.
@@ -109,7 +109,8 @@ double slope_of(const VectorXd& coefficients, double x) {
   return sum;
 }
 
-/// Of all χ² of `freedom` degrees over their mean, 95 % are below this (Wilson and Hilferty).
+/// The value below which 95 % of all χ² of `freedom` degrees over their mean are (Wilson and
+/// Hilferty).
 double usual_residual(double freedom) {
   const double variance = 2 / (9 * freedom);
   return std::pow(1 - variance + 1.645 * std::sqrt(variance), 3);
@@ -374,7 +375,7 @@ class Load {
     const double curvature = 4 * (Rule(rule.points.size() - 1, 2).inverse.row(2).dot(force));
     const Index intervals = rule.points.size() - 1;
     constexpr Index parts = 8;
-    // After each part: how many entered, and what a step of K there adds to the forces.
+    // These say after each part how many entered, and what a step of K there adds to the forces.
     VectorXd entered = VectorXd::Zero(intervals * parts + 1);
     MatrixXd excess = MatrixXd::Zero(rule.points.size(), entered.size());
     double edge = contacts.back().perimeter;
@@ -410,9 +411,9 @@ class Load {
     return std::sqrt(more * weights.dot(of_forces * weights));
   }
 
-  // Of the number of lattice points inside a smooth curve at a random place, for each unit of its
-  // length: Σ|k|⁻³/(4π³) over the reciprocal lattice (D. G. Kendall, Quart. J. Math. 19 (1948) 1,
-  // for ovals).
+  // Variance of the number of lattice points inside a smooth curve at a random place, for each unit
+  // of its length: Σ|k|⁻³/(4π³) over the reciprocal lattice (D. G. Kendall, Quart. J. Math. 19
+  // (1948) 1, for ovals).
   static constexpr double lattice_variance = 0.0728;
 
   const Material& material_;
@@ -467,7 +468,7 @@ Surface every_second(const Surface& surface) {
   Surface coarse{surface.grid, {}, surface.periodic, surface.origin, surface.ranks};
   coarse.grid.nx /= 2;
   coarse.grid.ny /= 2;
-  // Of the rows of each process, which are not those that it has of the coarse grid.
+  // Each process refines its own rows, which are not those that it has of the coarse grid.
   const Share fine = surface.share(), rows = coarse.share();
   std::vector<Index> begins;
   for (int rank = 0; rank < surface.ranks.ranks(); ++rank)

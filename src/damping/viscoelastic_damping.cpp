@@ -18,7 +18,7 @@ using detail::MaxwellSpring;
 using detail::NormalSpring;
 using detail::SpringPath;
 
-// In contact or above it during a share of a step.
+// A share of a step, in contact or above it.
 struct Part {
   bool closed;
   std::size_t step;
@@ -189,7 +189,7 @@ class OpeningSpring {
     return lost;
   }
 
-  // Of the state at the end by that at the start: the same maps without motion.
+  // The derivative of the state at the end by that at the start: the same maps without motion.
   Eigen::MatrixXd derivative() const {
     const Index terms = spring_.terms();
     const Eigen::RowVectorXd ratios = spring_.ratios().matrix().transpose();

@@ -46,8 +46,8 @@ class AtomicFile {
 
   /// Appends.
   void write(std::string_view bytes);
-  /// For write_at() in place of write(): makes the file so long, with room on the disk where the
-  /// file system can promise it.
+  /// Prepares for write_at() in place of write(): makes the file so long, with room on the disk
+  /// where the file system can promise it.
   void reserve(std::uint64_t size);
   int descriptor() const { return descriptor_; }
   /// Flushes to the disk and closes: what can fail for want of space or by a fault of the disk.

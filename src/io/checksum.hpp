@@ -28,7 +28,7 @@ class Checksum {
     }
   }
 
-  /// In 64 bits, of the bytes so far and their number.
+  /// The checksum in 64 bits of the bytes so far and their number.
   std::uint64_t value() const {
     Checksum whole = *this;
     whole.take_word();

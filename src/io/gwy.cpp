@@ -95,7 +95,7 @@ std::string_view value_of(const std::filesystem::path& file, char type, Bytes& b
   const std::uint64_t items = bytes.number<std::uint32_t>();
   if (const auto place = arrays.find(type); place < sizes.size() - 1)
     return bytes.take(items * sizes[place + 1]);
-  // Of arrays of texts and objects nothing is needed, but where they end.
+  // Nothing is needed of arrays of texts and objects but where they end.
   for (std::uint64_t item = 0; item < items; ++item) {
     if (type == 'S')
       bytes.text();

@@ -55,7 +55,7 @@ class Document {
   const std::filesystem::path& path() const { return file_.path(); }
   /// The object at "curve/pressure"; "/" is the root. nullptr: there is none.
   const Object* find(std::string_view path) const;
-  /// The same, of that kind. Throws InvalidInput where there is none, and where it is refused.
+  /// The object of that kind. Throws InvalidInput where there is none, and where it is refused.
   const Object& group(const std::string& path) const;
   const Object& dataset(const std::string& path) const;
   /// A dataset whose numbers can be read: count() of them fit in memory. Throws InvalidInput for
@@ -64,7 +64,7 @@ class Document {
   /// Copies the values of a dataset of numbers, count() of them, the last dimension contiguous.
   /// Throws InvalidInput as numeric() does, and where they turn out to be damaged.
   void numbers(const std::string& path, std::span<double> values) const;
-  /// The same of the rows of a field that a process holds.
+  /// Reads the rows of a field that a process holds.
   void rows(const std::string& path, const Share& share, std::span<double> values) const;
 
  private:

@@ -94,7 +94,7 @@ std::string_view bytes_of(const T* values, Index count) {
   return {reinterpret_cast<const char*>(values), static_cast<std::size_t>(count) * sizeof(T)};
 }
 
-/// As float, without a copy of all.
+/// Writes a field as float, without a copy of all.
 void write_rounded(const std::filesystem::path& target, int descriptor, std::uint64_t place,
                    const Field& values) {
   constexpr Index most = 1 << 18;

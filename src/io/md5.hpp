@@ -11,7 +11,7 @@ namespace salebra::detail {
 /// NPY files carry it to tell damage; against intent it protects nothing. Cost: one pass, about 0.5
 /// GB/s.
 std::string md5(std::string_view bytes);
-/// The same of two pieces, one after the other.
+/// MD5 of two pieces, one after the other.
 std::string md5(const std::array<std::string_view, 2>& parts);
 
 }  // namespace salebra::detail

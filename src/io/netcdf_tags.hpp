@@ -5,7 +5,7 @@
 
 namespace salebra::detail {
 
-/// Before the lists of a NetCDF header (Unidata, "NetCDF Classic Format Specification").
+/// Tags before the lists of a NetCDF header (Unidata, "NetCDF Classic Format Specification").
 inline constexpr std::uint32_t dimension_tag = 10, variable_tag = 11, attribute_tag = 12;
 
 }  // namespace salebra::detail

@@ -20,7 +20,7 @@ void check_raster(const PlotImage& image);
 
 Raster rasterise(const PlotImage& image, const DisplayAxis& x, const DisplayAxis& y);
 
-/// Of the values that are numbers; (∞, −∞) if none is.
+/// The range of the values that are numbers; (∞, −∞) if none is.
 std::pair<double, double> finite_range(const Field& values);
 
 }  // namespace salebra::detail

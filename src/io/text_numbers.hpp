@@ -27,7 +27,7 @@ class Lines {
 
 std::string_view trimmed(std::string_view text);
 
-/// Between the values of a line.
+/// What separates the values of a line.
 enum class Separator { blank, comma, semicolon };
 
 struct NumberFormat {
@@ -37,7 +37,8 @@ struct NumberFormat {
   bool has_decimal_point = false;  ///< in a line so far
 };
 
-/// Without a byte order mark. Throws InvalidInput for UTF-16 and for text with NUL bytes.
+/// The content without a byte order mark. Throws InvalidInput for UTF-16 and for text with NUL
+/// bytes.
 std::string_view require_text(const std::filesystem::path& file, std::string_view content);
 
 /// Text that is not UTF-8 is taken for Latin-1, in which older programs write "µm" and "Höhe".

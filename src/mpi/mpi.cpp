@@ -44,7 +44,7 @@ std::vector<int> narrowed(std::span<const std::int64_t> numbers) {
   return result;
 }
 
-/// So many bytes as one element.
+/// Makes so many bytes one element.
 class Unit {
  public:
   explicit Unit(std::size_t bytes) {

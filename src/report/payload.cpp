@@ -144,7 +144,7 @@ class Point {
     return json;
   }
 
-  /// The same with single numbers.
+  /// Numbers in place of lists.
   Json single(const std::string& name, std::size_t place) const {
     Json json = estimate(name, place, 1);
     for (auto& [member, values] : json.items()) values = Json(values[0]);

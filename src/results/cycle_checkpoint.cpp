@@ -153,7 +153,7 @@ class StateReader {
   std::string group_;
 };
 
-// Of everything that describe_cycle() and describe_body() visit, and the samples.
+// Checksum of everything that describe_cycle() and describe_body() visit, and of the samples.
 class StateChecksum {
  public:
   void add(const CycleState& state) {
@@ -198,7 +198,7 @@ std::string checksum_of(std::span<const CycleState> states) {
   return sum.text();
 }
 
-// In the order of CycleState::body.
+// Names in the order of CycleState::body.
 constexpr std::array kinds{"stuck", "frictional", "coupled"};
 
 void write_state(ResultFile& output, const CycleState& state) {

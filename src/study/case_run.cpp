@@ -147,8 +147,8 @@ class CaseRun {
     limit_ = limit;
   }
 
-  /// In the first process of a group; nothing in the others, and where all of the group were
-  /// stopped or failed alike. What one process alone fails by is thrown, and ends the program.
+  /// A surface in the first process of a group; nothing in the others, and where all of the group
+  /// were stopped or failed alike. What one process alone fails by is thrown, and ends the program.
   std::optional<Realisation> analysed(std::size_t i, const std::vector<std::size_t>& turn) {
     const Communicator& own = run_.groups.own();
     try {
@@ -221,8 +221,8 @@ class CaseRun {
     news_.push_back(item);
   }
 
-  /// On the calling thread only. What the caller throws ends the run; it must not leave a parallel
-  /// region.
+  /// Reports on the calling thread only. What the caller throws ends the run; it must not leave a
+  /// parallel region.
   void talk() {
     try {
       report();

@@ -103,8 +103,8 @@ double kept_bytes(const StudyConfiguration& point, const Grid2D& grid) {
                   sizeof(SpotStatistics) + sizes * sizeof(double));
 }
 
-/// Of threads over one, where a process has this many surfaces: one on each thread, or all threads
-/// on each.
+/// The gain of threads over one, where a process has this many surfaces: one on each thread, or all
+/// threads on each.
 double gain_of(int threads, std::size_t surfaces) {
   const bool side_by_side = surfaces >= static_cast<std::size_t>(threads);
   return side_by_side ? threads : 1 + gain_of_a_thread * (threads - 1);
@@ -137,9 +137,9 @@ ShardPlan plan_of(const StudyCost& cost, std::size_t shards) {
 /// The load as solves feel it: what the contact touches is taken from the measured range.
 double felt(double load) { return std::clamp(load, 1e-3, 0.5); }
 
-/// Of one contact on one thread, on the machine of the constants above, with K and K_t where they
-/// are computed. Those of a study are means over its loads, which solves at 0.0165 E*h' have; the
-/// rest of a solve is the stiffness.
+/// The time of one contact on one thread, on the machine of the constants above, with K and K_t
+/// where they are computed. Those of a study are means over its loads, which solves at 0.0165 E*h'
+/// have; the rest of a solve is the stiffness.
 double contact_seconds(const SurfaceWork& work, double load) {
   constexpr double mean_load = 0.0165, power_of_load = 0.35, without_stiffness = 0.5;
   const auto cells = static_cast<double>(work.grid.points());
@@ -152,8 +152,9 @@ double contact_seconds(const SurfaceWork& work, double load) {
          std::pow(felt(load) / mean_load, power_of_load);
 }
 
-/// Of one contact, for what its group sends from machine to machine: transforms, applications of
-/// the ladder and sums, counted on one machine, times what each of them sends (docs/scaling.md).
+/// The time of one contact for what its group sends from machine to machine: transforms,
+/// applications of the ladder and sums, counted on one machine, times what each of them sends
+/// (docs/scaling.md).
 double network_seconds(const SurfaceWork& work, double load) {
   const double nodes = std::ceil(double(work.nodes) / work.groups),
                ranks = double(work.ranks) / work.groups;
@@ -207,7 +208,7 @@ double surface_memory(const SurfaceWork& work) {
 }
 
 int groups_that_fit(SurfaceWork work, const std::function<bool(double bytes)>& fits) {
-  // Of as many as let the loads be done in so many rounds; the fewest of them have the most
+  // Several numbers of groups let the loads be done in so many rounds; the fewest have the most
   // processes each.
   const std::size_t loads = work.loads.size();
   for (std::size_t rounds = 1; rounds < loads; ++rounds) {

@@ -115,7 +115,7 @@ static_assert(describes_all<Realisation>() && describes_all<Grid2D>() &&
               describes_all<Material>() && describes_all<EqualFrequency>() &&
               describes_all<Drag>());
 
-/// Of a file; 0 where there is none.
+/// Checksum of a file; 0 where there is none.
 std::uint64_t checksum_of(const std::filesystem::path& file) {
   return std::filesystem::exists(file) ? InputFile(file).checksum() : 0;
 }
@@ -143,7 +143,7 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
          point.window, point.models, point.known.hardness, point.motion.index());
   std::visit([&](const auto& motion) { writer(motion); }, point.motion);
   writer(point.damping.hold, point.damping.amplitude, point.damping.tolerance);
-  // Of several surfaces the first states the error of all.
+  // The first of several surfaces states the error of all.
   writer(point.levels, point.relative_error, point.seam, seeds_of(point).size() == 1,
          seed == seeds_of(point).front());
   return checksum(writer.bytes);

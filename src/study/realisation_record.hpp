@@ -12,7 +12,7 @@ namespace salebra::detail {
 
 /// A number for everything that decides the realisation: the point's configuration, the seed, and
 /// the program's version. What does not (other seeds, precision, comments) is not in it.
-/// Of everything that decides the result of a study with these points.
+/// The key of everything that decides the result of a study with these points.
 std::uint64_t study_key(const std::vector<StudyConfiguration>& points);
 
 std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t seed);
@@ -27,8 +27,8 @@ struct Record {
 std::string encode(const Record& record, std::uint64_t key);
 /// Throws InvalidInput for anything but what encode() made with this key.
 Record decode(std::string_view bytes, std::uint64_t key);
-/// Of what encode() made with any key; empty for anything else, such as the record of another
-/// version whose form differs.
+/// The origin of what encode() made with any key; empty for anything else, such as the record of
+/// another version whose form differs.
 std::optional<PartOrigin> origin_of(std::string_view bytes);
 
 }  // namespace salebra::detail

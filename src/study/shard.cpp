@@ -199,8 +199,8 @@ class ShardRun {
                      .restored = restored});
   }
 
-  /// On the calling thread only. What the caller throws ends the run; it must not leave a parallel
-  /// region.
+  /// Reports on the calling thread only. What the caller throws ends the run; it must not leave a
+  /// parallel region.
   void talk() {
     try {
       report();

@@ -82,7 +82,7 @@ void require_spreadable(const StudyConfiguration& point, const Groups& groups) {
           contact_models()[std::size_t(ContactModel::gw_interacting)].name, why);
 }
 
-/// Of a surface of generated ones that one process, or those of a group, compute.
+/// Refuses a surface of generated ones that one process, or those of a group, cannot hold.
 void require_room(const StudyResult& result, const Groups& groups) {
   if (result.grid.nx == 0) return;
   const StudyConfiguration& point = result.configuration;

@@ -64,7 +64,7 @@ class Table {
   void columns(const std::vector<const T*>& items, const Names& axes) {
     columns(items, axes, [](const NumberOf<T>&, std::string_view) { return Means(); }, {});
   }
-  /// The same, and ensemble_NAME for the numbers: means(number, name) along their axes.
+  /// Writes it, and ensemble_NAME for the numbers: means(number, name) along their axes.
   template <class T, class MeansOf>
   void columns(const std::vector<const T*>& items, const Names& axes, const MeansOf& means,
                const Names& axes_of_means) {

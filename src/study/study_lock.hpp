@@ -13,7 +13,7 @@
 
 namespace salebra::detail {
 
-/// After the key of a realisation: the lock file of who computes it.
+/// Follows the key of a realisation: the lock file of who computes it.
 inline constexpr const char* claim_suffix = ".claim";
 
 /// A lock file that lives as long as the object. It is made by link(), which is atomic on NFS too,
@@ -28,7 +28,7 @@ class StudyLock {
   /// Throws InvalidInput where someone else holds it, IoError where the file cannot be made.
   explicit StudyLock(std::filesystem::path file,
                      std::chrono::milliseconds stale_after = std::chrono::seconds(60));
-  /// The same, but empty where someone else holds it.
+  /// Takes the lock, or returns nothing where someone else holds it.
   static std::unique_ptr<StudyLock> take(
       std::filesystem::path file, std::chrono::milliseconds stale_after = std::chrono::seconds(60));
   /// Throws InvalidInput where someone holds `file`, a lock beside one's own.
@@ -44,7 +44,7 @@ class StudyLock {
   StudyLock(std::filesystem::path file, std::chrono::milliseconds stale_after, Unlinked);
   /// Who holds it in one's place, in words; empty: nobody.
   std::optional<std::string> acquire();
-  /// The same; empty too where it has to be tried again.
+  /// Tries once: empty too where it has to be tried again.
   std::optional<std::string> try_link();
   void keep_fresh();
 

@@ -32,7 +32,7 @@ void check_hertz(Checks& checks) {
   const IndenterLaw sphere(paraboloid_profile(radius), steel);
   const double force = 4.0 / 3.0 * modulus * std::sqrt(radius * std::pow(indentation, 3));
   const double contact_radius = std::sqrt(radius * indentation);
-  // The same formulas in another order of operations.
+  // Both sides are the same formulas in another order of operations.
   checks.push_back({"Hertz force", sphere.force(indentation), force, 1e-13});
   checks.push_back({"Hertz stiffness 2E*a", sphere.normal_stiffness(indentation),
                     2 * modulus * contact_radius, 1e-13});

@@ -76,7 +76,7 @@ void set_correlation_lengths(ArealParameters& result, const Surface& surface) {
 /// ∫ r C dr along a ray of the spectrum, up to a common factor; bilinear between modes.
 double ray_power(const PowerSpectrum& spectrum, double angle) {
   const Grid2D& grid = spectrum.grid;
-  // In units of modes; the same physical direction on any cell.
+  // Steps are in units of modes: the same physical direction on any cell.
   const double scale = std::min(grid.lx, grid.ly);
   const double along_x = std::cos(angle) * grid.lx / scale;
   const double along_y = std::sin(angle) * grid.ly / scale;

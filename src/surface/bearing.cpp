@@ -63,7 +63,7 @@ double BearingCurve::area_fraction(double height) const {
   const double points = static_cast<double>(heights_.size());
   if (height > heights_.front()) return 0;
   if (height < heights_.back()) return 1;
-  // Of equal heights the first and the last are found apart: the curve has a level piece, and its
+  // The first and the last of equal heights are found apart: the curve has a level piece, and its
   // middle stands for it.
   const auto first = std::ranges::lower_bound(heights_, height, std::greater{});
   const auto end = std::ranges::upper_bound(heights_, height, std::greater{});

@@ -14,7 +14,7 @@
 namespace salebra::detail {
 namespace {
 
-// As GSL stores them.
+// GSL stores matrices so.
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 gsl_matrix_view view(RowMajor& a) {

@@ -68,8 +68,8 @@ void subtract_fit(Surface& surface) {
   });
 }
 
-/// Of each line along x; a line with one defined point loses its height, one without any keeps
-/// none.
+/// Takes off each line along x its straight line; one with one defined point loses its height, one
+/// without any keeps none.
 void subtract_lines(Surface& surface) {
   const Index nx = surface.grid.nx, ny = surface.grid.ny;
   height_statistics(surface);  // refuses what has no heights
@@ -94,7 +94,7 @@ void subtract_lines(Surface& surface) {
   }
 }
 
-/// Of an even number the mean of the two in the middle. Changes their order.
+/// The median; of an even number the mean of the two in the middle. Changes their order.
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

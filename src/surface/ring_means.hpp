@@ -40,7 +40,7 @@ class RingMeans {
     for (std::size_t k = 0; k < quantities; ++k) sum[2 + k] += weight * values[k];
   }
 
-  /// From the innermost on; rings of no weight are left out.
+  /// The rings from the innermost on; those of no weight are left out.
   std::vector<Ring> rings(const std::vector<double>& sums) const {
     std::vector<Ring> means;
     for (std::size_t at = 0; at < sums.size(); at += stride) {

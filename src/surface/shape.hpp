@@ -18,7 +18,7 @@ inline void require_shape_of_rows(const Surface& surface) {
               std::to_string(surface.grid.ny));
 }
 
-/// The same of a surface in one process.
+/// Requires it of a surface in one process.
 inline void require_shape(const Surface& surface) {
   surface.require_whole("this calculation");
   require_shape_of_rows(surface);

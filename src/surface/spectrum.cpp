@@ -51,7 +51,7 @@ class Weights {
     scale_ = 1 / std::sqrt(sum / static_cast<double>(grid_.points()));
   }
 
-  /// Of a row of this process.
+  /// The window of a row of this process.
   Eigen::ArrayXd row(Index row) const {
     const Index ix = rows_.begin() + row;
     if (!radial_) return along_x_(ix) * along_y_;

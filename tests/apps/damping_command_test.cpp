@@ -28,7 +28,7 @@ TEST_CASE("Damping of the exponential law at small amplitude is Eq. (16)", "[dam
                               "mean_force", "indentation", "small_amplitude_work", "ratio"});
   const double omega = 2 * pi * 2e4, ratio = 2 * 0.7 / 1.7;
   const double work = 2 * (pi * pi - 4) * ratio * 1 / 1e-14 * 5e-9 * 4e-6 / (omega * omega);
-  // The same few products in another order.
+  // Both sides are the same few products in another order.
   CHECK(answer["work_per_cycle"].get<double>() == Approx(work).epsilon(1e-12));
   CHECK(answer["power"].get<double>() == Approx(work * omega / (2 * pi)).epsilon(1e-12));
   CHECK(answer["damping_constant"].get<double>() ==
@@ -59,7 +59,7 @@ TEST_CASE("One quantity may be a range and makes the answers arrays", "[damping]
           law +
           "--normal-force 1,2 --normal-amplitude 1nm,2nm --drag-velocity 1mm/s --frequency 1kHz"),
       "range");
-  // Of the same length they would look like pairs.
+  // Lists of the same length would look like pairs.
   check_refused(test.run(law + "--normal-force 1 --mode equal-frequency --normal-amplitude 1nm,2nm "
                                "--tangential-amplitude 1nm,2nm --phase 90deg"),
                 "--tangential-amplitude: 2 values are a second range");
@@ -223,8 +223,8 @@ TEST_CASE("Pictures of damping name what they show", "[damping][plot]") {
   CHECK(test.read("cycle.png").substr(1, 3) == "PNG");
   check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.png"), "--overwrite");
   check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.jpg"), ".png, .svg or .pdf");
-  // Without gnuplot: one line, status 1, and no answer is lost for a picture that was not asked
-  // for.
+  // Without gnuplot there is one line, status 1, and no answer is lost for a picture that was not
+  // asked for.
   const auto without = test.run(law + "--normal-amplitude 50nm --plot new.png", "PATH=/nowhere;");
   CHECK(without.status == 1);
   CHECK_THAT(without.err, Catch::Contains("salebra: error: new.png: gnuplot is not installed"));
@@ -343,7 +343,7 @@ TEST_CASE("A slow motion that passes a contact spot in one normal cycle is told"
                Catch::Contains("2 pi v/w = 50 µm") && Catch::Contains("6.325 µm across"));
     CHECK(test.run(command + sphere + "--drag-velocity 0.1m/s").err.empty());
   }
-  // Of a curve 2a = 4E*A/(pi K), where E* is given.
+  // A curve has 2a = 4E*A/(pi K), where E* is given.
   REQUIRE(test.run("generate --points 32 --size-x 1mm --hurst 0.8 --rolloff 0.5mm --short-cutoff "
                    "0.25mm --rms-height 1um -o rough.h5")
               .status == 0);
@@ -367,7 +367,7 @@ TEST_CASE("Damping of a surface is that of a study, with its error", "[damping]"
       "--frequency 20kHz --json --quiet ";
   const auto one =
       test.run("damping --surface rough.h5 --pressure 1MPa" + motion + "-o damping.h5").json();
-  // The same loads on both sides, from which K_t/K has its slope.
+  // Both sides have the same loads, from which K_t/K has its slope.
   test.write("study.toml", R"([surface]
 file = "rough.h5"
 [material]
@@ -392,7 +392,7 @@ frequency = "20kHz"
   CHECK(one["error_estimate"].get<double>() / one["work_per_cycle"].get<double>() ==
         Approx(one["damping_constant_error"].get<double>() / one["damping_constant"].get<double>())
             .epsilon(1e-12));
-  // Over the nominal area, 1 mm².
+  // The nominal area is 1 mm².
   for (const std::string name : {"work_per_cycle", "normal_stiffness"})
     CHECK(one[name + "_per_area"].get<double>() == Approx(one[name].get<double>() / 1e-6));
   // K is several times the force over the rms height, as F/l, and less than that of a flat body.

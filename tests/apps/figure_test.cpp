@@ -39,7 +39,7 @@ void check_alike(const Values& found, const Values& expected, double tolerance =
   }
 }
 
-/// The same but for a common addend, which is the SI prefix of a logarithmic axis.
+/// Two lists are the same but for a common addend, which is the SI prefix of a logarithmic axis.
 void check_parallel(const Values& found, const Values& expected) {
   REQUIRE(found.size() == expected.size());
   std::size_t first = 0;
@@ -70,7 +70,7 @@ Values row_of(const salebra::ResultReader& file, const std::string& dataset, std
 
 TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compare][plot]") {
   const ProgramTest test;
-  // Of one surface, so that means of ratios are ratios of means.
+  // There is one surface, so that means of ratios are ratios of means.
   test.write("study.toml", study_text("seeds = [3]"));
   const std::string command =
       "compare study.toml --no-stick --no-report --json --models gw_moments,persson -o result.h5";
@@ -116,7 +116,7 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
   // The window of the fit, from one to two and a half rms heights.
   CHECK_THAT(drawing.script(), Contains("graph 0,first 1 to") && Contains("graph 0,first 2.5 to"));
 
-  // Of two surfaces there are intervals, with the mean between their limits.
+  // Two surfaces have intervals, with the mean between their limits.
   test.write("study.toml", study_text("seeds = [3, 4]"));
   const Drawing bands(test, command);
   const json two = bands.answer();
@@ -146,7 +146,7 @@ TEST_CASE("The numbers of a comparison are those of its file, and the theories' 
   const std::size_t loads = pressure.size();
   REQUIRE(loads == 10);
   CHECK(numbers(answer["pressure"]) == pressure);
-  // As the study asks, in E*h' of the spectrum.
+  // The study gives it in E*h' of the spectrum.
   CHECK(answer["relative_pressure"][0].get<double>() == Approx(1e-3).epsilon(1e-12));
   CHECK(answer["relative_pressure"][9].get<double>() == Approx(0.2).epsilon(1e-12));
   std::size_t row = 0;

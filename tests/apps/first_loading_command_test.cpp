@@ -125,7 +125,7 @@ TEST_CASE("A shape flows too, but on the cells that it has", "[first_loading]") 
   const json elastic = test.run(shape).json();
   const json flowed = test.run(shape + "--hardness 200MPa").json();
   CHECK(number(flowed, "first_loading", "yielded_area_fraction") > 0);
-  // The same load, that of the first loading to the indentation of the shape.
+  // Both have the load of the first loading to the indentation of the shape.
   CHECK(flowed["force"].get<double>() < elastic["force"].get<double>());
   CHECK(flowed["indentation"].get<double>() < elastic["indentation"].get<double>());
   check_refused(test.run(shape.substr(0, shape.find("--levels")) + "--json" + material +

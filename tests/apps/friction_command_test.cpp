@@ -110,7 +110,7 @@ TEST_CASE("friction says in which regime a slow motion is, as mdr with friction 
     CHECK(map["loss_ratio"][0].get<double>() ==
           Approx(rough["work_per_cycle"].get<double>() / stuck["work_per_cycle"].get<double>())
               .epsilon(0.03));
-    // The same motion alone.
+    // One motion is run alone.
     const auto alone = test.run(fmt::format(
         "damping --law parabola --radius 10mm {}--drag-velocity {} --excursion {} --json", contact,
         velocity, cycles * way));

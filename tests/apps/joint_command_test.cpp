@@ -23,7 +23,8 @@ TEST_CASE("joint gives the loss over tangential amplitudes and forces", "[joint]
                                               "work_per_cycle", "relaxation_work", "slip_work",
                                               "secant_stiffness", "loss_factor", "exponent",
                                               "storage_stiffness", "loss_stiffness"});
-  // ../shared/SLIP.md, section 3; a seventh digit of x moves W by 3e-7 of it.
+  // x = −(μE*/G*) l ln(1 − q) and W = 8(μ²E*/G*) l F [−(1 − q/2) ln(1 − q) − q] for q = T/(μF) = 0.1
+  // and 0.8; a seventh digit of x moves W by 3e-7 of it.
   CHECK(answer["work_per_cycle"][0].get<double>() == Approx(8.0862576e-12).epsilon(2e-6));
   CHECK(answer["work_per_cycle"][1].get<double>() == Approx(1.4483657e-8).epsilon(2e-6));
   CHECK(answer["premises"]["slip_of_closed_levels"]["verdict"] == "holds");
@@ -77,7 +78,7 @@ TEST_CASE("joint simulates a surface cell by cell beside the springs of its curv
     };
     CHECK(number(direct, "tangential_force") ==
           Approx(number(answer, "tangential_force")).epsilon(1e-9));
-    // Of the law through 13 forces, and of the steps: 0.7 % of the loss.
+    // The errors are those of the law through 13 forces and of the steps: 0.7 % of the loss.
     CHECK(number(direct, "tangential_amplitude") ==
           Approx(number(answer, "tangential_amplitude")).epsilon(0.02));
     CHECK(number(direct, "work_per_cycle") ==

@@ -90,7 +90,7 @@ TEST_CASE("A study whose threads do not fit into memory is refused before its fi
   std::string text = study_text("seed_count = 4", 4);
   text.replace(text.find("points = 64"), 11, "points = 1024");
   test.write("study.toml", text);
-  // With stick solves 155 bytes a cell: 0.33 GB for two threads.
+  // Stick solves take 155 bytes a cell: 0.33 GB for two threads.
   check_refused(test.run("study study.toml -o result.h5 --threads 2 --quiet", "ulimit -d 300000;"),
                 "of memory for the surfaces of all threads (fewer --threads need less) and ");
   CHECK(test.files() == std::set<std::string>{"study.toml"});

@@ -74,7 +74,7 @@ TEST_CASE("mdr reads profiles and trajectories from files", "[mdr]") {
         Approx(exact["work_per_cycle"].get<double>()).epsilon(1e-3));
   CHECK(followed["loss_factor"].get<double>() > 0);
 
-  // With y a quarter of a turn of the phase away; each direction by itself makes the sum.
+  // The phase of y is a quarter of a turn away; each direction by itself makes the sum.
   std::string both = "t, indentation, x, y\n", across;
   for (int i = 0; i <= 400; ++i) {
     const double angle = 2 * pi * i / 400;
@@ -210,7 +210,7 @@ TEST_CASE("The CLI refuses each unusable input of a damped contact with its reas
   refused_table("", "table.txt");
   check_refused(test.run("mdr --profile table --indentation 1um --table none.txt " + body),
                 "none.txt");
-  // Beyond the table.
+  // The path leaves the table.
   test.write(
       "short.txt",
       "0 0\n1e-6 1e-9\n2e-6 4e-9\n3e-6 9e-9\n4e-6 16e-9\n5e-6 25e-9\n6e-6 36e-9\n7e-6 49e-9\n");

@@ -104,12 +104,13 @@ Meaning meaning_of(const std::string& name) {
 bool is_old(const std::string& name) {
   static const std::regex old(
       "curvature|customary|coefficient|law_density|(least|greatest)_.*|.*_percent_of.*|"
-      "law_deviation_percent|released_energy|closed_form");
+      "law_deviation_percent|released_energy|closed_form|predicted(_finite)?|small_work_per_cycle|"
+      "small_damping_constant");
   return std::regex_match(name, old);
 }
 
 std::string stem(const std::string& name) {
-  // Of a sample of surfaces always a mean and its limits; "decay_length_low" of one curve is a
+  // A sample of surfaces always has a mean and its limits; "decay_length_low" of one curve is a
   // quantity of its own.
   const bool sample = name.starts_with("ensemble_");
   const std::string whole = sample ? name.substr(9) : name;
@@ -213,7 +214,7 @@ TEST_CASE("Every dataset of a comparison has the name, unit and meaning of its d
   check_group(reader, "ensemble", "ensemble");
   for (const std::string& group : reader.groups("points/1"))
     if (group != "picture" && group != "premises") check_group(reader, "points/1/" + group, group);
-  // Of the answer the same, with a mean and its limits for each.
+  // The answer has the same, with a mean and its limits for each.
   const json point = run.json()["points"][1];
   check_keys(point["spots"], groups.at("spots"));
   for (const StudyModel& model : contact_models()) {
@@ -351,7 +352,7 @@ TEST_CASE("Every option that is a quantity has its unit", "[names]") {
       std::string name = (*found)[1];
       std::ranges::replace(name, '-', '_');
       INFO(command << " --" << name);
-      // That of a power law has no other name.
+      // The coefficient of a power law has no other name.
       CHECK((!is_old(name) || name == "coefficient"));
       if (!is_quantity(name) && name.ends_with('s')) name.pop_back();
       if (!is_quantity(name)) continue;

@@ -160,8 +160,8 @@ TEST_CASE("oscillate lets a rough surface slip, between full stick and sliding",
     cycle["force"] = answer["force"];
     return cycle;
   };
-  // Without slip: the other simulation's loss, up to the different constants of the steps: 2.2 %
-  // apart at 32.
+  // Without slip it is the other simulation's loss, up to the different constants of the steps: 2.2
+  // % apart at 32.
   const auto stuck = friction("1000");
   CHECK(number(stuck, "over_stick") == Approx(1).epsilon(0.03));
   CHECK(number(stuck, "slip_work") < 1e-6 * number(stuck, "dissipated"));

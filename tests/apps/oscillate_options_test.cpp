@@ -90,8 +90,8 @@ TEST_CASE("oscillate answers for Eqs (12) and (15), finite amplitude and the exp
     // The levels are a route of their own, and agree to their error.
     CHECK(number(answer, "work_by_levels") != work);
   }
-  // Of ½K_t u_x² with the stiffness 2G*a of the largest contact, in which x is u_x or v/ω; K_t of
-  // the last level, shy of the end.
+  // The energy is ½K_t u_x² with the stiffness 2G*a of the largest contact, in which x is u_x or
+  // v/ω; K_t is that of the last level, shy of the end.
   const double stiffest = 2 * modulus_ratio * 1e9 * std::sqrt(4e-3 * 26e-6);
   CHECK(number(equal, "work_over_elastic_energy") ==
         Approx(number(equal, "work_per_cycle") / (stiffest * amplitude * amplitude / 2))

@@ -19,10 +19,10 @@ TEST_CASE("The program tells its version", "[program]") {
 
 TEST_CASE("Help of every command ends with two examples of that command", "[program]") {
   const ProgramTest test;
-  const auto command = GENERATE(
-      as<std::string>(), "generate", "info", "convert", "contact", "sweep", "gw", "fit", "damping",
-      "mdr", "damper", "friction", "slider", "joint", "viscoelastic", "study", "verify", "init",
-      "statistics", "compare", "oscillate", "figure3", "completion");
+  const auto command =
+      GENERATE(as<std::string>(), "generate", "info", "convert", "contact", "sweep", "gw", "fit",
+               "damping", "mdr", "damper", "friction", "slider", "joint", "viscoelastic", "study",
+               "verify", "init", "statistics", "compare", "oscillate", "figure3", "completion");
   CHECK_THAT(test.run("--help").out, Contains("  " + command));
   const auto help = test.run(command + " --help");
   CHECK(help.status == 0);
@@ -82,7 +82,7 @@ TEST_CASE("Help fits the width that it is given and loses no word", "[program]")
       CHECK(in_a_line(help.out) == in_a_line(wide.out));
     }
   }
-  // Without a terminal and COLUMNS: 80.
+  // Without a terminal and COLUMNS the width is 80.
   CHECK(longest_line(test.run("help mdr", "unset COLUMNS;").out) <= 80);
 }
 

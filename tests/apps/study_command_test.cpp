@@ -288,7 +288,7 @@ TEST_CASE("Without levels the loss is that of the curve, and no error is stated"
     CHECK(damping["damping_constant"]["error"][k].is_null());
     if (damping["work_per_cycle"]["mean"][k].is_null()) continue;
     ++known;
-    // The same law, read from the file; a force is sought in it to 1e-12.
+    // The law is read from the file; a force is sought in it to 1e-12.
     const auto alone = test.run(
         "damping --curve curve.h5 --poisson 0.3 --normal-amplitude 0.1nm --drag-velocity 1mm/s "
         "--frequency 20kHz --json --pressure " +

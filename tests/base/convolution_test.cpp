@@ -104,8 +104,8 @@ TEST_CASE("A convolution of rows that are made and taken one by one is that of t
   // full.
   const Case shape = GENERATE(Case{96, 64, 96, 64}, Case{45, 20, 90, 40}, Case{1, 5, 1, 5});
   const int components = GENERATE(1, 2);
-  // Of the first two pairs one row is empty each, of the next both. The second component has other
-  // empty rows.
+  // One row of each of the first two pairs is empty, and both of the next. The second component has
+  // other empty rows.
   const auto empty = [&](int component, Index row) {
     const Index half = (std::min<Index>(shape.nx, 16) + 1) / 2, shifted = row - component;
     return shifted == 0 || shifted == half + 1 || shifted == 2 || shifted == half + 2;

@@ -109,7 +109,7 @@ TEST_CASE("The closest limit on the way to the root of the cgroups counts", "[me
   CHECK(machine.left() == 600e6);
   machine.group2("/batch/user", "1000000000", "max", 601000000, 1000000);
   CHECK(machine.left() == 400e6);
-  // Of a neighbour nothing counts.
+  // A neighbour does not count.
   machine.group2("/batch/other", "1000", "max", 0, 1000);
   CHECK(machine.left() == 400e6);
 }
@@ -207,7 +207,7 @@ TEST_CASE("Two processes that each fit are refused where both do not", "[memory]
   std::atomic<int> refused = 0;
   testing::run_ranks(2, [&](const Communicator& ranks) {
     require(ranks, 0.2 * available);
-    // Of both, whatever each takes.
+    // Both count, whatever each takes.
     try {
       require(ranks, ranks.is_root() ? 1.1 * available : 0.2 * available);
     } catch (const InvalidInput& error) {

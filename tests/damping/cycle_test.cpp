@@ -165,7 +165,7 @@ TEST_CASE("The steps state an error that covers what they lack to many steps", "
   for (const int steps : {8, 16, 20, 32, 45, 64}) {
     const CycleResult cycle = run(steps);
     CHECK(std::abs(cycle.work_per_cycle - settled) <= cycle.step_error);
-    // Not by a wide margin: of use to a reader.
+    // The margin is not wide, so that the number is of use to a reader.
     CHECK(cycle.step_error < 12.0 / steps * settled);
     if (steps == 8) first = cycle.step_error;
     last = cycle.step_error;

@@ -128,7 +128,7 @@ TEST_CASE("A force-controlled exponential contact follows Eqs (12), (15) at ever
 }
 
 TEST_CASE("A flat punch that keeps touching loses nothing (Fig. 3, first row)", "[dissipation]") {
-  // Against the energy ½K_t(v/ω)² of the stretched core.
+  // The scale is the energy ½K_t(v/ω)² of the stretched core.
   const double scale = 0.5 * ratio * 1e6 * std::pow(1e-4 / 300, 2);
   CHECK(relaxation_damping(flat_punch, AtIndentation{1e-6}, slow_drag(5e-7)).work_per_cycle ==
         Approx(0).margin(1e-13 * scale));

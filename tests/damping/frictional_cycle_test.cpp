@@ -393,8 +393,8 @@ TEST_CASE("A drag with friction starts in the state that it would end in", "[fri
   REQUIRE(cycle.converged);
   CHECK(cycle.steady);
   CHECK(cycle.periods <= periods);
-  // The same from a contact without stress, until it slides: sticking on the way, since the force
-  // falls short of μF.
+  // The same follows from a contact without stress, until it slides: sticking on the way, since the
+  // force falls short of μF.
   SlidingContact contact(grid, material,
                          {.friction_coefficient = friction, .motion_scale = std::abs(advance)});
   REQUIRE(contact.advance(levels(0.4).contact_pressure).converged);

@@ -29,7 +29,8 @@ double mindlin_loss(double force, double normal_force, double radius, double she
 }  // namespace
 
 TEST_CASE("A sphere in partial slip loses what Mindlin and Deresiewicz say", "[joint]") {
-  // ../shared/SLIP.md, section 3, in eight digits.
+  // x/x_s = 0.45, 0.6, 0.8 and 1, in eight digits, where x_s = μE*δ/G* is where all of it slides and
+  // T/(μF) = 1 − (1 − x/x_s)^{3/2}; W is mindlin_loss() of that T.
   const Material material = Material::of_contact_modulus(115e9, 0.3);
   const IndenterLaw sphere(paraboloid_profile(10e-3), material);
   const double friction = 0.3, force = 10;
@@ -61,8 +62,12 @@ TEST_CASE("A sphere in partial slip loses what Mindlin and Deresiewicz say", "[j
                     Catch::Contains("must be below 3 N, at which the contact slides"));
 }
 
-TEST_CASE("Exponential law in partial slip: S4, and the third power of small forces", "[joint]") {
-  // ../shared/SLIP.md, section 3: l = 100 nm, F = 1 N, μ = 0.3, ν = 0.3.
+TEST_CASE(
+    "The exponential law in partial slip has its closed form, and the third power of small forces",
+    "[joint]") {
+  // l = 100 nm, F = 1 N, μ = 0.3, ν = 0.3. By Masing's rule on T = μ[F(δ) − F(δ − G*x/(μE*))], with
+  // q = T/(μF): x = −(μE*/G*) l ln(1 − q) and W = 8(μ²E*/G*) l F [−(1 − q/2) ln(1 − q) − q], here in
+  // eight digits for q = 0.1, 0.3, 0.5 and 0.8.
   const double length = 1e-7, friction = 0.3, modulus_ratio = 1.4 / 1.7;
   const ExponentialLaw law(1, length, modulus_ratio);
   const std::pair<double, double> given[] = {{3.838133e-9, 8.0862576e-12},
@@ -77,7 +82,7 @@ TEST_CASE("Exponential law in partial slip: S4, and the third power of small for
     CHECK(loss.work_per_cycle == Approx(8 * friction * friction / modulus_ratio * length *
                                         (-(1 - q / 2) * std::log1p(-q) - q))
                                      .epsilon(1e-9));
-    // d ln W/d ln T of (S4).
+    // d ln W/d ln T of this W.
     const double slope = (0.5 * std::log1p(-q) + (1 - q / 2) / (1 - q) - 1) /
                          (-(1 - q / 2) * std::log1p(-q) - q) * q;
     CHECK(loss.exponent == Approx(slope).epsilon(1e-8));
@@ -94,7 +99,7 @@ TEST_CASE("Exponential law in partial slip: S4, and the third power of small for
 }
 
 TEST_CASE("Storage and loss of a joint are the first harmonic of its loop", "[joint]") {
-  // Of a power that is no whole number: sums over a period are exact for polynomials.
+  // The power is no whole number: sums over a period are exact for polynomials.
   const PowerLaw cone(1e9, 1.5, ratio);
   const double friction = 0.4, amplitude = 2e-7;
   const JointLoss loss =

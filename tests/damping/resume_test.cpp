@@ -12,7 +12,7 @@ const Grid2D grid{22, 18, 1.1e-3, 0.9e-3};
 const Material material = Material::of_contact_modulus(3e9, 0.3);
 const ContactLevels levels = island_levels(grid);
 
-// From the greatest indentation: the first period is not the steady one.
+// The path begins at the greatest indentation: the first period is not the steady one.
 Trajectory two_periods() {
   const Trajectory from_least = trajectory_of(EqualFrequency{0.5, 1e-6, 0.9}, 0.5);
   return {[=](double t) { return from_least.indentation(t + 0.5); },

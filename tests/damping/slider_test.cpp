@@ -84,7 +84,7 @@ TEST_CASE("A slider with falling friction on a rigid contact has the cycle of it
   CHECK(averaged.max_spring_force == Approx(limit - slider.falling_slope * slider.velocity -
                                             slider.spring_stiffness * offset(first))
                                          .epsilon(1e-8));
-  // Of the means over whole samples, one of 260 may be missing.
+  // One of 260 whole samples may be missing in the means.
   CHECK(averaged.stuck_fraction == Approx(stick / (slip + stick)).epsilon(4e-3));
 
   // The full equation, whose contact is elastic: off in proportion to the way μl/g on which the
@@ -276,7 +276,7 @@ TEST_CASE("A threshold over frequency is that over amplitude, read the other way
   CHECK(threshold_angular_frequency(rough, load, amplitude.linear_estimate, slider, friction,
                                     10 * omega)
             .linear_estimate == Approx(omega).epsilon(1e-9));
-  // At most 3 N s/m at this velocity.
+  // The damping is at most 3 N s/m at this velocity.
   Slider steep = slider;
   steep.falling_slope = 20;
   CHECK(std::isnan(threshold_amplitude(rough, load, omega, steep, friction, 50e-9).value));

@@ -43,8 +43,9 @@ double simulated_force(const ContactLaw& law, double middle, const Drag& motion,
 }  // namespace
 
 TEST_CASE("A sliding flat punch has the friction of Popov and Popov", "[sliding]") {
-  // Sphere or punch, F = Kδ while it stays closed: μ_macro/μ = 1 − (u_z/δ0) R(v/v_c), R from
-  // ../shared/SLIP.md, section 2, in five digits.
+  // A punch that stays closed has F = Kδ, so that μ_macro/μ = 1 − (u_z/δ0) R(v/v_c). R was computed
+  // by another program, in five digits; it is within 0.015 of ¾(r − 1)² + ¼(r − 1)⁴, r = v/v_c, the
+  // fit of Popov et al. (2017) to theirs.
   const PowerLaw punch(2e6, 1, ratio);
   const double middle = 1e-6, amplitude = 3e-7, friction = 0.4;
   const double critical = friction / ratio * amplitude * omega;
@@ -66,7 +67,8 @@ TEST_CASE("A sliding flat punch has the friction of Popov and Popov", "[sliding]
             .static_friction_coefficient == Approx(friction * 0.7).epsilon(1e-12));
 }
 
-TEST_CASE("At low speed sliding has the damping constant of S2 and S3", "[sliding]") {
+TEST_CASE("At low speed sliding has the damping constant of the stick during a cycle",
+          "[sliding]") {
   const double decay_length = 1e-7, amplitude = 3e-8, friction = 0.3;
   const ExponentialLaw law(2, decay_length, ratio);
   const auto at = [&](double part) {

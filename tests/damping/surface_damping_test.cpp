@@ -208,7 +208,8 @@ TEST_CASE(
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     REQUIRE(finite[k].converged);
     CHECK(finite[k].window > 100 * motion.normal_amplitude);
-    // Of the first order in u_z/l, 1e-5 over about 0.4, and the difference quotient of the limit.
+    // The differences are of the first order in u_z/l, 1e-5 over about 0.4, and of the difference
+    // quotient of the limit.
     CHECK(finite[k].work_per_cycle == Approx(limit[k].work_per_cycle).epsilon(1e-3));
     CHECK(finite[k].error > 0);
   }
@@ -329,8 +330,8 @@ TEST_CASE("The error of a seam is the change of the loss beyond the scatter of b
     const double change = free[k].work_per_cycle - seamed[k].work_per_cycle;
     const double deviation = seamed[k].scatter / 1.645;  // 90 % of cases
     const double beyond = change * change - 2 * deviation * deviation;
-    // The same numbers in another order. A scatter of a thousandth of the change changes the result
-    // by 1e-6 of it.
+    // Both are the same numbers in another order. A scatter of a thousandth of the change changes
+    // the result by 1e-6 of it.
     CHECK(seamed[k].seam_error == Approx(std::sqrt(std::max(0.0, beyond))).epsilon(1e-9));
     if (beyond > 0 && deviation > 1e-3 * std::abs(change)) ++told_apart;
   }

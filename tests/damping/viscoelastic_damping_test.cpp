@@ -105,7 +105,7 @@ TEST_CASE("Slow oscillation is relaxation damping of the relaxed body", "[viscoe
         const double exact =
             relaxation_damping(law, AtIndentation{indentation}, motion_of(1.0)).work_per_cycle;
         const auto excess = [&](double product) {
-          // Of v/ω of case (b) only the square enters.
+          // Only the square of v/ω of case (b) enters.
           const double omega = product / tau;
           const ViscoelasticDamping found =
               damping(law, standard_solid, motion_of(omega), 512, 400);
@@ -141,7 +141,7 @@ TEST_CASE("Fast oscillation is relaxation damping of the unrelaxed body over a w
     CHECK(found.relaxation_work == Approx(4 * spread * elastic(motion)).epsilon(2e-4));
     CHECK(found.min_contact_radius ==
           Approx(law.contact_radius(indentation - (1 + R) * amplitude)).epsilon(1e-4));
-    // As 1/(ωτ), with K and u_z² as scale.
+    // It falls as 1/(ωτ), with K and u_z² as scale.
     CHECK(found.normal_material_work <
           1e-3 * law.normal_stiffness(indentation) * amplitude * amplitude);
   }

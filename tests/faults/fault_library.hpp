@@ -14,7 +14,7 @@ constexpr std::size_t kinds = 8;
 constexpr std::array<std::string_view, kinds> kind_names{"write", "fsync", "rename", "space",
                                                          "open",  "close", "read",   "memory"};
 
-/// In place of an error: half of the bytes are written; SIGKILL before the call.
+/// What is done in place of an error: half of the bytes are written; SIGKILL before the call.
 constexpr int short_write = -1, killed = -2;
 
 struct Plan {

@@ -367,7 +367,7 @@ class CaseRun {
     return all;
   }
 
-  /// At most about so many of all possible ones, evenly chosen.
+  /// Chooses at most about so many of all possible faults, evenly.
   std::vector<Fault> faults(long most, bool of_memory) const {
     std::vector<Fault> all;
     for (std::size_t k = 0; k < kinds; ++k) {

@@ -351,7 +351,7 @@ TEST_CASE("Fields of a cycle with friction say where it was lost", "[io]") {
   CHECK((frame.field("fields/contact") == (body.contact_pressure > 0).cast<double>()).all());
   CHECK(text_of(scratch / "f-friction.xdmf").find("f-friction-0003.h5:/fields/loss") !=
         std::string::npos);
-  // Of a coupled one the gap is that of the state.
+  // A coupled contact has the gap of its state.
   const CycleState coupled = coupled_state();
   CycleFields(scratch / "f-coupled", surface, {}).write(coupled, 0.375, {});
   const ResultReader with_gap(scratch / "f-coupled-0003.h5");

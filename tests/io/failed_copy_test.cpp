@@ -15,7 +15,7 @@ constexpr long never = -1;
 long allocations_left = never;
 }  // namespace
 
-// Not inlined: GCC would take free() of what came from new for a mistake.
+// This is not inlined: GCC would take free() of what came from new for a mistake.
 [[gnu::noinline]] void* operator new(std::size_t bytes) {
   if (allocations_left != never && allocations_left-- == 0) {
     allocations_left = never;

@@ -23,8 +23,8 @@ bool takes_no_room_in_advance = false;
 
 }  // namespace
 
-// In place of the C library's: the test asks for more room than disks have free. As of file systems
-// that cannot do it.
+// Takes the place of the C library's: the test asks for more room than disks have free, and
+// imitates file systems that cannot promise it.
 extern "C" int fallocate(int descriptor, int mode, off_t start, off_t size) {
   if (!takes_no_room_in_advance)
     return static_cast<int>(syscall(SYS_fallocate, descriptor, mode, start, size));

@@ -174,7 +174,7 @@ TEST_CASE("X3P whose checksums disagree is refused", "[x3p]") {
                    {{"main.xml", main_xml}, {"data.bin", heights}, {"md5checksum.hex", sums}});
   };
   CHECK_NOTHROW(read_surface(with_file(detail::md5(main_xml) + " *main.xml\r\n")));
-  // As SurfaceTopography writes it.
+  // SurfaceTopography writes it so.
   CHECK_NOTHROW(read_surface(with_file(right + " *data.bin\n")));
   CHECK_THROWS_WITH(read_surface(with_file(wrong + " *main.xml\n")),
                     Contains("main.xml") && Contains("checksum"));

@@ -50,13 +50,13 @@ ProgramTest::Result launched(const ProgramTest& test, const std::string& argumen
   return result;
 }
 
-// So many processes of salebra-mpi with these arguments.
+// Runs so many processes of salebra-mpi with these arguments.
 ProgramTest::Result run(const ProgramTest& test, int ranks, const std::string& arguments) {
   return launched(
       test, fmt::format(SALEBRA_MPI_QUIET " -n {} {} {}", ranks, SALEBRA_MPI_PROGRAM, arguments));
 }
 
-// The same by salebra, without the launcher.
+// Runs salebra, without the launcher.
 ProgramTest::Result run_alone(const ProgramTest& test, const std::string& arguments) {
   return test.run("", fmt::format("exec {} {};", SALEBRA_ALONE_PROGRAM, arguments));
 }
@@ -286,8 +286,8 @@ TEST_CASE(
               .status == 0);
   const std::string press =
       "contact rough.h5 --contact-modulus 10GPa --json --pressure 20MPa --precision full " + quiet;
-  // To the launcher, which hands it on, and to one process alone, not the first. Sent when the
-  // first checkpoint appears; one after each iteration leaves time enough.
+  // The signal goes to the launcher, which hands it on, and to one process alone, not the first. It
+  // is sent when the first checkpoint appears; one after each iteration leaves time enough.
   for (const std::string target : {"$launcher", "$(cat pid)"}) {
     const auto stopped = launched(
         test, "",

@@ -298,7 +298,7 @@ def test_measured_surface_to_damping_constant(measured: Path) -> None:
 
 def test_a_sphere_in_partial_slip_is_mindlins() -> None:
     law = salebra.IndenterLaw(salebra.paraboloid_profile(10e-3), salebra.Material(115e9, poisson=0.3))
-    # ../shared/SLIP.md, section 3.
+    # Eight tenths of the x = μE*δ/G* at which all of the contact slides: T = μF(1 − 0.2^{3/2}), and W of Mindlin and Deresiewicz.
     loss = salebra.joint_loss(law, friction_coefficient=0.3, tangential_amplitude=219.16662e-9, force=10.0)
     assert loss.work_per_cycle == pytest.approx(282.28116e-9, rel=3e-7)
     again = salebra.joint_loss(law, friction_coefficient=0.3, tangential_force=loss.tangential_force, force=10.0)

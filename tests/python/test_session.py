@@ -187,7 +187,7 @@ def test_ctrl_c_leaves_a_generator_and_interacting_summits(name: str) -> None:
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode == 0, done.stderr
     seconds, fraction = map(float, done.stdout.split())
-    # Of processor time, so that a busy machine does not matter. What had ended would have told all of it.
+    # Processor time is measured, so that a busy machine does not matter. What had ended would have told all of it.
     assert seconds < 1.0
     assert fraction < 0.95
 

@@ -509,7 +509,7 @@ TEST_CASE("A measured surface has the seam of its edges, and summits within them
 
 TEST_CASE("A smooth shape has no summits from moments, and everything else", "[ensemble]") {
   const Scratch scratch;
-  // Of a paraboloid in a square m0 m4/m2² is below 1: no random surface has such moments.
+  // A paraboloid in a square has m0 m4/m2² below 1: no random surface has such moments.
   write_surface(scratch / "ball.npy", paraboloid_surface({32, 32, 4e-6, 4e-6}, 100e-6), {});
   StudyConfiguration configuration = quick_study(1);
   configuration.surfaces = MeasuredSurface{.file = scratch / "ball.npy"};
@@ -607,8 +607,8 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
             .epsilon(1e-12));
   CHECK(first.spots[6].corrected_area_fraction <
         first.of(ContactModel::bem).curve.samples[6].contact_area_fraction);
-  // The same contact once more: spots of n cells count where 2^k <= n < 2^(k+1), and the largest is
-  // the largest.
+  // This is the same contact once more: spots of n cells count where 2^k <= n < 2^(k+1), and the
+  // largest is the largest.
   const Surface surface = study_surface(result.configuration, first.seed);
   const NormalContactState state =
       press_to_pressure(surface, 1e10, result.pressures[6], {.tolerance = 1e-8});
@@ -691,8 +691,8 @@ TEST_CASE("Statistical, drawn and own summits agree on a Gaussian surface within
     const double statistical = force_at_gap(StatisticalSummits(ensemble, material, grid.area()));
     const double own = force_at_gap(DeterministicSummits(find_summits(surface).summits, material,
                                                          grid.area(), surface.heights.mean()));
-    // As many summits of that density at random: by how much one surface of this size may differ
-    // from the mean, and where the mean is.
+    // As many summits of that density are drawn at random: by how much one surface of this size may
+    // differ from the mean, and where the mean is.
     const int count = int(std::lround(ensemble.summit_density * grid.area()));
     std::vector<double> drawn;
     for (int draw = 0; draw < draws; ++draw)

@@ -222,7 +222,8 @@ TEST_CASE("Surfaces that another kind of processor computed are refused, and kep
   StudyParts parts(scratch.folder, false);
   const std::vector<double> pressures = study_loads(study).pressures;
   const std::string here = arithmetic();
-  // As the oldest processor computes; the baseline of other architectures is all that there is.
+  // It computes as the oldest processor does; the baseline of other architectures is all that there
+  // is.
   setenv("SALEBRA_VECTOR_WIDTH", "baseline", 1);
   const std::string baseline = arithmetic();
   parts.write(StudyParts::key(study, 2), analyse_realisation(study, 2, pressures));

@@ -109,8 +109,9 @@ TEST_CASE("The memory of a sweep does not grow with its loads", "[scaling]") {
       sweep_pressures(surface, material, pressures, {.concurrent_loads = 1});
     });
   };
-  // Of 65536 cells one field alone would be 0.5 MB a load: what grows are samples of 72 bytes. One
-  // load at a time: of two, more loads are more chances that both stand at their peaks at once.
+  // A field of 65536 cells alone would be 0.5 MB a load: what grows are samples of 72
+  // bytes. One load at a time: of two, more loads are more chances that both stand at their peaks
+  // at once.
   CHECK(swept(64) - swept(16) < 48 * 10e3);
 }
 
@@ -135,8 +136,8 @@ TEST_CASE("The memory of a simulated cycle grows by half a byte a cell and step"
                      {.steps = steps, .max_periods = 1, .stick = {.tolerance = 1e-2}});
     });
   };
-  // Over many steps: the pools of the solves grow with the largest sets and leave gaps in the heap,
-  // up to a megabyte in all.
+  // Many steps are taken: the pools of the solves grow with the largest sets and leave gaps in the
+  // heap, up to a megabyte in all.
   const double each = (simulated(256) - simulated(32)) / 224;
   // Sets of the way down are those of the way up: half a set of a byte a cell. A field of doubles
   // would be 8 bytes.

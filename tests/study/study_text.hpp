@@ -34,7 +34,7 @@ rms_height = "10nm"
          "\n" + contact_text(loads);
 }
 
-/// The same at loads so high that no mean gap exceeds the rms height: there is nothing to fit a
+/// The study at loads so high that no mean gap exceeds the rms height: there is nothing to fit a
 /// decay length to.
 inline std::string close_study_text() {
   std::string text = study_text("seeds = [1, 2]", 5);

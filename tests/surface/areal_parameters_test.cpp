@@ -83,7 +83,7 @@ TEST_CASE("The texture direction of one wave is its own", "[areal]") {
     return std::cos(2 * pi * (i * x / lx + j * y / ly) + 0.3);
   });
   const double exact = j == 0 ? 0 : std::atan2(j / ly, i / lx);
-  // To the quarter of a degree between rays, and the steps of half a mode along them.
+  // The error is a quarter of a degree between rays, and the steps of half a mode along them.
   CHECK(areal_parameters(wave).Std ==
         Approx(exact < 0 ? exact + pi : exact).margin(1.5 * pi / 180));
 }

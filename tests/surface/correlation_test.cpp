@@ -184,7 +184,7 @@ TEST_CASE("The scale-dependent slope is the root of the structure function over 
   const double step = profile.distance[1];
   for (std::size_t k = 0; k < scales.spacing.size(); ++k) {
     const auto lag = static_cast<std::size_t>(std::lround(scales.spacing[k] / step));
-    // By transforms on one side, by differences on the other.
+    // One side goes by transforms, the other by differences.
     CHECK(scales.profile_slope[k] ==
           Approx(std::sqrt(profile.structure[lag]) / scales.spacing[k]).epsilon(1e-12));
   }
@@ -202,7 +202,7 @@ TEST_CASE("Below the wavelength at which peaks are as sharp as the tip, a scan i
   const double s = 12.0 / 256, radius = 0.5 / sharpness(s);
   const ReliabilityLimit limit = short_wavelength_limit(wave, {.tip_radius = radius});
   CHECK(limit.pixel == Approx(2.0 / 256));
-  // Of oblong cells the longer side counts.
+  // The longer side of oblong cells counts.
   const Surface oblong = sampled({64, 256, 1, 1}, false, [](double, double) { return 0.0; });
   CHECK(short_wavelength_limit(oblong, {}).pixel == Approx(2.0 / 64));
   // Linear between 11, 12 and 13 steps: 12 itself is hit.

@@ -28,7 +28,7 @@ using SpectrumColumn = std::function<void(Index j, std::span<std::complex<double
 Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column,
                           const Progress& progress = {});
 
-/// The same over the processes of a share of the nx rows. Returns the rows of this process,
+/// Does so over the processes of a share of the nx rows. Returns the rows of this process,
 /// (rows.count(), ny), with the same bits for every number of processes. Each process makes every
 /// ranks-th group of 16 columns, because those near a cut-off are less work to fill. It sends them
 /// to the owners of the rows in batches. The buffers of a batch take at most as much memory as the

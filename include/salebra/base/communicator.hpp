@@ -29,7 +29,7 @@ class Transport {
   };
   virtual void exchange(std::size_t unit, const void* from, const Parts& sent, void* to,
                         const Parts& received) = 0;
-  /// Those of one group, in the order that they have here.
+  /// The processes of one group, in the order that they have here.
   virtual std::shared_ptr<Transport> split(int group) = 0;
 };
 

@@ -35,8 +35,8 @@ class Convolution2D {
   using Symbol = std::function<double(Index i, Index j)>;
 
   explicit Convolution2D(const Shape& shape, int components = 1);
-  /// The same over the processes of a share of the nx rows. Fields, results and the numbers of rows
-  /// are then those of this process; spectra and symbols are spread by columns. apply() is
+  /// Spreads the work over the processes of a share of the nx rows. Fields, results and the numbers
+  /// of rows are then those of this process; spectra and symbols are spread by columns. apply() is
   /// collective and sends each number of a spectrum twice. The result has the same bits for every
   /// number of processes.
   Convolution2D(const Shape& shape, int components, const Share& rows);

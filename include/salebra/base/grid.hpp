@@ -64,7 +64,7 @@ struct Surface {
   /// require_whole(), and throws InvalidInput unless the grid is valid, heights has its shape and
   /// every height is finite. `purpose` completes "undefined points cannot be used in <purpose>".
   void require_complete(const std::string& purpose) const;
-  /// The same of the rows that this process holds, for what takes surfaces that are spread.
+  /// Looks at the rows that this process holds, for what takes surfaces that are spread.
   void require_complete_rows(const std::string& purpose) const;
 };
 

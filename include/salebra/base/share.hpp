@@ -142,8 +142,8 @@ double sum_blocks(const Share& share, const std::function<double(Index, Index)>&
 /// each block of this process, one block after the other.
 std::vector<double> add_blocks(const Share& share, std::size_t count,
                                const std::vector<double>& mine);
-/// The same where body(begin, end, sums) adds to the sums of a block, which are zero at first.
-/// count is that of the first process.
+/// Here body(begin, end, sums) adds to the sums of a block, which are zero at first. count is that
+/// of the first process.
 std::vector<double> sum_blocks(const Share& share, std::size_t count,
                                const std::function<void(Index, Index, std::span<double>)>& body);
 

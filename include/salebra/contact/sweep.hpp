@@ -18,14 +18,14 @@ struct SweepOptions {
   NormalContactOptions contact = {};
   bool stiffness =
       true;  ///< K by a punch solve on each contact set, and K_t = (G*/E*)K where G* is known
-  /// With stiffness: K_t along x by a stick solve on each contact set instead of (G*/E*)K; needs
-  /// the bodies or Poisson's ratio.
+  /// Solves for K_t along x by a stick solve on each contact set instead of (G*/E*)K; needs
+  /// stiffness, and the bodies or Poisson's ratio.
   bool stick = false;
   /// Loads solved at the same time, each on one thread and with 50 to 60 bytes a cell of its own; 1
   /// gives all threads to one load after the other; 0: as many as there are threads.
   int concurrent_loads = 0;
-  /// Of a surface that each of several groups of processes holds, spread over the group (`ranks` of
-  /// the surface is groups->own()). Each group solves some of the loads, one after the other; all
+  /// Groups of processes, each of which holds the surface, spread over the group (`ranks` of the
+  /// surface is groups->own()). Each group solves some of the loads, one after the other; all
   /// processes get all samples. Default: one group.
   std::optional<Groups> groups = {};
   /// Called with the place in `pressures` and the state of each load that converged, as soon as it

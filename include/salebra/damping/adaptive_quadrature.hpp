@@ -34,7 +34,8 @@ struct AdaptiveQuadratureResult {
   /// the cells and the last doubling of the levels made; J. Where the grid is given, its cells are
   /// part of the problem and no error of theirs is in it.
   double error_estimate = 0;
-  /// Of that, the change that the last halving of the cells made, J; 0 where the grid is given.
+  /// The part of it that is the change by the last halving of the cells, J; 0 where the grid is
+  /// given.
   double cell_error = 0;
   bool reached = false;  ///< error_estimate <= relative_error · |W|
   std::vector<QuadratureTrial> trials;
@@ -51,8 +52,8 @@ AdaptiveQuadratureResult adaptive_level_quadrature(const LevelsOnGrid& levels, c
                                                    double mean_indentation,
                                                    const AdaptiveQuadratureOptions& options = {});
 
-/// The same for levels on one grid that cannot be refined, such as those of a measured surface: the
-/// levels alone are chosen.
+/// Takes levels on one grid that cannot be refined, such as those of a measured surface: the levels
+/// alone are chosen.
 AdaptiveQuadratureResult adaptive_level_quadrature(const ContactLevels& levels, const Grid2D& grid,
                                                    const Material& material,
                                                    const Oscillation& motion,

@@ -74,7 +74,7 @@ double damping_constant(double work_per_cycle, const Oscillation& motion);
 double work_per_cycle_exponential(double modulus_ratio, double reference_force, double decay_length,
                                   const Oscillation& motion);
 
-/// The same with the mean force held (a dead weight): F0 = mean_force/I_0(k). Any k >= 0.
+/// The loss with the mean force held (a dead weight): F0 = mean_force/I_0(k). Any k >= 0.
 double work_per_cycle_exponential_held_force(double modulus_ratio, double mean_force,
                                              double decay_length, const Oscillation& motion);
 

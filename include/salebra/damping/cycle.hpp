@@ -125,7 +125,7 @@ struct CycleOptions {
   double direction = 0;  ///< of the tangential motion against x, rad
   /// β/(πE*) of simulate_coupled_cycle, 1/Pa; default: coupling_constant(material).
   std::optional<double> coupling_constant = {};
-  /// Of each tangential solve, on the scale of the tangential motion; work and dissipation agree to
+  /// The tangential solves, on the scale of the tangential motion; work and dissipation agree to
   /// about this tolerance.
   StickOptions stick = {.tolerance = 1e-8};
   Progress on_progress = {};
@@ -141,18 +141,18 @@ struct CycleResult {
   /// ∮F_x dx less the change of the stored energy, J; with coupling ∮F dδ too. Cells that enter in
   /// a step count from their entry.
   double work_per_cycle = 0;
-  /// The same loss as an independent sum over the cells, J: ½∫τ·[u] of cells as they leave the
-  /// contact, or with friction ∮∫τ·ds.
+  /// The loss as an independent sum over the cells, J: ½∫τ·[u] of cells as they leave the contact,
+  /// or with friction ∮∫τ·ds.
   double dissipated = 0;
-  /// Of `dissipated`, J: by cells that open and close, which becomes the relaxation loss of the
-  /// paper as μ → ∞, and by slip in cells that are in contact all the time, which becomes Mindlin's
-  /// loss as u_z → 0. friction_map splits by the springs of the method of dimensionality reduction,
-  /// which are not cells: the totals agree, the parts differ. Cone at 90°, M = μE*u_z/(G*u_x) =
-  /// 0.3: relaxation over W(∞) is 0.50 by cells and 0.32 by springs.
+  /// Two parts of `dissipated`, J: by cells that open and close, which becomes the relaxation loss
+  /// of the paper as μ → ∞, and by slip in cells that are in contact all the time, which becomes
+  /// Mindlin's loss as u_z → 0. friction_map splits by the springs of the method of dimensionality
+  /// reduction, which are not cells: the totals agree, the parts differ. Cone at 90°, M =
+  /// μE*u_z/(G*u_x) = 0.3: relaxation over W(∞) is 0.50 by cells and 0.32 by springs.
   double relaxation_work = 0;
   double slip_work = 0;
   double normal_work = 0;  ///< ∮F dδ, part of work_per_cycle, J; 0 without coupling
-  /// Of normal_work, what the steps make of gaps that close and open within one of them, J
+  /// The part of normal_work that the steps make of gaps that close and open within one of them, J
   /// (CoupledContact::gap_work); 0 without coupling. work_per_cycle = dissipated + gap_work to the
   /// solvers' tolerance.
   double gap_work = 0;
@@ -219,9 +219,9 @@ CycleResult simulate_frictional_cycle(const PressureLevels& levels, const Grid2D
                                       const Material& material, const Trajectory& trajectory,
                                       const CycleOptions& options = {});
 
-/// The same with the coupling of normal and tangential directions (Dundurs' β): in each step the
-/// pressures follow the tractions and the tractions the pressures, and F does work over a cycle
-/// too. Compared with simulate_frictional_cycle it shows when the coupling, which the paper
+/// Simulates a cycle with the coupling of normal and tangential directions (Dundurs' β): in each
+/// step the pressures follow the tractions and the tractions the pressures, and F does work over a
+/// cycle too. Compared with simulate_frictional_cycle it shows when the coupling, which the paper
 /// neglects, may be left out. The contact is made from first touch in steps/4 increments without
 /// motion, so that the radial tractions of the first loading are there. work_per_cycle = dissipated
 /// + gap_work to the sweeps' tolerance; gap_work, which the trapezoidal ∫F dδ makes of cells that

@@ -68,9 +68,9 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
                      const TangentialOscillation& motion, double friction_coefficient,
                      const DampingOptions& options = {});
 
-/// The same with a normal oscillation δ + u_z cosωt while the displacement is x cos(ωt + φ0), or
-/// the force T cos(ωt + φ0). Followed step by step to the steady state: exact for straight steps,
-/// of second order in their length. The exponent is that of ±1 % of the motion.
+/// Adds a normal oscillation δ + u_z cosωt while the displacement is x cos(ωt + φ0), or the force T
+/// cos(ωt + φ0). Followed step by step to the steady state: exact for straight steps, of second
+/// order in their length. The exponent is that of ±1 % of the motion.
 /// steps    in a period, >= 16
 /// throws   NotConverged where a force leads to no steady state within 200 periods; InvalidInput
 ///          also where the normal force falls to what slides
@@ -80,9 +80,9 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
                      const TangentialOscillation& motion, double friction_coefficient,
                      double normal_amplitude, double phase, int steps = 2000);
 
-/// The same in three dimensions: cells with Coulomb's friction, through the motion until two
-/// periods lose the same (simulate_frictional_cycle). Relaxation and slip are told apart by cells,
-/// not by springs; the exponent is NaN.
+/// Simulates the joint in three dimensions: cells with Coulomb's friction, through the motion until
+/// two periods lose the same (simulate_frictional_cycle). Relaxation and slip are told apart by
+/// cells, not by springs; the exponent is NaN.
 /// options    with a finite friction_coefficient > 0
 /// converged  every solve did, and the loss is steady
 /// throws     InvalidInput as above

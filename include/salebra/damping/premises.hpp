@@ -134,7 +134,7 @@ struct Words<Regime> {
 /// Largest motion that keeps the slip premises to 5 % with a coefficient of friction.
 struct LargestMotion {
   double friction_coefficient = ContactFacts::unknown;
-  /// Of the opening levels: v of case (b), m/s, else u_x, m.
+  /// The limit of the opening levels: v of case (b), m/s, else u_x, m.
   double drag_velocity = ContactFacts::unknown;
   double tangential_amplitude = ContactFacts::unknown;
   double excursion =
@@ -267,8 +267,8 @@ constexpr void describe(auto&& visit, std::type_identity<LossWithSlip>) {
   visit(&S::full_stick_work, quantity::full_stick_work);
 }
 
-/// The same springs with friction. Case (b) without an excursion: sliding that goes on, all levels
-/// slip; with one: mean of a cycle on the way there and back.
+/// Takes the same springs with friction. Case (b) without an excursion: sliding that goes on, all
+/// levels slip; with one: mean of a cycle on the way there and back.
 /// throws  InvalidInput for μ or an excursion that is not > 0, and as relaxation_damping()
 LossWithSlip loss_with_slip(const ContactLaw& law, double mean_indentation,
                             const Oscillation& motion, double friction_coefficient,

@@ -169,8 +169,8 @@ SliderMotion averaged_slider_motion(const ContactLaw& law, const Position& posit
 struct SliderStability {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double sliding_damping = unknown;  ///< dT̄/dv at V, by steady_sliding(), N s/m
-  /// Of sliding_damping beside slider_damping, N s/m: what the mass does within a period. NaN: too
-  /// much for an estimate.
+  /// Difference of sliding_damping from slider_damping, N s/m: what the mass does within a period.
+  /// NaN: too much for an estimate.
   double sliding_damping_error = unknown;
   /// What has to take the place of dT̄/dv for the mass and the spring alone to have the full
   /// equation's growth, N s/m; NaN where K_t/m is so large that the contact swings within a period.
@@ -216,8 +216,8 @@ struct SliderThreshold {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double value = unknown;            ///< of the full equation; NaN: none in the range
   double linear_estimate = unknown;  ///< where dT̄/dv + c = b; NaN: nowhere in the range
-  /// Of linear_estimate: how far it moves with the error of dT̄/dv (SliderStability). NaN: out of
-  /// the range.
+  /// How far linear_estimate moves with the error of dT̄/dv (SliderStability). NaN: out of the
+  /// range.
   double linear_estimate_error = unknown;
 };
 

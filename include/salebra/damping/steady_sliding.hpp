@@ -40,7 +40,7 @@ constexpr void describe(auto&& visit, std::type_identity<SteadySliding>) {
   visit(&S::static_friction_coefficient,
         Quantity{"static_friction_coefficient", dimensionless, "friction coefficient as v -> 0"});
   visit(&S::low_speed_damping,
-        Quantity{"low_speed_damping", damping, "damping constant of slow sliding, Eq. (S2)"});
+        Quantity{"low_speed_damping", damping, "damping constant of slow sliding"});
   visit(&S::relaxation_damping,
         Quantity{"relaxation_damping", damping, "damping constant without slip, case (b)"});
   visit(&S::mean_tangential_force,

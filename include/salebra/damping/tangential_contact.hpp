@@ -54,8 +54,8 @@ class TangentialContact {
   /// Moves on a straight line in (δ, x). Throws InvalidInput outside the range, and where slip
   /// would reach levels below the law's own range.
   void move_to(double indentation, double x);
-  /// The same to where the tangential force is `force`. Throws InvalidInput where no displacement
-  /// has it: |force| is not below μF(δ).
+  /// Moves to where the tangential force is `force`. Throws InvalidInput where no displacement has
+  /// it: |force| is not below μF(δ).
   /// cost     some tens of moves of a copy of the memory
   void move_to_force(double indentation, double force);
 
@@ -63,8 +63,8 @@ class TangentialContact {
   double tangential_force() const;  ///< F_x, N
   double stored_energy() const;     ///< ½∫K_t'(x − x0)²dζ, J
   double dissipated() const;  ///< lost since start() or slide(), J: by levels let go and by slip
-  /// Of dissipated(), what levels below `lowest` lost, which never leave contact: slip as of
-  /// Cattaneo and Mindlin. The rest is what levels lost that open and close; it becomes the
+  /// The part of dissipated() that levels below `lowest` lost, which never leave contact: slip as
+  /// of Cattaneo and Mindlin. The rest is what levels lost that open and close; it becomes the
   /// relaxation loss for μ → ∞.
   double dissipated_in_permanent_contact() const;
   double external_work()

@@ -28,7 +28,8 @@ struct TrajectoryDamping {
   double loss_factor =
       0;  ///< W/(2π · storage_stiffness · ⟨(x − ⟨x⟩)²⟩), W/(2πU) of a harmonic motion; NaN as
       ///< storage_stiffness
-  /// At the samples of the trajectory, in its order: the loop is (displacement, tangential_force).
+  /// Columns at the samples of the trajectory, in its order: the loop is (displacement,
+  /// tangential_force).
   std::vector<double>
       tangential_force;  ///< F_x, N; with drift without the permanent levels' share, which grows
                          ///< for
@@ -63,7 +64,7 @@ constexpr void describe(auto&& visit, std::type_identity<TrajectoryDamping>) {
 TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& trajectory,
                                      const TrajectoryDampingOptions& options = {});
 
-/// The same in full stick for a motion in two tangential directions, x of the trajectory and y. The
+/// The loss in full stick for a motion in two tangential directions, x of the trajectory and y. The
 /// stretch s that a level is let go with is a vector, and ½K_t'|s|² is lost: the sum of both
 /// directions' losses, for a law whose K_t is the same in all of them. Means are of the vectors:
 /// damping constant P/⟨ẋ² + ẏ²⟩, storage stiffness by F_x x + F_y y. With friction the limit of

@@ -12,7 +12,8 @@ namespace salebra {
 /// What a viscoelastic contact that sticks loses in a period of its steady state, and by what.
 struct ViscoelasticDamping {
   double work_per_cycle = 0;  ///< all of it, J: the sum of the next three
-  /// By the material under the normal motion, J: ∮F dδ. It is there without tangential motion too.
+  /// Work of the material under the normal motion, J: ∮F dδ. It is there without tangential motion
+  /// too.
   double normal_material_work = 0;
   double tangential_material_work =
       0;  ///< by the material of springs in contact under the tangential motion, J
@@ -21,8 +22,8 @@ struct ViscoelasticDamping {
   /// tends to the relaxation damping of an elastic body.
   double relaxation_work = 0;
   double power = 0;  ///< work_per_cycle over the period, W
-  /// That of tangential_material_work and relaxation_work over ⟨ẋ²⟩, N s/m; NaN for a motion
-  /// without ẋ.
+  /// Damping constant of tangential_material_work and relaxation_work over ⟨ẋ²⟩, N s/m; NaN for a
+  /// motion without ẋ.
   double damping_constant = 0;
   std::vector<double> force;      ///< F at the samples of the trajectory, N
   double mean_force = 0;          ///< its mean over the period, N

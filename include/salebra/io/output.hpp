@@ -15,9 +15,9 @@ struct WriteOptions {
 /// Numbers of a field in a file.
 enum class FieldType { float64, float32 };
 
-/// For callers that compute for long before they write. InvalidInput if the folder does not exist,
-/// the name is too long or a link to nothing, the file exists (unless overwrite) or is not a
-/// regular file; IoError if the folder is not writable or has no room.
+/// Callers that compute for long before they write ask here first. Throws InvalidInput if the
+/// folder does not exist, the name is too long or a link to nothing, the file exists (unless
+/// overwrite) or is not a regular file; IoError if the folder is not writable or has no room.
 void require_output(const std::filesystem::path& file, const WriteOptions& options = {});
 
 }  // namespace salebra

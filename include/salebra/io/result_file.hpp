@@ -42,7 +42,7 @@ class ResultGroup {
   void dataset(const std::string& name, std::span<const std::int64_t> values,
                const std::vector<std::string>& coordinates, const std::string& units,
                const std::string& long_name);
-  /// In single precision and as small integers: for pictures, which need no more.
+  /// Single precision and small integers are for pictures, which need no more.
   void dataset(const std::string& name, std::span<const float> values,
                const std::vector<std::string>& coordinates, const std::string& units,
                const std::string& long_name);
@@ -127,7 +127,8 @@ class ResultReader {
   /// Names of the coordinates on which a dataset lies.
   std::vector<std::string> coordinates(const std::string& dataset) const;
 
-  /// Of a group or dataset; "/" is the root. Empty where there is none of that name and kind.
+  /// Reads an attribute of a group or dataset; "/" is the root. Empty where there is none of that
+  /// name and kind.
   std::optional<double> number_attribute(const std::string& path, const std::string& name) const;
   std::optional<std::string> text_attribute(const std::string& path, const std::string& name) const;
   /// Names of the attributes of a group or dataset in their order, without those that HDF5 keeps

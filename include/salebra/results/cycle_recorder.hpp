@@ -39,7 +39,7 @@ class CycleRecorder {
   /// Reads the checkpoint to resume from.
   /// throws  InvalidInput for a file that is in the way or of other settings
   CycleRecorder(CycleRecordOptions options, CycleSettings settings, Provenance provenance);
-  /// With fields: writes the mesh of each cycle, in the order of their runs, as PREFIXNAME.xdmf.
+  /// Writes, with fields, the mesh of each cycle, in the order of their runs, as PREFIXNAME.xdmf.
   CycleRecorder(CycleRecordOptions options, CycleSettings settings, Provenance provenance,
                 RecordedContact contact, const std::vector<std::string>& names);
 

@@ -99,8 +99,7 @@ struct StudyConfiguration {
 ///         or a value out of range
 StudyConfiguration read_study_configuration(const std::filesystem::path& file);
 
-/// The same from text; `name` stands for the file in errors, relative paths are taken from
-/// `folder`.
+/// Reads from text; `name` stands for the file in errors, relative paths are taken from `folder`.
 StudyConfiguration parse_study_configuration(const std::string& text, const std::string& name,
                                              const std::filesystem::path& folder = ".");
 

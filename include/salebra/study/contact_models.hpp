@@ -39,7 +39,7 @@ struct StudyModel {
 /// All of them.
 std::span<const StudyModel> contact_models();
 
-/// By its name. Throws InvalidInput "models: …" for another.
+/// Finds a model by its name. Throws InvalidInput "models: …" for another.
 ContactModel contact_model(std::string_view name);
 std::string_view word_of(ContactModel model);
 std::vector<ContactModel> all_contact_models();

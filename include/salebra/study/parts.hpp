@@ -38,9 +38,9 @@ class StudyParts {
   /// Throws InvalidInput where it holds some and resume is false, and where another process has it;
   /// IoError where the folder cannot be created.
   StudyParts(const std::filesystem::path& folder, bool resume);
-  /// Of one of several processes that share the folder. Throws InvalidInput where a process has it
-  /// alone. The folder stays when the object goes, and files that others write into it are left
-  /// alone.
+  /// Opens the folder for one of several processes that share it. Throws InvalidInput where a
+  /// process has it alone. The folder stays when the object goes, and files that others write into
+  /// it are left alone.
   static std::unique_ptr<StudyParts> of_shard(const std::filesystem::path& folder,
                                               const Shard& shard);
   /// Alone, to read realisations of any arithmetic(), since nothing is added to them. Throws
@@ -57,7 +57,7 @@ class StudyParts {
 
   /// Names the realisation: everything that decides it and nothing else.
   static std::uint64_t key(const StudyConfiguration& point, std::uint64_t seed);
-  /// Of all realisations of a study, in ascending order.
+  /// The keys of all realisations of a study, in ascending order.
   static std::vector<std::uint64_t> keys(const StudyConfiguration& study);
   bool holds(std::uint64_t key) const;
   /// Empty where there is none; a damaged one is removed and counts in damaged(). Throws
@@ -69,10 +69,10 @@ class StudyParts {
   /// where another process took the lock over.
   void write(std::uint64_t key, const Realisation& realisation);
   int damaged() const;
-  /// Of every realisation that read() returned.
+  /// The origin of every realisation that read() returned.
   const std::vector<PartOrigin>& origins() const;
-  /// Of the realisations in the folder that have none of these keys, in ascending order: of other
-  /// settings, seeds or versions.
+  /// Origins of the realisations in the folder that have none of these keys, in ascending order: of
+  /// other settings, seeds or versions.
   std::vector<PartOrigin> others(std::span<const std::uint64_t> keys) const;
 
   /// Removes the folder with all that is in it: the study's result is safe elsewhere. only: where

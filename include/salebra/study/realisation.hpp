@@ -260,7 +260,7 @@ bool stick_solves(const StudyConfiguration& configuration);
 SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configuration,
                                               const Grid2D& grid, std::uint64_t seed);
 
-/// Those of the configuration, in the order of contact_models().
+/// The models of the configuration, in the order of contact_models().
 std::vector<StudyModel> models_of(const StudyConfiguration& configuration);
 
 /// The surface of a seed, or the measured one (its plane removed, as the configuration says).

@@ -50,15 +50,15 @@ struct StudyResult {
   /// Mean over the realisations of a number that belongs to one, or to what a model says of one.
   EnsembleMean mean(const NumberOf<Realisation>& number) const;
   EnsembleMean mean(const NumberOf<ModelResult>& number, ContactModel model) const;
-  /// Over the realisations; one surface has no interval.
+  /// Mean over the realisations; one surface has no interval.
   EnsembleMean decay_length(ContactModel model = ContactModel::bem) const;
   EnsembleMean decay_length_over_rms_height(ContactModel model = ContactModel::bem) const;
   /// mean() of a column of ModelResult, such as "area_slope" or "law_bend". Throws InvalidInput for
   /// another name.
   EnsembleMean fitted(std::string_view column, ContactModel model = ContactModel::bem) const;
 
-  /// Of a quantity of each pressure, in the order of pressures; contacts that did not converge take
-  /// no part.
+  /// Means of a quantity of each pressure, in the order of pressures; contacts that did not
+  /// converge take no part.
   std::vector<EnsembleMean> at_pressures(
       const std::function<double(const Realisation&, std::size_t)>& number) const;
   std::vector<EnsembleMean> curve(const NumberOf<ForceSample>& number,

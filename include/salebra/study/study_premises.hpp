@@ -13,9 +13,9 @@ namespace salebra {
 /// surfaces at each pressure.
 struct StudyPremises {
   std::vector<Premises> premises;  ///< for each pressure
-  /// For each pressure; unknown without a coefficient of friction. The curve is interpolated
-  /// between pressures and gives only the ratio of the losses with slip and without: they are times
-  /// what makes full_stick_work the W of StudyResult::stated_damping().
+  /// The loss at each pressure; unknown without a coefficient of friction. The curve is
+  /// interpolated between pressures and gives only the ratio of the losses with slip and without:
+  /// they are times what makes full_stick_work the W of StudyResult::stated_damping().
   std::vector<LossWithSlip> losses;
   std::vector<double> damping_constant_with_slip;  ///< P/⟨ẋ²⟩ of the losses, N s/m
 };

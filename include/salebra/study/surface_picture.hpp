@@ -79,10 +79,10 @@ constexpr void describe(auto&& visit, std::type_identity<SurfacePicture>) {
 /// One picture a study: of its first seed, or of the measured surface.
 bool wants_picture(const StudyConfiguration& configuration, std::uint64_t seed);
 
-/// Without contact as yet. The law of a generated surface is what was asked for, that of any other
-/// a power law through the range in which it is self-affine. The distribution is that of the points
-/// of the maps. A surface may be spread over processes; the first one has the picture. Collective.
-/// Cost: one FFT.
+/// Makes the picture, without contact as yet. The law of a generated surface is what was asked for,
+/// that of any other a power law through the range in which it is self-affine. The distribution is
+/// that of the points of the maps. A surface may be spread over processes; the first one has the
+/// picture. Collective. Cost: one FFT.
 SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& configuration);
 
 }  // namespace salebra

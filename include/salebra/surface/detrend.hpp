@@ -17,12 +17,12 @@ enum class Detrend {
   // between lines away, and with them the waves of the roughness itself that are longer than a
   // line: statistics along y change, those along x do not. The first and the last line do not meet:
   // continued periodically, the surface has a seam there, as any scan has.
-  /// Of each line its least-squares straight line, offset and slope. A feature that covers a part
-  /// of a line shifts the rest of it.
+  /// Takes off each line its least-squares straight line, offset and slope. A feature that covers a
+  /// part of a line shifts the rest of it.
   lines,
-  /// Of each line its offset alone, by which the median of its differences from the line before
-  /// becomes zero; then the plane. A feature shifts nothing unless its edge along y takes half of a
-  /// line. A point is compared with the last one defined before it at its x.
+  /// Takes off each line its offset alone, by which the median of its differences from the line
+  /// before becomes zero; then the plane. A feature shifts nothing unless its edge along y takes
+  /// half of a line. A point is compared with the last one defined before it at its x.
   median_differences
 };
 

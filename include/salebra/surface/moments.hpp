@@ -37,11 +37,11 @@ constexpr void describe(auto&& visit, std::type_identity<HeightStatistics>) {
 /// which a surface is spread; collective.
 HeightStatistics height_statistics(const Surface& surface);
 
-/// Moments of a periodic surface from its spectrum (PHYSICS convention h_rms² = ∫C d²q):
+/// Moments of a periodic surface from its spectrum, whose convention is h_rms² = ∫C d²q:
 ///     m2_x = Σ q_x² |ĥ|²/N², m4_x = Σ q_x⁴ |ĥ|²/N² over the full spectrum, q = 0 left out,
 /// which are those of the trigonometric interpolant; a Nyquist mode counts once, with |q| = π/dx.
 /// Throws InvalidInput unless the surface is periodic and complete. Cost: transforms of all rows
-/// and columns. Of a surface spread over processes as height_statistics.
+/// and columns. A surface may be spread over processes, as in height_statistics.
 SpectralMoments spectral_moments(const Surface& surface);
 
 /// Moments by finite differences of neighbouring points:

@@ -52,9 +52,8 @@ constexpr void describe(auto&& visit, std::type_identity<ConvertedPsd>) {
 ConvertedPsd converted(const RadialSpectrum& spectrum, const Grid2D& grid,
                        PsdConvention convention);
 
-/// Of profiles: C₁ with h_rms² = ∫C₁ dq over all q in salebra and Gwyddion; 2πC₁ with h_rms² =
-/// (1/π)∫C dq over q > 0 in SurfaceTopography.
-/// Throws InvalidInput for the others, which have none.
+/// Profiles have C₁ with h_rms² = ∫C₁ dq over all q in salebra and Gwyddion; 2πC₁ with h_rms² =
+/// (1/π)∫C dq over q > 0 in SurfaceTopography. Throws InvalidInput for the others, which have none.
 ConvertedPsd converted(const ProfilePsd& spectrum, PsdConvention convention);
 
 }  // namespace salebra

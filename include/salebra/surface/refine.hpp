@@ -5,7 +5,7 @@
 
 namespace salebra {
 
-/// The same surface on `factor` times as many points along x and y; every point of the coarse grid
+/// Gives the surface on `factor` times as many points along x and y; every point of the coarse grid
 /// keeps its place and height. A periodic surface: the trigonometric polynomial through its heights
 /// (Fourier interpolation), which adds no waves. Any other, which the contact solver continues
 /// periodically: the periodic bicubic spline through its heights. Its overshoot beside the step at

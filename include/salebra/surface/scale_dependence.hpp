@@ -38,7 +38,7 @@ constexpr void describe(auto&& visit, std::type_identity<ScaleDependence>) {
 
 /// Throws InvalidInput if the heights have not the shape of the grid or hold no complete stencil of
 /// three neighbours along the axis. Cost: one pass over memory, with about 40 over each profile of
-/// 1000 points. Of a surface spread over processes as height_statistics.
+/// 1000 points. A surface may be spread over processes, as in height_statistics.
 ScaleDependence scale_dependence(const Surface& surface, Axis axis);
 
 /// Wavelengths below which a measured surface is the instrument's rather than its own.

@@ -29,7 +29,7 @@ constexpr void describe(auto&& visit, std::type_identity<Summit>) {
   visit(&S::mean_radius, Kept{"mean_radius", "one over the mean curvature", length});
 }
 
-/// Of a surface that is spread over processes each has the summits of its rows.
+/// Each process has the summits of its rows of a surface that is spread.
 struct SummitList {
   std::vector<Summit> summits;
   double searched_area =
@@ -59,7 +59,7 @@ constexpr void describe(auto&& visit, std::type_identity<SummitList>) {
 /// InvalidInput for fewer than 3 × 3 points. Cost: one pass. Collective.
 SummitList find_summits(const Surface& surface);
 
-/// Of an ensemble, as the Greenwood–Williamson theory uses it.
+/// Statistics of an ensemble, as the Greenwood–Williamson theory uses it.
 struct SummitStatistics {
   double summit_density = 0;  ///< summits per searched area, 1/m²
   double mean_height = 0;     ///< from the zero of the heights, m; NaN without summits

@@ -46,13 +46,13 @@ struct ProgressArgument {
 /// raised by rethrow().
 class ProgressBridge {
  public:
-  /// Of several processes the first one shows a bar.
+  /// The first of several processes shows a bar.
   explicit ProgressBridge(const ProgressArgument& argument, const Communicator& ranks = {});
   ProgressBridge(const ProgressBridge&) = delete;
   ProgressBridge& operator=(const ProgressBridge&) = delete;
   ~ProgressBridge();
 
-  /// To be called without the interpreter's lock.
+  /// Call it without the interpreter's lock.
   Progress progress();
   void rethrow();
   bool failed() const { return error_.has_value(); }

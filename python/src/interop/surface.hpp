@@ -38,7 +38,7 @@ inline void require_whole(const BoundSurface& surface, const std::string& purpos
   surface.surface.require_whole(purpose);
 }
 
-/// The same of spectra and summits, of which each process holds those of its columns or rows.
+/// Gathers spectra and summits, of which each process holds those of its columns or rows.
 template <class Part>
 requires std::same_as<Part, PowerSpectrum> || std::same_as<Part, SummitList>
 void require_whole(const Part& part, const std::string& purpose) {
@@ -48,7 +48,7 @@ void require_whole(const Part& part, const std::string& purpose) {
                            purpose + " needs it whole; gather its surface first");
 }
 
-/// Of what can be spread over processes.
+/// The members of what can be spread over processes.
 template <class Bound>
 void require_whole_if_spread(const Bound& bound, const char* purpose) {
   if constexpr (requires { require_whole(bound, purpose); }) require_whole(bound, purpose);

@@ -13,8 +13,8 @@ struct HertzCap {
   double force_radius, area_radius;
 };
 
-/// In the order of the summits. Throws InvalidInput for no summits, or one without a finite height
-/// and a curvature > 0.
+/// The caps in the order of the summits. Throws InvalidInput for no summits, or one without a
+/// finite height and a curvature > 0.
 std::vector<HertzCap> hertz_caps(const std::vector<Summit>& summits, SummitShape shape);
 
 /// What a model of these summits has in common with others; throws as hertz_caps.

@@ -23,7 +23,7 @@ CellWindow loading_window(const ContactSet& contact, const Grid2D& grid, Boundar
 /// Throws InvalidInput unless the set has the grid's shape and, where periodic, a cell that is not
 /// in contact.
 void require_contact(const ContactSet& contact, const Grid2D& grid, Boundary boundary);
-/// The same of a set whose rows are spread over processes. Collective.
+/// Does so for a set whose rows are spread over processes. Collective.
 void require_spread_contact(const ContactSet& contact, const Grid2D& grid, const Share& rows,
                             Boundary boundary);
 /// Throws InvalidInput unless a solve on a contact set can be held to these: 1e-14 … 0.1, and >= 1.

@@ -65,7 +65,7 @@ class KernelTransform {
     });
   }
 
-  // As NormalSymbol::columns.
+  // These are NormalSymbol::columns.
   Field columns(const Share& places, const std::function<Index(Index place)>& column_at) const {
     RealFft2D<double> along_x(1, period_x_);
     Field symbol;

@@ -131,8 +131,8 @@ QuarterSymbol coarsened(const Fine& fine, const LadderStencil& stencil) {
 struct Aliases {
   Eigen::Matrix<double, 4, Eigen::Dynamic> basis;  // of the weights, over W
   Eigen::Vector4d wanted, square;                  // g/W, u²
-  // Of D: what is left once C has taken its part, as a quadratic form, in the Frobenius norm: at
-  // most twice the largest eigenvalue, and least where it is with the C of the header.
+  // The norm of D is what is left once C has taken its part, as a quadratic form, in the Frobenius
+  // norm: at most twice the largest eigenvalue, and least where it is with the C of the header.
   double norm(const Eigen::Vector4d& d) const {
     const double taken = square.dot(d) / square.sum();
     return std::sqrt(std::max(0.0, d.squaredNorm() - taken * taken));

@@ -31,7 +31,7 @@ struct LadderKernels {
   void (*ascent)(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
                  const FramedView& source, const float* stencil, const FramedView& coarse,
                  const Shift& shift, const FramedView& image);
-  // The same with a stencil of 7 × 7, for tiles of one row, into its cells
+  // Does so with a stencil of 7 × 7, for tiles of one row, into its cells.
   void (*last_ascent)(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
                       const FramedView& source, const float* stencil, const FramedView& coarse,
                       const Shift& shift, float* row);

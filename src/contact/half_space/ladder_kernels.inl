@@ -10,7 +10,8 @@ using Length = std::ptrdiff_t;
 typedef float Floats __attribute__((vector_size(register_bytes)));
 inline constexpr int lane_count = register_bytes / 4, registers_of_tile = tile_width / lane_count;
 
-// Of a framed field: rows of another tile are not predicted by the processor's prefetcher.
+// Tiles of a framed field to fetch ahead: rows of another tile are not predicted by the processor's
+// prefetcher.
 inline constexpr Length tiles_ahead = 8;
 
 SALEBRA_INLINE const float* cell(const FramedView& field, Length row, Length column) {
@@ -44,13 +45,13 @@ struct Counted<0, lane...> {
 };
 using EachLane = Counted<lane_count>::Lanes;
 
-// Of two registers one after the other: every second number.
+// Takes every second number of two registers one after the other.
 template <int first, int... lane>
 SALEBRA_INLINE Floats every_second(Floats low, Floats high, Each<lane...>) {
   return __builtin_shufflevector(low, high, (2 * lane + first)...);
 }
-// Those of `every` from its number `first` on, where `every` holds every second number; numbers
-// parity and parity + 2 of what comes after follow.
+// Takes the numbers of `every` from its number `first` on, where `every` holds every second number;
+// numbers parity and parity + 2 of what comes after follow.
 template <int first, int parity, int... lane>
 SALEBRA_INLINE Floats onwards(Floats every, Floats after, Each<lane...>) {
   return __builtin_shufflevector(

@@ -11,7 +11,7 @@
 // with these, and a reader begins here. The solver never calls them.
 namespace salebra::detail::reference {
 
-// Of the cubic B-spline at a distance of k cells of the finer grid.
+// The cubic B-spline at a distance of k cells of the finer grid.
 inline float spline_tap(std::ptrdiff_t k) {
   constexpr std::array<float, 3> taps = {0.75f, 0.5f, 0.125f};
   const auto distance = static_cast<std::size_t>(std::abs(k));

@@ -45,7 +45,7 @@ Share coarser(const Share& finer, Index nx, Index shift) {
   return {finer.ranks(), std::move(begins)};
 }
 
-// Over the tiles of a list, each for itself.
+// Visits the tiles of a list, each for itself.
 template <class Body>
 void for_tiles_of(const std::vector<Tile>& tiles, const Body& body) {
   parallel::for_slabs(static_cast<Index>(tiles.size()), body,

@@ -12,9 +12,9 @@ namespace salebra::detail {
 // made of it: one in float and one in double share it.
 struct NormalSymbol {
   Index period_x = 0, period_y = 0;
-  // Of a free contact in the columns of this process alone, those of a convolution of its rows.
+  // A free contact has the columns of this process alone, those of a convolution of its rows.
   Convolution2D<double>::Symbol value;
-  // Of a free contact any columns, collectively: (places.count(), period_x/2 + 1), column_at(place)
+  // Any columns of a free contact, collectively: (places.count(), period_x/2 + 1), column_at(place)
   // for each place of this process. Empty for a periodic one, which has its value in every column.
   std::function<Field(const Share& places, const std::function<Index(Index place)>& column_at)>
       columns;

@@ -22,7 +22,7 @@ inline constexpr int register_bytes = 16;
 // Σ weight(i, j) x(i, j) over |i|, |j| <= radius around each of 16 cells of a framed field. The
 // weights, (2 radius + 1)², are symmetric about both axes.
 #if defined(__AVX512F__)
-// From whole cache lines: rows above and below are added before they are weighted, and neighbours
+// Reads whole cache lines: rows above and below are added before they are weighted, and neighbours
 // in a row come from two registers by one permutation, which is cheaper than a load that crosses a
 // line.
 template <class Real, int radius>

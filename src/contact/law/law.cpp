@@ -209,7 +209,7 @@ double TabulatedLaw::indentation_of(double force) const {
   const double log_force = std::log(force);
   const double low = splines_->log_force.at(lowest_indentation()).value;
   const double high = splines_->log_force.at(highest_indentation()).value;
-  // The same allowance for round-off as in clamp().
+  // Round-off has the allowance that clamp() gives it.
   const double slack = 1e-12 * (high - low);
   if (!(log_force >= low - slack && log_force <= high + slack)) {
     std::ostringstream constraint;

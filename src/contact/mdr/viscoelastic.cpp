@@ -124,14 +124,14 @@ ViscoelasticIndentation viscoelastic_indentation(const IndenterLaw& law, const P
   const detail::SpringPath path(spring, time, indentation);
   const double largest = law.contact_radius(std::ranges::max(indentation));
   detail::SpringLayout layout(law.profile(), 0, largest, springs);
-  // Without width: the radius is interpolated between springs.
+  // The outermost cell has no width: the radius is interpolated between springs.
   layout.cells.push_back({largest, largest, 0, law.profile().image(largest)});
 
   ViscoelasticIndentation result;
   const std::size_t samples = time.size();
   result.force.resize(samples);
   result.contact_radius.resize(samples);
-  // Of the next spring towards the axis; the first has none.
+  // The clearance of the next spring towards the axis; the first has none.
   std::vector<double> inner_clearance(samples, 0);
   double inner_edge = 0;
   for (const detail::SpringLayout::Cell& cell : layout.cells) {

@@ -63,8 +63,7 @@ class MaxwellSpring {
   Branches recovered(const Branches& y, double duration) const {
     return from_modes(to_modes(y) * mode_decay(duration));
   }
-  /// As matrices: of the branches, and of their anchors z_i = w − y_i, where w = Σ r_i z_i/(1 + Σ
-  /// r).
+  /// Matrices of the branches, and of their anchors z_i = w − y_i, where w = Σ r_i z_i/(1 + Σ r).
   Eigen::MatrixXd recovery(double duration) const {
     return from_modes_ * mode_decay(duration).matrix().asDiagonal() * to_modes_;
   }
@@ -109,8 +108,8 @@ class NormalSpring {
   NormalSpring(const MaxwellSpring& spring, double level)
       : spring_(spring), level_(level), y_(Branches::Zero(spring.terms())), modes_(y_) {}
 
-  /// From anchors w − y_i of the branches: in contact where the indenter is below the surface that
-  /// they have without force.
+  /// Starts from anchors w − y_i of the branches: in contact where the indenter is below the
+  /// surface that they have without force.
   void start(double indentation, const Branches& anchors) {
     const double depth = indentation - level_, free = spring_.free_displacement_of_anchors(anchors);
     closed_ = depth > free;
@@ -134,8 +133,8 @@ class NormalSpring {
                    : displacement(indentation) - (indentation - level_);
   }
 
-  /// Through one step of the path; calls on_part(closed, share of the step, work of the force) for
-  /// each part between touch and release.
+  /// Goes through one step of the path; calls on_part(closed, share of the step, work of the force)
+  /// for each part between touch and release.
   template <class OnPart>
   void advance(const SpringPath& path, std::size_t step, OnPart&& on_part);
 

@@ -49,9 +49,9 @@ class ActiveSetCg {
   ActiveSetCg(const Grid2D& grid, double contact_modulus, Boundary boundary, const Heights& heights,
               double rms_height)
       : ActiveSetCg(grid, Share(grid.nx), contact_modulus, boundary, heights, rms_height) {}
-  // Over the processes of a share of the rows: fields, and tiles, are those of the rows of this
-  // process, and each call is collective. All decisions follow from sums that have the same bits
-  // everywhere, so that no process leaves the others waiting.
+  // Works over the processes of a share of the rows: fields, and tiles, are those of the rows of
+  // this process, and each call is collective. All decisions follow from sums that have the same
+  // bits everywhere, so that no process leaves the others waiting.
   ActiveSetCg(const Grid2D& grid, const Share& rows, double contact_modulus, Boundary boundary,
               const Heights& heights, double rms_height);
 

@@ -81,15 +81,15 @@ struct ActiveSetOutcome {
   int fft_count = 0;
   int exact_fft_count = 0;  // of them in double precision, where the inner loop is not
   int ladder_count = 0;     // applications of the near-field ladder in place of a transform
-  // For profiles: seconds in transforms, of them in exact ones, on the ladder, and the cells of the
-  // tiles summed over the iterations.
+  // Profiles read these: seconds in transforms, of them in exact ones, on the ladder, and the cells
+  // of the tiles summed over the iterations.
   double fft_seconds = 0, exact_fft_seconds = 0, ladder_seconds = 0;
   double active_cells = 0, resting_cells = 0;
   bool converged = false;
   bool interrupted = false;
 };
 
-// Over all cells: where the contact plane is, and how far p and g are from complementary.
+// Measures over all cells where the contact plane is, and how far p and g are from complementary.
 struct ContactResidual {
   double level = 0;     // mean g of the cells with 0 < p < bound, or the level prescribed
   double residual = 0;  // e_c

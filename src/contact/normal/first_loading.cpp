@@ -52,7 +52,7 @@ FirstLoading sink_in(Field& heights, const Field& displacement, const NormalCont
           .max_plastic_depth = total.deepest};
 }
 
-// Of the load: the oscillation passes the hardness by no more than this.
+// Part of the load by which the oscillation passes the hardness at most.
 constexpr double load_tolerance = 1e-3;
 constexpr int most_loadings = 20;
 

@@ -97,7 +97,8 @@ class Descent {
       if (step <= room) {
         take_multiple(direction, -step);
       } else {
-        // Beyond the first bound: the projected step if it descends, or else as far as the bound.
+        // Beyond the first bound the projected step is taken if it descends, or else the step as
+        // far as the bound.
         const Field change = projected(p_ - step * direction) - p_;
         const Field down = gradient();
         const double slope = sum(down * change);
@@ -193,7 +194,7 @@ class Descent {
     return (x + shift).max(0.0).min(target_.bound);
   }
 
-  // Over the cells of all processes, added within blocks of rows.
+  // Sums over the cells of all processes, added within blocks of rows.
   template <class Values>
   double sum(const Values& values) const {
     return parallel::sum_blocks(rows_, [&](Index begin, Index end) {

@@ -159,7 +159,7 @@ double mean_depth_of(const MultigridLevel& level) {
   return sum / static_cast<double>(level.grid.points());
 }
 
-// From the coarsest level to the finest.
+// Solves from the coarsest level to the finest.
 template <class Real>
 Solution solve_nested(const Scaled& scaled, const Share& rows, const Heights& heights,
                       double rms_height, double mean_depth, const ContactTarget& target,

@@ -105,7 +105,7 @@ struct TileKernels {
   // Frees held cells whose gap has the wrong sign, holds free cells whose pressure left its bounds.
   SetSums (*change_set)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                         double level);
-  // The same, and p becomes min(scale·max(p, 0) + shift, bound), or the bound where it is full_from
+  // Does so, and p becomes min(scale·max(p, 0) + shift, bound), or the bound where it is full_from
   // or more, z the change of p.
   void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double level,
                    double scale, double shift, double full_from);

@@ -17,7 +17,7 @@ struct Lanes {
     for (int lane = 0; lane < tile_width; ++lane) total += value[lane];
     return total;
   }
-  // By halves, which vectorises.
+  // Goes by halves, which vectorises.
   double least() const {
     Lanes left = *this;
     for (int half = tile_width / 2; half > 0; half /= 2)
@@ -77,7 +77,7 @@ SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, c
   }
 }
 
-// The same, where a quiet tile adds nothing and does not change.
+// Does so where a quiet tile adds nothing and does not change.
 template <Reads reads, class Real, class Body>
 SALEBRA_INLINE void for_active_tiles(const TileArrays<Real>& a, Size begin, Size end,
                                      const Body& body) {

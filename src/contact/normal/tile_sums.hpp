@@ -40,7 +40,7 @@ inline void add(SetSums& total, const SetSums& part) {
   total.count += part.count;
   total.g += part.g;
 }
-// Over the cells of a punch: its load, and how far its displacement is from 1.
+// Sums over the cells of a punch: its load, and how far its displacement is from 1.
 struct PunchSums {
   double load = 0, misfit = 0, cells = 0;
 };

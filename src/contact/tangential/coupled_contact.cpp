@@ -36,9 +36,9 @@ struct CoupledContact::Parts {
 
   double force() const { return surface.grid.cell_area() * sliding.contact_pressure().sum(); }
 
-  // The same rigid approach above a surface that the tractions have displaced by `sunk`; cells
-  // `out` stay out of the contact, so that the others carry what these would. Their gap may be
-  // below 0.
+  // Presses to the same rigid approach above a surface that the tractions have displaced by `sunk`;
+  // cells `out` stay out of the contact, so that the others carry what these would. Their gap may
+  // be below 0.
   NormalContactState press(double approach, const Field& sunk, Field guess,
                            const ContactSet& out) const {
     Surface lowered{surface.grid, surface.heights - sunk, surface.periodic, surface.origin};

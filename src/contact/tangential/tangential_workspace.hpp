@@ -25,7 +25,7 @@ class TangentialWorkspace {
   const StickOptions& options() const { return options_; }
   std::size_t components() const { return options_.hold_lateral ? 2 : 1; }
 
-  /// For every set within an earlier one without set-up.
+  /// Needs no set-up for a set within an earlier one.
   ContactSystem& system_for(const ContactSet& contact);
   /// The cells of the window that the last set-up was for; empty where there was none.
   ContactSet prepared() const;

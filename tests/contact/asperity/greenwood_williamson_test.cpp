@@ -251,7 +251,7 @@ TEST_CASE("Curves at given pressures have those pressures, in ascending order", 
   const SummitEnsemble ensemble = summit_ensemble(1e-14, 1e-2, 1e12);
   const Material material = Material::of_contact_modulus(1e9, 0.25);
   const StatisticalSummits summits(ensemble, material, 4e-8);
-  // From the far tail of the heights to a plane below all summits.
+  // The planes go from the far tail of the heights to below all summits.
   const ForceCurve curve = curve_at_pressures(summits, {1e9, 1e6, 1e-60});
   REQUIRE(curve.samples.size() == 3);
   CHECK(curve.rms_height == Approx(1e-7));

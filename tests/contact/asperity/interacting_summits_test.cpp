@@ -116,7 +116,7 @@ TEST_CASE("Sparse summits do not feel each other", "[interacting]") {
 }
 
 TEST_CASE("Sparse elliptical summits have the area of Hertz's ellipses", "[interacting]") {
-  // As above: what the neighbours press out is 1e-3 of δ at most. The area of an ellipse of axes in
+  // As above, what the neighbours press out is 1e-3 of δ at most. The area of an ellipse of axes in
   // the ratio of these curvatures is a tenth less than that of the force's circle.
   std::vector<Summit> summits = random_summits(10, 1e-4, 1e2);
   for (Summit& summit : summits) summit.curvature2 /= 8;
@@ -261,7 +261,7 @@ TEST_CASE("Interacting summits say what they cannot have", "[interacting]") {
                                  SummitShape::circular, {.max_iterations = 1});
   CHECK_FALSE(hasty.at(0).converged);
   CHECK_FALSE(curve_at_separations(hasty, {0}).samples[0].converged);
-  // Of a load there is then no gap either, and no separation.
+  // A load then has no gap either, and no separation.
   const ForceSample lost = curve_at_pressures(hasty, {1}).samples[0];
   CHECK_FALSE(lost.converged);
   CHECK(std::isnan(lost.mean_gap));

@@ -372,8 +372,8 @@ TEST_CASE("Wave by wave the operator is what its stencils and splines say") {
 }
 
 TEST_CASE("A ladder with new tiles forgets what was on the old ones") {
-  // As in a solve, where a refresh drops tiles: what is left on a coarser level would act on all
-  // cells through the last transform.
+  // This is as in a solve, where a refresh drops tiles: what is left on a coarser level would act
+  // on all cells through the last transform.
   for (const auto boundary : {Boundary::periodic, Boundary::free}) {
     const Grid2D grid = cells(512, 512);
     auto used = ladder_for(grid, boundary), fresh = ladder_for(grid, boundary);
@@ -412,8 +412,8 @@ TEST_CASE("A constant pressure has no displacement where the mean is the referen
   REQUIRE(ladder);
   TiledField x(grid, 1, 1);
   for (Index i = 0; i < grid.nx; ++i) std::fill_n(x.source.row(i), grid.ny, 1.0f);
-  // Against the displacement of one cell under the same pressure, 1.12: rounding of float in sums
-  // of some hundred numbers.
+  // The scale is the displacement of one cell under the same pressure, 1.12: rounding of float in
+  // sums of some hundred numbers.
   CHECK(x.image(*ladder).abs().maxCoeff() < 2e-4);
 }
 

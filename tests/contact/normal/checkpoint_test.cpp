@@ -58,8 +58,8 @@ TEST_CASE("Checkpoints change no bit of a contact, and a later one starts from t
     CHECK((present >= 0 && present <= std::min(1.0, options.hardness * (1 + 1e-14))).all());
     CHECK((present > 0).any());
   }
-  // In Pa, not in the units of the solver: the last one is the result but for its last correction
-  // of the load.
+  // Checkpoints are in Pa, not in the units of the solver: the last one is the result but for its
+  // last correction of the load.
   CHECK(watched.pressures.back().mean() == Approx(pressure).epsilon(1e-3));
 
   // As float, as a file keeps it. The residual is an energy of the order of the square of the

@@ -72,7 +72,7 @@ TEST_CASE("The perimeter runs along cell edges and corrects the area by a share 
 }
 
 TEST_CASE("The corrected area of a coarse grid is that of a fine one", "[spots]") {
-  // The same surfaces, their short cut-off at 8 and at 32 cells.
+  // Both are the same surfaces, with their short cut-off at 8 and at 32 cells.
   const SelfAffineSpectrum spectrum(
       {.hurst = 0.8, .rolloff = 1.0 / 2, .short_cutoff = 8.0 / 64, .rms_slope = 0.1});
   double counted = 0, corrected = 0, exact = 0;

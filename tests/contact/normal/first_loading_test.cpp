@@ -35,7 +35,7 @@ NormalContactOptions elastic(NormalContactOptions options) {
 
 Surface rough() { return rough_surface({64, 64, 1e-3, 1e-3}); }
 
-/// Of rough(), Pa.
+/// The largest elastic pressure of rough(), Pa.
 double largest_elastic_pressure(Boundary boundary) {
   return press_to_pressure(rough(), contact_modulus, pressure, elastic(contact(boundary, 1)))
       .contact_pressure.maxCoeff();

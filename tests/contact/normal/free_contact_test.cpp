@@ -237,7 +237,7 @@ TEST_CASE("A flat square punch is linear: its force is its stiffness times its i
 TEST_CASE("A free contact does not feel the size of its grid", "[normal]") {
   const auto pressed = [](Index n, double side) {
     const double cell = side / double(n);
-    // The same cells around the summit on both grids.
+    // Both grids have the same cells around the summit.
     const Surface surface = surface_of({n, n, side, side}, [=](double x, double y) {
       return -(std::pow(x - side / 2, 2) + std::pow(y - side / 2, 2)) / 2e-2 + 0 * cell;
     });

@@ -160,8 +160,8 @@ TEST_CASE("Tiles that come into contact only after a refresh are on the ladder t
           solver.solve({ContactTarget::Kind::level, depth * rms}, limits, p.data(), g.data());
       CHECK(outcome.converged);
       CHECK(outcome.ladder_count > 0);
-      // As from any start: seven are measured. With the tiles of the patch alone there are 28 and
-      // more, or no end.
+      // It takes as many as from any start: seven are measured. With the tiles of the patch alone
+      // there are 28 and more, or no end.
       CHECK(outcome.fft_count <= 8);
     }
 }
@@ -195,7 +195,7 @@ TEST_CASE(
                               Share(512))
         .apply(plain.pressure.data(), exact.data());
     exact -= surface.heights - heights.zero;
-    // The same numbers by the same transform, but for what it reads of rows without load.
+    // Both are the same numbers by the same transform, but for what it reads of rows without load.
     CHECK((plain.gap - exact).abs().maxCoeff() < 1e-13 * rms);
     const double level = plain.outcome.level;
     for (const double off : {0.0, 0.05, -1.0, 2.0}) {

@@ -62,7 +62,7 @@ void require_same(const NormalContactState& alone, const NormalContactState& tog
 
 using Press = std::function<NormalContactState(const Surface&)>;
 
-// The same contact, and its stiffness, by so many processes.
+// Compares the same contact, and its stiffness, by so many processes.
 void compare(const Surface& surface, const Press& press, const NormalContactOptions& options,
              int ranks) {
   const NormalContactState alone = press(surface);
@@ -374,8 +374,8 @@ TEST_CASE("A sweep that one process stops ends in all of them with the same load
   options.contact.on_progress = [&](const ProgressReport&) { return ++calls > 0; };
   const std::vector<double> pressures{1e-3, 2e-3, 4e-3};
   REQUIRE(sweep_pressures(surface, material, pressures, options).samples.size() == 3);
-  // Within a contact, within each of the two stiffness solves, and between two loads; the last call
-  // follows the last load.
+  // The stops are within a contact, within each of the two stiffness solves, and between two loads;
+  // the last call follows the last load.
   for (int stop = 1; stop < calls; stop += 3) {
     CAPTURE(stop, calls);
     std::vector<std::size_t> loads(3);

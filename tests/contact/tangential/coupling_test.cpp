@@ -239,7 +239,8 @@ TEST_CASE("On any path of a coupled contact what is put in is stored or lost", "
     const double put_in = contact.sliding().work() + contact.normal_work() - contact.gap_work();
     // The sweeps end at 1e-6 of the pressures.
     CHECK(contact.stored_energy() + contact.sliding().loss().sum() == Approx(put_in).epsilon(1e-5));
-    // Of it the energy of the tractions by themselves: with the displacements that they alone make.
+    // A part of it is the energy of the tractions by themselves: with the displacements that they
+    // alone make.
     const TangentialField& traction = contact.sliding().traction();
     const TangentialField own = alone.displacement(everywhere, traction, everywhere);
     CHECK(contact.sliding().stored_energy() ==

@@ -147,7 +147,7 @@ TEST_CASE("Partial slip on islands obeys Coulomb's law in every cell", "[slip]")
   CHECK(report.slipping > 50);
   CHECK(contact.count() - report.slipping > 50);
   const TangentialField moved = solver.displacement(contact, traction, contact);
-  // In units of the scale: the solver bounds the rms of what is here checked in each cell of some
+  // The unit is the scale: the solver bounds the rms of what is here checked in each cell of some
   // 700.
   const double close = 100 * tolerance * scale;
   for (Index ix = 0; ix < grid.nx; ++ix)

@@ -39,7 +39,7 @@ class ProfileSpectrum {
   virtual SpectralMoments moments() const = 0;
   virtual std::string description() const = 0;
 
-  /// The same as sums over the modes of a periodic line of so many points.
+  /// Moments as sums over the modes of a periodic line of so many points.
   SpectralMoments lattice_moments(Index points, double length) const;
   /// Throws InvalidInput for a shortest wavelength below two steps or above the length.
   void require_carried_by(Index points, double length) const;

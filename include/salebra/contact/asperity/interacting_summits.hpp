@@ -8,7 +8,7 @@
 namespace salebra {
 
 struct InteractionOptions {
-  /// Of the greatest error of a summit's indentation, over the greatest indentation.
+  /// The largest error of a summit's indentation, over the largest indentation.
   double tolerance = 1e-10;
   int max_iterations = 100;  ///< Newton steps, >= 1
   /// "interacting summits", after every sum over the summits; step: Newton steps done. A stop
@@ -55,8 +55,8 @@ class InteractingSummits final : public AsperityModel {
   };
   /// progress: takes the place of InteractionOptions::on_progress, in what follows too.
   State solve(double separation, const Progress& progress = {}) const;
-  /// Under a force > 0, N, which it carries to round-off; near: a state to start from, such as that
-  /// of the load before.
+  /// The state under a force > 0, N, which it carries to round-off; near: a state to start from,
+  /// such as that of the load before.
   State solve_for_force(double force, const State* near = nullptr,
                         const Progress& progress = {}) const;
   AsperityContact contact_of(const State& state, const Progress& progress = {}) const;

@@ -14,7 +14,7 @@ namespace salebra {
 /// order of the bodies; 0 for equal bodies and for incompressible ones.
 /// Throws InvalidInput as Material::of_bodies does.
 double coupling_constant(const ElasticBody& first, const ElasticBody& second = {});
-/// The same of a material whose first body has all the compliance, (c1 − c2)/2 with Cerruti's
+/// The constant of a material whose first body has all the compliance, (c1 − c2)/2 with Cerruti's
 /// constants: exact for one elastic body against a rigid one, otherwise the largest that two bodies
 /// with these constants can have. Throws InvalidInput where the material does not know them.
 double coupling_constant(const Material& material);

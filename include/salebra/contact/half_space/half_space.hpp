@@ -29,9 +29,9 @@ struct CellIntegrals {
   double yy = 0;  ///< ∬ η²/r³, m
   double xy = 0;  ///< ∬ ξη/r³, m
 };
-/// From the primitives ξ asinh(η/|ξ|) + η asinh(ξ/|η|), its second term, its first term, and −r at
-/// the four corners; beyond 32 cells, where those cancel each other, by Gauss's quadrature.
-/// Relative error below 1e-12 for squares at any distance.
+/// Computed from the primitives ξ asinh(η/|ξ|) + η asinh(ξ/|η|), its second term, its first term,
+/// and −r at the four corners; beyond 32 cells, where those cancel each other, by Gauss's
+/// quadrature. Relative error below 1e-12 for squares at any distance.
 CellIntegrals cell_integrals(double x, double y, double dx, double dy);
 
 /// Normal displacement of a pressure field, u = Gp:

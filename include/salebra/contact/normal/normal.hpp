@@ -107,14 +107,14 @@ NormalContactState press_to_pressure(const Surface& surface, double contact_modu
                                      double nominal_pressure,
                                      const NormalContactOptions& options = {});
 
-/// The same contact for a given mean gap ū in (0, max h − mean h): the inverse of
+/// Solves the same contact for a given mean gap ū in (0, max h − mean h): the inverse of
 /// press_to_pressure. Periodic and elastic contacts only: a free one has no mean gap, and hardness
 /// makes the gap depend on more than the approach. Cost: as press_to_pressure, but 3 to 20 times as
 /// many iterations where more than 0.99 of the cells touch.
 NormalContactState press_to_mean_gap(const Surface& surface, double contact_modulus,
                                      double mean_gap, const NormalContactOptions& options = {});
 
-/// The same contact for a rigid approach from first touch, > 0, m; below max h − mean h for
+/// Solves the same contact for a rigid approach from first touch, > 0, m; below max h − mean h for
 /// periodic contacts.
 NormalContactState press_to_indentation(const Surface& surface, double contact_modulus,
                                         double indentation,

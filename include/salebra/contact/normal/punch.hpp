@@ -10,7 +10,7 @@
 namespace salebra {
 
 struct PunchOptions {
-  /// Of the displacement, relative; the error of K is of the order of the square. 1e-14 … 1e-1.
+  /// Relative error of the displacement; that of K is of the order of its square. 1e-14 … 1e-1.
   double tolerance = 1e-6;
   int max_iterations = 1000;  ///< >= 1
   Boundary boundary = Boundary::periodic;

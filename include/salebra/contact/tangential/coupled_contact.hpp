@@ -52,8 +52,9 @@ class CoupledContact {
   CoupledContact& operator=(CoupledContact&&) noexcept;
   ~CoupledContact();
 
-  /// To a rigid approach, m, counted from the first touch of the undeformed bodies, while the body
-  /// moves tangentially. Cost: sweeps × (a warm normal solve and one or two partial-slip solves).
+  /// Goes to a rigid approach, m, counted from the first touch of the undeformed bodies, while the
+  /// body moves tangentially. Cost: sweeps × (a warm normal solve and one or two partial-slip
+  /// solves).
   CoupledReport advance(double indentation, const TangentialMove& move = {});
 
   CoupledState state() const;
@@ -68,10 +69,10 @@ class CoupledContact {
   /// ½∫(p u_z + τ·u_t) dA with all displacements, J
   double stored_energy() const;
   double normal_work() const;  ///< ∫F dδ since the start by the trapezoidal rule, J
-  /// Of normal_work(), what the rule counts for cells that touch in a part of an increment only,
-  /// while their gap closes or opens, J: ½Σ∫p g. Work less this, stored energy and losses balance
-  /// to the tolerance of the sweeps. It vanishes with the increments unless cells part at a finite
-  /// pressure.
+  /// The part of normal_work() that the rule counts for cells that touch in a part of an increment
+  /// only, while their gap closes or opens, J: ½Σ∫p g. Work less this, stored energy and losses
+  /// balance to the tolerance of the sweeps. It vanishes with the increments unless cells part at a
+  /// finite pressure.
   double gap_work() const;
   bool converged() const;  ///< every increment and every solve in it did
   bool interrupted() const;

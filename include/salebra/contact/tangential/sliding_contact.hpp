@@ -116,9 +116,9 @@ class SlidingContact {
   /// Friction's ∫τ·ds since the start, (nx, ny), J in each cell: by slip and, where a cell leaves
   /// with a traction, by its release.
   const Field& loss() const { return state_.loss; }
-  /// Of the sum of loss(), what cells had left in the increment in which they opened, J: all of it
-  /// at μ = ∞; at finite μ it vanishes with the increments, since a cell slips to zero before it
-  /// opens.
+  /// The part of the sum of loss() that cells had left in the increment in which they opened, J:
+  /// all of it at μ = ∞; at finite μ it vanishes with the increments, since a cell slips to zero
+  /// before it opens.
   double released_energy() const { return state_.released; }
   bool converged() const { return state_.converged; }  ///< every increment did
   bool interrupted() const { return interrupted_; }
