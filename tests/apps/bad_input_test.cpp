@@ -123,14 +123,12 @@ TEST_CASE("Surfaces that are absent, truncated or without a size are refused", "
 }
 
 TEST_CASE("The measured surfaces that are broken on purpose are refused", "[bad-input]") {
-  const std::filesystem::path shared = SALEBRA_SHARED;
-  if (!std::filesystem::exists(shared / "surfaces")) return;
   const ProgramTest test;
-  check_refused(test.run("info " + (shared / "surfaces/nonsense_txt_file.txt").string()),
+  check_refused(test.run("info " + std::string(SALEBRA_SURFACES "/nonsense_txt_file.txt")),
                 "nonsense_txt_file.txt");
-  check_refused(test.run("info " + (shared / "surfaces/wrongnpyfile.npy").string()),
+  check_refused(test.run("info " + std::string(SALEBRA_SURFACES "/wrongnpyfile.npy")),
                 "wrongnpyfile.npy");
-  check_refused(test.run("info " + (shared / "surfaces/example-2d.npy").string()), "size_x");
+  check_refused(test.run("info " + std::string(SALEBRA_SURFACES "/example-2d.npy")), "size_x");
 }
 
 TEST_CASE("Grids and spectra that cannot be are refused, and nothing is written", "[bad-input]") {

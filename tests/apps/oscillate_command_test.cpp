@@ -7,6 +7,7 @@
 #include <salebra/results/cycle_checkpoint.hpp>
 
 #include "run_program.hpp"
+#include "skipped.hpp"
 
 namespace {
 
@@ -192,7 +193,7 @@ TEST_CASE("A killed cycle with friction resumes to the same numbers and lists al
   const auto killed = test.run(recorded,
                                "(while [ ! -e f-friction-0004.h5 ] && [ -e /proc/$$ ]; do sleep "
                                "0.01; done; kill -KILL $$) &");
-  if (killed.status == 0) return;
+  if (salebra::testing::skipped(killed.status == 0, "the cycle ended before it was killed")) return;
   REQUIRE(test.files().count("c.h5") == 1);
   check_refused(test.run(without_friction + "0.5 --checkpoint c.h5 --resume"),
                 "friction_coefficient was 0.4");
@@ -284,7 +285,7 @@ TEST_CASE("A killed coupled cycle resumes to the same numbers", "[oscillate]") {
   const auto killed = test.run(recorded,
                                "(while [ ! -e f-coupled-0002.h5 ] && [ -e /proc/$$ ]; do sleep "
                                "0.01; done; kill -KILL $$) &");
-  if (killed.status == 0) return;
+  if (salebra::testing::skipped(killed.status == 0, "the cycle ended before it was killed")) return;
   REQUIRE(test.files().count("c.h5") == 1);
   CHECK(test.run(recorded + "--resume").json() == whole);
   for (const char* file : {"f-coupled.xdmf", "f-coupled-0002.h5", "f-coupled-0005.h5"})
@@ -323,7 +324,7 @@ TEST_CASE("A killed cycle resumes to the same numbers", "[oscillate]") {
   const auto killed =
       test.run(with_checkpoint,
                "(while [ ! -e c.h5 ] && [ -e /proc/$$ ]; do sleep 0.02; done; kill -KILL $$) &");
-  if (killed.status == 0) return;
+  if (salebra::testing::skipped(killed.status == 0, "the cycle ended before it was killed")) return;
   REQUIRE(test.files().count("c.h5") == 1);
   check_refused(test.run(with_checkpoint), "c.h5");
   check_refused(test.run(without_phase + "40deg --checkpoint c.h5 --resume"), "phase was 0.785");

@@ -16,6 +16,7 @@
 
 #include "run_program.hpp"
 #include "same_results.hpp"
+#include "skipped.hpp"
 #include "study/study_text.hpp"
 
 using namespace salebra;
@@ -140,7 +141,8 @@ TEST_CASE("A study killed while it tidied up is complete, and says so", "[resume
 
 TEST_CASE("A study killed between its result and its page gets the page when it is resumed",
           "[resume]") {
-  if (!can_report()) return;
+  if (testing::skipped(!can_report(), "no page can be made: this build carries no plotly.js"))
+    return;
   const ProgramTest test;
   std::string few = study;
   few.replace(few.find("seed_count = 24"), 15, "seed_count = 2");

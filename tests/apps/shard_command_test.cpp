@@ -14,6 +14,7 @@
 
 #include "run_program.hpp"
 #include "same_results.hpp"
+#include "skipped.hpp"
 #include "study/study_text.hpp"
 
 using namespace salebra;
@@ -141,10 +142,10 @@ TEST_CASE("Workers of two hosts share a study, and wait a minute for one that wa
   test.write("study.toml", study_of(12));
   const std::string elsewhere =
       "unshare --user --map-root-user --pid --uts --mount-proc --fork --kill-child sh -c ";
-  if (test.run("--version", elsewhere + "'hostname node2' || exit 77;").status == 77) {
-    WARN("skipped: namespaces of processes and host names cannot be made here");
+  if (salebra::testing::skipped(
+          test.run("--version", elsewhere + "'hostname node2' || exit 77;").status == 77,
+          "namespaces of processes and host names cannot be made here"))
     return;
-  }
   const std::string any = std::string(SALEBRA_PROGRAM) +
                           " study study.toml -o result.h5 --quiet --threads 1 --shard any";
   const auto touched = [&](const std::string& extension, std::chrono::minutes ago) {

@@ -205,13 +205,10 @@ TEST_CASE("A study without a decay length answers with what it has", "[study]") 
 }
 
 TEST_CASE("A study of a measured surface says that it is continued periodically", "[study]") {
-  const std::filesystem::path scan =
-      std::filesystem::path(SALEBRA_SHARED) / "surfaces/matrix-3.txt";
-  if (!std::filesystem::exists(scan)) return;
   const ProgramTest test;
   test.write("measured.toml", contact_text());
-  const auto result =
-      test.run("study measured.toml --surface " + scan.string() + " --json -o result.h5");
+  const auto result = test.run("study measured.toml --surface " SALEBRA_DATA
+                               "/surfaces/afm-scan.txt --json -o result.h5");
   INFO(result.err);
   REQUIRE(result.status == 0);
   CHECK_THAT(result.err, Contains("salebra: warning: ") && Contains("periodically"));

@@ -16,6 +16,7 @@
 
 #include "ranks_in_threads.hpp"
 #include "scratch.hpp"
+#include "skipped.hpp"
 
 using namespace salebra;
 using Catch::Contains;
@@ -92,11 +93,10 @@ std::string failure_on_all(int ranks, const std::function<void(const Communicato
   return failures.front();
 }
 
-bool hdf5_has_threads() {
+bool hdf5_lacks_threads() {
   hbool_t threads = false;
   H5is_library_threadsafe(&threads);
-  if (!threads) WARN("skipped: this HDF5 library is not for threads");
-  return threads;
+  return testing::skipped(!threads, "this HDF5 library is not for threads");
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ TEST_CASE("The file of a spread surface is byte for byte that of one process", "
 }
 
 TEST_CASE("Processes read their rows of a surface in any format", "[spread]") {
-  if (!hdf5_has_threads()) return;
+  if (hdf5_lacks_threads()) return;
   const Scratch scratch;
   // Small fields come with the outline of a file, large ones are read by rows.
   const Surface whole = surface_of(GENERATE(17, 301), 250);
@@ -145,7 +145,7 @@ TEST_CASE("Processes read their rows of a surface in any format", "[spread]") {
 }
 
 TEST_CASE("Processes read their rows of packed fields and of small ones", "[spread]") {
-  if (!hdf5_has_threads()) return;
+  if (hdf5_lacks_threads()) return;
   const Scratch scratch;
   const std::filesystem::path file = scratch / "packed.h5";
   const Index nx = GENERATE(2, 301), ny = 250;

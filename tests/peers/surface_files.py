@@ -2,7 +2,7 @@
 """SurfaceTopography reads what salebra writes, and salebra what SurfaceTopography writes: the same heights, sizes, units and undefined
 points, with x and y the right way round. GSF, which SurfaceTopography does not read, is read by gsffile, and HDF5 by h5py.
 
-Usage: surface_files.py PROGRAM [FOLDER of measured surfaces]
+Usage: surface_files.py PROGRAM FOLDER of measured surfaces
 """
 import json
 import pathlib
@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 import SurfaceTopography
 
-program, measured = sys.argv[1], pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else "absent")
+program, measured = sys.argv[1], pathlib.Path(sys.argv[2])
 failures = []
 lines = []
 
@@ -130,8 +130,7 @@ with tempfile.TemporaryDirectory() as scratch:
     holes[0, 1] = holes[5, 2] = holes[6, 3] = np.nan
     both_ways(folder, "holes", holes, (3e-6, 2e-6), False)
 
-    names = ["matrix-3.txt", "x3p-2.x3p", "sur-2.sur", "nc-1.nc"] if measured.is_dir() else []
-    for name in names:
+    for name in ["matrix-3.txt", "x3p-2.x3p", "sur-2.sur", "nc-1.nc"]:
         by_other, sizes = heights_of(SurfaceTopography.read_topography(measured / name))
         for suffix in [".nc", ".npy"]:
             file = folder / (name + suffix)

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "scratch.hpp"
+#include "skipped.hpp"
 #include "small_study.hpp"
 
 using namespace salebra;
@@ -68,7 +69,8 @@ void write_hostile(const std::filesystem::path& file) {
 }  // namespace
 
 TEST_CASE("A report holds the numbers of its study and needs nothing else", "[report]") {
-  if (!can_report()) return;
+  if (testing::skipped(!can_report(), "no page can be made: this build carries no plotly.js"))
+    return;
   const Scratch scratch;
   const StudyResult result = run_study(small_study());
   write_study(scratch / "study.h5", result);
@@ -110,7 +112,8 @@ TEST_CASE("A report holds the numbers of its study and needs nothing else", "[re
 
 TEST_CASE("Direct results stand beside the damping of the same motion and of no other",
           "[report]") {
-  if (!can_report()) return;
+  if (testing::skipped(!can_report(), "no page can be made: this build carries no plotly.js"))
+    return;
   const Scratch scratch;
   write_study(scratch / "study.h5", run_study(small_study()));
   const auto cycle = [&](const std::string& name, double amplitude) {
@@ -141,7 +144,8 @@ TEST_CASE("Direct results stand beside the damping of the same motion and of no 
 }
 
 TEST_CASE("The points of a parameter grid share the room for maps", "[report]") {
-  if (!can_report()) return;
+  if (testing::skipped(!can_report(), "no page can be made: this build carries no plotly.js"))
+    return;
   const Scratch scratch;
   StudyConfiguration study = small_study();
   study.ensemble.hurst = {0.5, 0.8};
@@ -155,7 +159,8 @@ TEST_CASE("The points of a parameter grid share the room for maps", "[report]") 
 }
 
 TEST_CASE("Names in a results file stay text, and what an old one lacks is left out", "[report]") {
-  if (!can_report()) return;
+  if (testing::skipped(!can_report(), "no page can be made: this build carries no plotly.js"))
+    return;
   const Scratch scratch;
   write_hostile(scratch / "hostile.h5");
   // Kept for the browser, which says whether any of it runs.
@@ -176,7 +181,8 @@ TEST_CASE("Names in a results file stay text, and what an old one lacks is left 
 }
 
 TEST_CASE("A report of a bad file is refused and leaves nothing", "[report]") {
-  if (!can_report()) return;
+  if (testing::skipped(!can_report(), "no page can be made: this build carries no plotly.js"))
+    return;
   const Scratch scratch;
   CHECK_THROWS_AS(write_report(scratch / "none.h5", scratch / "page.html"), InvalidInput);
   CHECK_THROWS_AS(write_report(scratch.file("text.h5", "no HDF5"), scratch / "page.html"),
