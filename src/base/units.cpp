@@ -193,6 +193,13 @@ Scale unit_scale(std::string_view unit, Dimension dimension, std::string_view te
   return *scale;
 }
 
+double value_of(const Written& written, Dimension dimension, std::string_view text,
+                std::string_view field) {
+  const double value = unit_scale(written.unit, dimension, text, field)(written.number);
+  require_squarable(value, text, field);
+  return value;
+}
+
 std::vector<std::string_view> split_at(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (auto at = text.find(separator); at != std::string_view::npos; at = text.find(separator)) {
@@ -210,8 +217,8 @@ std::vector<double> geometric(std::string_view text, Dimension dimension, std::s
   const Written to_written = split(parts[1], dimension, field);
   Written from_written = split(parts[0], dimension, field);
   if (from_written.unit.empty()) from_written.unit = to_written.unit;
-  const double from = unit_scale(from_written.unit, dimension, text, field)(from_written.number);
-  const double to = unit_scale(to_written.unit, dimension, text, field)(to_written.number);
+  const double from = value_of(from_written, dimension, text, field);
+  const double to = value_of(to_written, dimension, text, field);
   const std::string_view count_text = trim(parts[2]);
   int count = 0;
   const auto [end, status] =
@@ -234,9 +241,14 @@ std::vector<double> geometric(std::string_view text, Dimension dimension, std::s
 
 std::string_view si_unit(Dimension dimension) { return about(dimension).unit; }
 
+void require_squarable(double value, std::string_view text, std::string_view field) {
+  const double size = std::abs(value);
+  require(value == 0 || (size >= 1e-150 && size <= 1e150), field, "'" + std::string(text) + "'",
+          "must be 0, or from 1e-150 to 1e150 in SI units; check the number and its unit");
+}
+
 double parse_quantity(std::string_view text, Dimension dimension, std::string_view field) {
-  const Written written = split(text, dimension, field);
-  return unit_scale(written.unit, dimension, text, field)(written.number);
+  return value_of(split(text, dimension, field), dimension, text, field);
 }
 
 std::vector<double> parse_values(std::string_view text, Dimension dimension,

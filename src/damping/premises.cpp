@@ -298,15 +298,17 @@ struct Limits {
 // yet, to `high`.
 Limits first_crossings(const std::function<double(double)>& change, double low, double high) {
   constexpr double step = 1.2;
-  constexpr int halvings = 18;
+  constexpr int halvings = 18, most_steps = 400;  // 32 decades
   Limits limits;
   double below = low;
+  int taken = 0;
   for (double* limit : {&limits.five, &limits.twenty}) {
     const double percent = limit == &limits.five ? 0.05 : 0.2;
     double above = below;
     while (change(above) <= percent) {
       below = above;
-      if (above >= high) return limits;
+      // None within the range, or within any that numbers can tell apart.
+      if (!(above < high) || ++taken > most_steps) return limits;
       above = std::min(above * step, high);
     }
     for (int i = 0; i < halvings && above > below; ++i) {
@@ -323,7 +325,10 @@ double depth_of_share(const ContactLaw& law, double bottom, double share) {
   const double least = share * law.force(bottom);
   if (!(least > 0)) return unknown;
   double inside = 0, beyond = law.force(bottom) / law.normal_stiffness(bottom);
-  while (law.force(bottom - beyond) > least) inside = beyond, beyond *= 2;
+  while (law.force(bottom - beyond) > least) {
+    if (!std::isfinite(beyond)) return unknown;
+    inside = beyond, beyond *= 2;
+  }
   for (int halving = 0; halving < 60; ++halving) {
     const double middle = 0.5 * (inside + beyond);
     (law.force(bottom - middle) > least ? inside : beyond) = middle;

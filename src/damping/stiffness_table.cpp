@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <salebra/base/error.hpp>
 
 #include "sweep_breaks.hpp"
 
@@ -55,6 +56,8 @@ StiffnessTable::StiffnessTable(const ContactLaw& law, double lowest, double high
                                double relative_tolerance)
     : core_(law.tangential_stiffness(lowest)), highest_(highest) {
   const double change = law.tangential_stiffness(highest) - core_;
+  require(std::isfinite(highest - lowest) && std::isfinite(core_ + change), "indentation", highest,
+          "m takes the contact's stiffness beyond all measure; reduce the motion");
   // Below the law's own round-off no halving helps.
   const double tolerance =
       std::max(relative_tolerance * std::abs(change), 1e-15 * (core_ + std::abs(change)));
@@ -92,7 +95,9 @@ void StiffnessTable::add_cells(const ContactLaw& law, double low, double high, d
     const double between = 0.5 * (s[i] + s[i + 1]);
     fits = std::abs(horner(cell.coefficients, between) - exact(between)) <= tolerance;
   }
-  if (fits || !(cell.middle > low && cell.middle < high)) {
+  // Where a law scatters by more than the tolerance, each half would be halved to the deepest.
+  constexpr std::size_t most_cells = std::size_t{1} << 20;
+  if (fits || !(cell.middle > low && cell.middle < high) || cells_.size() >= most_cells) {
     cells_.push_back(cell);
     starts_.push_back(low);
     return;

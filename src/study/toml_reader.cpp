@@ -162,12 +162,15 @@ std::optional<std::size_t> TomlTable::choice(std::string_view key,
 
 double TomlTable::Access::quantity_of(const TomlTable& table, const toml::node& node,
                                       std::string_view key, Dimension dimension) {
-  if (const auto number = node.value<double>(); number && (node.is_number())) {
-    table.check(std::isfinite(*number), key, "must be a finite number");
-    return *number;
-  }
-  table.check(node.is_string(), key, written(node) + " must be a number, or a string with a unit");
+  table.check(node.is_number() || node.is_string(), key,
+              written(node) + " must be a number, or a string with a unit");
+  const auto number = node.is_number() ? node.value<double>() : std::nullopt;
+  table.check(std::isfinite(number.value_or(0)), key, "must be a finite number");
   try {
+    if (number) {
+      require_squarable(*number, fmt::format("{}", *number), key);
+      return *number;
+    }
     return parse_quantity(*node.value<std::string>(), dimension, key);
   } catch (const InvalidInput& error) {
     table.rethrow_located(error);

@@ -65,6 +65,10 @@ TEST_CASE("A study file with a fault is refused with key and line, and nothing i
       {"\"1e-3:0.2:8\"", "[0.1, 0.2]", "study.toml:15: contact.relative_pressures"},
       {"\"20kHz\"", "\"0Hz\"", "study.toml:20: damping.frequency"},
       {"\"20kHz\"", "20kHz", "study.toml:20"},
+      {"\"0.1nm\"", "5e-324",
+       "study.toml:18: damping.normal_amplitude: '5e-324' must be 0, or from"},
+      {"\"0.1nm\"", "\"1e308m\"",
+       "study.toml:18: damping.normal_amplitude: '1e308m' must be 0, or"},
   }));
   INFO(expected);
   test.write("study.toml", replaced(study, from, to));

@@ -139,3 +139,15 @@ TEST_CASE("A formatted quantity reads back to the digits shown, for random numbe
   CHECK(parse_quantity("1.25 GPa/um", Dimension::stiffness_per_area, "k") == Approx(1.25e15));
   CHECK(parse_quantity("2MPa/m", Dimension::stiffness_per_area, "k") == 2e6);
 }
+
+TEST_CASE("A quantity whose square a double does not hold is refused", "[units]") {
+  for (const char* text : {"1e308", "1e151", "-1e200", "1e-151", "5e-324", "1e145TPa"})
+    CHECK_THROWS_WITH(
+        parse_quantity(text, Dimension::pressure, "--p"),
+        Catch::Contains("--p: '" + std::string(text) + "' must be 0, or from 1e-150 to 1e150"));
+  CHECK(parse_quantity("0", Dimension::pressure, "--p") == 0);
+  CHECK(parse_quantity("-1e150", Dimension::pressure, "--p") == -1e150);
+  CHECK(parse_quantity("1e-138TPa", Dimension::pressure, "--p") == Approx(1e-126).epsilon(1e-15));
+  CHECK_THROWS_WITH(parse_values("1e-200:1:3", Dimension::length, "--l"),
+                    Catch::Contains("1e-150"));
+}

@@ -369,6 +369,30 @@ TEST_CASE("Premises name what they need, and refuse facts that cannot be", "[pre
                   InvalidInput);
 }
 
+TEST_CASE("Numbers beyond what a double can square end in an answer or a refusal", "[premises]") {
+  // Each of these took for ever, or all memory, where tables and searches had no last step.
+  for (const double length : {1e308, 1e290, 1e-7, 1e-300})
+    for (const double amplitude : {5e-324, 1e-9, 1e300})
+      for (const double velocity : {1e-6, 1e300, 5e-324}) {
+        INFO("l = " << length << ", u_z = " << amplitude << ", v = " << velocity);
+        const ExponentialLaw law(1, length, ratio);
+        const Drag drag{amplitude, velocity, 1e5};
+        for (const double excursion : {1e-6, 1e300}) {
+          try {
+            premises_of(law, 0, drag, {.friction_coefficient = 0.3, .excursion = excursion});
+          } catch (const Error&) {
+          }
+          try {
+            trajectory_damping(law, sample(drag, 0, 32), {.friction_coefficient = 0.3});
+          } catch (const Error&) {
+          }
+        }
+      }
+  // Stiffness that is no number: neither is its table.
+  CHECK_THROWS_WITH(TangentialContact(ExponentialLaw(1, 1e-3, ratio), 0, 1, {}),
+                    Catch::Contains("beyond all measure"));
+}
+
 TEST_CASE("After a first loading the plasticity is the load over the first load", "[premises]") {
   const ExponentialLaw law(1, 1e-7, ratio);
   const Drag motion{1e-9, 1e-6, 1e5};

@@ -45,8 +45,13 @@ std::string_view si_unit(Dimension dimension);
 /// "Å", angles "deg" and "°", pressures "bar" and "N/mm^2", pure numbers "%". Powers are written
 /// mm2, mm^2 or mm².
 /// field   names the option or key in errors
-/// throws  InvalidInput for anything but one finite number with a unit of the dimension
+/// throws  InvalidInput for anything but one number with a unit of the dimension, and as
+///         require_squarable
 double parse_quantity(std::string_view text, Dimension dimension, std::string_view field);
+
+/// Throws InvalidInput unless the number is 0 or its size is from 1e-150 to 1e150, so that a double
+/// holds its square. text: what was given.
+void require_squarable(double value, std::string_view text, std::string_view field);
 
 /// One value, a list "a,b,c", or a range "from:to:count" of count >= 2 values in geometric
 /// progression that hit both ends exactly (from, to > 0, not equal). A unit after `to` holds for
