@@ -179,7 +179,8 @@ void follow_motion(const DampingArguments& arguments, const LawOptions::Contact&
           "does not go with --force-amplitude; give --normal-amplitude");
   const DampingResult full_stick = damping_of(law, one.position, one.motion, options);
   const SampledMotion path = sampled(one.motion, full_stick.indentation, arguments.follow.steps);
-  const TrajectoryDamping loss = follow(law, one.motion, path, arguments.follow.coefficient());
+  const TrajectoryDamping loss =
+      follow(law, one.motion, path, arguments.follow.coefficient(), session.progress());
   Json object = json_of(loss);
   object["full_stick_work"] = full_stick.work_per_cycle;
   object["force_curvature"] = full_stick.force_curvature;

@@ -119,13 +119,15 @@ void run(const JointArguments& arguments, Session& session) {
     motions.emplace_back(TangentialAmplitude{amplitude});
   std::vector<JointLoss> losses;
   const Progress progress = session.progress();
-  for (const TangentialOscillation& motion : motions) {
-    losses.push_back(oscillates ? joint_loss(law, position, motion, friction,
-                                             *arguments.normal_amplitude, phase, arguments.steps)
-                                : joint_loss(law, position, motion, friction));
-    if (!progress({"joint", double(losses.size()) / double(motions.size()), int(losses.size()), 0}))
-      throw Interrupted("joint: stopped before all motions were done");
-  }
+  const auto of_all = [&](ProgressReport report) {
+    report.fraction = (double(losses.size()) + report.fraction) / double(motions.size());
+    return progress(report);
+  };
+  for (const TangentialOscillation& motion : motions)
+    losses.push_back(oscillates
+                         ? joint_loss(law, position, motion, friction, *arguments.normal_amplitude,
+                                      phase, arguments.steps, of_all)
+                         : joint_loss(law, position, motion, friction));
   if (const auto lost = std::ranges::count(losses, false, &JointLoss::converged); lost > 0)
     throw NotConverged(
         fmt::format("joint: {} of {} integrals did not reach the tolerance", lost, losses.size()));

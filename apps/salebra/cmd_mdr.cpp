@@ -25,6 +25,7 @@
 #include "plausibility.hpp"
 #include "premise_options.hpp"
 #include "program.hpp"
+#include "stoppable_law.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -89,7 +90,8 @@ void add_state(Json& object, const IndenterLaw& law, double indentation) {
 
 void run(const MdrArguments& arguments, Session& session) {
   const Material material = arguments.material.material_with_tangential_modulus();
-  const IndenterLaw law(arguments.indenter.indenter(), material);
+  const auto profile = arguments.indenter.indenter();
+  const IndenterLaw law(stoppable(profile), material);
   const ContactFacts facts =
       arguments.premises.facts(arguments.material, arguments.follow.friction_coefficient);
   if (!arguments.follow.trajectory.empty()) {
@@ -108,7 +110,7 @@ void run(const MdrArguments& arguments, Session& session) {
 
   const double settled =
       arguments.indentation ? *arguments.indentation : law.indentation_of(*arguments.force);
-  for (const std::string& line : doubts_of_profile(law.profile(), law.contact_radius(settled)))
+  for (const std::string& line : doubts_of_profile(*profile, law.contact_radius(settled)))
     session.warn(line);
   Json object;
   if (arguments.motion.normal_amplitude.empty()) {
@@ -142,7 +144,7 @@ void run(const MdrArguments& arguments, Session& session) {
   const bool mapped = !arguments.stress_map.empty() || !arguments.friction_map.empty();
   if (followed || (session.has_plot() && !mapped)) {
     path = sampled(motion, result.indentation, arguments.follow.steps);
-    loss = follow(law, motion, path, arguments.follow.coefficient());
+    loss = follow(law, motion, path, arguments.follow.coefficient(), session.progress());
   }
   if (followed) {
     object.add(json_of(loss));

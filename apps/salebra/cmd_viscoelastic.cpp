@@ -18,6 +18,7 @@
 #include "premise_options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
+#include "stoppable_law.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -109,13 +110,14 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   const Material material = arguments.material.material_with_tangential_modulus();
   const PronySeries prony = PronySeries::of_body(material, parse_terms(arguments.prony));
   prony.validate();
-  const IndenterLaw law(arguments.indenter.indenter(), material);
+  const auto profile = arguments.indenter.indenter();
+  const IndenterLaw law(stoppable(profile), material);
   require_one(arguments.indentation.has_value(), "--indentation", arguments.force.has_value(),
               "--normal-force");
   if (arguments.indentation) require_positive(*arguments.indentation, "--indentation");
   const double indentation =
       arguments.indentation ? *arguments.indentation : law.indentation_of(*arguments.force);
-  for (const std::string& line : doubts_of_profile(law.profile(), law.contact_radius(indentation)))
+  for (const std::string& line : doubts_of_profile(*profile, law.contact_radius(indentation)))
     session.warn(line);
   const ContactFacts facts =
       at_state(arguments.premises.facts(arguments.material), law, nullptr, indentation);
@@ -132,12 +134,13 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
     one.loss_modulus = modulus.imag();
     // Refuses what lies outside the law, before the longer computation.
     one.elastic_work = relaxation_damping(law, AtIndentation{indentation}, motion).work_per_cycle;
+    const auto of_all = [&](ProgressReport report) {
+      report.fraction = (double(cases.size() - 1) + report.fraction) / double(motions.size());
+      return progress(report);
+    };
     one.loss = viscoelastic_damping(law, prony, sample(motion, indentation, arguments.steps),
-                                    arguments.springs);
+                                    arguments.springs, of_all);
     premises.cases.push_back(premises_of(law, indentation, motion, facts));
-    if (!progress(
-            {"viscoelastic", double(cases.size()) / double(motions.size()), int(cases.size()), 0}))
-      throw Interrupted("viscoelastic: stopped before all motions were done");
   }
   if (const auto lost = std::ranges::count(
           cases, false, [](const ViscoelasticCase& one) { return one.loss.converged; });

@@ -49,8 +49,9 @@ SampledMotion sampled(const Motion& motion, double mean_indentation, int steps) 
 }
 
 TrajectoryDamping follow(const ContactLaw& law, const Motion& motion, const SampledMotion& path,
-                         double friction) {
-  TrajectoryDamping loss = trajectory_damping(law, path, {.friction_coefficient = friction});
+                         double friction, const Progress& on_progress) {
+  TrajectoryDamping loss =
+      trajectory_damping(law, path, {.friction_coefficient = friction, .on_progress = on_progress});
   const auto* equal = std::get_if<EqualFrequency>(&motion);
   if (equal != nullptr && !(equal->angular_frequency > 0))
     loss.power = loss.damping_constant = std::numeric_limits<double>::quiet_NaN();
@@ -68,7 +69,9 @@ void follow_file(const FollowOptions& options, const ContactLaw& law, const Cont
           "leave it out, or the fourth column");
   const TrajectoryDamping loss =
       transverse ? trajectory_damping(law, path, columns[3])
-                 : trajectory_damping(law, path, {.friction_coefficient = options.coefficient()});
+                 : trajectory_damping(law, path,
+                                      {.friction_coefficient = options.coefficient(),
+                                       .on_progress = session.progress()});
   const Json object = json_of(loss);
   const double middle =
       0.5 * (std::ranges::min(path.indentation) + std::ranges::max(path.indentation));

@@ -32,7 +32,7 @@ SampledMotion sampled(const Motion& motion, double mean_indentation, int steps);
 /// The loss along a sampled motion; power and damping constant are NaN where its frequency is not
 /// known.
 TrajectoryDamping follow(const ContactLaw& law, const Motion& motion, const SampledMotion& path,
-                         double friction);
+                         double friction, const Progress& on_progress);
 
 /// --trajectory: reads one period of (time, indentation, displacement), answers, writes --output
 /// and --plot.

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "first_loading.hpp"
+#include "stoppable_law.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -81,8 +82,12 @@ std::unique_ptr<ContactLaw> exponential(const LawOptions& arguments,
                "not given, but --law exponential needs it");
   require_positive(arguments.force.front(), "--normal-force");
   // The law has no scale of its own: F'' = F/l² whatever the reference force.
-  return std::make_unique<ExponentialLaw>(arguments.force.front(), decay_length,
-                                          material.modulus_ratio());
+  return stoppable(std::make_unique<ExponentialLaw>(arguments.force.front(), decay_length,
+                                                    material.modulus_ratio()));
+}
+
+std::unique_ptr<ContactLaw> tabulated(const ForceCurve& curve, const MaterialOptions& material) {
+  return stoppable(std::make_unique<TabulatedLaw>(curve, material.modulus_ratio()));
 }
 
 std::shared_ptr<const IndenterProfile> profile_of(const LawOptions& arguments) {
@@ -229,10 +234,10 @@ std::unique_ptr<ContactLaw> LawOptions::law_alone(const MaterialOptions& materia
           "has no law for a path of indentations; sweep it and give its --curve");
   require_one(!law.empty(), "--law", !curve.empty(), "--curve");
   require_own_parameters();
-  if (!curve.empty())
-    return std::make_unique<TabulatedLaw>(read_force_curve(curve), material.modulus_ratio());
+  if (!curve.empty()) return tabulated(read_force_curve(curve), material);
   if (law == "exponential") return exponential(*this, material);
-  return std::make_unique<IndenterLaw>(profile_of(*this),
+  // The premises know an indenter by its type.
+  return std::make_unique<IndenterLaw>(stoppable(profile_of(*this)),
                                        material.material_with_tangential_modulus());
 }
 
@@ -259,7 +264,7 @@ LawOptions::Contact LawOptions::contact(const MaterialOptions& material, Session
                    {.on_progress = session.progress()}, normal_amplitude);
     ForceCurve samples =
         curve_of_surface(body, material.material_with_tangential_modulus(), values, session);
-    auto table = std::make_unique<TabulatedLaw>(samples, material.modulus_ratio());
+    auto table = tabulated(samples, material);
     auto positions = positions_on_curve(*this, samples);
     return {std::move(table), std::move(positions), std::move(samples), {},
             std::move(body),  first_loading};
@@ -268,7 +273,7 @@ LawOptions::Contact LawOptions::contact(const MaterialOptions& material, Session
     require_own_parameters();
     ForceCurve samples = read_force_curve(curve);
     std::vector<std::string> doubts = doubts_of_moduli(samples, material.modulus_ratio());
-    auto table = std::make_unique<TabulatedLaw>(samples, material.modulus_ratio());
+    auto table = tabulated(samples, material);
     auto positions = positions_on_curve(*this, samples);
     return {std::move(table), std::move(positions), std::move(samples), std::move(doubts)};
   }

@@ -148,8 +148,17 @@ double AveragedSlider::slip(double time) {
 
 void AveragedSlider::advance() {
   constexpr double part = 2 * std::numbers::pi / 256;
+  // An equation that is stiff, as by a dashpot of many times √(km), would take steps without end.
+  constexpr int most_steps = 100'000;
   double left = part;
-  while (left > 1e-12 * part) left -= direction_ == 0 ? stick(left) : slip(left);
+  int taken = 0;
+  while (left > 1e-12 * part) {
+    left -= direction_ == 0 ? stick(left) : slip(left);
+    if (++taken > most_steps)
+      throw NotConverged(
+          "slider: the averaged equation is too stiff: a 256th of a slow period takes more than "
+          "100000 steps; use less damping, or a contact that is less stiff");
+  }
   const double energy = force_ * length_;
   totals_.time += part / natural_;
   totals_.impulse = state_[2] * force_ / natural_;

@@ -37,6 +37,8 @@ class AveragedSlider {
   void begin(double offset, double relative_velocity);
   void advance();  ///< by a part of 2π√(m/k)
 
+  /// As many steps of the full equation as take the time of one advance().
+  long steps() const { return 16; }
   double time() const { return totals_.time; }
   double offset() const { return state_[0] * length_; }
   double relative_velocity() const { return state_[1] * slider_.velocity; }

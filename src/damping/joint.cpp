@@ -115,7 +115,8 @@ struct Followed {
 };
 
 Followed follow(const ContactLaw& law, double mean, const TangentialOscillation& motion,
-                double friction_coefficient, double normal_amplitude, double phase, int steps) {
+                double friction_coefficient, double normal_amplitude, double phase, int steps,
+                const Progress& on_progress) {
   const auto* by_force = std::get_if<TangentialForce>(&motion);
   const double amplitude =
       by_force ? by_force->amplitude : std::get<TangentialAmplitude>(motion).amplitude;
@@ -141,6 +142,13 @@ Followed follow(const ContactLaw& law, double mean, const TangentialOscillation&
   for (int period = 0; period < most_periods; ++period) {
     const double lost = contact.dissipated(), slipped = contact.dissipated_in_permanent_contact();
     for (std::size_t i = 0; i < level.size(); ++i) {
+      constexpr std::size_t interval = 1 << 8;
+      if (i % interval == interval - 1 && on_progress &&
+          !on_progress(
+              {"joint",
+               (period + static_cast<double>(i) / static_cast<double>(level.size())) / most_periods,
+               period, 0}))
+        throw Interrupted("joint: interrupted");
       if (by_force)
         contact.move_to_force(level[i], target[i]);
       else
@@ -231,7 +239,8 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
 
 JointLoss joint_loss(const ContactLaw& law, const Position& position,
                      const TangentialOscillation& motion, double friction_coefficient,
-                     double normal_amplitude, double phase, int steps) {
+                     double normal_amplitude, double phase, int steps,
+                     const Progress& on_progress) {
   check(motion, friction_coefficient);
   require(std::isfinite(normal_amplitude) && normal_amplitude >= 0, "normal_amplitude",
           normal_amplitude, "must be >= 0");
@@ -241,7 +250,8 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
   const auto at = [&](double factor) {
     TangentialOscillation scaled = motion;
     std::visit([&](auto& one) { one.amplitude *= factor; }, scaled);
-    return follow(law, mean, scaled, friction_coefficient, normal_amplitude, phase, steps);
+    return follow(law, mean, scaled, friction_coefficient, normal_amplitude, phase, steps,
+                  on_progress);
   };
   const Followed one = at(1), less = at(0.99);
   JointLoss loss;

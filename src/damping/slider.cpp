@@ -57,6 +57,27 @@ void check(const NormalOscillation& normal, const Slider& slider, double frictio
               "; a slower oscillation does not average");
 }
 
+// Tells how far a motion has come, after each so many steps: some hundredths of a second.
+class Watch {
+ public:
+  Watch(const Progress& progress, const char* stage) : progress_(progress), stage_(stage) {}
+
+  // Throws Interrupted where the answer is to stop.
+  void passed(long steps, double fraction, int cycles = 0) {
+    since_ += steps;
+    if (!progress_ || since_ < interval) return;
+    since_ = 0;
+    if (!progress_({stage_, std::min(fraction, 1.0), cycles, 0}))
+      throw Interrupted("slider: stopped before its motion was known");
+  }
+
+ private:
+  static constexpr long interval = 1 << 14;
+  const Progress& progress_;
+  const char* stage_;
+  long since_ = 0;
+};
+
 // The contact at its mean indentation, and steady sliding at the velocity of the drive.
 struct Case {
   SliderContact contact;
@@ -81,6 +102,26 @@ struct Case {
     spring_offset = (slider.falling_slope * slider.velocity - sliding.mean_tangential_force) /
                     slider.spring_stiffness;
     check_velocity(slider.velocity, slider, "is reached by the drive");
+    constexpr double most = 500'000;
+    const double steps = SliderEquation::steps_of_period(contact, slider, options.steps);
+    require(steps <= most, "steps", steps,
+            "are needed in a period of the oscillation, and at most 500000 are followed; use a "
+            "faster oscillation, a heavier slider or a contact that is less stiff");
+  }
+
+  // A cycle that sticks lasts as long as the drive needs to load the spring.
+  double slow_cycle(const Slider& slider) const {
+    return 2 * pi / natural_frequency(slider) +
+           4 * sliding.mean_tangential_force / (slider.spring_stiffness * slider.velocity);
+  }
+
+  // steps: of an equation in so much time. A second of a processor has some two million.
+  void check_cost(double steps, double time, const Slider& slider) const {
+    constexpr double most = 1e7;
+    const double needed = std::ceil(steps * slow_cycle(slider) / time);
+    require(needed <= most, "steps", needed,
+            "are needed in a slow cycle, and at most 1e7 are followed; use a slower oscillation, a "
+            "stiffer spring, a lighter slider or a faster drive");
   }
 
   // Where friction would drive.
@@ -243,7 +284,8 @@ void set_means(SliderMotion& motion, const Case& at, const Sample& begin, const 
 }
 
 template <class Equation>
-void record(SliderMotion& motion, Equation& equation, const Slider& slider, double duration) {
+void record(SliderMotion& motion, Equation& equation, const Slider& slider, double duration,
+            Watch& watch) {
   constexpr double most_samples = 1500;
   const double end = equation.time() + duration, spacing = duration / most_samples;
   double next = equation.time();
@@ -256,6 +298,7 @@ void record(SliderMotion& motion, Equation& equation, const Slider& slider, doub
       next += spacing;
     }
     equation.advance();
+    watch.passed(equation.steps(), 1);
   }
 }
 
@@ -263,16 +306,13 @@ void record(SliderMotion& motion, Equation& equation, const Slider& slider, doub
 template <class Equation>
 SliderMotion follow(Equation& equation, const Case& at, const Slider& slider,
                     const SliderOptions& options) {
+  Watch watch(options.on_progress, "slider");
   const auto [offset, relative_velocity] = at.start(slider, options.start, equation.slid_force());
   equation.begin(offset, relative_velocity);
   CycleMeter meter(slider, options.tolerance);
   meter.add(sample_of(equation));
-  // A cycle that sticks lasts as long as the drive needs to load the spring.
-  const double cycle = meter.slow_period() + 4 * at.sliding.mean_tangential_force /
-                                                 (slider.spring_stiffness * slider.velocity);
-  const double longest = options.most_cycles * cycle;
+  const double longest = options.most_cycles * at.slow_cycle(slider);
   SliderMotion motion;
-  double reported = 0;
   while (true) {
     equation.advance();
     at.check_velocity(equation.relative_velocity() + slider.velocity, slider, "the motion reaches");
@@ -284,13 +324,10 @@ SliderMotion follow(Equation& equation, const Case& at, const Slider& slider,
     if (equation.time() > longest ||
         meter.cycles().size() > static_cast<std::size_t>(options.most_cycles))
       break;
-    if (options.on_progress && equation.time() > reported + 0.1 * cycle) {
-      reported = equation.time();
-      const auto done = static_cast<int>(meter.cycles().size());
-      if (!options.on_progress(
-              {"slider", static_cast<double>(done) / options.most_cycles, done, 0}))
-        throw Interrupted("slider: stopped before the motion repeated");
-    }
+    const auto done = static_cast<int>(meter.cycles().size());
+    watch.passed(
+        equation.steps(),
+        std::max(equation.time() / longest, static_cast<double>(done) / options.most_cycles), done);
   }
   if (meter.steady()) {
     motion.state = SliderState::steady;
@@ -300,11 +337,12 @@ SliderMotion follow(Equation& equation, const Case& at, const Slider& slider,
     double lowest = equation.offset();
     while (equation.time() < until) {
       equation.advance();
+      watch.passed(equation.steps(), 1);
       lowest = std::min(lowest, equation.offset());
     }
     motion.max_spring_force = -slider.spring_stiffness * lowest;
     set_means(motion, at, begin, sample_of(equation));
-    record(motion, equation, slider, 3 * meter.slow_period());
+    record(motion, equation, slider, 3 * meter.slow_period(), watch);
     return motion;
   }
   motion.cycles = static_cast<int>(meter.kept());
@@ -315,17 +353,19 @@ SliderMotion follow(Equation& equation, const Case& at, const Slider& slider,
   motion.max_spring_force = -slider.spring_stiffness * meter.lowest();
   motion.state = meter.stuck_time() > 0 ? SliderState::stick_slip : SliderState::pulsating;
   set_means(motion, at, meter.begin().sample, meter.end().sample);
-  record(motion, equation, slider, 3 * motion.slider_period);
+  record(motion, equation, slider, 3 * motion.slider_period, watch);
   return motion;
 }
 
 // One period of the full equation from the least indentation, as a map of (x − Vt, ẋ − V).
 struct PeriodMap {
   SliderEquation& equation;
+  Watch& watch;
 
   std::array<double, 2> operator()(double offset, double relative_velocity) const {
     equation.begin(offset, relative_velocity);
     equation.advance();
+    watch.passed(equation.steps(), 0);
     return {equation.offset(), equation.relative_velocity()};
   }
 };
@@ -388,13 +428,14 @@ double damping_error(const Case& at, const Slider& slider, double friction_coeff
 // The least place in (low, high] where `damping` reaches what is needed; NaN: nowhere.
 double first_reached(const std::function<double(double)>& excess, double low, double high) {
   constexpr double ratio = 1.05;
-  double before = low;
-  for (double place = ratio * low;; place *= ratio) {
-    place = std::min(place, high);
+  constexpr int most = 2000;  // 42 decades
+  double before = low, place = low;
+  for (int k = 0; k < most && place < high; ++k) {
+    place = std::min(ratio * place, high);
     if (excess(place) >= 0) return detail::find_root(excess, before, place);
-    if (!(place < high)) return SliderThreshold::unknown;
     before = place;
   }
+  return SliderThreshold::unknown;
 }
 
 // Threshold over what `normal_of` makes an oscillation from, from `low`, where nothing sticks.
@@ -450,6 +491,8 @@ SliderMotion slider_motion(const ContactLaw& law, const Position& position,
                            const NormalOscillation& normal, const Slider& slider,
                            double friction_coefficient, const SliderOptions& options) {
   const Case at(law, position, normal, slider, friction_coefficient, options);
+  at.check_cost(SliderEquation::steps_of_period(at.contact, slider, options.steps),
+                SliderEquation::period_of(at.contact, slider), slider);
   const auto motion_with = [&](int steps) {
     SliderEquation equation(at.contact, slider, steps);
     return follow(equation, at, slider, options);
@@ -475,6 +518,8 @@ SliderMotion averaged_slider_motion(const ContactLaw& law, const Position& posit
                                     const NormalOscillation& normal, const Slider& slider,
                                     double friction_coefficient, const SliderOptions& options) {
   const Case at(law, position, normal, slider, friction_coefficient, options);
+  constexpr double parts = 256;  // of a slow period, in which it advances
+  at.check_cost(parts, 2 * pi / natural_frequency(slider), slider);
   AveragedSlider equation(at.contact, at.sliding, friction_coefficient, slider);
   return follow(equation, at, slider, options);
 }
@@ -493,7 +538,8 @@ SliderStability slider_stability(const ContactLaw& law, const Position& position
   result.averaged_growth_rate = -decay + (square > 0 ? std::sqrt(square) : 0);
 
   SliderEquation equation(at.contact, slider, 4 * options.steps);
-  const PeriodMap map{equation};
+  Watch watch(options.on_progress, "stability");
+  const PeriodMap map{equation, watch};
   double offset = at.spring_offset, relative_velocity = 0;
   constexpr int most_iterations = 20;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {

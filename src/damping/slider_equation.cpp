@@ -23,25 +23,39 @@ TangentialContact contact_of(const SliderContact& at) {
            .tangential_range = std::numeric_limits<double>::infinity()}};
 }
 
+// Angular frequency of the slider on its spring and the stiffest contact; never below that of the
+// spring alone.
+double fastest_of(const SliderContact& contact, const Slider& slider) {
+  const double highest = contact.indentation + contact.normal_amplitude;
+  return std::sqrt((slider.spring_stiffness + contact.law.tangential_stiffness(highest)) /
+                   slider.mass);
+}
+
 }  // namespace
+
+double SliderEquation::period_of(const SliderContact& contact, const Slider& slider) {
+  return 2 * pi /
+         (contact.normal_amplitude > 0 ? contact.angular_frequency : fastest_of(contact, slider));
+}
+
+double SliderEquation::steps_of_period(const SliderContact& contact, const Slider& slider,
+                                       int steps) {
+  const double resonances = period_of(contact, slider) * fastest_of(contact, slider) / (2 * pi);
+  // Without an oscillation it is 1, to round-off.
+  return steps * std::ceil(std::max(1.0, resonances * (1 - 1e-12)));
+}
 
 SliderEquation::SliderEquation(const SliderContact& contact, const Slider& slider, int steps)
     : at_(contact),
       slider_(slider),
       contact_(contact_of(contact)),
       slope_limit_(contact.friction_coefficient / contact.law.modulus_ratio()) {
-  const double natural = std::sqrt(slider.spring_stiffness / slider.mass);
   const double highest = contact.indentation + contact.normal_amplitude;
-  const double resonance = std::sqrt(
-      (slider.spring_stiffness + contact.law.tangential_stiffness(highest)) / slider.mass);
   const bool oscillates = contact.normal_amplitude > 0;
   span_ = std::max(contact.normal_amplitude,
                    contact.law.force(highest) / contact.law.normal_stiffness(highest));
-  const double fastest = std::max(resonance, natural);
-  const double frequency = oscillates ? contact.angular_frequency : fastest;
-  period_ = 2 * pi / frequency;
-  const double refined = std::ceil(std::max(1.0, fastest / frequency));
-  const int count = steps * static_cast<int>(refined);
+  period_ = period_of(contact, slider);
+  const int count = static_cast<int>(steps_of_period(contact, slider, steps));
   std::vector<double> times;
   for (int i = 0; i <= count; ++i) times.push_back(period_ * i / count);
   if (oscillates) {
@@ -49,8 +63,9 @@ SliderEquation::SliderEquation(const SliderContact& contact, const Slider& slide
     for (const double level : sweep_breaks(contact.law, low, highest)) {
       if (!(level > low && level < highest) || contact.law.force(level) > 0) continue;
       const double phase = 2 * std::atan2(std::sqrt(level - low), std::sqrt(highest - level));
-      times.push_back(phase / frequency);
-      times.push_back(period_ - phase / frequency);
+      const double time = phase / contact.angular_frequency;
+      times.push_back(time);
+      times.push_back(period_ - time);
     }
     std::ranges::sort(times);
   }

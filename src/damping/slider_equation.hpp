@@ -43,6 +43,10 @@ struct SliderContact {
 /// curvature within a step: second order, estimated by halving.
 class SliderEquation {
  public:
+  /// Of the oscillation, or without one of the slider on its spring and the contact, s.
+  static double period_of(const SliderContact& contact, const Slider& slider);
+  /// Steps in it, for `steps` in the faster of both.
+  static double steps_of_period(const SliderContact& contact, const Slider& slider, int steps);
   SliderEquation(const SliderContact& contact, const Slider& slider, int steps);
 
   /// Puts it where δ is least, all levels at the limit of their stretch, which is where every
@@ -52,6 +56,8 @@ class SliderEquation {
   void advance();
 
   double period() const { return period_; }
+  /// Of one advance().
+  long steps() const { return static_cast<long>(nodes_.size()) - 1; }
   double time() const { return period_ * periods_; }
   double offset() const { return offset_; }                        ///< y, m
   double relative_velocity() const { return relative_velocity_; }  ///< w, m/s

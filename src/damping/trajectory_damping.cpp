@@ -100,6 +100,13 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
     const double slip_before = contact.dissipated_in_permanent_contact();
     double x = origin;
     for (std::size_t step = 0; step < count; ++step) {
+      constexpr std::size_t interval = 1 << 12;
+      if (step % interval == interval - 1 && options.on_progress &&
+          !options.on_progress(
+              {"trajectory",
+               (period + static_cast<double>(step) / static_cast<double>(count)) / periods,
+               static_cast<int>(step), 0}))
+        throw Interrupted("trajectory: interrupted");
       const std::size_t at = (first + step) % count;
       force[at] = contact.tangential_force();
       // In full stick the permanent levels are one spring that a drift stretches for ever.

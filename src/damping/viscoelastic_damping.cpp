@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <salebra/base/error.hpp>
+#include <salebra/base/loop_progress.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 
 #include "contact/mdr/viscoelastic_spring.hpp"
@@ -74,10 +75,10 @@ NormalPeriod normal_period(const MaxwellSpring& spring, const SpringPath& path, 
 // Newton's method for the anchors that a period returns to. They are a convex and rising function
 // of those at the start, so that it converges monotonically after its first step.
 bool find_periodic(const MaxwellSpring& spring, const SpringPath& path, double level, double range,
-                   Branches& start, NormalPeriod& period) {
+                   Branches& start, NormalPeriod& period, LoopProgress& progress) {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(spring.terms(), spring.terms());
   double last = range;
-  for (int iteration = 0; iteration < 60; ++iteration) {
+  for (int iteration = 0; iteration < 60 && progress.advance(0); ++iteration) {
     period = normal_period(spring, path, level, start);
     if (spring.terms() == 0) return true;
     const Branches change =
@@ -228,7 +229,8 @@ std::vector<double> differences(const std::vector<double>& values) {
 }  // namespace
 
 ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeries& prony,
-                                         const SampledMotion& trajectory, int springs) {
+                                         const SampledMotion& trajectory, int springs,
+                                         const Progress& on_progress) {
   trajectory.validate();
   require(springs >= 8, "springs", springs, "must be >= 8");
   const MaxwellSpring spring(prony);
@@ -264,10 +266,13 @@ ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeri
   // Each spring starts from the state of the one within it; the first from that of a spring that
   // never leaves.
   Branches start = trajectory.indentation.front() - permanent_level - normal.start;
+  LoopProgress progress(on_progress, "viscoelastic", static_cast<Index>(ring.cells.size()));
   for (const detail::SpringLayout::Cell& cell : ring.cells) {
     NormalPeriod period;
-    result.converged = find_periodic(spring, path, cell.level, highest - lowest, start, period) &&
-                       result.converged;
+    result.converged =
+        find_periodic(spring, path, cell.level, highest - lowest, start, period, progress) &&
+        result.converged;
+    if (!progress.advance()) break;
     const double share = stiffness * cell.width;
     result.normal_material_work += share * period.work;
     for (std::size_t i = 0; i < samples; ++i) result.force[i] += share * period.force[i];
@@ -279,6 +284,8 @@ ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeri
       result.relaxation_work += ratio * share * lost.relaxation;
     }
   }
+
+  progress.finish();
 
   const double duration = trajectory.period();
   double square_velocity = 0;

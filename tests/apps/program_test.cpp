@@ -231,3 +231,42 @@ TEST_CASE("What is printed never goes into an output file", "[program]") {
   CHECK(result.status == 1);  // the answer was not printed
   CHECK(test.run("info surface.npy").status == 0);
 }
+
+TEST_CASE("SIGINT stops every command that computes for long, and nothing is written",
+          "[program]") {
+  const ProgramTest test;
+  const std::string law =
+      "--law exponential --normal-force 20mN --decay-length 30nm --poisson 0.3 ";
+  const std::string normal = "--normal-amplitude 2nm --frequency 20kHz ";
+  const std::string sphere =
+      "--profile sphere --radius 5mm --indentation 20um --contact-modulus 4MPa --poisson 0.5 ";
+  const std::string motion =
+      "--mode equal-frequency --normal-amplitude 2um --tangential-amplitude 1um --phase 80deg "
+      "--frequency 1kHz ";
+  // Each takes seconds to minutes.
+  for (const std::string& command :
+       {"slider " + law + normal +
+            "--mass 10g --spring-stiffness 1kN/m --velocity 3um/s "
+            "--falling-slope 1 --friction-coefficient 0.3",
+        "viscoelastic " + sphere + motion + "--prony 3MPa:1ms --steps 20000 --springs 20000",
+        "mdr " + sphere + motion + "--friction 0.3 --steps 10000000",
+        "damping " + law + normal + "--drag-velocity 1mm/s --friction 0.3 --steps 10000000",
+        "joint " + law +
+            "--friction-coefficient 0.3 --normal-amplitude 2nm --tangential-forces 3mN "
+            "--steps 400000",
+        "friction " + law +
+            "--friction-coefficient 0.3 --frequency 20kHz --normal-amplitude 1:20nm:40 "
+            "--velocity-ratios 0.001:0.9:4000",
+        "damper " + law + "--normal-amplitude 1:20nm:2000 --frequency 1:100kHz:2000"}) {
+    INFO(command);
+    // Once the program handles it: a signal before would end it at once.
+    const auto result = test.run(
+        command + " -o out.h5 --quiet --threads 1",
+        "(until grep -q '^SigCgt:.*[2367abef]$' /proc/$$/status; do sleep 0.01; done; sleep 0.2; "
+        "kill -INT $$) &");
+    CHECK(result.status == 130);
+    CHECK(result.out.empty());
+    CHECK(std::ranges::count(result.err, '\n') == 1);
+    CHECK(test.files().empty());
+  }
+}

@@ -349,3 +349,31 @@ TEST_CASE("Bad input of a slider is named", "[slider]") {
   stopped.on_progress = [](const ProgressReport&) { return false; };
   CHECK_THROWS_AS(slider_motion(rough, load, {1e-9, omega}, good, friction, stopped), Interrupted);
 }
+
+TEST_CASE("A slider that takes too many steps is refused, and any other can be stopped",
+          "[slider]") {
+  const NormalOscillation normal{2e-9, omega};
+  // A spring so soft that the drive loads it for hours.
+  Slider soft = slider_of(0.01, 100, 5e-5, 0, 0);
+  soft.spring_stiffness *= 1e-9;
+  CHECK_THROWS_WITH(slider_motion(rough, load, normal, soft, friction),
+                    Catch::Contains("steps: ") && Catch::Contains("needed in a slow cycle"));
+  CHECK_THROWS_WITH(averaged_slider_motion(rough, load, normal, soft, friction),
+                    Catch::Contains("needed in a slow cycle"));
+  // A mass so light that the contact swings a million times in a period of the oscillation.
+  const double stiffness = rough.tangential_stiffness(0);
+  const auto of_resonances = [&](double count) {
+    return slider_of(stiffness / std::pow(count * omega, 2), 100, 5e-5, 0, 0);
+  };
+  CHECK_THROWS_WITH(slider_stability(rough, load, normal, of_resonances(1e6), friction),
+                    Catch::Contains("needed in a period of the oscillation"));
+  const SliderOptions stopped{.on_progress = [](const ProgressReport&) { return false; }};
+  CHECK_THROWS_AS(slider_stability(rough, load, normal, of_resonances(1e3), friction, stopped),
+                  Interrupted);
+  CHECK_THROWS_AS(
+      slider_motion(rough, load, normal, slider_of(0.01, 300, 5e-5, 0, 0), friction, stopped),
+      Interrupted);
+  CHECK_THROWS_AS(averaged_slider_motion(rough, load, normal, slider_of(0.01, 3000, 5e-7, 0, 0),
+                                         friction, stopped),
+                  Interrupted);
+}

@@ -74,11 +74,13 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
 /// steps    in a period, >= 16
 /// throws   NotConverged where a force leads to no steady state within 200 periods; InvalidInput
 ///          also where the normal force falls to what slides
+/// on_progress  a stop throws Interrupted
 /// cost     two periods of a displacement, O(steps); of a force some tens of evaluations of the
 ///          state for each step, and periods until the loss is steady to 1e-9
 JointLoss joint_loss(const ContactLaw& law, const Position& position,
                      const TangentialOscillation& motion, double friction_coefficient,
-                     double normal_amplitude, double phase, int steps = 2000);
+                     double normal_amplitude, double phase, int steps = 2000,
+                     const Progress& on_progress = {});
 
 /// Simulates the joint in three dimensions: cells with Coulomb's friction, through the motion until
 /// two periods lose the same (simulate_frictional_cycle). Relaxation and slip are told apart by

@@ -75,7 +75,7 @@ struct SliderOptions {
   /// are averaged. 1e-6 … 0.5.
   double tolerance = 1e-2;
   int most_cycles = 200;      ///< > 0, slow periods 2π√(m/k), after which the motion is given up
-  Progress on_progress = {};  ///< a stop throws Interrupted
+  Progress on_progress = {};  ///< of all functions here; a stop throws Interrupted
 };
 
 /// The motion in which a slider ends. Means are over whole slow cycles, from one largest stretch of
@@ -150,8 +150,9 @@ constexpr void describe(auto&& visit, std::type_identity<SliderMotion>) {
 /// `steps` and twice as many until the amplitude changes by less than the tolerance.
 /// normal_oscillation  δ = δ0 − u_z cos ωt; u_z = 0: none, and ω is not used; else ω > 4√(k/m)
 /// friction_coefficient  μ > 0, finite
-/// throws  InvalidInput as steady_sliding(), and where the motion reaches velocities at which −bẋ
-///         makes friction negative
+/// throws  InvalidInput as steady_sliding(), where the motion reaches velocities at which −bẋ makes
+///         friction negative, and where a period of the oscillation takes more than 500,000 steps
+///         or a slow cycle more than 10 million; Interrupted where on_progress says stop
 /// cost    some 0.6 µs a step; slow cycles have ω/√(k/m) times `steps` of them, and more the slower
 ///         the drive
 SliderMotion slider_motion(const ContactLaw& law, const Position& position,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/progress.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/quantities.hpp>
 #include <salebra/damping/tangential_contact.hpp>
@@ -12,6 +13,7 @@ namespace salebra {
 struct TrajectoryDampingOptions {
   double friction_coefficient =
       std::numeric_limits<double>::infinity();  ///< μ; infinite: full stick
+  Progress on_progress = {};                    ///< a stop throws Interrupted
 };
 
 /// Steady state of a contact under a periodic motion.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <salebra/base/describe.hpp>
+#include <salebra/base/progress.hpp>
 #include <salebra/contact/mdr/viscoelastic.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/quantities.hpp>
@@ -66,9 +67,11 @@ constexpr void describe(auto&& visit, std::type_identity<ViscoelasticDamping>) {
 /// law, prony  as in viscoelastic_indentation(); G* is known
 /// trajectory  one period, straight between the samples; second order in their number
 /// springs     over the ring that opens and closes, second order
-/// throws      InvalidInput as viscoelastic_indentation(), and for a trajectory that is not valid
+/// throws      InvalidInput as viscoelastic_indentation(), and for a trajectory that is not valid;
+///             Interrupted where on_progress, told of springs, says stop
 /// cost        about 10 × samples × springs × terms
 ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeries& prony,
-                                         const SampledMotion& trajectory, int springs = 200);
+                                         const SampledMotion& trajectory, int springs = 200,
+                                         const Progress& on_progress = {});
 
 }  // namespace salebra
