@@ -201,7 +201,7 @@ std::string damping_table(const StudyResult& result, const StudyPremises& premis
 }
 
 std::string comparison_text(const StudyResult& result, const StudyPremises& premises) {
-  const PremiseReport judged{premises.premises, true};
+  const PremiseReport judged{premises.premises, true, result.pressures};
   return heading(result) + judged.above() + slopes_table(result) + law_verdict(result) + "\n" +
          loads_table(result) + "\n" + damping_table(result, premises) + judged.open_points() +
          "\n" + ensemble_remarks(result);

@@ -26,6 +26,7 @@ Json study_json(const StudyResult& result, const StudyPremises& premises, const 
   }
   Json damping =
       columns_json<DampingPoint>([&](const auto& number) { return result.damping(number); });
+  damping["deviation"] = to_json(result.deviation());
   std::vector<double> forces;
   for (const double pressure : result.pressures) forces.push_back(pressure * result.grid.area());
   damping["pressure"] = result.pressures;
@@ -84,7 +85,7 @@ std::string damping_text(const StatedMean& estimate) {
 
 std::string study_text(const StudyResult& result, const StudyPremises& premises,
                        const StudyFiles& files) {
-  const PremiseReport judged{premises.premises, true};
+  const PremiseReport judged{premises.premises, true, result.pressures};
   const bool sample = result.realisations.size() > 1;
   std::string text = heading(result) + judged.above();
   text += "Decay length l of pressure = p0 exp(-mean gap/l)\n";
@@ -121,7 +122,7 @@ std::string study_text(const StudyResult& result, const StudyPremises& premises,
   const auto by_law = result.damping(&DampingPoint::damping_constant_eq16);
   const auto computed = result.stated_damping();
   int unstated = 0;
-  const auto deviation = result.damping(&DampingPoint::deviation);
+  const auto deviation = result.deviation();
   for (std::size_t i = 0; i < result.pressures.size(); ++i) {
     const double relative = computed[i].error / std::abs(computed[i].mean);
     rows.push_back({format_quantity(result.pressures[i], Dimension::pressure),

@@ -11,6 +11,7 @@
 #include <salebra/results/columns.hpp>
 
 #include "first_loading.hpp"
+#include "option_words.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {
@@ -114,38 +115,12 @@ void PremiseReport::add_to(Json& answer) const {
 }
 
 std::string PremiseReport::above() const {
-  const std::string text = objections(cases);
+  const std::string text = objections(cases, pressures);
   return text.empty() ? "" : text + "\n";
 }
 
 std::string PremiseReport::open_points() const {
-  std::string open, largest;
-  for (const PremiseName& name : premise_names()) {
-    const auto unknown = std::ranges::find(
-        cases, Verdict::unknown, [&](const Premises& p) { return (p.*name.premise).verdict; });
-    if (unknown == cases.end()) continue;
-    const Json option = option_of(((*unknown).*name.premise).needs);
-    open += std::string(open.empty() ? "Premises not judged: " : ", ") + std::string(name.meaning) +
-            (option.is_null() ? "" : fmt::format(" ({})", option.text()));
-  }
-  if (!open.empty()) open += "\n";
-  const std::vector<LargestMotion>& judged = any_largest(cases);
-  for (std::size_t i = 0; i < judged.size(); ++i) {
-    double velocity = HUGE_VAL, amplitude = HUGE_VAL;
-    for (const Premises& p : cases) {
-      if (p.largest.empty()) continue;
-      velocity = std::fmin(velocity, p.largest[i].drag_velocity);
-      amplitude = std::fmin(amplitude, p.largest[i].tangential_amplitude);
-    }
-    const bool drag = std::isfinite(velocity);
-    if (!drag && !std::isfinite(amplitude)) continue;
-    largest += fmt::format("{}{} with friction {:g}",
-                           largest.empty() ? "Slip changes the loss by less than 5 % up to " : ", ",
-                           drag ? format_quantity(velocity, Dimension::velocity, 3)
-                                : format_quantity(amplitude, Dimension::length, 3),
-                           judged[i].friction_coefficient);
-  }
-  if (!largest.empty()) open += largest + "\n";
+  std::string open = in_options(salebra::open_points(cases));
   if (!list && cases.front().regime != Regime::unknown)
     open += "Regime: " + std::string(word_of(cases.front().regime)) + "\n";
   return open.empty() ? "" : "\n" + open;

@@ -26,6 +26,7 @@ struct PremiseOptions {
 struct PremiseReport {
   std::vector<Premises> cases = {};
   bool list = false;
+  std::vector<double> pressures = {};  ///< of the cases of a study, Pa
 
   /// Adds the keys `premises`, `largest_motion` and, unless slip is computed, `regime`.
   void add_to(Json& answer) const;

@@ -204,19 +204,21 @@ void bind_result(nb::module_& m) {
       .def(
           "damping",
           [](const StudyResult& self, const std::string& quantity, const std::string& model) {
-            return self.damping(number_of<DampingPoint>(quantity, "quantity"),
-                                contact_model(model));
+            return self.damping(quantity, contact_model(model));
           },
           nb::arg("quantity") = "damping_constant", nb::arg("model") = "bem",
           "Mean at each pressure of a quantity of :class:`DampingPoint`, such as "
-          "damping_constant_eq16 (Eq. (16)) or deviation.")
+          "damping_constant_eq16 (Eq. (16)). damping_constant is NaN where its error is not "
+          "smaller; "
+          "deviation is the ratio of the means of damping_constant_eq16 and damping_constant, less "
+          "1.")
       .def(
           "deviation_range",
           [](const StudyResult& self, const std::string& model) {
             return self.deviation_range(contact_model(model));
           },
           nb::arg("model") = "bem",
-          "Least and greatest mean deviation of Eq. (16) from the theorem on the curve.")
+          "Least and greatest deviation of Eq. (16) from the theorem on the curve.")
       .def("convergence_counts", &StudyResult::convergence_counts,
            "Numbers of surfaces of convergence(): all up to 128, then 32 in each doubling.")
       .def("convergence", &StudyResult::convergence,

@@ -58,7 +58,7 @@ function dampingFigure(parent, point) {
       const reference = estimate("curve");
       const drawn = band(route.label, force, values, route.style, {text: force.map((value, i) => `${plotText(route.label)}: ${quantity(values.mean[i], MEASURES[measure].unit)}`
         + (known(values.low?.[i]) ? `<br>95 %: ${interval({low: values.low[i], high: values.high[i]}, MEASURES[measure].unit)}` : "")
-        + (known(values.error?.[i]) && known(values.mean[i]) ? `<br>numerical error ${percent(values.error[i] / values.mean[i])}` : "")
+        + (known(values.error?.[i]) && known(values.mean[i]) ? `<br>numerical error ${errorPercent(values.error[i] / Math.abs(values.mean[i]))}` : "")
         + (key !== "curve" && known(reference?.mean[i]) ? `<br>${percent(values.mean[i] / reference.mean[i] - 1)} of the computed` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>p</i> = ${quantity(point.pressure[i], "Pa", 3)}`)});
       if (values.error?.some(known)) drawn.at(-1).error_y = {type: "data", array: values.error.map((e, i) => (known(e) && known(values.mean[i]) ? e : 0)), color: color(route.style.color), thickness: 1.5};
       return drawn;
@@ -72,7 +72,7 @@ function dampingFigure(parent, point) {
   addFigure(parent, {
     id: "damping-deviation", title: `How far ${law.split(",")[0]} is off`, height: 300,
     alt: () => `Deviation of ${law} from the damping computed, by force: from ${percent(Math.min(...deviation.mean.filter(known)))} to ${percent(Math.max(...deviation.mean.filter(known)))}.`,
-    caption: `${law} over the damping constant computed by the same boundary elements, less 1. That needs no law and holds at any amplitude.`,
+    caption: `${law} over the damping constant computed by the same boundary elements, less 1${f.count > 1 ? ": the ratio of their means over the surfaces, with the 95 % interval of that ratio" : ""}. What is computed needs no law and holds at any amplitude.`,
     axes: {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {label: "deviation", fixed: true, percent: true, layout: {zeroline: true, zerolinecolor: color("line"), zerolinewidth: 1.5}}},
     columns: () => [{label: "force", key: "force", unit: "N", values: force}, ...estimateColumns("deviation", "deviation", "1", deviation)],
     plot: () => ({series: band("deviation", force, deviation, {color: "vermilion", symbol: "square", dash: "solid"},

@@ -64,6 +64,9 @@ function percent(value, digits = 2) {
   return (value > 0 ? "+" : "") + text + NARROW + "%";
 }
 
+/** Of an error, which has no sign. */
+const errorPercent = (value) => (known(value) ? number(100 * value, 2) + NARROW + "%" : "n/a");
+
 // Text of the page knows three marks, which stand for the same in HTML and in plotly: ‹italic›, _{sub}, ^{sup}.
 const MARKS = /‹([^›]+)›|_\{([^}]*)\}|\^\{([^}]*)\}/g;
 
@@ -92,6 +95,9 @@ function rich(text, linked = false) {
   nodes.push(text.slice(end));
   return nodes;
 }
+
+/** What a message names: `hardness` is an option and a key of the study file. */
+const coded = (text) => text.split("`").map((part, i) => (i % 2 ? h("code", {}, part) : part));
 
 /** What a file names, for plotly, which reads some HTML. */
 const escaped = (text) => String(text).replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");

@@ -17,12 +17,12 @@ const absent = (what) => h("p", {class: "absent"}, `This results file does not h
 
 const finding = (title, value, detail, more) => h("div", {class: "finding"}, h("h3", {}, rich(title)), h("p", {class: "value"}, rich(value)), [detail].flat().filter(Boolean).map((line) => h("p", {class: "detail"}, rich(line))), more ? h("p", {class: "more"}, rich(more)) : null);
 
-/** The pressure in the middle of the fit's window for which the curve has a damping. */
-function representative(point, f) {
+/** The load that the damping constant, the maps and the profile are at: that of the maps, or the nearest to it which has a damping. */
+function representative(point) {
   const curve = point.damping?.curve?.damping_constant?.bem?.mean ?? point.damping?.law?.damping_constant?.bem?.mean ?? [];
-  const middle = known(f.pressureMin) ? Math.log(f.pressureMin * f.pressureMax) / 2 : Math.log(point.pressure[Math.floor(point.pressure.length / 2)]);
+  const wanted = shownLoad(point);
   let best = -1;
-  point.pressure.forEach((p, i) => { if (known(curve[i]) && (best < 0 || Math.abs(Math.log(p) - middle) < Math.abs(Math.log(point.pressure[best]) - middle))) best = i; });
+  point.pressure.forEach((_, i) => { if (known(curve[i]) && (best < 0 || Math.abs(i - wanted) < Math.abs(best - wanted))) best = i; });
   return best;
 }
 
@@ -51,23 +51,26 @@ function conclusion(main, point) {
     } else {
       body.append(absent("a fitted force law"));
     }
-    const i = damping ? representative(point, f) : -1;
+    const i = damping ? representative(point) : -1;
     if (i >= 0) {
       const curve = damping.curve?.damping_constant?.bem, law = damping.law?.damping_constant?.bem;
       const shown = known(curve?.mean[i]) ? curve : law;
       const limits = interval({low: shown.low?.[i], high: shown.high?.[i]}, "N s/m");
       const lawName = isDrag(point) ? "Eq. (16)" : "Eq. (12)";
-      body.append(finding("Damping constant", quantity(shown.mean[i], "N s/m", 3), [limits ? `95 %: ${limits}` : "", known(shown.error?.[i]) ? `numerical error ${percent(shown.error[i] / shown.mean[i])}` : "", `at ‹F› = ${quantity(damping.force[i], "N", 3)}, ‹p› = ${quantity(point.pressure[i], "Pa", 3)}`],
+      body.append(finding("Damping constant", quantity(shown.mean[i], "N s/m", 3), [limits ? `95 %: ${limits}` : "", known(shown.error?.[i]) ? `numerical error ${errorPercent(shown.error[i] / Math.abs(shown.mean[i]))}` : "", `at ‹F› = ${quantity(damping.force[i], "N", 3)}, ‹p› = ${quantity(point.pressure[i], "Pa", 3)}${point.picture && i === shownLoad(point) ? ", as the maps and the profile below" : ""}`],
         known(curve?.mean[i]) && known(law?.mean[i]) ? `${lawName} gives ${quantity(law.mean[i], "N s/m", 3)}, ${percent(law.mean[i] / curve.mean[i] - 1)}` : ""));
     }
     const verdict = lawVerdict(point);
     if (verdict) element.append(h("p", {class: "verdict"}, h("strong", {}, verdict.poor ? "The law is a poor description. " : "The law is a fair description. "), rich(verdict.text)));
-    for (const line of [point.objections, point.regimes].filter(Boolean).join("\n").split("\n").filter(Boolean)) element.append(h("p", {class: "verdict"}, h("strong", {}, `${line.slice(0, line.indexOf(":"))}. `), `${line.slice(line.indexOf(":") + 2)}.`));
+    for (const line of [point.objections, point.regimes, point.open_points].filter(Boolean).join("\n").split("\n").filter(Boolean)) {
+      const [, head, rest] = line.match(/^((?:Premises|Regime)[^:]*): (.*)$/) ?? [null, null, line];
+      element.append(h("p", {class: "verdict"}, head ? h("strong", {}, `${head}. `) : null, coded(rest), "."));
+    }
     if (damping) element.append(h("p", {class: "verdict"}, h("strong", {}, "Motion. "), describeMotion(damping)[0].toUpperCase() + describeMotion(damping).slice(1) + "."));
     element.append(h("p", {class: "verdict"}, h("strong", {}, "Intervals. "), `${point.fit?.interval_method ?? "95 %"}.`));
     const warnings = warningsOf(point, f);
     element.append(h("div", {class: "warnings", role: "region", "aria-label": "Warnings"},
-      h("h3", {}, warnings.length ? "Notes" : "No warnings"), warnings.length ? h("ul", {}, warnings.map((text) => h("li", {}, text))) : h("p", {}, "The study raised none.")));
+      h("h3", {}, warnings.length ? "Notes" : "No warnings"), warnings.length ? h("ul", {}, warnings.map((text) => h("li", {}, coded(text)))) : h("p", {}, "The study raised none.")));
   });
 }
 
@@ -76,6 +79,10 @@ function warningsOf(point) {
   const capital = (text) => text[0].toUpperCase() + text.slice(1) + (text.endsWith(".") ? "" : ".");
   const flags = lines(point.surface?.flags).map((line) => capital(line.replace(/^[a-z_]+: /, "")));
   const warnings = [...lines(point.surface?.warnings).map(capital), ...flags];
+  const computed = point.damping?.curve?.damping_constant?.bem;
+  const unstated = (computed?.error ?? []).filter((error, i) => known(error) && !known(computed.mean[i])).length;
+  if (unstated)
+    warnings.push(`No damping constant at ${unstated} of ${point.pressure.length} pressures: the error is larger than the number, because too few cells touch and part in the oscillation; a finer grid or \`relative_error\` may help.`);
   const least = point.damping?.deviation_min, greatest = point.damping?.deviation_max;
   const law = isDrag(point) ? "Eq. (16)" : "Eq. (12)";
   if (Math.max(Math.abs(least), Math.abs(greatest)) > 0.1)

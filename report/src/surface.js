@@ -95,22 +95,30 @@ function distributionFigure(parent, point) {
   });
 }
 
-/** Heights along the line through the middle, and where that line touches at the greatest load. */
+/** The load of the maps of the file; of one without, in the middle of the curve. */
+const shownLoad = (point) => point.picture?.mapped_load ?? Math.floor(point.pressure.length / 2);
+
+/** Of the maps and the profile, where a study has several surfaces. */
+const ofSurface = (point) => (point.surface?.realisations > 1 ? " of the first surface" : "");
+
+/** Heights along the line through the middle, and where that line touches at the load of the maps. */
 function profileFigure(parent, point) {
   const picture = point.picture, place = mapAxes(picture), row = Math.floor(picture.ny / 2);
   const heights = decoded(picture.heights, Float32Array);
   const line = place.x.map((_, ix) => Number(heights[ix * picture.ny + row].toPrecision(7)));
   const loads = picture.first_load ? decoded(picture.first_load, Int16Array) : null;
-  const touching = line.map((z, ix) => (loads && loads[ix * picture.ny + row] >= 0 ? z : null));
-  const most = point.pressure.at(-1), low = Math.min(...line), high = Math.max(...line);
+  const load = shownLoad(point), low = Math.min(...line), high = Math.max(...line);
+  const touches = (first) => first >= 0 && first <= load;
+  const touching = line.map((z, ix) => (loads && touches(loads[ix * picture.ny + row]) ? z : null));
+  const pressed = quantity(point.pressure[load], "Pa", 3);
   addFigure(parent, {
     id: "profile", title: "Profile",
-    alt: () => `Heights along x at y = ${quantity(place.y[row], "m", 3)}: from ${quantity(low, "m", 3)} to ${quantity(high, "m", 3)} about the mean; ${touching.filter(known).length} of ${line.length} points touch at ${quantity(most, "Pa", 3)}.`,
-    caption: `Heights along the line ‹y› = ${quantity(place.y[row], "m", 3)} through the middle, stretched: one unit of height is ${number(((place.x.at(-1) - place.x[0]) / 2) / (high - low), 2)} units of length. Marks are points that touch at ${quantity(most, "Pa", 3)}.`,
+    alt: () => `Heights along x at y = ${quantity(place.y[row], "m", 3)}: from ${quantity(low, "m", 3)} to ${quantity(high, "m", 3)} about the mean; ${touching.filter(known).length} of ${line.length} points touch at ${pressed}.`,
+    caption: `Heights${ofSurface(point)} along the line ‹y› = ${quantity(place.y[row], "m", 3)} through the middle, stretched: one unit of height is ${number(((place.x.at(-1) - place.x[0]) / 2) / (high - low), 2)} units of length. Marks are points that touch at ${pressed}.`,
     axes: {x: {label: "‹x›", unit: "m", fixed: true}, y: {label: "height above the mean", unit: "m", fixed: true}},
     columns: () => [{label: "‹x›", key: "x", unit: "m", values: place.x.map((v) => Number(v.toPrecision(7)))}, {label: "height", key: "height", unit: "m", values: line}],
     plot: () => ({series: [{label: "surface", x: place.x, y: line, mode: "lines", line: {color: color("blue"), width: 1.5}, text: line.map((z, i) => `height ${quantity(z, "m", 3)}<br>at <i>x</i> = ${quantity(place.x[i], "m", 3)}`)},
-      ...(touching.some(known) ? [{label: `in contact at ${quantity(most, "Pa", 3)}`, x: place.x, y: touching, mode: "markers", marker: {symbol: "circle", size: 5, color: color("vermilion")}, hoverinfo: "skip"}] : [])]}),
+      ...(touching.some(known) ? [{label: `in contact at ${pressed}`, x: place.x, y: touching, mode: "markers", marker: {symbol: "circle", size: 5, color: color("vermilion")}, hoverinfo: "skip"}] : [])]}),
   });
 }
 
@@ -121,8 +129,7 @@ function contactMap(parent, point) {
   const counts = new Array(pressures.length).fill(0);
   for (const load of loads) if (load >= 0 && load < counts.length) ++counts[load];
   const shares = counts.map((_, k) => counts.slice(0, k + 1).reduce((a, b) => a + b, 0) / loads.length);
-  let shown = Math.max(0, shares.findIndex((share) => share > 0.05));
-  if (!shares.some((share) => share > 0.05)) shown = pressures.length - 1;
+  let shown = shownLoad(point);
   const words = () => `${quantity(pressures[shown], "Pa", 3)}: ${number(100 * shares[shown], 3)}${NARROW}% in contact`;
   const output = h("output", {for: "contact-load"}, words());
   const slider = h("input", {type: "range", id: "contact-load", min: 0, max: pressures.length - 1, step: 1, value: shown, "aria-valuetext": words(),
@@ -141,7 +148,7 @@ function contactMap(parent, point) {
     id: "contact-map", title: "Contact map", axes: place.axes, height: mapHeight(),
     controls: h("label", {class: "slider", for: "contact-load"}, "Pressure ", slider, " ", output),
     alt: () => `Map of the points in contact. At ${words()}; at ${quantity(pressures[0], "Pa", 3)} it is ${number(100 * shares[0], 3)} %, at ${quantity(pressures.at(-1), "Pa", 3)} ${number(100 * shares.at(-1), 3)} %.`,
-    caption: `Points in contact at the pressure chosen, by boundary elements; dark ones touched first. Contacts of growing pressure contain each other, which is what the damping without slip rests on.${MAP_NOTE(picture)}`,
+    caption: `Points${ofSurface(point)} in contact at the pressure chosen, by boundary elements; dark ones touched first. Contacts of growing pressure contain each other, which is what the damping without slip rests on.${MAP_NOTE(picture)}`,
     columns: () => [{label: "pressure", key: "pressure", unit: "Pa", values: pressures}, {label: "share of the points in contact", key: "share", unit: "1", values: shares}],
     csv: () => mapColumns(picture, place, "first_pressure", "Pa", Array.from(loads, (load) => (load < 0 ? null : pressures[load]))),
     plot: () => {
@@ -156,7 +163,7 @@ function contactMap(parent, point) {
   });
 }
 
-/** A map of the state at one load in the middle of the curve: "contact_pressure" where it is not 0, or "gap". */
+/** A map of the state at one load in the middle of the curve, where it is not 0: "contact_pressure" or "gap". */
 function stateMap(parent, point, {key, id, title, unit, clip, colorscale, caption}) {
   const picture = point.picture, place = mapAxes(picture), step = picture[`max_${key}`] / 32767;
   const values = Array.from(decoded(picture[key], Int16Array), (v) => (key === "gap" || v > 0 ? v * step : null));
@@ -168,7 +175,7 @@ function stateMap(parent, point, {key, id, title, unit, clip, colorscale, captio
     caption: `${caption(load)}${MAP_NOTE(picture)}`,
     columns: () => [{label: "share of the points below", key: "share", unit: "1", values: shares}, {label: title.toLowerCase(), key, unit, values: shares.map((s) => Number(at(s).toPrecision(4))), digits: 3}],
     csv: () => mapColumns(picture, place, key, unit, values.map((v) => (v === null ? null : Number(v.toPrecision(4))))),
-    plot: () => ({series: [{type: "heatmap", x: place.x, y: place.y, z: matrix(values, picture.nx, picture.ny, (v) => (v === null ? null : v * scale.factor)), colorscale,
+    plot: () => ({series: [{type: "heatmap", x: place.x, y: place.y, z: matrix(values, picture.nx, picture.ny, (v) => (v > 0 ? v * scale.factor : null)), colorscale,
       zmin: 0, zmax: at(clip) * scale.factor, hoverongaps: false,
       colorbar: {title: {text: `${title.toLowerCase()} (${scale.label})`, side: "right"}, thickness: 12, outlinewidth: 0, len: 0.95},
       hovertemplate: `<i>x</i> = %{x:.4~g}, <i>y</i> = %{y:.4~g}<br>%{z:.4~g} ${scale.label}<extra></extra>`}],
@@ -178,12 +185,12 @@ function stateMap(parent, point, {key, id, title, unit, clip, colorscale, captio
 
 function pressureMap(parent, point) {
   stateMap(parent, point, {key: "contact_pressure", id: "pressure-map", title: "Contact pressure", unit: "Pa", clip: 0.99, colorscale: "Viridis",
-    caption: (load) => `Contact pressure at the nominal pressure ${load}, by boundary elements on the cells of the surface; points without contact are blank. The highest pressures depend on the size of the cells.`});
+    caption: (load) => `Contact pressure${ofSurface(point)} at the nominal pressure ${load}, by boundary elements on the cells of the surface; points without contact are blank. The highest pressures depend on the size of the cells.`});
 }
 
 function gapMap(parent, point) {
   stateMap(parent, point, {key: "gap", id: "gap-map", title: "Gap", unit: "m", clip: 0.99, colorscale: "Blues",
-    caption: (load) => `Gap between the deformed surfaces at the nominal pressure ${load}; 0 in contact. What lies in blue is open to fluids.`});
+    caption: (load) => `Gap${ofSurface(point)} after deformation at the nominal pressure ${load}, by boundary elements. Points in contact are blank; dark blue is narrow, light is wide.`});
 }
 
 /** Number and size of the contact spots. */

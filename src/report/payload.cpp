@@ -96,6 +96,8 @@ class Point {
       if (const auto text = file_.text_attribute(where_ + "premises", "regimes");
           text && !text->empty())
         json["regimes"] = "Regime: " + *text;
+      if (const auto text = file_.text_attribute(where_ + "premises", "open_points"))
+        json["open_points"] = *text;
     }
     add(json, "spots", spots());
     add(json, "over_bem",

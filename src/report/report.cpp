@@ -13,29 +13,6 @@
 namespace salebra {
 namespace {
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += letter;
-    }
-  }
-  return result;
-}
-
 /// JSON that may stand in a <script>: nothing in it can end the element or open a comment.
 std::string script_text(const Json& json) {
   const std::string text = json.dump();
@@ -89,7 +66,7 @@ void write_report(const std::filesystem::path& results, const std::filesystem::p
   payload["results"] = name;
   payload["title"] = options.title;
   payload["report_version"] = version();
-  const std::string title = escaped(options.title.empty() ? name : options.title);
+  const std::string title = detail::escaped(options.title.empty() ? name : options.title);
   const std::string data = script_text(payload), summary = detail::summary_of(payload);
   write_text_file(html,
                   filled(detail::assets::html(), {{"title", title},

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <salebra/base/units.hpp>
+#include <sstream>
 #include <vector>
 
 namespace salebra::detail {
@@ -69,6 +70,21 @@ std::string law(const Json& point) {
                        "here; use the computed curve.</p>");
 }
 
+/// A paragraph for each line on the premises.
+std::string premises(const Json& point) {
+  std::string text;
+  for (const char* lines : {"objections", "regimes", "open_points"}) {
+    const Json* found = find(point, {lines});
+    if (found == nullptr) continue;
+    std::istringstream stream(found->text());
+    for (std::string line; std::getline(stream, line);) {
+      std::erase(line, '`');
+      if (!line.empty()) text += "<p>" + escaped(line) + ".</p>";
+    }
+  }
+  return text;
+}
+
 std::string damping(const Json& point) {
   const Json* forces = find(point, {"damping", "force"});
   const Json* pressures = find(point, {"pressure"});
@@ -93,6 +109,29 @@ std::string damping(const Json& point) {
 
 }  // namespace
 
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char letter : text) {
+    switch (letter) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += letter;
+    }
+  }
+  return result;
+}
+
 std::string summary_of(const Json& payload) {
   std::string text;
   std::size_t i = 0;
@@ -100,7 +139,7 @@ std::string summary_of(const Json& payload) {
     const bool several = payload["points"].size() > 1;
     text += fmt::format("<section><h2>What came out{}</h2>",
                         several ? fmt::format(", point {}", ++i) : "");
-    text += law(point) + damping(point) + "</section>";
+    text += law(point) + premises(point) + damping(point) + "</section>";
   }
   return text;
 }

@@ -3,10 +3,14 @@
 
 #include <salebra/io/json.hpp>
 #include <string>
+#include <string_view>
 
 namespace salebra::detail {
 
-/// Decay length, verdict and damping constants of a report's payload as HTML. The page's script
+/// Text as HTML shows it.
+std::string escaped(std::string_view text);
+
+/// Decay length, verdict, premises and damping constants of a report's payload as HTML. The page's script
 /// puts its sections in their place.
 std::string summary_of(const Json& payload);
 

@@ -199,15 +199,9 @@ void write_damping(Table table, const StudyResult& result) {
   for (const ModelResult* model : model_results(result))
     for (const DampingPoint& point : model->damping) items.push_back(&point);
   table.columns(items, {"model", "realisation", "pressure"},
-                [&](const NumberOf<DampingPoint>& number, std::string_view name) {
-                  return of_models(result, [&](ContactModel model) {
-                    const std::vector<StatedMean> stated = result.stated_damping(model);
-                    if (name == "damping_constant") return Means(stated.begin(), stated.end());
-                    if (name != "damping_constant_error") return result.damping(number, model);
-                    Means errors;
-                    for (const StatedMean& mean : stated) errors.push_back({.mean = mean.error});
-                    return errors;
-                  });
+                [&](const NumberOf<DampingPoint>&, std::string_view name) {
+                  return of_models(result,
+                                   [&](ContactModel model) { return result.damping(name, model); });
                 },
                 {"model", "pressure"});
   std::vector<double> low, high;
@@ -280,7 +274,8 @@ void write_premises(ResultGroup group, const StudyResult& result) {
   for (const Premises& one : found.premises) codes.push_back(double(one.regime));
   group.dataset("regime", codes, {"pressure"}, "1",
                 "0 no slip, 1 partial slip, 2 sliding, 3 unknown");
-  group.attribute("objections", objections(found.premises));
+  group.attribute("objections", objections(found.premises, result.pressures));
+  group.attribute("open_points", open_points(found.premises));
   group.attribute("regimes", regimes(found, result.pressures));
 }
 

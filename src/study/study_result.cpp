@@ -58,6 +58,36 @@ std::vector<EnsembleMean> StudyResult::damping(const NumberOf<DampingPoint>& num
   });
 }
 
+std::vector<EnsembleMean> StudyResult::damping(std::string_view quantity,
+                                               ContactModel model) const {
+  if (quantity == "deviation") return deviation(model);
+  const bool error = quantity == "damping_constant_error";
+  if (!error && quantity != "damping_constant")
+    return damping(number_of<DampingPoint>(quantity, "quantity"), model);
+  std::vector<EnsembleMean> means;
+  for (const StatedMean& stated : stated_damping(model))
+    means.push_back(error ? EnsembleMean{.mean = stated.error} : EnsembleMean(stated));
+  return means;
+}
+
+std::vector<EnsembleMean> StudyResult::deviation(ContactModel model) const {
+  const auto law = damping(&DampingPoint::damping_constant_eq16, model);
+  const auto computed = stated_damping(model);
+  std::vector<EnsembleMean> deviations;
+  for (std::size_t k = 0; k < pressures.size(); ++k) {
+    const double constant = computed[k].mean, ratio = law[k].mean / constant;
+    const EnsembleMean scatter = mean([&](const Realisation& r) {
+      const auto& points = r.of(model).damping;
+      if (k >= points.size()) return ForceSample::unknown;
+      return (points[k].damping_constant_eq16 - ratio * points[k].damping_constant) / constant;
+    });
+    // Where both are known on all surfaces, the mean of the scatter is 0.
+    deviations.push_back({ratio - 1, ratio - 1 + (scatter.low - scatter.mean),
+                          ratio - 1 + (scatter.high - scatter.mean)});
+  }
+  return deviations;
+}
+
 std::vector<EnsembleMean> StudyResult::spots(const NumberOf<SpotStatistics>& number) const {
   return at_pressures([&](const Realisation& r, std::size_t k) { return number(r.spots[k]); });
 }
@@ -120,9 +150,9 @@ std::vector<StatedMean> StudyResult::stated_damping(ContactModel model) const {
 
 std::pair<double, double> StudyResult::deviation_range(ContactModel model) const {
   double low = ForceSample::unknown, high = ForceSample::unknown;
-  for (const EnsembleMean& deviation : damping(&DampingPoint::deviation, model)) {
-    low = std::fmin(low, deviation.mean);
-    high = std::fmax(high, deviation.mean);
+  for (const EnsembleMean& ratio : deviation(model)) {
+    low = std::fmin(low, ratio.mean);
+    high = std::fmax(high, ratio.mean);
   }
   return {low, high};
 }

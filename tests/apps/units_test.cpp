@@ -263,7 +263,7 @@ class Twin {
 /// The table alone: premises are told in words, above and below it.
 std::string without_premises(std::string text) {
   if (text.starts_with("Premises")) text.erase(0, text.find("\n\n") + 2);
-  for (const std::string words : {"\n\nPremises not judged", "\n\nSlip changes"})
+  for (const std::string words : {"\n\nPremises not judged", "\n\nSlip "})
     if (const std::size_t begin = text.find(words); begin != std::string::npos)
       text.resize(begin + 1);
   return text;

@@ -57,8 +57,8 @@ SampledMotion turning_at(const Drag& drag, double mean, int cycles, int steps, i
   for (int i = 0; i <= 2 * cycles * steps; ++i) {
     const double angle = 2 * pi * i / steps;
     path.time.push_back(angle / drag.angular_frequency);
-    path.indentation.push_back(
-        mean - drag.normal_amplitude * std::cos(2 * pi * ((i + offset) % steps) / steps));
+    path.indentation.push_back(mean - drag.normal_amplitude *
+                                          std::cos(2 * pi * ((i + offset) % steps) / steps));
     path.displacement.push_back(drag.drag_velocity / drag.angular_frequency *
                                 std::min(angle, 4 * pi * cycles - angle));
   }
@@ -229,8 +229,7 @@ TEST_CASE("The turning points of a slow motion cost what the simulated path miss
     CAPTURE(one.amplitude);
     const Drag drag{one.amplitude, 1e-6, 1e5};
     const double way = 2 * pi * drag.drag_velocity / drag.angular_frequency;
-    const double steady =
-        relaxation_damping(*one.law, AtIndentation{mean}, drag).work_per_cycle;
+    const double steady = relaxation_damping(*one.law, AtIndentation{mean}, drag).work_per_cycle;
     for (const int cycles : {2, 9}) {
       const Premise slow =
           premises_of(*one.law, mean, drag, {.excursion = cycles * way}).slow_motion;
@@ -238,9 +237,8 @@ TEST_CASE("The turning points of a slow motion cost what the simulated path miss
       constexpr int phases = 16, steps = 320;
       double loss = 0;
       for (int phase = 0; phase < phases; ++phase)
-        loss += trajectory_damping(*one.law,
-                                   turning_at(drag, mean, cycles, steps,
-                                              (2 * phase + 1) * steps / (2 * phases)))
+        loss += trajectory_damping(*one.law, turning_at(drag, mean, cycles, steps,
+                                                        (2 * phase + 1) * steps / (2 * phases)))
                     .work_per_cycle /
                 phases;
       // The straight steps lose up to 1e-3 of the whole; a mean over 16 phases is that of all to
@@ -628,4 +626,39 @@ TEST_CASE("Bad input of a map of regimes is refused", "[regimes][input]") {
   CHECK_THROWS_AS(regime_map(paraboloid, 1e-6, {0, 1e5}, {1e-9}, {1e-9}, 0.3), InvalidInput);
   CHECK_THROWS_AS(regime_map(paraboloid, 1e-6, {1e-8, 0}, {1e-9}, {1e-9}, 0.3), InvalidInput);
   CHECK(regime_map(paraboloid, 1e-6, normal, {}, {}, 0.3).sliding_excursion > 0);
+}
+
+TEST_CASE("Objections name the loads that they are of, open points what they need", "[premises]") {
+  Premises fine;
+  for (const PremiseName& name : premise_names()) (fine.*name.premise).verdict = Verdict::holds;
+  std::vector<Premises> cases(5, fine);
+  const std::vector<double> pressures{1e6, 2e6, 3e6, 4e6, 5e6};
+  CHECK(objections(cases, pressures).empty());
+  CHECK(open_points(cases).empty());
+  for (const std::size_t k : {0u, 2u, 3u})
+    cases[k].amplitude = {.value = 5e-9, .limit_5_percent = 4e-9, .verdict = Verdict::doubtful};
+  CHECK_THAT(objections(cases, pressures),
+             Catch::StartsWith("Premises doubtful: small amplitude") &&
+                 Catch::EndsWith("(5 % of the loss at 4 nm) at 1 MPa, 3 MPa to 4 MPa\n"));
+  CHECK_THAT(objections(cases), Catch::EndsWith(" in 3 of 5\n"));
+  for (Premises& one : cases)
+    one.inertia = {.value = 2, .limit_5_percent = 0.5, .verdict = Verdict::broken};
+  CHECK_THAT(objections(cases, pressures), Catch::Contains(" at all pressures\n"));
+  cases[1].plasticity = {.verdict = Verdict::unknown, .needs = "hardness"};
+  cases[4].inertia = {.verdict = Verdict::unknown, .needs = "angular_frequency"};
+  CHECK(open_points(cases) ==
+        "Premises not judged: plasticity (`hardness`), inertia (`frequency`)\n");
+  // Of the case that bears least. In case (b) the limit is that of the opening levels alone.
+  cases[0].largest = {{.friction_coefficient = 0.3, .drag_velocity = 5e-6}};
+  cases[3].largest = {{.friction_coefficient = 0.3, .drag_velocity = 2e-6}};
+  CHECK_THAT(
+      open_points(cases),
+      Catch::EndsWith("\nSlip where the contact opens and closes changes the loss by less than "
+                      "5 % up to 2 \u00b5m/s with friction 0.3\n"));
+  cases[0].largest =
+      cases[3].largest = {{.friction_coefficient = 0.1, .tangential_amplitude = 1e-9},
+                          {.friction_coefficient = 0.3, .tangential_amplitude = 3e-9}};
+  CHECK_THAT(open_points(cases),
+             Catch::EndsWith("\nSlip changes the loss by less than 5 % up to 1 nm "
+                             "with friction 0.1, 3 nm with friction 0.3\n"));
 }

@@ -141,6 +141,19 @@ const full = await open("full.html", {viewport: {width: 1280, height: 900}, colo
 await checkFigures(full, "full.html", everyFigure);
 await checkStructure(full, "full.html");
 await checkContrast(full, "full.html");
+// One load: the damping constant on top, the maps, the profile and the contact map as it opens.
+const loads = await full.evaluate(() => [/at F = [^,]+, p = (.*), as the maps/.exec(document.querySelector("#conclusion").innerText)?.[1], ...["pressure-map", "gap-map"].map((id) => /nominal pressure ([^,;]*\wPa)/.exec(document.querySelector(`#${id} figcaption`).textContent)?.[1]),
+  /touch at (.*Pa)/.exec(document.querySelector("#profile figcaption").textContent)?.[1], /^(.*Pa):/.exec(document.querySelector("#contact-map output").textContent)?.[1]]);
+check(loads.length === 5 && new Set(loads).size === 1 && loads[0], `full.html: shows the loads ${loads}`);
+// An error has no sign; what was not judged, and what has no number, is named.
+const top = await full.locator("#conclusion").innerText();
+check(/numerical error \d/.test(top) && !/error [+−]/.test(await full.evaluate(() => document.body.innerText + document.getElementById("damping-curve-plot").data.flatMap((trace) => trace.text ?? []).join())), `full.html: has an error with a sign: ${top.match(/numerical error.*/)}`);
+check(/Premises not judged\. slip where the contact opens and closes \(friction_coefficient\)/.test(top) && /Slip where the contact opens and closes changes the loss by less than 5/.test(top), `full.html: does not say what was not judged: ${top}`);
+const unstated = await full.evaluate(() => { const point = structuredClone(data.points[0]), computed = point.damping.curve.damping_constant.bem; computed.mean[0] = computed.mean[3] = null; return [warningsOf(data.points[0]), warningsOf(point)].map((list) => list.find((line) => /error is larger/.test(line))); });
+check(unstated[0] === undefined && /^No damping constant at 2 of 12 pressures/.test(unstated[1]), `full.html: says of numbers that are not stated: ${unstated}`);
+// Points in contact are blank in the map of the gap, as the others are in that of the pressure.
+const blank = await full.evaluate(() => { const of = (id) => document.getElementById(`${id}-plot`).data[0].z.flat(), gap = of("gap-map"); return of("pressure-map").map((p, i) => (p === null) === (gap[i] === null)).filter(Boolean).length / gap.length; });
+check(blank < 0.01, `full.html: ${100 * blank} % of the points are blank, or drawn, in the maps of pressure and gap alike`);
 const prefixed = await checkBars(full, "full.html");
 check(prefixed > 0, "full.html: no error bar stands on an axis with a prefix, for which the bars are checked");
 await full.screenshot({path: join(folder, "full-1280.png"), fullPage: true});
@@ -205,6 +218,12 @@ for (const [i, id] of everyFigure.entries()) {
   check(rows[0].every((head) => /^[a-z0-9_A-Z]+$/.test(head)), `full.html: the CSV of ${id} has the header ${rows[0]}`);
   check(rows.slice(1).every((row) => row.every((cell) => cell === "" || Number.isFinite(Number(cell)))), `full.html: the CSV of ${id} has cells that are no numbers`);
 }
+// How far Eq. (16) is off is the ratio of two columns of the figure above it.
+const columns = await full.evaluate(() => ["damping-curve", "damping-deviation"].map((id) => { document.querySelector(`#${id} .csv`).click(); return window.caught[1]; }));
+const [[curveHeads, ...curve], [offHeads, ...off]] = columns.map(parsed);
+const columnOf = (heads, rows, head) => rows.map((row) => Number(row[heads.indexOf(head)]));
+const [byLaw, computed, told] = [columnOf(curveHeads, curve, "law_damping_constant_Ns_per_m"), columnOf(curveHeads, curve, "curve_damping_constant_Ns_per_m"), columnOf(offHeads, off, "deviation")];
+check(told.length === 12 && told.every((v, i) => !(Math.abs(v - (byLaw[i] / computed[i] - 1)) > 1e-6 * (1 + Math.abs(v)))), `full.html: is off by ${told}, by its columns ${byLaw.map((v, i) => v / computed[i] - 1)}`);
 // A picture for a paper, marks in the legend as on the curves, and symbols that lead to their meaning.
 await full.evaluate(() => { window.caught = null; });
 await full.locator("#stiffness-load button.svg").click();
@@ -226,7 +245,7 @@ check(used.share > 0.12 && used.panel >= 0.3, `full.html: residuals take ${used.
 const bare = await (await browser.newContext({javaScriptEnabled: false})).newPage();
 await bare.goto(`file://${join(folder, "full.html")}`, {waitUntil: "load"});
 const said = await bare.locator("main").innerText();
-check(/Decay length l of F ∝ exp\(−ū\/l\): [\d.]+ [nµ]m/.test(said) && /The law is a (fair|poor) description/.test(said), `full.html without JavaScript says ${said.slice(0, 200)}`);
+check(/Decay length l of F ∝ exp\(−ū\/l\): [\d.]+ [nµ]m/.test(said) && /The law is a (fair|poor) description/.test(said) && /Premises not judged: slip/.test(said), `full.html without JavaScript says ${said.slice(0, 200)}`);
 check((await bare.locator("main table tbody tr").count()) === 12, "full.html without JavaScript: has no table of damping constants");
 const drawnVerdict = await full.locator("#conclusion .verdict strong").first().textContent();
 check(said.includes(drawnVerdict.trim()), `full.html: the verdicts with and without JavaScript differ: ${drawnVerdict}`);

@@ -221,9 +221,8 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
       return std::vector<EnsembleMean>(stated.begin(), stated.end());
     });
   }
-  file.interval_of_loads("damping/ensemble_deviation", [&](auto model) {
-    return result.damping(&DampingPoint::deviation, model);
-  });
+  file.interval_of_loads("damping/ensemble_deviation",
+                         [&](auto model) { return result.deviation(model); });
   std::vector<double> forces;
   for (const double pressure : result.pressures) forces.push_back(pressure * result.grid.area());
   file.values("damping/force", {"pressure"}, forces);

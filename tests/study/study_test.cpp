@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -61,6 +62,38 @@ TEST_CASE(
   CHECK(result.realisations[0].of(ContactModel::bem).fit.decay_length !=
         result.realisations[1].of(ContactModel::bem).fit.decay_length);
   CHECK(result.decay_length(ContactModel::bem).low < result.decay_length(ContactModel::bem).high);
+}
+
+TEST_CASE("How far Eq. (16) is off follows from the two columns beside it", "[study]") {
+  StudyResult result = run_study(small_study());
+  REQUIRE(result.realisations.size() == 3);
+  // Of surfaces that scatter, the mean of the ratios, 1.75, is another number.
+  const std::array law{3.0, 2.0, 5.0}, computed{1.0, 2.0, 4.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    DampingPoint& point = result.realisations[i].of(ContactModel::bem).damping[5];
+    point.damping_constant_eq16 = law[i];
+    point.damping_constant = computed[i];
+    point.damping_constant_error = ForceSample::unknown;
+  }
+  const auto deviation = result.deviation();
+  const double ratio = 10.0 / 7;
+  CHECK(deviation[5].mean == Approx(ratio - 1).epsilon(1e-14));
+  CHECK(result.damping("deviation")[5].mean == deviation[5].mean);
+  // Variance of a ratio of means to first order, by the variances and the covariance of the two.
+  const double s_law = 14.0 / 6, s_computed = 14.0 / 6, covariance = 11.0 / 6;
+  const double variance =
+      (s_law + ratio * ratio * s_computed - 2 * ratio * covariance) / 3 / (7.0 / 3) / (7.0 / 3);
+  constexpr double student = 4.302652729911275;  // t of 97.5 %, two degrees of freedom
+  CHECK(deviation[5].low == Approx(ratio - 1 - student * std::sqrt(variance)).epsilon(1e-10));
+  CHECK(deviation[5].high == Approx(ratio - 1 + student * std::sqrt(variance)).epsilon(1e-10));
+  // Of every load, as it came out.
+  const auto by_law = result.damping("damping_constant_eq16"),
+             stated = result.damping("damping_constant");
+  for (std::size_t k = 0; k < deviation.size(); ++k)
+    if (!std::isnan(deviation[k].mean))
+      CHECK(deviation[k].mean == Approx(by_law[k].mean / stated[k].mean - 1).epsilon(1e-12));
+  CHECK(std::isnan(deviation[0].mean) ==
+        (std::isnan(by_law[0].mean) || std::isnan(stated[0].mean)));
 }
 
 TEST_CASE("A study is the same in every bit for one and two threads and when run again",

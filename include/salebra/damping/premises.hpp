@@ -233,8 +233,12 @@ struct PremiseName : PremiseWords {
 std::span<const PremiseName> premise_names();
 
 /// What is broken and what is doubtful in any of the cases, a line each, with the worst value;
-/// empty where nothing is.
-std::string objections(std::span<const Premises> cases);
+/// empty where nothing is. pressures: of the cases, Pa, to be named; empty: they are counted.
+std::string objections(std::span<const Premises> cases, std::span<const double> pressures = {});
+
+/// What is not judged, with what it needs, and up to which motion the opening levels do not slip,
+/// of the case that bears least: a line each, empty where there is neither.
+std::string open_points(std::span<const Premises> cases);
 
 /// mean_indentation: δ0, m, as DampingResult::indentation. A table is continued beyond its ends by
 /// exponentials with the F/K there. Drag::drag_velocity NaN: not known; the largest is found.

@@ -65,6 +65,16 @@ struct StudyResult {
                                   ContactModel model = ContactModel::bem) const;
   std::vector<EnsembleMean> damping(const NumberOf<DampingPoint>& number,
                                     ContactModel model = ContactModel::bem) const;
+  /// A quantity of DampingPoint as answers and files have it: the mean over the surfaces, but for
+  /// damping_constant and its error, which are those of stated_damping(), and for deviation(). Throws
+  /// InvalidInput for another name.
+  std::vector<EnsembleMean> damping(std::string_view quantity,
+                                    ContactModel model = ContactModel::bem) const;
+  /// The mean of damping_constant_eq16 over the mean of damping_constant, less 1: what the two
+  /// columns say, which is not the mean of the ratios of single surfaces. Its interval is that of
+  /// the mean of γ16/⟨γ⟩ − r(γ/⟨γ⟩ − 1) over the surfaces, r the ratio of the means: the ratio to
+  /// first order in the scatter.
+  std::vector<EnsembleMean> deviation(ContactModel model = ContactModel::bem) const;
   std::vector<EnsembleMean> spots(const NumberOf<SpotStatistics>& number) const;
   /// A quantity of a model over that of the boundary elements on the same surface.
   std::vector<EnsembleMean> over_bem(const NumberOf<ForceSample>& number, ContactModel model) const;
@@ -81,7 +91,7 @@ struct StudyResult {
   /// NaN where the error is not smaller.
   std::vector<StatedMean> stated_damping(ContactModel model = ContactModel::bem) const;
 
-  /// Minimum and maximum mean of DampingPoint::deviation over the pressures, NaN without any.
+  /// Minimum and maximum of deviation() over the pressures, NaN without any.
   std::pair<double, double> deviation_range(ContactModel model = ContactModel::bem) const;
   /// The numbers of surfaces of convergence(): the milestones, and all.
   std::vector<std::size_t> convergence_counts() const;
