@@ -26,13 +26,8 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-<<<<<<< HEAD
 /// What else options, keys and commands are called: in other programs, on paper, or in version
 /// 0.1.0. Options have "--" and dashes. Where none of the names of a line is known, the
-=======
-/// What else options, keys of a study file and commands are called: in other programs, on paper, or
-/// in earlier revisions. Options have "--" and dashes. Where none of the names of a line is known, the
->>>>>>> 81dae43 (Report and table agree on what is off, name their load, and say what was not judged)
 /// next line of the word counts.
 struct Synonym {
   std::string_view word;
