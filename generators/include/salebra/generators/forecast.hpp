@@ -22,7 +22,7 @@ struct Forecast {
 
 constexpr void describe(auto&& visit, std::type_identity<Forecast>) {
   using S = Forecast;
-  visit(&S::target, Kept{"target", "moments of the continuum: what was asked"});
+  visit(&S::target, Kept{"target", "moments of the continuum, which were asked for"});
   visit(&S::lattice, Kept{"lattice", "what surfaces on this grid have in the mean"});
   visit(&S::rms_height_scatter,
         Kept{"rms_height_scatter",
