@@ -24,7 +24,7 @@ std::vector<PronyTerm> terms_of(const Terms& pairs) {
 }
 
 void bind_series(nb::module_& m) {
-  nb::class_<PronySeries> series(
+  nb::class_<PronySeries> bound(
       m, "PronySeries",
       R"(Shear relaxation modulus of an isotropic material with a constant Poisson's ratio.
 
@@ -37,7 +37,7 @@ relaxed_modulus : float
 terms : list of (float, float)
     G_i, Pa, and τ_i, s; one is the standard linear solid.
 )");
-  series
+  bound
       .def(
           "__init__",
           [](PronySeries* self, double relaxed_modulus, const Terms& terms) {
@@ -68,7 +68,7 @@ terms : list of (float, float)
           "Pairs of G_i, Pa, and τ_i, s.")
       .def("complex_modulus", &PronySeries::complex_modulus, nb::arg("angular_frequency"),
            "G' + iG'', Pa, at ω, rad/s.");
-  value_methods(series);
+  value_methods(bound);
 }
 
 void bind_indentation(nb::module_& m) {
