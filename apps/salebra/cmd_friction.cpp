@@ -242,8 +242,7 @@ void run(const FrictionArguments& arguments, Session& session) {
   Json answer = Json::object();
   if (sliding.size() == 1) {
     const Json whole = json_of(any);
-    for (const std::string_view name : of_amplitude)
-      answer[name] = whole[name];
+    for (const std::string_view name : of_amplitude) answer[name] = whole[name];
   }
   std::vector<ResultTable> tables{sliding_table(sliding, arguments)};
   RegimeMap map;

@@ -340,8 +340,9 @@ void bind_spots(nb::module_& m) {
       "contact_spots",
       [](const BoundContact& state) {
         cite({"yastrebov2017"});
-        return unlocked(
-            [&] { return contact_spots(state.contact_pressure, state.grid, state.boundary, state.ranks); });
+        return unlocked([&] {
+          return contact_spots(state.contact_pressure, state.grid, state.boundary, state.ranks);
+        });
       },
       nb::arg("state"),
       "Contact spots: connected cells with p > 0; neighbours wrap for periodic boundaries. Of a "

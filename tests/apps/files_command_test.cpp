@@ -30,8 +30,9 @@ TEST_CASE("convert draws the surface that it writes", "[files][plot]") {
   CHECK(test.files() == std::set<std::string>{"scan.txt", "scan.h5", "scan.svg"});
 }
 
-TEST_CASE("convert leads from every written format to every other and keeps heights, sizes and axes",
-          "[files]") {
+TEST_CASE(
+    "convert leads from every written format to every other and keeps heights, sizes and axes",
+    "[files]") {
   const ProgramTest test;
   test.write("scan.txt", scan);
   const auto check = [&](const std::string& file) {

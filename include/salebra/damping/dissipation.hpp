@@ -53,7 +53,7 @@ struct DampingResult {
   double damping_constant =
       unknown;  ///< γ = P/⟨ẋ²⟩ with ⟨ẋ²⟩ = v² or (u_x ω)²/2, N s/m; NaN where the motion has no ω
   double normal_stiffness = unknown;  ///< K at the mean indentation, N/m
-  double force_curvature = unknown;         ///< F'' at the mean indentation, N/m²
+  double force_curvature = unknown;   ///< F'' at the mean indentation, N/m²
   double force = unknown;             ///< F at the mean indentation, N
   double mean_force = unknown;   ///< mean of F over the cycle, N; that of a finite amplitude always
   double indentation = unknown;  ///< mean indentation of the cycle, m

@@ -64,9 +64,8 @@ NumberOf<T> number_of(std::string_view name, std::string_view field) {
     known += (known.empty() ? "" : ", ") + names.back();
   });
   if (!found)
-    throw InvalidInput(
-        field, "'" + std::string(name) + "'",
-        "is none of " + known + did_you_mean(name, names) + "; choose one of them");
+    throw InvalidInput(field, "'" + std::string(name) + "'",
+                       "is none of " + known + did_you_mean(name, names) + "; choose one of them");
   return found;
 }
 

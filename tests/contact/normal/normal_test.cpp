@@ -52,11 +52,10 @@ TEST_CASE("Contact agrees with Polonsky and Keer's solver in cells, mean gap and
   CHECK(((state.contact_pressure > 0) == (reference.pressure > 0)).all());
   // e_c bounds the error of the energy; that of the gap is of order √e_c at worst.
   CHECK(state.mean_gap == Approx(reference.gap.mean()).epsilon(1e-8));
-  const double energy =
-      0.5 * surface.grid.cell_area() *
-      (reference.pressure *
-       half_space_displacement(reference.pressure, surface.grid, contact_modulus))
-          .sum();
+  const double energy = 0.5 * surface.grid.cell_area() *
+                        (reference.pressure *
+                         half_space_displacement(reference.pressure, surface.grid, contact_modulus))
+                            .sum();
   CHECK(state.elastic_energy == Approx(energy).epsilon(1e-8));
 }
 

@@ -99,7 +99,7 @@ constexpr void describe(auto&& visit, std::type_identity<AsperityContact>) {
   visit(&S::normal_stiffness,
         Kept{"normal_stiffness", "normal stiffness dF/d(indentation)", Dimension::stiffness});
   visit(&S::force_curvature, Kept{"force_curvature", "second derivative of force by indentation",
-                            Dimension::force_curvature});
+                                  Dimension::force_curvature});
   visit(&S::converged, Kept{"converged", "only a model that iterates may say no"});
 }
 

@@ -66,7 +66,8 @@ struct NormalContactState {
 constexpr void describe(auto&& visit, std::type_identity<NormalContactState>) {
   using enum Dimension;
   using S = NormalContactState;
-  visit(&S::contact_pressure, Quantity{"contact_pressure", Dimension::pressure, "contact pressure"});
+  visit(&S::contact_pressure,
+        Quantity{"contact_pressure", Dimension::pressure, "contact pressure"});
   visit(&S::gap, Quantity{"gap", length, "gap of the deformed surfaces"});
   visit(&S::mean_pressure, Kept{"mean_pressure", "nominal pressure", Dimension::pressure});
   visit(&S::force, Quantity{"force", Dimension::force, "normal force"});
