@@ -92,7 +92,6 @@ const Quantity others[] = {
     Quantity{"step", dimensionless, "step of the cycle"},
     Quantity{"periods", dimensionless, "simulated periods"},
     Quantity{"model", dimensionless, "contact model"},
-    Quantity{"time", Dimension::time, "time"},
     Quantity{"stored_energy_change", energy, "change of the elastic energy in a cycle"},
     Quantity{"normal_work", energy, "work of the normal force in a cycle"},
     Quantity{"gap_work", energy, "work across gaps that close and open within a step"},
