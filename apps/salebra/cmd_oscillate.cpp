@@ -11,6 +11,7 @@
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/results/columns.hpp>
 
 #include "first_loading.hpp"
 #include "friction_run.hpp"
@@ -165,15 +166,11 @@ void add_exponential_law(Json& object, const OscillationOutcome& outcome, double
       outcome.run.motion);
   const ExponentialLaw law(force, decay_length, modulus_ratio);
   const double finite = relaxation_damping(law, AtForce{force}, outcome.run.motion).work_per_cycle;
-  const auto over = [&](double reference) {
-    const std::optional<double> ratio = outcome.over(reference);
-    return ratio ? Json(*ratio) : Json(nullptr);
-  };
-  object["decay_length"] = decay_length;
-  object["predicted_exponential"] = small;
-  object["ratio_exponential"] = over(small);
-  object["predicted_exponential_finite"] = finite;
-  object["ratio_exponential_finite"] = over(finite);
+  object.add(json_of(ExponentialLoss{.decay_length = decay_length,
+                                     .predicted_exponential = small,
+                                     .ratio_exponential = outcome.over(small),
+                                     .predicted_exponential_finite = finite,
+                                     .ratio_exponential_finite = outcome.over(finite)}));
 }
 
 void finish(const OscillationOutcome& outcome, const CycleOptions& cycle,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <salebra/base/error.hpp>
+#include <salebra/results/columns.hpp>
 #include <salebra/study/verification.hpp>
 
 #include "program.hpp"
@@ -19,11 +20,7 @@ void run(Session& session) {
   Json list = Json::array();
   std::vector<std::vector<std::string>> rows{{"check", "value", "expected", "tolerance", "result"}};
   for (const Check& check : checks) {
-    list.push_back({{"name", check.name},
-                    {"value", check.value},
-                    {"expected", check.expected},
-                    {"tolerance", check.tolerance},
-                    {"passed", check.passed()}});
+    list.push_back(json_of(check));
     rows.push_back({check.name, fmt::format("{:.12g}", check.value),
                     fmt::format("{:.12g}", check.expected), fmt::format("{:.0e}", check.tolerance),
                     check.passed() ? "passed" : "FAILED"});

@@ -6,14 +6,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/coupling.hpp>
 #include <salebra/damping/cycle.hpp>
+#include <salebra/results/columns.hpp>
 
 namespace salebra::cli {
 namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 double greatest(const std::vector<double>& values) {
   double most = 0;
@@ -22,12 +26,12 @@ double greatest(const std::vector<double>& values) {
 }
 
 // Largest |a − b| over a cycle over the largest |b|.
-Json change(const CycleResult& a, const CycleResult& b, double CycleSample::*quantity) {
+double change(const CycleResult& a, const CycleResult& b, double CycleSample::*quantity) {
   std::vector<double> values = column(a, quantity);
   const std::vector<double> reference = column(b, quantity);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] -= reference[i];
   const double scale = greatest(reference);
-  return scale > 0 ? Json(greatest(values) / scale) : Json(nullptr);
+  return scale > 0 ? greatest(values) / scale : unknown;
 }
 
 // The last sample is the first of the next period.
@@ -37,33 +41,8 @@ double mean_over_period(const CycleResult& cycle, double CycleSample::*quantity)
          static_cast<double>(values.size() - 1);
 }
 
-// Below this a loss is what the solvers leave.
-double uncertain_loss(const OscillationOutcome& stuck) { return 1e-7 * stuck.elastic_energy(); }
-
-Json over(double value, double reference, double uncertain) {
-  return std::abs(reference) > uncertain ? Json(value / reference) : Json(nullptr);
-}
-
 double dundurs_of(const CycleOptions& cycle, const OscillationOutcome& outcome) {
   return dundurs_constant(outcome.run.material.contact_modulus, *cycle.coupling_constant);
-}
-
-// How far the two sums of the loss are apart, J.
-double unbalanced(const CycleResult& cycle) {
-  return cycle.dissipated + cycle.gap_work - cycle.work_per_cycle;
-}
-
-// What a cycle with friction says, coupled or not.
-void add_cycle(Json& object, const CycleResult& cycle, double uncertain) {
-  object["work_per_cycle"] = cycle.work_per_cycle;
-  object["relaxation_work"] = cycle.relaxation_work;
-  object["slip_work"] = cycle.slip_work;
-  object["dissipated"] = cycle.dissipated;
-  object["balance"] = over(unbalanced(cycle), cycle.work_per_cycle, uncertain);
-  object["stored_energy_change"] = cycle.stored_energy_change;
-  object["periods"] = cycle.periods;
-  object["steady"] = cycle.steady;
-  object["converged"] = cycle.converged;
 }
 
 void warn_of_cycle(const char* which, const CycleResult& cycle, double uncertain,
@@ -74,12 +53,11 @@ void warn_of_cycle(const char* which, const CycleResult& cycle, double uncertain
         "{}: after {} periods the loss still differs from that of the period before by more than "
         "1e-5 of it; raise --max-periods",
         which, cycle.periods));
-  const double balance = unbalanced(cycle) / cycle.work_per_cycle;
-  if (std::abs(balance) > 0.01)
+  if (std::abs(cycle.balance()) > 0.01)
     session.warn(
         fmt::format("{}: work and dissipation of a period, which should be equal, differ by "
                     "{:.2g} %; more --steps may help",
-                    which, 100 * balance));
+                    which, 100 * cycle.balance()));
   const double gaps = cycle.gap_work / cycle.work_per_cycle;
   if (std::abs(gaps) > 0.01)
     session.warn(
@@ -170,30 +148,32 @@ void run_with_friction(const FrictionOptions& options, const CycleOptions& cycle
 void add_friction(Json& object, const FrictionOptions& options, const CycleOptions& cycle,
                   const OscillationOutcome& outcome) {
   const CycleResult& frictional = *outcome.frictional;
-  const double uncertain = uncertain_loss(outcome);
+  const auto over = [&](double value, double reference) {
+    return std::abs(reference) > outcome.uncertain_loss() ? value / reference : unknown;
+  };
+  const bool drag = std::holds_alternative<Drag>(outcome.run.motion);
   Json& friction = object["friction"];
   friction["friction_coefficient"] =
       options.friction_coefficient ? Json(*options.friction_coefficient) : Json(nullptr);
-  add_cycle(friction, frictional, uncertain);
-  friction["over_stick"] = over(frictional.work_per_cycle, outcome.work_per_cycle(), uncertain);
-  if (std::holds_alternative<Drag>(outcome.run.motion)) {
-    friction["mean_tangential_force"] =
-        frictional.work_per_cycle / std::abs(frictional.samples.back().tangential);
-    friction["mean_force"] = mean_over_period(frictional, &CycleSample::normal_force);
-  }
+  friction.add(cycle_json(outcome, frictional));
+  friction.add(json_of(SlipEffect{
+      .over_stick = over(frictional.work_per_cycle, outcome.work_per_cycle()),
+      .mean_tangential_force =
+          drag ? frictional.work_per_cycle / std::abs(frictional.samples.back().tangential)
+               : unknown,
+      .mean_force = mean_over_period(frictional, &CycleSample::normal_force)}));
   friction["tangential"] = column(frictional, &CycleSample::tangential);
   friction["tangential_force"] = column(frictional, &CycleSample::tangential_force);
   if (!outcome.coupled) return;
   const CycleResult& coupled = *outcome.coupled;
   Json& coupling = object["coupling"];
   coupling["dundurs"] = dundurs_of(cycle, outcome);
-  add_cycle(coupling, coupled, uncertain);
-  coupling["normal_work"] = coupled.normal_work;
-  coupling["gap_work"] = coupled.gap_work;
-  coupling["work_change"] = over(coupled.work_per_cycle - frictional.work_per_cycle,
-                                 frictional.work_per_cycle, uncertain);
-  coupling["force_change"] = change(coupled, frictional, &CycleSample::normal_force);
-  coupling["tangential_force_change"] = change(coupled, frictional, &CycleSample::tangential_force);
+  coupling.add(cycle_json(outcome, coupled));
+  coupling.add(json_of(CouplingEffect{
+      .work_change =
+          over(coupled.work_per_cycle - frictional.work_per_cycle, frictional.work_per_cycle),
+      .force_change = change(coupled, frictional, &CycleSample::normal_force),
+      .tangential_force_change = change(coupled, frictional, &CycleSample::tangential_force)}));
 }
 
 PlotPanel loop_panel(const FrictionOptions& options, const OscillationOutcome& outcome) {
@@ -228,9 +208,9 @@ void write_friction(ResultFile& file, const CycleOptions& cycle,
 
 void warn_of_friction(const CycleOptions& cycle, const OscillationOutcome& outcome,
                       Session& session) {
-  warn_of_cycle("friction", *outcome.frictional, uncertain_loss(outcome), session);
+  warn_of_cycle("friction", *outcome.frictional, outcome.uncertain_loss(), session);
   if (!outcome.coupled) return;
-  warn_of_cycle("coupling", *outcome.coupled, uncertain_loss(outcome), session);
+  warn_of_cycle("coupling", *outcome.coupled, outcome.uncertain_loss(), session);
   if (dundurs_of(cycle, outcome) == 0) session.note("Dundurs' beta is 0: nothing is coupled");
 }
 

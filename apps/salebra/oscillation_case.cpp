@@ -9,6 +9,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <salebra/generators/shapes.hpp>
+#include <salebra/results/columns.hpp>
 
 #include "first_loading.hpp"
 #include "grid_axes.hpp"
@@ -16,25 +17,16 @@
 namespace salebra::cli {
 namespace {
 
-// A loss below this part of ½K u² is what the solvers leave.
-constexpr double no_loss = 1e-7;
-
 double tangential_scale(const Oscillation& motion) {
   if (const auto* drag = std::get_if<Drag>(&motion))
     return drag->drag_velocity / drag->angular_frequency;
   return std::get<EqualFrequency>(motion).tangential_amplitude;
 }
 
-Field map_of(const CycleResult& cycle) {
-  return cycle.smallest.cast<double>() + cycle.largest.cast<double>();
-}
-
 ContactLevels levels_of(const Body& body, const Material& material) {
   return boundary_element_levels(body.surface, material.contact_modulus,
                                  {.boundary = body.boundary});
 }
-
-Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 }  // namespace
 
@@ -90,10 +82,11 @@ double OscillationOutcome::elastic_energy() const {
   return stiffness * scale * scale / 2;
 }
 
+double OscillationOutcome::uncertain_loss() const { return 1e-7 * elastic_energy(); }
+
 std::optional<double> OscillationOutcome::over(double reference) const {
   // The quadrature of a contact whose cells do not change sums what its solvers leave.
-  const double uncertain = std::max(levels.error_estimate, no_loss * elastic_energy());
-  if (std::abs(reference) <= uncertain) return {};
+  if (std::abs(reference) <= std::max(levels.error_estimate, uncertain_loss())) return {};
   return work_per_cycle() / reference;
 }
 
@@ -149,48 +142,47 @@ OscillationOutcome run_routes(OscillationCase run, const OscillationRoutes& rout
   return outcome;
 }
 
+Json cycle_json(const OscillationOutcome& outcome, const CycleResult& cycle) {
+  Json object = json_of(cycle);
+  if (std::abs(cycle.work_per_cycle) <= outcome.uncertain_loss()) object["balance"] = nullptr;
+  return object;
+}
+
 Json to_json(const OscillationOutcome& outcome) {
   const LevelQuadratureResult& levels = outcome.levels;
   const Grid2D& grid = outcome.run.body.surface.grid;
-  Json object;
-  object["work_per_cycle"] = outcome.work_per_cycle();
-  object["error_estimate"] = outcome.error_estimate();
+  OscillationLoss loss{
+      .work_per_cycle = outcome.work_per_cycle(),
+      .error_estimate = outcome.error_estimate(),
+      .work_by_levels = levels.work_per_cycle,
+      .work_by_levels_error = levels.error_estimate,
+      .work_by_whole_cells = levels.work_by_levels,
+      .work_by_force = levels.work_by_force,
+      .ratio_finite = outcome.over(levels.work_by_force),
+      .work_over_elastic_energy = outcome.work_per_cycle() / outcome.elastic_energy(),
+      .indentation = outcome.run.indentation,
+      .force = levels.force,
+      // The ends of the sweep are levels without a tangential solve, but for the last of a drag.
+      .levels = levels.curve.samples.size() - 2};
+  if (!outcome.bends_down()) {
+    loss.small_amplitude_work = levels.small_amplitude_work;
+    loss.ratio = outcome.over(levels.small_amplitude_work);
+    loss.force_curvature = levels.force_curvature;
+  }
+  Json object = json_of(loss);
   object["error_contains"] = outcome.error_contains();
-  object["work_by_levels"] = levels.work_per_cycle;
-  object["work_by_levels_error"] = levels.error_estimate;
-  object["work_by_whole_cells"] = levels.work_by_levels;
-  if (outcome.cycle)
-    object["routes_agree"] =
-        std::abs(levels.work_per_cycle - outcome.cycle->work_per_cycle) <=
-        levels.error_estimate + outcome.cycle->step_error + no_loss * outcome.elastic_energy();
-  const bool bends_down = outcome.bends_down();
-  object["small_amplitude_work"] = bends_down ? Json() : Json(levels.small_amplitude_work);
-  object["ratio"] = bends_down ? Json() : or_null(outcome.over(levels.small_amplitude_work));
-  object["work_by_force"] = levels.work_by_force;
-  object["ratio_finite"] = or_null(outcome.over(levels.work_by_force));
-  object["work_over_elastic_energy"] = outcome.work_per_cycle() / outcome.elastic_energy();
-  object["indentation"] = outcome.run.indentation;
-  object["force"] = levels.force;
-  object["force_curvature"] = bends_down ? Json() : Json(levels.force_curvature);
-  object["nx"] = grid.nx;
-  object["ny"] = grid.ny;
-  // The two ends of the sweep are levels without a tangential solve, but for the last of a drag.
-  object["levels"] = levels.curve.samples.size() - 2;
+  object.add(json_of(grid));
   if (outcome.choice) {
     object["error_reached"] = outcome.choice->reached;
     for (const QuadratureTrial& trial : outcome.choice->trials)
-      object["trials"].push_back({{"nx", trial.grid.nx},
-                                  {"ny", trial.grid.ny},
-                                  {"levels", trial.levels},
-                                  {"work_per_cycle", trial.work_per_cycle},
-                                  {"stiffness_ratio", trial.stiffness_ratio},
-                                  {"error_estimate", trial.error_estimate}});
+      object["trials"].push_back(json_of(trial));
   }
+  object["converged"] = outcome.converged();
   if (outcome.cycle) {
     const CycleResult& cycle = *outcome.cycle;
-    object["dissipated"] = cycle.dissipated;
-    object["contact_area_min"] = cycle.contact_area_min;
-    object["contact_area_max"] = cycle.contact_area_max;
+    object["routes_agree"] = std::abs(levels.work_per_cycle - cycle.work_per_cycle) <=
+                             levels.error_estimate + cycle.step_error + outcome.uncertain_loss();
+    object.add(cycle_json(outcome, cycle));
     object["fft_count"] = cycle.fft_count + levels.fft_count;
     std::vector<double> time = column(cycle, &CycleSample::t);
     object["time_in_periods"] = time;
@@ -209,7 +201,6 @@ Json to_json(const OscillationOutcome& outcome) {
     object["fft_count"] = levels.fft_count;
   }
   add_first_loading(object, outcome.run.first_loading);
-  object["converged"] = outcome.converged();
   return object;
 }
 
@@ -235,7 +226,7 @@ Premises premises_of(const OscillationOutcome& outcome, ContactFacts facts) {
 
 void write_cycle(QuantityGroup& group, const CycleResult& cycle, const Grid2D& grid) {
   write_axes(group, grid);
-  group.dataset("contact_map", map_of(cycle));
+  group.dataset("contact_map", cycle.contact_map());
   if (cycle.loss.size() > 0) group.dataset("loss", cycle.loss);
   describe(
       [&](double CycleSample::*member, const Quantity& quantity) {
@@ -283,7 +274,7 @@ PlotPanel contact_panel(const OscillationOutcome& outcome, const std::string& ti
   panel.equal_scales = true;
   panel.image = PlotImage{.x = positions(grid.nx, grid.dx()),
                           .y = positions(grid.ny, grid.dy()),
-                          .values = map_of(*outcome.cycle),
+                          .values = outcome.cycle->contact_map(),
                           .scale = {.low = 0, .high = 2},
                           .palette = PlotPalette::grey,
                           .color_bar = false};

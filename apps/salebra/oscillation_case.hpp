@@ -66,6 +66,7 @@ struct OscillationOutcome {
   /// ½K u² with the greatest stiffness of the sweep and u = u_x or v/ω: what a loss has to be
   /// compared with where there is none.
   double elastic_energy() const;
+  double uncertain_loss() const;  ///< what the solvers leave of a loss, J
   /// The loss over a reference; empty where the reference is not larger than its own uncertainty.
   std::optional<double> over(double reference) const;
   /// Whether F'' is below 0 by more than noise: the interpolated force bends the wrong way there,
@@ -81,6 +82,8 @@ OscillationOutcome run_routes(OscillationCase run, const OscillationRoutes& rout
 /// The steps alone.
 CycleResult simulate(const OscillationCase& run, const CycleOptions& options);
 
+/// The numbers of a cycle; no balance where it loses no more than what the solvers leave.
+Json cycle_json(const OscillationOutcome& outcome, const CycleResult& cycle);
 /// Axes, columns over time, where the contact is and where energy is lost.
 void write_cycle(QuantityGroup& group, const CycleResult& cycle, const Grid2D& grid);
 

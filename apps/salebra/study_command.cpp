@@ -18,6 +18,7 @@
 #include <salebra/base/version.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/report/report.hpp>
+#include <salebra/results/columns.hpp>
 #include <salebra/study/study_file.hpp>
 #include <set>
 
@@ -524,26 +525,37 @@ bool run_without_results(const StudyConfiguration& configuration, const StudyArg
                   folder));
 }
 
+namespace {
+
+/// of(member) of every number that a Mean holds.
+template <class Mean, class Of>
+Json members_of(const Of& of) {
+  Json object;
+  describe(
+      [&](auto member, const Kept& line) {
+        if constexpr (std::is_member_object_pointer_v<decltype(member)>)
+          object[line.name] = of(member);
+      },
+      std::type_identity<Mean>{});
+  return object;
+}
+
+template <class Mean>
+Json columns_of_means(const std::vector<Mean>& estimates) {
+  return members_of<Mean>([&](auto member) {
+    Json list = Json::array();
+    for (const Mean& estimate : estimates) list.push_back(estimate.*member);
+    return list;
+  });
+}
+
+}  // namespace
+
 Json to_json(const EnsembleMean& estimate) {
-  return Json{{"mean", estimate.mean}, {"low", estimate.low}, {"high", estimate.high}};
+  return members_of<EnsembleMean>([&](auto member) { return estimate.*member; });
 }
-
-Json to_json(const std::vector<EnsembleMean>& estimates) {
-  Json mean = Json::array(), low = Json::array(), high = Json::array();
-  for (const EnsembleMean& estimate : estimates) {
-    mean.push_back(estimate.mean);
-    low.push_back(estimate.low);
-    high.push_back(estimate.high);
-  }
-  return Json{{"mean", mean}, {"low", low}, {"high", high}};
-}
-
-Json to_json(const std::vector<StatedMean>& estimates) {
-  Json json = to_json(std::vector<EnsembleMean>(estimates.begin(), estimates.end()));
-  json["error"] = Json::array();
-  for (const StatedMean& estimate : estimates) json["error"].push_back(estimate.error);
-  return json;
-}
+Json to_json(const std::vector<EnsembleMean>& estimates) { return columns_of_means(estimates); }
+Json to_json(const std::vector<StatedMean>& estimates) { return columns_of_means(estimates); }
 
 void require_relative_error(const std::vector<StudyResult>& results) {
   std::string missed;
@@ -596,12 +608,9 @@ std::string describe_motion(const Oscillation& motion) {
 
 void add_first_loading(Json& answer, const StudyResult& result) {
   if (std::isnan(result.configuration.known.hardness)) return;
-  Json& object = answer["first_loading"] = Json::object();
-  for_each_number<FirstLoading>(
-      [&](const NumberOf<FirstLoading>& number, const Quantity& quantity) {
-        object[std::string(quantity.name)] =
-            to_json(result.mean([&](const Realisation& r) { return number(r.first_loading); }));
-      });
+  answer["first_loading"] = columns_json<FirstLoading>([&](const auto& number) {
+    return result.mean([&](const Realisation& r) { return number(r.first_loading); });
+  });
 }
 
 std::string heading(const StudyResult& result) {
@@ -684,15 +693,8 @@ void add_premises(Json& answer, const StudyPremises& found) {
   const bool slip = std::ranges::any_of(
       found.losses, [](const LossWithSlip& loss) { return !std::isnan(loss.work_per_cycle); });
   if (!slip) return;
-  const auto column = [&](double LossWithSlip::*member) {
-    std::vector<double> values;
-    for (const LossWithSlip& loss : found.losses) values.push_back(loss.*member);
-    return values;
-  };
-  answer["with_slip"] = {{"work_per_cycle", column(&LossWithSlip::work_per_cycle)},
-                         {"relaxation_work", column(&LossWithSlip::relaxation_work)},
-                         {"slip_work", column(&LossWithSlip::slip_work)},
-                         {"damping_constant", found.damping_constant_with_slip}};
+  Json& with_slip = answer["with_slip"] = json_of(found.losses);
+  with_slip["damping_constant"] = found.damping_constant_with_slip;
 }
 
 }  // namespace salebra::cli

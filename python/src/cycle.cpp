@@ -23,6 +23,7 @@
 #include "interop/citations.hpp"
 #include "interop/contact.hpp"
 #include "interop/cycle_motion.hpp"
+#include "interop/described.hpp"
 #include "interop/levels.hpp"
 #include "interop/path.hpp"
 #include "interop/running.hpp"
@@ -41,11 +42,8 @@ NormalContactOptions contact_options(double tolerance, int max_iterations,
 }
 
 void bind_levels(nb::module_& m) {
-  nb::class_<ContactSetAt> level(
-      m, "ContactSetAt", "The cells of the frictionless normal contact at one indentation.");
-  view_property(level, "contact", &ContactSetAt::contact, "Cells in contact, (nx, ny).");
-  level.def_ro("force", &ContactSetAt::force, "F, N.")
-      .def_ro("converged", &ContactSetAt::converged);
+  described_class<ContactSetAt>(m, "ContactSetAt",
+                                "The cells of the frictionless normal contact at one indentation.");
   nb::class_<BoundLevels>(
       m, "ContactLevels", nb::dynamic_attr(),
       R"(The normal contact as a function of the indentation, for the direct simulation.
@@ -116,51 +114,8 @@ boundary_element_levels : the levels of a surface.
 }
 
 void bind_result(nb::module_& m) {
-  using Result = CycleResult;
-  nb::class_<Result> result(m, "CycleResult", "A simulated period; columns are views.");
-  result
-      .def_ro("work_per_cycle", &Result::work_per_cycle,
-              "∮F_x dx less the change of the stored energy, J; with coupling ∮F dδ too.")
-      .def_ro("dissipated", &Result::dissipated,
-              "The same loss as an independent sum over the cells, J.")
-      .def_ro("relaxation_work", &Result::relaxation_work,
-              "Of dissipated, by cells that open and close, J.")
-      .def_ro("slip_work", &Result::slip_work,
-              "Of dissipated, by slip in cells that are in contact all the time, J.")
-      .def_ro("normal_work", &Result::normal_work, "∮F dδ, J; 0 without coupling.")
-      .def_ro(
-          "gap_work", &Result::gap_work,
-          "Of normal_work, what the steps make of gaps that close and open within one of them, J: "
-          "work_per_cycle = dissipated + gap_work.")
-      .def_ro("step_error", &Result::step_error,
-              "Estimated error of work_per_cycle due to the steps, J, without that of the cells; "
-              "NaN with friction.")
-      .def_ro("stored_energy_change", &Result::stored_energy_change, "J")
-      .def_ro("contact_area_min", &Result::contact_area_min, "m²")
-      .def_ro("contact_area_max", &Result::contact_area_max, "m²")
-      .def_ro("periods", &Result::periods)
-      .def_ro("iterations", &Result::iterations)
-      .def_ro("fft_count", &Result::fft_count)
-      .def_ro("steady", &Result::steady, "The period repeats.")
-      .def_ro("converged", &Result::converged, "Every solve did; otherwise do not use the numbers.")
-      .def_ro("interrupted", &Result::interrupted)
-      .def("__repr__", [](const Result& r) {
-        return describe("CycleResult",
-                        {{"work_per_cycle", r.work_per_cycle}, {"dissipated", r.dissipated}},
-                        r.converged ? "converged=True" : "converged=False");
-      });
-  view_property(result, "loss", &Result::loss,
-                "Lost in a period by unit area, (nx, ny), J/m²; empty where nothing slips.");
-  view_property(result, "smallest", &Result::smallest, "Cells that are in contact always.");
-  view_property(result, "largest", &Result::largest, "Cells that are in contact at some time.");
-  describe(
-      [&](double CycleSample::*member, const Quantity& quantity) {
-        if (member == &CycleSample::dissipated) return;  // the name of the sum
-        const std::string text =
-            std::string(quantity.long_name) + ", " + std::string(si_unit(quantity.dimension)) + ".";
-        column_property(result, quantity.name.data(), &Result::samples, member, text.c_str());
-      },
-      std::type_identity<CycleSample>{});
+  auto result =
+      described_class<CycleResult>(m, "CycleResult", "A simulated period; columns are views.");
   result_methods(result, true);
 }
 
@@ -371,28 +326,8 @@ Relaxation and slip are told apart by cells; the exponent is NaN. The steps are 
 }
 
 void bind_quadrature(nb::module_& m) {
-  using Result = LevelQuadratureResult;
-  nb::class_<Result>(m, "LevelQuadratureResult", "The loss of a cycle from a few contact sets.")
-      .def_ro("work_per_cycle", &Result::work_per_cycle, "W with K_t = ρ(δ)(G*/E*)F'(δ), J.")
-      .def_ro("error_estimate", &Result::error_estimate, "Of work_per_cycle, J.")
-      .def_ro("work_by_levels", &Result::work_by_levels,
-              "W from the K_t of the levels as they are, J.")
-      .def_ro("work_by_force", &Result::work_by_force,
-              "W with K_t = (G*/E*)F', normal contacts alone, J.")
-      .def_ro("small_amplitude_work", &Result::small_amplitude_work,
-              "Eq. (12) or (15) with F'' of the same fit, J.")
-      .def_ro("force", &Result::force, "F at the mean indentation, N.")
-      .def_ro("force_curvature", &Result::force_curvature, "F'' there, N/m².")
-      .def_ro("stiffness_ratio", &Result::stiffness_ratio, "work_per_cycle/work_by_force.")
-      .def_ro("curve", &Result::curve, "The levels.")
-      .def_ro("converged", &Result::converged)
-      .def_ro("interrupted", &Result::interrupted)
-      .def("__repr__", [](const Result& r) {
-        return describe(
-            "LevelQuadratureResult",
-            {{"work_per_cycle", r.work_per_cycle}, {"error_estimate", r.error_estimate}},
-            r.converged ? "converged=True" : "converged=False");
-      });
+  described_class<LevelQuadratureResult>(m, "LevelQuadratureResult",
+                                         "The loss of a cycle from a few contact sets.");
   m.def(
       "level_quadrature",
       [](const BoundLevels& levels, const Material& material, const Oscillation& motion,

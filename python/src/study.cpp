@@ -25,30 +25,14 @@
 namespace salebra::python {
 namespace {
 
-std::vector<std::string> names_of(const std::vector<ContactModel>& models) {
-  std::vector<std::string> names;
-  for (const ContactModel model : models) names.emplace_back(word_of(model));
-  return names;
-}
-
 void cite_study() {
   cite({"popov2015", "polonsky_keer1999", "stanley_kato1997", "greenwood_williamson1966",
         "nayak1971", "mccool1986"});
 }
 
 void bind_configuration(nb::module_& m) {
-  nb::class_<StudyConfiguration>(m, "StudyConfiguration",
-                                 "Everything that decides the result of a study.")
-      .def_ro("text", &StudyConfiguration::text, "The file as it was read.")
-      .def_ro("material", &StudyConfiguration::material)
-      .def_ro("tolerance", &StudyConfiguration::tolerance)
-      .def_prop_ro(
-          "models", [](const StudyConfiguration& self) { return names_of(self.models); },
-          "Names of the contact models that are run on each surface.")
-      .def_prop_ro(
-          "compared_models",
-          [](const StudyConfiguration& self) { return names_of(self.compared_models); },
-          "Those that the program's command `compare` runs: all, unless the study file chooses.")
+  described_class<StudyConfiguration>(m, "StudyConfiguration",
+                                      "Everything that decides the result of a study.")
       .def(
           "with_models",
           [](const StudyConfiguration& self, const std::vector<std::string>& models) {
@@ -142,30 +126,13 @@ void bind_result(nb::module_& m) {
         nb::sig("def _curve_columns() -> list[typing.Any]"));
   m.def("_damping_columns", &columns_of<DampingPoint>,
         nb::sig("def _damping_columns() -> list[typing.Any]"));
-  nb::class_<EnsembleMean>(m, "EnsembleMean",
-                           "A mean with its 95 % interval; NaN limits where there is none.")
-      .def_ro("mean", &EnsembleMean::mean)
-      .def_ro("low", &EnsembleMean::low)
-      .def_ro("high", &EnsembleMean::high)
-      .def_prop_ro("relative_precision", &EnsembleMean::relative_precision)
-      .def("__repr__", [](const EnsembleMean& e) {
-        return describe("EnsembleMean", {{"mean", e.mean}, {"low", e.low}, {"high", e.high}});
-      });
-  nb::class_<StudyFlag>(m, "StudyFlag", "Why a result may be off for other reasons than chance.")
-      .def_ro("name", &StudyFlag::name)
-      .def_ro("text", &StudyFlag::text, "A sentence for the user.");
-  nb::class_<StudyResult> result(m, "StudyResult",
-                                 "The ensemble at one point of the parameter grid.");
-  view_property(result, "pressures", &StudyResult::pressures, "Pa");
-  result.def_ro("configuration", &StudyResult::configuration)
-      .def_ro("grid", &StudyResult::grid)
-      .def_ro("contact_scale", &StudyResult::contact_scale,
-              "E*h'_rms, Pa: the unit of relative pressures.")
-      .def_ro("realisations", &StudyResult::realisations)
-      .def_ro("warnings", &StudyResult::warnings, "Sentences for the user.")
-      .def_ro("flags", &StudyResult::flags)
-      .def_ro("interrupted", &StudyResult::interrupted)
-      .def_ro("precision_reached", &StudyResult::precision_reached)
+  described_class<EnsembleMean>(m, "EnsembleMean",
+                                "A mean with its 95 % interval; NaN limits where there is none.");
+  described_class<StudyFlag>(m, "StudyFlag",
+                             "Why a result may be off for other reasons than chance.");
+  auto result = described_class<StudyResult>(m, "StudyResult",
+                                             "The ensemble at one point of the parameter grid.");
+  result
       .def_prop_ro(
           "models",
           [](const StudyResult& self) {
@@ -236,11 +203,7 @@ void bind_result(nb::module_& m) {
           nb::arg("file"), nb::kw_only(), nb::arg("overwrite") = false,
           "Writes an HDF5 file, each group of which xarray opens as it is: "
           "xarray.open_dataset(file, engine=\"h5netcdf\", "
-          "group=\"damping\").")
-      .def("__repr__", [](const StudyResult& self) {
-        return "StudyResult(" + std::to_string(self.realisations.size()) + " surfaces, " +
-               std::to_string(self.pressures.size()) + " pressures)";
-      });
+          "group=\"damping\").");
   result_methods(result, false);
 }
 
@@ -332,16 +295,8 @@ progress : bool or callable
       "Whether the file is the finished result of this study, of all its surfaces, models and "
       "settings; False for any other file, and for none.");
 
-  nb::class_<Check>(m, "Check",
-                    "One number that this installation computes, beside what analysis says of it.")
-      .def_ro("name", &Check::name)
-      .def_ro("value", &Check::value)
-      .def_ro("expected", &Check::expected)
-      .def_ro("tolerance", &Check::tolerance, "Relative to expected, absolute where that is 0.")
-      .def_prop_ro("passed", &Check::passed)
-      .def("__repr__", [](const Check& check) {
-        return "Check('" + check.name + "', " + (check.passed() ? "passed" : "failed") + ")";
-      });
+  described_class<Check>(
+      m, "Check", "One number that this installation computes, beside what analysis says of it.");
   m.def(
       "verify_installation",
       [](const ProgressArgument& progress) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pickle, copies and == of every class that is a value, and the door through which salebra._calls
-// sees constructors.
+// Pickle, copies and == of grids and surfaces, pictures and tables of results, and the door through
+// which salebra._calls sees constructors.
 #include "interop/values.hpp"
 
 #include <nanobind/stl/string.h>
@@ -11,61 +11,21 @@
 #include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/damping/asperity_damping.hpp>
 #include <salebra/damping/cycle.hpp>
-#include <salebra/damping/damper.hpp>
-#include <salebra/damping/friction_map.hpp>
-#include <salebra/damping/joint.hpp>
-#include <salebra/damping/level_quadrature.hpp>
 #include <salebra/damping/slider.hpp>
-#include <salebra/damping/steady_sliding.hpp>
-#include <salebra/damping/stress_map.hpp>
-#include <salebra/damping/surface_damping.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 #include <salebra/generators/profile.hpp>
 #include <salebra/study/study.hpp>
-#include <salebra/study/verification.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/psd_convention.hpp>
 #include <salebra/surface/scale_dependence.hpp>
 
 #include "bindings.hpp"
-#include "interop/contact.hpp"
-#include "interop/damping.hpp"
-#include "interop/running.hpp"
 #include "interop/surface.hpp"
-
-namespace salebra {
-
-/// Of a study's result; its bootstrap has no value of its own.
-template <class Archive>
-void archive_members(Archive& through, StudyResult& own) {
-  auto& [configuration, grid, contact_scale, pressures, realisations, warnings, flags, interrupted,
-         precision_reached, bootstrap] = own;
-  python::archive(through, configuration);
-  python::archive(through, grid);
-  python::archive(through, contact_scale);
-  python::archive(through, pressures);
-  python::archive(through, realisations);
-  python::archive(through, warnings);
-  python::archive(through, flags);
-  python::archive(through, interrupted);
-  python::archive(through, precision_reached);
-}
-
-}  // namespace salebra
 
 namespace salebra::python {
 namespace {
-
-template <class... T>
-void value_classes() {
-  const auto define = []<class Bound>(std::type_identity<Bound>) {
-    auto bound = nb::borrow<nb::class_<Bound>>(nb::type<Bound>());
-    value_methods(bound);
-  };
-  (define(std::type_identity<T>{}), ...);
-}
 
 // Pictures, by salebra._plots.
 template <class... Bound>
@@ -104,8 +64,6 @@ void table_classes() {
 }  // namespace
 
 void bind_values(nb::module_& m) {
-  value_classes<ContactSetAt, CycleResult, LevelQuadratureResult>();
-  value_classes<StudyConfiguration, EnsembleMean, StudyFlag, StudyResult, Check>();
   auto grid = nb::borrow<nb::class_<Grid2D>>(nb::type<Grid2D>());
   value_methods(grid);
   auto surface = nb::borrow<nb::class_<BoundSurface>>(nb::type<BoundSurface>());

@@ -15,229 +15,163 @@
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/cycle_checkpoint.hpp>
 
+#include "base/archive.hpp"
 #include "io/checksum.hpp"
 
 namespace salebra {
 namespace {
 
-// What a state consists of, for the writer and the reader below.
-template <class State, class Visitor>
-void describe_cycle(State& state, Visitor& visit) {
-  visit("period", state.period);
-  visit("step", state.step);
-  visit("smallest", state.smallest, "1 in contact at every step of the period");
-  visit("largest", state.largest, "1 in contact at any step of the period");
-  visit("tangential", state.tangential, "m", "tangential position");
-  visit("energy_at_period_start", state.energy_at_period_start, "J",
-        "stored energy at the start of the period");
-  visit("work_at_period_start", state.work_at_period_start, "J",
-        "work of the tangential force before the period");
-  visit("normal_work_at_period_start", state.normal_work_at_period_start, "J",
-        "work of the normal force before the period");
-  visit("gap_work_at_period_start", state.gap_work_at_period_start, "J",
-        "work across gaps before the period");
-  visit("loss_at_period_start", state.loss_at_period_start, "J",
-        "energy dissipated in each cell before the period");
-  visit("last_work", state.last_work, "J", "work_per_cycle of the period before");
-}
+std::string unit(const auto& line) { return std::string(si_unit(line.dimension)); }
 
-template <class Body, class Visitor>
-void describe_body(Body& body, Visitor& visit) {
-  if constexpr (requires { body.sliding; }) {  // a coupled body
-    describe_body(body.sliding, visit);
-    visit("gap", body.gap, "m", "gap between the deformed surfaces");
-    visit("indentation", body.indentation, "m", "indentation");
-    visit("normal_work", body.normal_work, "J", "work of the normal force");
-    visit("gap_work", body.gap_work, "J", "work across gaps");
-    visit("increments_converged", body.converged);
-  } else {
-    visit("traction", body.traction, "Pa", "shear traction");
-    visit("displacement", body.displacement, "m", "displacement of cells in contact");
-    visit("work", body.work, "J", "work of the tangential force");
-    visit("released", body.released, "J", "energy dissipated by cells as they opened");
-    visit("iterations", body.iterations);
-    visit("fft_count", body.fft_count);
-    visit("converged", body.converged);
-    if constexpr (requires { body.unit_traction; }) {  // a stuck one
-      visit("contact", body.contact, "1 in contact");
-      visit("unit_traction", body.unit_traction, "Pa/m", "shear traction of a unit move");
-    } else {
-      visit("contact_pressure", body.contact_pressure, "Pa", "contact pressure");
-      visit("shift", body.shift, "m", "displacement by other causes");
-      visit("loss", body.loss, "J", "energy dissipated in each cell since the start");
-      visit("prepared", body.prepared, "1 within the window of the kernels");
-      visit("motion_scale", body.motion_scale, "m", "displacement that the tolerance refers to");
-      visit("slipping", body.slipping);
-    }
-  }
-}
-
+/// A described state as a group: counts and truths as attributes, numbers and fields as datasets,
+/// samples and body as groups in it.
 class StateWriter {
  public:
-  explicit StateWriter(ResultGroup group) : group_(std::move(group)) {}
+  StateWriter(ResultFile& file, const std::string& path)
+      : file_(file), path_(path), group_(file.group(path)) {}
 
+  template <Described State>
+  void write(const State& state) {
+    describe([&](auto member, const auto& line) { put(line, state.*member); },
+             std::type_identity<State>{});
+  }
+
+ private:
   template <std::integral Count>
-  void operator()(const char* name, Count value) {
-    group_.attribute(name, static_cast<std::int64_t>(value));
+  void put(const Kept& line, Count count) {
+    group_.attribute(std::string(line.name), static_cast<std::int64_t>(count));
   }
-  void operator()(const char* name, double value, const char* units, const char* text) {
-    group_.scalar(name, value, units, text);
+  void put(const Kept& line, double number) {
+    group_.scalar(std::string(line.name), number, unit(line), std::string(line.meaning));
   }
-  void operator()(const char* name, const Field& values, const char* units, const char* text) {
+  void put(const Kept& line, const Field& values, const std::string& end = "",
+           const std::string& direction = "") {
     if (values.size() == 0) return;
     if (!has_axes_) {
       group_.index("x", static_cast<std::size_t>(values.rows()), "cell along x");
       group_.index("y", static_cast<std::size_t>(values.cols()), "cell along y");
       has_axes_ = true;
     }
-    group_.dataset(name, values, "x", "y", units, text);
+    group_.dataset(std::string(line.name) + end, values, "x", "y", unit(line),
+                   std::string(line.meaning) + direction);
   }
-  void operator()(const char* name, const ContactSet& set, const char* text) {
-    (*this)(name, Field(set.cast<double>()), "1", text);
+  void put(const Kept& line, const ContactSet& set) { put(line, Field(set.cast<double>())); }
+  void put(const Kept& line, const TangentialField& field) {
+    put(line, field.x, "_x", " along x");
+    put(line, field.y, "_y", " along y");
   }
-  void operator()(const std::string& name, const TangentialField& field, const char* units,
-                  const std::string& text) {
-    (*this)((name + "_x").c_str(), field.x, units, (text + " along x").c_str());
-    (*this)((name + "_y").c_str(), field.y, units, (text + " along y").c_str());
+  template <class... Body>
+  void put(const Kept& line, const std::variant<Body...>& bodies) {
+    StateWriter within(file_, path_ + "/" + std::string(line.name));
+    std::visit([&](const auto& body) { within.write(body); }, bodies);
+  }
+  void put(const Part&, const auto& inner) { write(inner); }
+  template <Described Row>
+  void put(const Table& line, const std::vector<Row>& rows) {
+    ResultGroup table = file_.group(path_ + "/" + std::string(line.name));
+    table.index("sample", rows.size(), "steps of the period so far");
+    describe(
+        [&](auto member, const Quantity& column) {
+          std::vector<double> values;
+          for (const Row& row : rows) values.push_back(row.*member);
+          table.dataset(std::string(column.name), values, {"sample"}, unit(column),
+                        std::string(column.long_name));
+        },
+        std::type_identity<Row>{});
   }
 
- private:
+  ResultFile& file_;
+  std::string path_;
   ResultGroup group_;
   bool has_axes_ = false;
 };
 
+/// The inverse of StateWriter.
 class StateReader {
  public:
-  StateReader(const ResultReader& reader, std::string group)
-      : reader_(reader), group_(std::move(group)) {}
+  StateReader(const ResultReader& reader, std::string path)
+      : reader_(reader), path_(std::move(path)) {}
 
+  template <Described State>
+  void read(State& state) {
+    describe([&](auto member, const auto& line) { get(line, state.*member); },
+             std::type_identity<State>{});
+  }
+
+ private:
   template <std::integral Count>
-  void operator()(const char* name, Count& value) {
-    const std::optional<double> found = reader_.number_attribute(group_, name);
+  void get(const Kept& line, Count& count) {
+    const std::string name(line.name);
+    const std::optional<double> found = reader_.number_attribute(path_, name);
     require(found.has_value(), reader_.file().string(), name,
             "is missing; remove the damaged file");
     // The conversion of others is undefined.
     constexpr double most = std::min<double>(std::numeric_limits<Count>::max(), 1LL << 53);
     require(std::abs(*found) <= most, reader_.file().string(), name,
             "is out of range; remove the damaged file");
-    value = static_cast<Count>(*found);
+    count = static_cast<Count>(*found);
   }
-  void operator()(const char* name, double& value, const char*, const char*) {
-    value = reader_.number(path(name));
-    require_finite(std::isfinite(value), name);
+  void get(const Kept& line, double& number) {
+    number = reader_.number(within(line));
+    require_finite(std::isfinite(number), std::string(line.name));
   }
-  void operator()(const char* name, Field& values, const char*, const char*) {
-    if (reader_.has(path(name))) values = field(name);
+  void get(const Kept& line, Field& values, const std::string& end = "") {
+    const std::string path = within(line) + end;
+    if (!reader_.has(path)) return;
+    values = reader_.field(path);
+    require_finite(values.isFinite().all(), std::string(line.name) + end);
   }
-  void operator()(const char* name, ContactSet& set, const char*) {
-    if (reader_.has(path(name))) set = field(name) > 0.5;
+  void get(const Kept& line, ContactSet& set) {
+    Field values;
+    get(line, values);
+    set = values > 0.5;
   }
-  void operator()(const std::string& name, TangentialField& components, const char*,
-                  const std::string&) {
-    components = {field(name + "_x"), field(name + "_y")};
+  void get(const Kept& line, TangentialField& field) {
+    get(line, field.x, "_x");
+    get(line, field.y, "_y");
+  }
+  template <class... Body>
+  void get(const Kept& line, std::variant<Body...>& bodies) {
+    std::visit([&](auto& body) { StateReader(reader_, within(line)).read(body); }, bodies);
+  }
+  void get(const Part&, auto& inner) { read(inner); }
+  template <Described Row>
+  void get(const Table& line, std::vector<Row>& rows) {
+    describe(
+        [&](auto member, const Quantity& column) {
+          const std::vector<double> values =
+              reader_.numbers(within(line) + "/" + std::string(column.name));
+          rows.resize(values.size());
+          for (std::size_t k = 0; k < values.size(); ++k) rows[k].*member = values[k];
+        },
+        std::type_identity<Row>{});
   }
 
- private:
-  std::string path(const std::string& name) const { return group_ + "/" + name; }
+  std::string within(const auto& line) const { return path_ + "/" + std::string(line.name); }
   void require_finite(bool finite, const std::string& name) const {
     require(finite, reader_.file().string(), name,
             "has values that are not finite; remove the damaged file");
   }
-  Field field(const std::string& name) const {
-    Field values = reader_.field(path(name));
-    require_finite(values.isFinite().all(), name);
-    return values;
-  }
 
   const ResultReader& reader_;
-  std::string group_;
+  std::string path_;
 };
 
-// Checksum of everything that describe_cycle() and describe_body() visit, and of the samples.
-class StateChecksum {
- public:
-  void add(const CycleState& state) {
-    number(static_cast<double>(state.body.index()));
-    describe_cycle(state, *this);
-    std::visit([&](const auto& body) { describe_body(body, *this); }, state.body);
-    for (const CycleSample& sample : state.samples)
-      describe([&](double CycleSample::*member, const Quantity&) { number(sample.*member); },
-               std::type_identity<CycleSample>{});
-  }
-
-  template <std::integral Count>
-  void operator()(const char*, Count value) {
-    number(static_cast<double>(value));
-  }
-  void operator()(const char*, double value, const char*, const char*) { number(value); }
-  void operator()(const char*, const Field& values, const char*, const char*) { array(values); }
-  void operator()(const char*, const ContactSet& set, const char*) { array(set); }
-  void operator()(const std::string&, const TangentialField& field, const char*,
-                  const std::string&) {
-    array(field.x);
-    array(field.y);
-  }
-
-  std::string text() const { return fmt::format("{:016x}", bytes_.value()); }
-
- private:
-  void number(double value) { bytes_.add({reinterpret_cast<const char*>(&value), sizeof value}); }
-  template <class Array>
-  void array(const Array& values) {
-    number(static_cast<double>(values.rows()));
-    bytes_.add({reinterpret_cast<const char*>(values.data()),
-                static_cast<std::size_t>(values.size()) * sizeof *values.data()});
-  }
-
-  detail::Checksum bytes_;
+/// Adds up what it is given.
+struct StateSum {
+  static constexpr bool reads = false;
+  detail::Checksum sum = {};
+  void raw(const void* data, std::size_t size) { sum.add({static_cast<const char*>(data), size}); }
 };
 
 std::string checksum_of(std::span<const CycleState> states) {
-  StateChecksum sum;
-  for (const CycleState& state : states) sum.add(state);
-  return sum.text();
+  StateSum bytes;
+  for (const CycleState& state : states) detail::archive(bytes, state);
+  return fmt::format("{:016x}", bytes.sum.value());
 }
 
 // Names in the order of CycleState::body.
 constexpr std::array kinds{"stuck", "frictional", "coupled"};
-
-void write_state(ResultFile& output, const CycleState& state) {
-  const std::string kind = kinds[state.body.index()];
-  StateWriter cycle(output.group(kind));
-  describe_cycle(state, cycle);
-  StateWriter body(output.group(kind + "/body"));
-  std::visit([&](const auto& memory) { describe_body(memory, body); }, state.body);
-  ResultGroup samples = output.group(kind + "/samples");
-  samples.index("sample", state.samples.size(), "steps of the period so far");
-  describe(
-      [&](double CycleSample::*member, const Quantity& quantity) {
-        std::vector<double> values;
-        for (const CycleSample& sample : state.samples) values.push_back(sample.*member);
-        samples.dataset(std::string(quantity.name), values, {"sample"},
-                        std::string(si_unit(quantity.dimension)), std::string(quantity.long_name));
-      },
-      std::type_identity<CycleSample>{});
-}
-
-template <class Body>
-CycleState read_state(const ResultReader& reader, const std::string& kind) {
-  CycleState state;
-  StateReader cycle(reader, kind);
-  describe_cycle(state, cycle);
-  StateReader memory(reader, kind + "/body");
-  Body body;
-  describe_body(body, memory);
-  state.body = std::move(body);
-  describe(
-      [&](double CycleSample::*member, const Quantity& quantity) {
-        const std::vector<double> values =
-            reader.numbers(kind + "/samples/" + std::string(quantity.name));
-        state.samples.resize(values.size());
-        for (std::size_t k = 0; k < values.size(); ++k) state.samples[k].*member = values[k];
-      },
-      std::type_identity<CycleSample>{});
-  return state;
-}
 
 }  // namespace
 
@@ -292,7 +226,8 @@ void write_cycle_checkpoint(const std::filesystem::path& file, std::span<const C
   ResultGroup agreed = output.group("settings");
   for (const auto& [name, value] : settings) agreed.attribute(name, value);
   agreed.attribute("checksum", checksum_of(states));
-  for (const CycleState& state : states) write_state(output, state);
+  for (const CycleState& state : states)
+    StateWriter(output, kinds[state.body.index()]).write(state);
   output.commit();
 }
 
@@ -314,9 +249,15 @@ std::vector<CycleState> read_cycle_checkpoint(const std::filesystem::path& file,
   require_same("/", "version", version());
   for (const auto& [name, value] : settings) require_same("settings", name, value);
   std::vector<CycleState> states;
-  if (holds(kinds[0])) states.push_back(read_state<StuckState>(reader, kinds[0]));
-  if (holds(kinds[1])) states.push_back(read_state<SlidingState>(reader, kinds[1]));
-  if (holds(kinds[2])) states.push_back(read_state<CoupledState>(reader, kinds[2]));
+  const auto read = [&]<class Body>(const char* kind, std::type_identity<Body>) {
+    if (!holds(kind)) return;
+    CycleState& state = states.emplace_back();
+    state.body.emplace<Body>();
+    StateReader(reader, kind).read(state);
+  };
+  read(kinds[0], std::type_identity<StuckState>{});
+  read(kinds[1], std::type_identity<SlidingState>{});
+  read(kinds[2], std::type_identity<CoupledState>{});
   require(reader.text_attribute("settings", "checksum") == checksum_of(states), file.string(), "",
           "is damaged: its states do not match their checksum; remove it to begin the cycle anew");
   return states;

@@ -85,28 +85,27 @@ void CycleFields::write(const CycleState& state, double time, const NormalContac
   const TangentialField& displacement = stuck ? stuck->displacement : sliding->displacement;
   Field pressure = sliding ? sliding->contact_pressure : normal.contact_pressure;
   if (pressure.size() == 0) pressure = Field::Zero(grid_.nx, grid_.ny);
-  Field contact = stuck ? Field(stuck->contact.cast<double>())
-                        : Field((sliding->contact_pressure > 0).cast<double>());
-  std::vector<std::pair<std::string, Field>> values{
-      {"contact", std::move(contact)},
-      {"traction_x", traction.x},
-      {"traction_y", traction.y},
-      {"displacement_x", displacement.x},
-      {"displacement_y", displacement.y},
-      {"contact_pressure", std::move(pressure)},
-      {"gap", coupled ? coupled->gap : gap_of(normal)}};
-  if (sliding)
-    values.emplace_back("loss", (sliding->loss - state.loss_at_period_start) / grid_.cell_area());
+  CycleFrame frame{.contact = stuck ? Field(stuck->contact.cast<double>())
+                                    : Field((sliding->contact_pressure > 0).cast<double>()),
+                   .traction_x = traction.x,
+                   .traction_y = traction.y,
+                   .displacement_x = displacement.x,
+                   .displacement_y = displacement.y,
+                   .contact_pressure = std::move(pressure),
+                   .gap = coupled ? coupled->gap : gap_of(normal),
+                   .loss = {}};
+  if (sliding) frame.loss = (sliding->loss - state.loss_at_period_start) / grid_.cell_area();
 
   ResultFile file(frame_file(state.step), provenance_, {.overwrite = true});
   QuantityGroup fields(file.group("fields"));
   fields.coordinate("x", x_);
   fields.coordinate("y", y_);
   std::vector<std::string> names;
-  for (const auto& [name, field] : values) {
-    fields.dataset(name, field);
-    names.push_back(name);
-  }
+  for_each_column<CycleFrame>([&](const auto& column, const Quantity& quantity) {
+    const Field& field = column(frame);
+    if (field.size() == 0) return;
+    fields.dataset(names.emplace_back(quantity.name), field);
+  });
   fields.attribute("step", state.step);
   fields.attribute("time_in_periods", time);
   file.commit();

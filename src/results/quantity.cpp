@@ -14,6 +14,7 @@
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/joint.hpp>
+#include <salebra/damping/level_quadrature.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/slider.hpp>
@@ -26,6 +27,7 @@
 #include <salebra/generators/non_gaussian.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/results/columns.hpp>
+#include <salebra/results/cycle_fields.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/surface/areal_parameters.hpp>
 #include <salebra/surface/bearing.hpp>
@@ -43,14 +45,8 @@ using enum Dimension;
 /// Names of results that no struct describes yet.
 const Quantity others[] = {
     Quantity{"filled_points", dimensionless, "points whose height was filled in"},
-    Quantity{"stride", dimensionless, "points from one to the next that is kept"},
-    Quantity{"first_load", dimensionless,
-             "number of the lowest pressure of the curve at which the point touches; -1: none"},
     Quantity{"mean", length, "mean height"},
-    Quantity{"law_psd", length_to_the_fourth, "power spectral density of the self-affine law"},
     Quantity{"area_fraction", dimensionless, "part of the surface above"},
-    Quantity{"hurst_low", dimensionless, "Hurst exponent, lower 95 % limit"},
-    Quantity{"hurst_high", dimensionless, "Hurst exponent, upper 95 % limit"},
     Quantity{"correlation_length", length, "correlation length"},
     Quantity{"correlation_length_along", length, "correlation length along the lay"},
     Quantity{"correlation_length_across", length, "correlation length across the lay"},
@@ -70,54 +66,15 @@ const Quantity others[] = {
     Quantity{"tangential_frequency", frequency, "frequency of the tangential motion"},
     Quantity{"slow_limit_power", Dimension::power, "mean power if the tangential motion were slow"},
     Quantity{"work_per_cycle_with_slip", energy, "energy dissipated in a cycle with friction"},
-    Quantity{"work_by_levels", energy, "energy dissipated in a cycle, from contact levels"},
-    Quantity{"error_estimate", energy, "estimated error of the energy dissipated in a cycle"},
-    Quantity{"work_by_levels_error", energy, "estimated error of the energy from contact levels"},
-    Quantity{"work_by_whole_cells", energy,
-             "energy dissipated in a cycle, from contact levels of whole cells"},
-    Quantity{"work_by_force", energy, "energy dissipated in a cycle by K_t = (G*/E*)K"},
-    Quantity{"predicted_exponential", energy,
-             "energy dissipated in a cycle, Eq. (12) or (16) with F'' = F/l^2"},
-    Quantity{"predicted_exponential_finite", energy,
-             "energy dissipated in a cycle by the exponential law at this amplitude"},
-    Quantity{"ratio", dimensionless, "energy dissipated in a cycle over small_amplitude_work"},
-    Quantity{"ratio_finite", dimensionless, "the same over work_by_force"},
-    Quantity{"ratio_exponential", dimensionless, "the same over predicted_exponential"},
-    Quantity{"ratio_exponential_finite", dimensionless,
-             "the same over predicted_exponential_finite"},
-    Quantity{"work_over_elastic_energy", dimensionless,
-             "energy dissipated in a cycle over the largest tangential elastic energy"},
-    Quantity{"levels", dimensionless, "contact levels"},
     Quantity{"steps", dimensionless, "steps of a cycle"},
     Quantity{"step", dimensionless, "step of the cycle"},
-    Quantity{"periods", dimensionless, "simulated periods"},
     Quantity{"model", dimensionless, "contact model"},
-    Quantity{"stored_energy_change", energy, "change of the elastic energy in a cycle"},
-    Quantity{"normal_work", energy, "work of the normal force in a cycle"},
-    Quantity{"gap_work", energy, "work across gaps that close and open within a step"},
-    Quantity{"balance", dimensionless, "energy dissipated by the cells over work_per_cycle"},
-    Quantity{"over_stick", dimensionless, "energy dissipated in a cycle over that without slip"},
-    Quantity{"work_change", dimensionless, "relative change of work_per_cycle by the coupling"},
-    Quantity{"force_change", dimensionless, "relative change of the normal force by the coupling"},
-    Quantity{"tangential_force_change", dimensionless,
-             "relative change of the tangential force by the coupling"},
-    Quantity{"contact", dimensionless, "1 in contact, 0 not"},
     Quantity{"cells", length, "middles of the cells"},
-    Quantity{"contact_map", dimensionless,
-             "0 never in contact, 1 during a part of the cycle, 2 always"},
-    Quantity{"loss", energy_per_area, "energy dissipated in a period by unit area"},
-    Quantity{"traction_x", pressure, "shear traction along x"},
-    Quantity{"traction_y", pressure, "shear traction along y"},
-    Quantity{"displacement_x", length, "displacement of cells in contact along x"},
-    Quantity{"displacement_y", length, "displacement of cells in contact along y"},
-    Quantity{"contact_area_min", length_squared, "minimum contact area of a cycle"},
-    Quantity{"contact_area_max", length_squared, "maximum contact area of a cycle"},
     Quantity{"damping_constant_with_slip", damping, "damping constant P/v^2 with friction"},
     Quantity{"elastic_work", energy,
              "energy dissipated in a cycle by the elastic body of the relaxed modulus"},
     Quantity{"storage_modulus", pressure, "real part of the complex shear modulus"},
     Quantity{"loss_modulus", pressure, "imaginary part of the complex shear modulus"},
-    Quantity{"stiffness_ratio", dimensionless, "stiffness of the contact over that of the spring"},
     Quantity{"stabilising_amplitude", length,
              "minimum normal amplitude that stabilises the slider"},
     Quantity{"stable", dimensionless, "steady sliding is stable"},
@@ -146,17 +103,17 @@ std::vector<Quantity> quantities_of() {
 
 /// The entry of a name, or none.
 const Quantity* entry_of(std::string_view name) {
-  static const std::vector<Quantity> quantities =
-      quantities_of<Surface, HeightStatistics, SpectralMoments, Summit, SummitStatistics,
-                    SummitEnsemble, ArealParameters, PowerSpectrum, RadialSpectrum, ProfilePsd,
-                    Correlation, ScaleDependence, ReliabilityLimit, HeightHistogram,
-                    SelfAffineParameters, Material, ForceCurve, ForceSample, NormalContactState,
-                    FirstLoading, ExponentialFit, ExponentialTest, WindowSensitivity,
-                    LocalDecayLength, CycleSample, EqualFrequency, Drag, DampingResult,
-                    CommonPeriod, ContactFacts, LargestMotion, LossWithSlip, TrajectoryDamping,
-                    JointLoss, SteadySliding, Slider, SliderMotion, SliderStability,
-                    OscillatorDecay, FrictionMap, StressMap, RegimeMap, PronyTerm, PronySeries,
-                    ViscoelasticDamping, SurfaceDamping, Anisotropy, NonGaussianSurface>();
+  static const std::vector<Quantity> quantities = quantities_of<
+      Surface, HeightStatistics, SpectralMoments, Summit, SummitStatistics, SummitEnsemble,
+      ArealParameters, PowerSpectrum, RadialSpectrum, ProfilePsd, Correlation, ScaleDependence,
+      ReliabilityLimit, HeightHistogram, SelfAffineParameters, Material, ForceCurve, ForceSample,
+      NormalContactState, FirstLoading, ExponentialFit, ExponentialTest, WindowSensitivity,
+      LocalDecayLength, CycleSample, CycleResult, SlipEffect, CouplingEffect, CycleFrame,
+      LevelQuadratureResult, OscillationLoss, ExponentialLoss, SampledMotion, EqualFrequency, Drag,
+      DampingResult, CommonPeriod, ContactFacts, LargestMotion, LossWithSlip, TrajectoryDamping,
+      JointLoss, SteadySliding, Slider, SliderMotion, SliderStability, OscillatorDecay, FrictionMap,
+      StressMap, RegimeMap, PronyTerm, PronySeries, ViscoelasticDamping, SurfaceDamping, Anisotropy,
+      NonGaussianSurface>();
   const auto found = std::ranges::find(quantities, name, &Quantity::name);
   return found != quantities.end() ? &*found : nullptr;
 }

@@ -49,14 +49,17 @@ class Table {
   /// name_mean, name_low and name_high.
   void put(const std::string& name, const Quantity& quantity, const Means& means,
            const Names& axes) {
-    for (const auto& [part, member] : {std::pair{"mean", &EnsembleMean::mean},
-                                       {"low", &EnsembleMean::low},
-                                       {"high", &EnsembleMean::high}}) {
-      std::vector<double> values;
-      std::ranges::transform(means, std::back_inserter(values), member);
-      group_.dataset(name + "_" + part, values, axes, std::string(si_unit(quantity.dimension)),
-                     std::string(quantity.long_name) + ", " + part);
-    }
+    describe(
+        [&](auto member, const Kept& part) {
+          if constexpr (std::is_member_object_pointer_v<decltype(member)>) {
+            std::vector<double> values;
+            std::ranges::transform(means, std::back_inserter(values), member);
+            const std::string end(part.name);
+            group_.dataset(name + "_" + end, values, axes, std::string(si_unit(quantity.dimension)),
+                           std::string(quantity.long_name) + ", " + end);
+          }
+        },
+        std::type_identity<EnsembleMean>{});
   }
 
   /// Every column of the items that has no dataset yet.
@@ -235,45 +238,34 @@ void write_damping(Table table, const StudyResult& result) {
 void write_premises(ResultGroup group, const StudyResult& result) {
   group.coordinate("pressure", result.pressures, "Pa", "nominal pressure");
   const StudyPremises found = premises_of(result);
-  for (const PremiseName& name : premise_names()) {
-    const std::string key(name.name), unit(si_unit(name.value_dimension)), words(name.meaning);
-    const auto put = [&](const std::string& dataset, const std::string& units, const auto& value,
-                         const std::string& meaning) {
-      std::vector<double> values;
-      for (const Premises& one : found.premises) values.push_back(value(one.*name.premise));
-      group.dataset(dataset, values, {"pressure"}, units, meaning);
-    };
-    const auto limit = [&](const char* percent, double Premise::*member) {
-      put(
-          key + "_limit_" + percent + "_percent", unit,
-          [member](const Premise& p) { return p.*member; },
-          words + ", value at which the loss changes by " + percent + " %");
-    };
-    put(
-        key, unit, [](const Premise& p) { return p.value; }, words);
-    limit("5", &Premise::limit_5_percent);
-    limit("20", &Premise::limit_20_percent);
-    put(
-        key + "_verdict", "1", [](const Premise& p) { return double(p.verdict); },
-        "0 holds, 1 doubtful, 2 broken, 3 unknown");
-  }
-  const auto loss = [&](const char* dataset, double LossWithSlip::*member, const char* meaning) {
+  const auto column_of = [](const auto& items, const auto& of) {
     std::vector<double> values;
-    for (const LossWithSlip& one : found.losses) values.push_back(one.*member);
-    group.dataset(dataset, values, {"pressure"}, "J", meaning);
+    for (const auto& one : items) values.push_back(double(std::invoke(of, one)));
+    return values;
   };
-  loss("work_per_cycle_with_slip", &LossWithSlip::work_per_cycle,
-       "energy dissipated in a cycle with friction");
-  loss("relaxation_work", &LossWithSlip::relaxation_work,
-       "energy dissipated in a cycle by springs that open and close");
-  loss("slip_work", &LossWithSlip::slip_work,
-       "energy dissipated in a cycle by slip in permanent contact");
-  group.dataset("damping_constant_with_slip", found.damping_constant_with_slip, {"pressure"},
-                "N s/m", "damping constant P/v^2 with friction");
-  std::vector<double> codes;
-  for (const Premises& one : found.premises) codes.push_back(double(one.regime));
-  group.dataset("regime", codes, {"pressure"}, "1",
-                "0 no slip, 1 partial slip, 2 sliding, 3 unknown");
+  for (const PremiseName& name : premise_names())
+    for_each_column<Premise>([&](const auto& column, const Quantity& quantity) {
+      std::string dataset(name.name), meaning(name.meaning), unit(si_unit(name.value_dimension));
+      if (quantity.name != "value") {
+        dataset += "_" + std::string(quantity.name);
+        meaning += ", " + std::string(quantity.long_name);
+      }
+      if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(column(Premise()))>>) {
+        unit = "1";
+        meaning = "0 holds, 1 doubtful, 2 broken, 3 unknown";
+      }
+      const auto of = [&](const Premises& one) { return column(one.*name.premise); };
+      group.dataset(dataset, column_of(found.premises, of), {"pressure"}, unit, meaning);
+    });
+  QuantityGroup slip(group);
+  const auto put = [&](const char* name, const auto& items, const auto& of) {
+    slip.dataset(name, column_of(items, of), {"pressure"});
+  };
+  put("work_per_cycle_with_slip", found.losses, &LossWithSlip::work_per_cycle);
+  put("relaxation_work", found.losses, &LossWithSlip::relaxation_work);
+  put("slip_work", found.losses, &LossWithSlip::slip_work);
+  slip.dataset("damping_constant_with_slip", found.damping_constant_with_slip, {"pressure"});
+  put("regime", found.premises, &Premises::regime);
   group.attribute("objections", objections(found.premises, result.pressures));
   group.attribute("open_points", open_points(found.premises));
   group.attribute("regimes", regimes(found, result.pressures));
@@ -333,27 +325,30 @@ void write_convergence(Table table, const StudyResult& result) {
   table.put(std::string(ratio.name), ratio, result.convergence(), {"surfaces"});
 }
 
-void write_picture(QuantityGroup group, const SurfacePicture& picture) {
-  group.coordinate("x", positions(picture.nx, picture.step_x));
-  group.coordinate("y", positions(picture.ny, picture.step_y));
-  group.dataset("heights", picture.heights, {"x", "y"});
-  group.dataset("first_load", picture.first_load, {"x", "y"});
-  if (!picture.gap.empty()) {
-    group.dataset("contact_pressure", picture.contact_pressure, {"x", "y"});
-    group.dataset("gap", picture.gap, {"x", "y"});
-    group.plain().attribute("mapped_load", std::int64_t(picture.mapped_load));
-  }
-  group.coordinate("wavenumber", picture.wavenumber);
-  group.dataset("psd", picture.psd, {"wavenumber"});
-  group.dataset("law_psd", picture.law_psd, {"wavenumber"});
-  group.coordinate("height", picture.height);
-  group.dataset("height_density", picture.height_density, {"height"});
-  group.attribute("stride", std::int64_t(picture.stride));
-  group.attribute("hurst", picture.hurst);
-  group.attribute("hurst_low", picture.hurst_low);
-  group.attribute("hurst_high", picture.hurst_high);
-  group.plain().attribute("origin", picture.origin);
-  group.plain().attribute("law", picture.law);
+void write_picture(ResultGroup group, const SurfacePicture& picture) {
+  QuantityGroup maps(group);
+  maps.coordinate("x", positions(picture.nx, picture.step_x));
+  maps.coordinate("y", positions(picture.ny, picture.step_y));
+  if (!picture.gap.empty()) group.attribute("mapped_load", std::int64_t(picture.mapped_load));
+  std::string axis;  // of the lists that follow it
+  for_each_column<SurfacePicture>([&](const auto& column, const Quantity& quantity) {
+    const auto& value = column(picture);
+    using Value = std::remove_cvref_t<decltype(value)>;
+    const std::string name(quantity.name), unit(si_unit(quantity.dimension)),
+        meaning(quantity.long_name);
+    if constexpr (std::is_same_v<Value, std::vector<double>>) {
+      if (name == "wavenumber" || name == "height")
+        group.coordinate(axis = name, value, unit, meaning);
+      else
+        group.dataset(name, value, {axis}, unit, meaning);
+    } else if constexpr (std::is_integral_v<Value>) {
+      group.attribute(name, std::int64_t(value));
+    } else if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, std::string>) {
+      group.attribute(name, value);
+    } else if (!value.empty()) {
+      group.dataset(name, value, {"x", "y"}, unit, meaning);
+    }
+  });
 }
 
 }  // namespace
@@ -370,7 +365,7 @@ void write_study_groups(ResultFile& output, const std::string& where, const Stud
   write_comparison(table("comparison"), result);
   if (result.realisations.size() >= 2) write_convergence(table("convergence"), result);
   const SurfacePicture& picture = result.realisations.front().picture;
-  if (!picture.empty()) write_picture(QuantityGroup(output.group(where + "picture")), picture);
+  if (!picture.empty()) write_picture(output.group(where + "picture"), picture);
 }
 
 void write_study_overview(ResultGroup group, const std::vector<StudyResult>& results) {

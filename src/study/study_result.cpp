@@ -13,7 +13,7 @@ namespace salebra {
 EnsembleMean StudyResult::mean(const NumberOf<Realisation>& number) const {
   std::vector<double> values;
   for (const Realisation& realisation : realisations) values.push_back(number(realisation));
-  return bootstrap.mean(values);
+  return Bootstrap().mean(values);
 }
 
 EnsembleMean StudyResult::mean(const NumberOf<ModelResult>& number, ContactModel model) const {
@@ -178,7 +178,7 @@ std::vector<EnsembleMean> StudyResult::convergence() const {
   std::vector<EnsembleMean> estimates;
   for (const std::size_t count : convergence_counts())
     estimates.push_back(
-        bootstrap.mean({ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(count)}));
+        Bootstrap().mean({ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(count)}));
   return estimates;
 }
 

@@ -88,7 +88,8 @@ const std::set<std::string> counts{"realisations", "seed"};
 
 /// Columns of studies, whose descriptions stand beside their structs.
 const Meanings& columns_of_studies() {
-  static const Meanings all = columns_of<Realisation, ModelResult, DampingPoint, SpotStatistics>();
+  static const Meanings all =
+      columns_of<Realisation, ModelResult, DampingPoint, SpotStatistics, SurfacePicture>();
   return all;
 }
 bool is_listed(const std::string& name) {

@@ -186,7 +186,7 @@ TEST_CASE("A convergence curve looks at few numbers of many surfaces", "[ensembl
   std::vector<double> first;
   for (std::size_t i = 0; i < counts[200]; ++i)
     first.push_back(result.realisations[i].of(ContactModel::bem).fit.decay_length);
-  CHECK(curve[200].low == result.bootstrap.mean(first).low);
+  CHECK(curve[200].low == Bootstrap().mean(first).low);
   CHECK(curve.back().high == result.decay_length().high);
 }
 
@@ -306,8 +306,8 @@ TEST_CASE("A study goes on until its decay length and its area slope are both pr
   for (const Realisation& r : all.realisations) {
     lengths.push_back(r.of(ContactModel::bem).fit.decay_length / r.heights.rms_height);
     slopes.push_back(r.of(ContactModel::bem).area_slope);
-    length_precision.push_back(all.bootstrap.mean(lengths).relative_precision());
-    slope_precision.push_back(all.bootstrap.mean(slopes).relative_precision());
+    length_precision.push_back(Bootstrap().mean(lengths).relative_precision());
+    slope_precision.push_back(Bootstrap().mean(slopes).relative_precision());
   }
   const auto enough = [&](double precision, bool by_slope) {
     std::size_t count = 3;

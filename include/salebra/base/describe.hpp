@@ -48,6 +48,9 @@ struct Kept {
   Dimension dimension = Dimension::dimensionless;
 };
 
+/// Members that have no more to say than Kept{}.
+constexpr void keep(auto&& visit, auto... members) { (visit(members, Kept{}), ...); }
+
 template <class T>
 concept Described = requires {
   describe([](auto&&...) {}, std::type_identity<T>{});

@@ -26,6 +26,17 @@ struct QuadratureTrial {
   double error_estimate = 0;   ///< of this quadrature by itself, J
 };
 
+constexpr void describe(auto&& visit, std::type_identity<QuadratureTrial>) {
+  using enum Dimension;
+  using S = QuadratureTrial;
+  visit(&S::grid, Part{"grid", "points and size"});
+  visit(&S::levels, Quantity{"levels", dimensionless, "contact levels"});
+  visit(&S::work_per_cycle, quantity::work_per_cycle);
+  visit(&S::stiffness_ratio,
+        Quantity{"stiffness_ratio", dimensionless, "work_per_cycle over work_by_force"});
+  visit(&S::error_estimate, quantity::error_estimate);
+}
+
 struct AdaptiveQuadratureResult {
   LevelQuadratureResult quadrature;  ///< the last; its error_estimate is the one below
   Grid2D grid;

@@ -23,6 +23,13 @@ struct ContactSetAt {
   double force = 0;  ///< F, N
   bool converged = true;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<ContactSetAt>) {
+  visit(&ContactSetAt::contact, Kept{"contact", "cells in contact, (nx, ny)"});
+  visit(&ContactSetAt::force, quantity::force);
+  visit(&ContactSetAt::converged, Kept{"converged", "whether the contact converged"});
+}
+
 /// The pressures of the same.
 struct PressureAt {
   Field contact_pressure;  ///< (nx, ny), Pa
@@ -99,6 +106,21 @@ struct StuckState {
   long fft_count = 0;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<StuckState>) {
+  using enum Dimension;
+  using S = StuckState;
+  visit(&S::contact, Kept{"contact", "1 in contact"});
+  visit(&S::displacement, Kept{"displacement", "displacement of cells in contact", length});
+  visit(&S::traction, Kept{"traction", "shear traction", pressure});
+  visit(&S::unit_traction,
+        Kept{"unit_traction", "shear traction of a unit move", stiffness_per_area});
+  visit(&S::work, Kept{"work", "work of the tangential force", energy});
+  visit(&S::released, Kept{"released", "energy dissipated by cells as they opened", energy});
+  visit(&S::converged, Kept{"converged", "every solve did"});
+  visit(&S::iterations, Kept{"iterations", "iterations so far"});
+  visit(&S::fft_count, Kept{"fft_count", "Fourier transforms so far, in pairs"});
+}
+
 /// What a cycle remembers at one of its steps: from it the simulation continues to the same bits.
 struct CycleState {
   int period = 0;                ///< periods finished
@@ -114,6 +136,29 @@ struct CycleState {
   std::vector<CycleSample> samples;        ///< of the period
   std::variant<StuckState, SlidingState, CoupledState> body;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<CycleState>) {
+  using enum Dimension;
+  using S = CycleState;
+  visit(&S::period, Kept{"period", "periods finished"});
+  visit(&S::step, Kept{"step", "of the last sample"});
+  visit(&S::smallest, Kept{"smallest", "1 in contact at every step of the period"});
+  visit(&S::largest, Kept{"largest", "1 in contact at any step of the period"});
+  visit(&S::tangential, Kept{"tangential", "tangential position", length});
+  visit(&S::energy_at_period_start,
+        Kept{"energy_at_period_start", "stored energy at the start of the period", energy});
+  visit(&S::work_at_period_start,
+        Kept{"work_at_period_start", "work of the tangential force before the period", energy});
+  visit(&S::normal_work_at_period_start,
+        Kept{"normal_work_at_period_start", "work of the normal force before the period", energy});
+  visit(&S::gap_work_at_period_start,
+        Kept{"gap_work_at_period_start", "work across gaps before the period", energy});
+  visit(&S::loss_at_period_start,
+        Kept{"loss_at_period_start", "energy dissipated in each cell before the period", energy});
+  visit(&S::last_work, Kept{"last_work", "work_per_cycle of the period before", energy});
+  visit(&S::samples, Table{"samples", "of the period"});
+  visit(&S::body, Kept{"body", "what the contact remembers"});
+}
 
 struct CycleOptions {
   /// μ >= 0 of simulate_frictional_cycle and simulate_coupled_cycle; infinite: full stick.
@@ -172,7 +217,86 @@ struct CycleResult {
   bool steady = false;     ///< the period repeats
   bool converged = false;  ///< every solve did; otherwise do not use the numbers
   bool interrupted = false;
+
+  /// How far the other sum is from work_per_cycle, relative: 0 up to the solvers' tolerance.
+  double balance() const { return (dissipated + gap_work - work_per_cycle) / work_per_cycle; }
+  /// (nx, ny): 0 never in contact, 1 during a part of the cycle, 2 always.
+  Field contact_map() const { return smallest.cast<double>() + largest.cast<double>(); }
 };
+
+constexpr void describe(auto&& visit, std::type_identity<CycleResult>) {
+  using enum Dimension;
+  using S = CycleResult;
+  visit(&S::work_per_cycle, quantity::work_per_cycle);
+  visit(&S::dissipated,
+        Quantity{"dissipated", energy, "energy dissipated in a cycle, as a sum over the cells"});
+  visit(&S::relaxation_work, quantity::relaxation_work);
+  visit(&S::slip_work, quantity::slip_work);
+  visit(&S::normal_work, Quantity{"normal_work", energy, "work of the normal force in a cycle"});
+  visit(&S::gap_work,
+        Quantity{"gap_work", energy, "work across gaps that close and open within a step"});
+  visit(&S::step_error,
+        Kept{"step_error",
+             "estimated error of work_per_cycle by the steps, without that of the cells; NaN with "
+             "friction",
+             energy});
+  visit(&S::stored_energy_change,
+        Quantity{"stored_energy_change", energy, "change of the elastic energy in a cycle"});
+  visit(&S::contact_area_min,
+        Quantity{"contact_area_min", length_squared, "minimum contact area of a cycle"});
+  visit(&S::contact_area_max,
+        Quantity{"contact_area_max", length_squared, "maximum contact area of a cycle"});
+  visit(&S::loss, Quantity{"loss", energy_per_area, "energy dissipated in a period by unit area"});
+  visit(&S::smallest, Kept{"smallest", "cells that are in contact always"});
+  visit(&S::largest, Kept{"largest", "cells that are in contact at some time"});
+  visit(&S::samples, Table{"samples", "after each step of the last period"});
+  visit(&S::periods, Quantity{"periods", dimensionless, "simulated periods"});
+  visit(&S::iterations, Kept{"iterations", "of all tangential solves"});
+  visit(&S::fft_count, Kept{"fft_count", "Fourier transforms of all solves, in pairs"});
+  visit(&S::steady, Quantity{"steady", dimensionless, "whether the period repeats"});
+  visit(&S::converged, Quantity{"converged", dimensionless, "whether every solve converged"});
+  visit(&S::interrupted, Kept{"interrupted", "whether the progress function said stop"});
+  visit(&S::balance, Quantity{"balance", dimensionless,
+                              "difference of dissipated and work_per_cycle, relative"});
+  visit(&S::contact_map, Quantity{"contact_map", dimensionless,
+                                  "0 never in contact, 1 during a part of the cycle, 2 always"});
+}
+
+/// What slip changes of a cycle; NaN where nothing is lost without it.
+struct SlipEffect {
+  double over_stick = 0;             ///< W over that without slip
+  double mean_tangential_force = 0;  ///< W over the way of a drag, N; NaN for a motion that returns
+  double mean_force = 0;             ///< over the period, N
+};
+
+constexpr void describe(auto&& visit, std::type_identity<SlipEffect>) {
+  using enum Dimension;
+  using S = SlipEffect;
+  visit(&S::over_stick, Quantity{"over_stick", dimensionless,
+                                 "energy dissipated in a cycle over that without slip"});
+  visit(&S::mean_tangential_force,
+        Quantity{"mean_tangential_force", force, "tangential force, mean over a cycle"});
+  visit(&S::mean_force, quantity::mean_force);
+}
+
+/// What the coupling changes of a cycle with friction, relative; NaN where that has none of it.
+struct CouplingEffect {
+  double work_change = 0;
+  double force_change = 0;             ///< largest over the cycle, over the largest force
+  double tangential_force_change = 0;  ///< likewise
+};
+
+constexpr void describe(auto&& visit, std::type_identity<CouplingEffect>) {
+  using enum Dimension;
+  using S = CouplingEffect;
+  visit(&S::work_change, Quantity{"work_change", dimensionless,
+                                  "relative change of work_per_cycle by the coupling"});
+  visit(&S::force_change, Quantity{"force_change", dimensionless,
+                                   "relative change of the normal force by the coupling"});
+  visit(&S::tangential_force_change,
+        Quantity{"tangential_force_change", dimensionless,
+                 "relative change of the tangential force by the coupling"});
+}
 
 /// One quantity over the samples.
 inline std::vector<double> column(const CycleResult& cycle, double CycleSample::*value) {

@@ -45,6 +45,11 @@ struct DampingOptions {
   Progress on_progress = {};  ///< of the form that takes many cases; a stop throws Interrupted
 };
 
+constexpr void describe(auto&& visit, std::type_identity<DampingOptions>) {
+  keep(visit, &DampingOptions::hold, &DampingOptions::amplitude, &DampingOptions::tolerance,
+       &DampingOptions::on_progress);
+}
+
 /// Relaxation damping of one contact under one motion.
 struct DampingResult {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();

@@ -34,6 +34,98 @@ struct LevelQuadratureResult {
   bool interrupted = false;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<LevelQuadratureResult>) {
+  using enum Dimension;
+  using S = LevelQuadratureResult;
+  visit(&S::work_per_cycle, quantity::work_per_cycle);
+  visit(&S::error_estimate, quantity::error_estimate);
+  visit(&S::work_by_levels,
+        Kept{"work_by_levels", "the same from the tangential stiffness of the levels as they are",
+             energy});
+  visit(&S::work_by_force,
+        Quantity{"work_by_force", energy, "energy dissipated in a cycle by K_t = (G*/E*)K"});
+  visit(&S::small_amplitude_work, quantity::small_amplitude_work);
+  visit(&S::force, quantity::force);
+  visit(&S::force_curvature, quantity::force_curvature);
+  visit(&S::stiffness_ratio,
+        Quantity{"stiffness_ratio", dimensionless, "work_per_cycle over work_by_force"});
+  visit(&S::curve, Kept{"curve", "the levels"});
+  visit(&S::iterations, Kept{"iterations", "of all linear solves on contact sets"});
+  visit(&S::fft_count, Kept{"fft_count", "Fourier transforms of all solves, in pairs"});
+  visit(&S::converged, Kept{"converged", "whether every level converged"});
+  visit(&S::interrupted, Kept{"interrupted", "whether the progress function said stop"});
+}
+
+/// The loss of an oscillating contact by steps and by levels, beside what the equations say of it.
+/// Empty where they say nothing: of a contact that loses nothing, and where F'' is below 0.
+struct OscillationLoss {
+  double work_per_cycle = 0;        ///< of the steps, or of the levels where there are none, J
+  double error_estimate = 0;        ///< J
+  double work_by_levels = 0;        ///< LevelQuadratureResult::work_per_cycle, J
+  double work_by_levels_error = 0;  ///< J
+  double work_by_whole_cells = 0;   ///< LevelQuadratureResult::work_by_levels, J
+  std::optional<double> small_amplitude_work = {}, ratio = {};  ///< Eq. (12) or (15), J; W over it
+  double work_by_force = 0;                                     ///< by K_t = (G*/E*)K, J
+  std::optional<double> ratio_finite = {};
+  double work_over_elastic_energy = 0;
+  double indentation = 0;                      ///< mean, m
+  double force = 0;                            ///< at it, N
+  std::optional<double> force_curvature = {};  ///< N/m²
+  std::size_t levels = 0;
+};
+
+constexpr void describe(auto&& visit, std::type_identity<OscillationLoss>) {
+  using enum Dimension;
+  using S = OscillationLoss;
+  visit(&S::work_per_cycle, quantity::work_per_cycle);
+  visit(&S::error_estimate, quantity::error_estimate);
+  visit(&S::work_by_levels,
+        Quantity{"work_by_levels", energy, "energy dissipated in a cycle, from contact levels"});
+  visit(&S::work_by_levels_error, Quantity{"work_by_levels_error", energy,
+                                           "estimated error of the energy from contact levels"});
+  visit(&S::work_by_whole_cells,
+        Quantity{"work_by_whole_cells", energy,
+                 "energy dissipated in a cycle, from contact levels of whole cells"});
+  visit(&S::small_amplitude_work, quantity::small_amplitude_work);
+  visit(&S::ratio,
+        Quantity{"ratio", dimensionless, "energy dissipated in a cycle over small_amplitude_work"});
+  visit(&S::work_by_force,
+        Quantity{"work_by_force", energy, "energy dissipated in a cycle by K_t = (G*/E*)K"});
+  visit(&S::ratio_finite, Quantity{"ratio_finite", dimensionless, "the same over work_by_force"});
+  visit(&S::work_over_elastic_energy,
+        Quantity{"work_over_elastic_energy", dimensionless,
+                 "energy dissipated in a cycle over the largest tangential elastic energy"});
+  visit(&S::indentation, quantity::indentation);
+  visit(&S::force, quantity::force);
+  visit(&S::force_curvature, quantity::force_curvature);
+  visit(&S::levels, Quantity{"levels", dimensionless, "contact levels"});
+}
+
+/// What the exponential law of a decay length says of the same.
+struct ExponentialLoss {
+  double decay_length = 0;           ///< l, m
+  double predicted_exponential = 0;  ///< with F'' = F/l², J
+  std::optional<double> ratio_exponential = {};
+  double predicted_exponential_finite = 0;  ///< at this amplitude, J
+  std::optional<double> ratio_exponential_finite = {};
+};
+
+constexpr void describe(auto&& visit, std::type_identity<ExponentialLoss>) {
+  using enum Dimension;
+  using S = ExponentialLoss;
+  visit(&S::decay_length, Quantity{"decay_length", length, "decay length of force with mean gap"});
+  visit(&S::predicted_exponential,
+        Quantity{"predicted_exponential", energy,
+                 "energy dissipated in a cycle, Eq. (12) or (16) with F'' = F/l^2"});
+  visit(&S::ratio_exponential,
+        Quantity{"ratio_exponential", dimensionless, "the same over predicted_exponential"});
+  visit(&S::predicted_exponential_finite,
+        Quantity{"predicted_exponential_finite", energy,
+                 "energy dissipated in a cycle by the exponential law at this amplitude"});
+  visit(&S::ratio_exponential_finite, Quantity{"ratio_exponential_finite", dimensionless,
+                                               "the same over predicted_exponential_finite"});
+}
+
 /// Relaxation damping of a contact without stepping through the cycle, W = ½∮ s² dK_t by parts
 /// (docs/theory.md, section 7):
 ///     (a) W = 2u_x² sin²φ0 ∫_0^π K_t(δ(θ)) sin2θ dθ        (b) W = 4(v/ω)² ∫_0^π θ [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ

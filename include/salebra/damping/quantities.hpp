@@ -11,6 +11,8 @@ inline constexpr Quantity angular_frequency{"angular_frequency", Dimension::angu
     damping_constant{"damping_constant", Dimension::damping, "damping constant P/v^2"},
     dissipated{"dissipated", Dimension::energy, "energy dissipated since the start"},
     drag_velocity{"drag_velocity", Dimension::velocity, "drag velocity"},
+    error_estimate{"error_estimate", Dimension::energy,
+                   "estimated error of the energy dissipated in a cycle"},
     excursion{"excursion", Dimension::length,
               "distance between the turning points of a slow motion"},
     force{"force", Dimension::force, "normal force"},

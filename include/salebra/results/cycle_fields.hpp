@@ -10,13 +10,37 @@
 
 namespace salebra {
 
+/// What a frame shows of a state, (nx, ny).
+struct CycleFrame {
+  Field contact;
+  Field traction_x, traction_y;          ///< Pa
+  Field displacement_x, displacement_y;  ///< m
+  Field contact_pressure;                ///< Pa
+  Field gap;                             ///< m
+  Field loss;                            ///< J/m²; empty where nothing slips
+};
+
+constexpr void describe(auto&& visit, std::type_identity<CycleFrame>) {
+  using enum Dimension;
+  using S = CycleFrame;
+  visit(&S::contact, Quantity{"contact", dimensionless, "1 in contact, 0 not"});
+  visit(&S::traction_x, Quantity{"traction_x", pressure, "shear traction along x"});
+  visit(&S::traction_y, Quantity{"traction_y", pressure, "shear traction along y"});
+  visit(&S::displacement_x,
+        Quantity{"displacement_x", length, "displacement of cells in contact along x"});
+  visit(&S::displacement_y,
+        Quantity{"displacement_y", length, "displacement of cells in contact along y"});
+  visit(&S::contact_pressure, Quantity{"contact_pressure", pressure, "contact pressure"});
+  visit(&S::gap, Quantity{"gap", length, "gap of the deformed surfaces"});
+  visit(&S::loss, Quantity{"loss", energy_per_area, "energy dissipated in a period by unit area"});
+}
+
 /// Fields of a simulated cycle at chosen steps, for ParaView and for any reader of HDF5:
 ///     PREFIX.xdmf          what to open; lists the steps written so far
 ///     PREFIX-mesh.h5       /mesh/points (nx, ny, 3): where each cell's middle lies, and
 ///                          /mesh/heights
-///     PREFIX-0016.h5       /fields/… (nx, ny) at step 16: contact, traction_x, traction_y,
-///                          displacement_x, displacement_y, pressure, gap; with friction also loss,
-///                          by unit area since the start of the period
+///     PREFIX-0016.h5       /fields/… at step 16: a CycleFrame; its loss is that since the start of
+///                          the period
 /// One object is for the states of one cycle. All are (nx, ny) with x first. The points are given
 /// one by one, so that no reader has to guess which index is x. Every file is complete as soon as
 /// it is there; an interrupted run leaves the steps that it has finished.

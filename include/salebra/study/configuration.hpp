@@ -31,6 +31,11 @@ struct GeneratedSurfaces {
   std::vector<std::uint64_t> seeds;  ///< at least one
 };
 
+constexpr void describe(auto&& visit, std::type_identity<GeneratedSurfaces>) {
+  using S = GeneratedSurfaces;
+  keep(visit, &S::grid, &S::spectrum, &S::method, &S::seeds);
+}
+
 /// One surface from a file.
 struct MeasuredSurface {
   std::filesystem::path file;
@@ -38,6 +43,11 @@ struct MeasuredSurface {
   std::optional<Detrend> detrend;        ///< empty: default_detrend() of the surface
   std::string height_unit;               ///< such as "nm", for files that do not name one; empty: m
 };
+
+constexpr void describe(auto&& visit, std::type_identity<MeasuredSurface>) {
+  using S = MeasuredSurface;
+  keep(visit, &S::file, &S::size_x, &S::size_y, &S::detrend, &S::height_unit);
+}
 
 /// Parameters that take several values each; an empty list leaves the value of the surface table.
 struct ParameterLists {
@@ -51,6 +61,11 @@ struct ParameterLists {
            points.empty();
   }
 };
+
+constexpr void describe(auto&& visit, std::type_identity<ParameterLists>) {
+  using S = ParameterLists;
+  keep(visit, &S::hurst, &S::rolloff, &S::short_cutoff, &S::size_x, &S::points);
+}
 
 /// Everything that decides the result of a study.
 struct StudyConfiguration {
@@ -92,6 +107,22 @@ struct StudyConfiguration {
   std::optional<SeamCheck> seam = {};  ///< adds the error of a continued scan's seam
   std::string text;                    ///< the file as it was read, for provenance
 };
+
+constexpr void describe(auto&& visit, std::type_identity<StudyConfiguration>) {
+  using S = StudyConfiguration;
+  keep(visit, &S::surfaces);
+  visit(&S::material, Kept{"material", "elastic constants of the bodies"});
+  keep(visit, &S::pressures, &S::relative_pressures);
+  visit(&S::tolerance, Kept{"tolerance", "of each contact"});
+  keep(visit, &S::stick, &S::window, &S::ensemble, &S::target_precision, &S::min_realisations);
+  visit(&S::models, Kept{"models", "names of the contact models that are run on each surface"});
+  visit(
+      &S::compared_models,
+      Kept{"compared_models",
+           "those that the program's command `compare` runs: all, unless the study file chooses"});
+  keep(visit, &S::motion, &S::damping, &S::known, &S::levels, &S::relative_error, &S::seam);
+  visit(&S::text, Kept{"text", "the file as it was read"});
+}
 
 /// Reads a TOML file; README of data/ explains each key by example. Lengths, pressures and so on
 /// are numbers in SI units or strings with a unit.

@@ -23,6 +23,10 @@ struct PartOrigin {
   bool operator==(const PartOrigin&) const = default;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<PartOrigin>) {
+  keep(visit, &PartOrigin::version, &PartOrigin::arithmetic, &PartOrigin::host, &PartOrigin::shard);
+}
+
 /// A folder with the finished realisations of a study, so that a study that was stopped, killed or
 /// ran out of disk can go on: one file for each, complete or not there at all, with a checksum and
 /// a key of everything that decides it. While the object lives, the folder is locked: by a file

@@ -22,6 +22,11 @@ struct StudyFlag {
   std::string text;  ///< a sentence for the user
 };
 
+constexpr void describe(auto&& visit, std::type_identity<StudyFlag>) {
+  visit(&StudyFlag::name, Kept{"name", "what may be off"});
+  visit(&StudyFlag::text, Kept{"text", "a sentence for the user"});
+}
+
 /// Whether the mean over the first `surfaces` of an ensemble is looked at on its own, for a
 /// convergence curve and for the precision: every number from 2 to 128, beyond that 32 numbers in
 /// each doubling. Intervals for every number would take a time that grows with the square of the
@@ -32,6 +37,11 @@ bool is_milestone(std::size_t surfaces);
 struct StatedMean : EnsembleMean {
   double error = ForceSample::unknown;  ///< NaN where it is not known
 };
+
+constexpr void describe(auto&& visit, std::type_identity<StatedMean>) {
+  describe(visit, std::type_identity<EnsembleMean>{});
+  visit(&StatedMean::error, Kept{"error", "numerical error of the mean"});
+}
 
 /// The ensemble at one point of the parameter grid.
 struct StudyResult {
@@ -44,7 +54,6 @@ struct StudyResult {
   std::vector<StudyFlag> flags;
   bool interrupted = false;        ///< realisations holds those that were finished
   bool precision_reached = false;  ///< fewer realisations than seeds were enough
-  Bootstrap bootstrap;             ///< makes all intervals below
 
   std::vector<StudyModel> models() const { return models_of(configuration); }
   /// Mean over the realisations of a number that belongs to one, or to what a model says of one.
@@ -101,6 +110,22 @@ struct StudyResult {
   /// How the intervals came about: one line.
   std::string interval_method() const;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<StudyResult>) {
+  using S = StudyResult;
+  visit(&S::configuration, Kept{"configuration", "what decides the result"});
+  visit(&S::grid, Kept{"grid", "points and size"});
+  visit(&S::contact_scale,
+        Kept{"contact_scale", "E* times rms slope: the unit of relative pressures",
+             Dimension::pressure});
+  visit(&S::pressures, Kept{"pressures", "nominal pressures", Dimension::pressure});
+  visit(&S::realisations, Kept{"realisations", "what was computed for each surface"});
+  visit(&S::warnings, Kept{"warnings", "sentences for the user"});
+  visit(&S::flags, Kept{"flags", "why the result may be off for other reasons than chance"});
+  visit(&S::interrupted, Kept{"interrupted", "whether surfaces that were asked for are missing"});
+  visit(&S::precision_reached,
+        Kept{"precision_reached", "whether fewer surfaces than seeds were enough"});
+}
 
 /// Report on one finished surface, on the thread that called the run.
 struct RealisationReport {

@@ -50,30 +50,36 @@ struct SurfacePicture {
 };
 
 constexpr void describe(auto&& visit, std::type_identity<SurfacePicture>) {
+  using enum Dimension;
   using S = SurfacePicture;
-  visit(&S::origin, Kept{"origin", "file, or generator with its seed"});
-  visit(&S::stride, Kept{"stride", "points of the surface for one of the maps"});
+  visit(&S::origin, Quantity{"origin", dimensionless, "file, or generator with its seed"});
+  visit(&S::stride, Quantity{"stride", dimensionless, "points from one to the next that is kept"});
   visit(&S::nx, Kept{"nx", "points of the maps along x"});
   visit(&S::ny, Kept{"ny", "points of the maps along y"});
-  visit(&S::step_x, Kept{"step_x", "between points of the maps along x, m"});
-  visit(&S::step_y, Kept{"step_y", "between points of the maps along y, m"});
-  visit(&S::heights, Kept{"heights", "height above the mean, m"});
-  visit(&S::first_load,
-        Kept{"first_load",
-             "number of the lowest pressure of the curve at which the point touches; -1: none"});
+  visit(&S::step_x, Kept{"step_x", "between points of the maps along x", length});
+  visit(&S::step_y, Kept{"step_y", "between points of the maps along y", length});
+  visit(&S::heights,
+        Quantity{"heights", length, "height, positive out of the material, from the mean"});
+  visit(
+      &S::first_load,
+      Quantity{"first_load", dimensionless,
+               "number of the lowest pressure of the curve at which the point touches; -1: none"});
   visit(&S::mapped_load,
         Kept{"mapped_load", "number of the pressure of the maps of pressure and gap"});
-  visit(&S::contact_pressure, Kept{"contact_pressure", "contact pressure at that load, Pa"});
-  visit(&S::gap, Kept{"gap", "gap of the deformed surfaces at that load, m"});
-  visit(&S::wavenumber, Kept{"wavenumber", "wave number, rad/m"});
-  visit(&S::psd, Kept{"psd", "power spectral density C, m^4"});
-  visit(&S::law_psd, Kept{"law_psd", "C of the self-affine law, m^4"});
-  visit(&S::law, Kept{"law", "where the law comes from"});
-  visit(&S::hurst, Kept{"hurst", "Hurst exponent"});
-  visit(&S::hurst_low, Kept{"hurst_low", "Hurst exponent, lower 95 % limit"});
-  visit(&S::hurst_high, Kept{"hurst_high", "Hurst exponent, upper 95 % limit"});
-  visit(&S::height, Kept{"height", "height above the mean, middle of a bin, m"});
-  visit(&S::height_density, Kept{"height_density", "share of the points over the bin width, 1/m"});
+  visit(&S::contact_pressure, Quantity{"contact_pressure", pressure, "contact pressure"});
+  visit(&S::gap, Quantity{"gap", length, "gap of the deformed surfaces"});
+  visit(&S::wavenumber, Quantity{"wavenumber", Dimension::wavenumber, "wave number"});
+  visit(&S::psd, Quantity{"psd", length_to_the_fourth,
+                          "power spectral density C, rms_height^2 = integral of C d^2q"});
+  visit(&S::law_psd,
+        Quantity{"law_psd", length_to_the_fourth, "power spectral density of the self-affine law"});
+  visit(&S::law, Quantity{"law", dimensionless, "where the law comes from"});
+  visit(&S::hurst, Quantity{"hurst", dimensionless, "Hurst exponent"});
+  visit(&S::hurst_low, Quantity{"hurst_low", dimensionless, "Hurst exponent, lower 95 % limit"});
+  visit(&S::hurst_high, Quantity{"hurst_high", dimensionless, "Hurst exponent, upper 95 % limit"});
+  visit(&S::height, Quantity{"height", length, "height above the mean, middle of a bin"});
+  visit(&S::height_density,
+        Quantity{"height_density", inverse_length, "share of the points in a bin over its width"});
 }
 
 /// One picture a study: of its first seed, or of the measured surface.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/base/progress.hpp>
 #include <string>
 #include <vector>
@@ -15,6 +16,17 @@ struct Check {
   double tolerance = 0;  ///< relative to expected, absolute where that is 0
   bool passed() const;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<Check>) {
+  using enum Dimension;
+  using S = Check;
+  visit(&S::name, Quantity{"name", dimensionless, "what is computed"});
+  visit(&S::value, Quantity{"value", dimensionless, "what this installation computes"});
+  visit(&S::expected, Quantity{"expected", dimensionless, "what analysis says"});
+  visit(&S::tolerance,
+        Quantity{"tolerance", dimensionless, "relative to expected, absolute where that is 0"});
+  visit(&S::passed, Quantity{"passed", dimensionless, "whether they agree"});
+}
 
 /// Runs the solvers on problems with known solutions: Hertz's sphere, Westergaard's full contact,
 /// Greenwood–Williamson with exponential heights, the integrals J(k), the theorem against the

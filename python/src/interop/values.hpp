@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "interop/archive.hpp"
+#include "base/archive.hpp"
 #include "interop/surface.hpp"
 
 namespace salebra::python {
@@ -35,20 +35,22 @@ void value_methods(nb::class_<Bound>& bound, Value value, Make make) {
       "__getstate__",
       [value](const Bound& self) {
         require_whole_if_spread(self, "a pickle");
-        return nb::make_tuple(std::string(version()), pickled(bytes_of(value(self))));
+        return nb::make_tuple(std::string(version()), pickled(detail::bytes_of(value(self))));
       },
       nb::sig("def __getstate__(self) -> tuple[str, bytes]"));
   using T = std::remove_cvref_t<decltype(value(std::declval<const Bound&>()))>;
   bound.def(
       "__setstate__",
-      [make](Bound* self, const nb::tuple& state) { make(self, value_of<T>(unpickled(state))); },
+      [make](Bound* self, const nb::tuple& state) {
+        make(self, detail::from_bytes<T>(unpickled(state), "pickle"));
+      },
       nb::sig("def __setstate__(self, state: tuple[str, bytes], /) -> None"));
   bound.def(
       "__eq__",
       [value](const Bound& self, nb::handle other) {
         const Bound* known = nullptr;
         return nb::try_cast(other, known) && known != nullptr &&
-               (known == &self || bytes_of(value(self)) == bytes_of(value(*known)));
+               (known == &self || detail::bytes_of(value(self)) == detail::bytes_of(value(*known)));
       },
       nb::arg("other").none(), nb::sig("def __eq__(self, other: object, /) -> bool"));
 }

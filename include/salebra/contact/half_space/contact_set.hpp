@@ -14,4 +14,9 @@ struct TangentialField {
   Field y;  ///< (nx, ny)
 };
 
+constexpr void describe(auto&& visit, std::type_identity<TangentialField>) {
+  visit(&TangentialField::x, Kept{"x", "along x"});
+  visit(&TangentialField::y, Kept{"y", "along y"});
+}
+
 }  // namespace salebra

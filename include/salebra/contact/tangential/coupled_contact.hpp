@@ -38,6 +38,17 @@ struct CoupledState {
   bool converged = true;   ///< every increment did
 };
 
+constexpr void describe(auto&& visit, std::type_identity<CoupledState>) {
+  using enum Dimension;
+  using S = CoupledState;
+  visit(&S::sliding, Part{"sliding", "tractions and slip"});
+  visit(&S::gap, Kept{"gap", "gap between the deformed surfaces", length});
+  visit(&S::indentation, Kept{"indentation", "indentation", length});
+  visit(&S::normal_work, Kept{"normal_work", "work of the normal force", energy});
+  visit(&S::gap_work, Kept{"gap_work", "work across gaps", energy});
+  visit(&S::converged, Kept{"increments_converged", "every increment did"});
+}
+
 /// A rough contact with friction and with the coupling of normal and tangential directions
 /// (Dundurs' β), which history leads from one state to the next. In each increment a normal solve
 /// on the heights lowered by u_z[τ] and a partial-slip solve with the displacement u_t[p] follow

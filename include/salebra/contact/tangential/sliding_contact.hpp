@@ -42,6 +42,25 @@ struct SlidingState {
   long fft_count = 0;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<SlidingState>) {
+  using enum Dimension;
+  using S = SlidingState;
+  visit(&S::contact_pressure, Kept{"contact_pressure", "contact pressure", pressure});
+  visit(&S::shift, Kept{"shift", "displacement by other causes", length});
+  visit(&S::traction, Kept{"traction", "shear traction", pressure});
+  visit(&S::displacement, Kept{"displacement", "displacement of cells in contact", length});
+  visit(&S::loss, Kept{"loss", "energy dissipated in each cell since the start", energy});
+  visit(&S::prepared, Kept{"prepared", "1 within the window of the kernels"});
+  visit(&S::motion_scale,
+        Kept{"motion_scale", "displacement that the tolerance refers to", length});
+  visit(&S::slipping, Kept{"slipping", "cells at their limit"});
+  visit(&S::work, Kept{"work", "work of the tangential force", energy});
+  visit(&S::released, Kept{"released", "energy dissipated by cells as they opened", energy});
+  visit(&S::converged, Kept{"converged", "every increment did"});
+  visit(&S::iterations, Kept{"iterations", "iterations so far"});
+  visit(&S::fft_count, Kept{"fft_count", "Fourier transforms so far, in pairs"});
+}
+
 /// A rough contact with friction that remembers: where each of its cells has been drawn to. It goes
 /// from one state of rest to the next by increments (a new field of pressures and a move of the
 /// body, at once), each solved implicitly by PartialSlipSolver:

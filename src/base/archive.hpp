@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <salebra/base/communicator.hpp>
+#include <salebra/base/describe.hpp>
+#include <salebra/base/error.hpp>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+/// Values as bytes and back, for the kept realisations of a study, checksums, pickle and ==: every
+/// member of a described struct, in the order of its declaration. One function walks a value for
+/// both directions, and for whatever has a raw() of its own.
+namespace salebra::detail {
+
+/// Appends what it is given.
+class ByteWriter {
+ public:
+  static constexpr bool reads = false;
+  void raw(const void* data, std::size_t size) {
+    bytes_.append(static_cast<const char*>(data), size);
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+/// Takes from the front of what it was made of. Throws InvalidInput beyond its end, which names the
+/// field.
+class ByteReader {
+ public:
+  static constexpr bool reads = true;
+  ByteReader(std::string_view bytes, std::string_view field) : rest_(bytes), field_(field) {}
+  void raw(void* data, std::size_t size) {
+    require(size <= rest_.size());
+    if (size > 0) std::memcpy(data, rest_.data(), size);
+    rest_.remove_prefix(size);
+  }
+  std::size_t left() const { return rest_.size(); }
+  void require(bool sound) const {
+    if (!sound) throw InvalidInput(field_, "is cut short or damaged; make it anew");
+  }
+
+ private:
+  std::string_view rest_, field_;
+};
+
+template <class T>
+constexpr bool is_vector = false;
+template <class T>
+constexpr bool is_vector<std::vector<T>> = true;
+template <class T>
+constexpr bool is_function = false;
+template <class T>
+constexpr bool is_function<std::function<T>> = true;
+template <class T>
+constexpr bool is_variant = false;
+template <class... T>
+constexpr bool is_variant<std::variant<T...>> = true;
+
+template <class Archive, class T>
+void archive(Archive& through, T& value);
+
+/// Texts and lists: a count and what follows it. An item has at least a byte: a wrong count is
+/// found before anything is allocated for it.
+template <class Archive, class List>
+void archive_list(Archive& through, List& list) {
+  using Item = std::remove_cvref_t<decltype(*list.begin())>;
+  std::size_t count = list.size();
+  through.raw(&count, sizeof count);
+  if constexpr (Archive::reads) {
+    through.require(count <= through.left());
+    list.resize(count);
+  }
+  if constexpr (std::is_arithmetic_v<Item> && !std::is_same_v<Item, bool>)
+    through.raw(list.data(), count * sizeof(Item));
+  else
+    for (auto& item : list) archive(through, item);
+}
+
+template <class Archive, class T>
+void archive_alternative(Archive& through, T& value) {
+  std::size_t index = value.index();
+  through.raw(&index, sizeof index);
+  if constexpr (Archive::reads) {
+    const auto choose = [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return ((index == I && (value.template emplace<I>(), true)) || ...);
+    };
+    through.require(choose(std::make_index_sequence<std::variant_size_v<T>>()));
+  }
+  std::visit([&](auto& held) { archive(through, held); }, value);
+}
+
+template <class Archive, class T>
+void archive_field(Archive& through, T& value) {
+  Eigen::Index rows = value.rows(), columns = value.cols();
+  through.raw(&rows, sizeof rows);
+  through.raw(&columns, sizeof columns);
+  if constexpr (Archive::reads) {
+    const auto left = static_cast<Eigen::Index>(through.left() / sizeof(typename T::Scalar));
+    through.require(rows >= 0 && columns >= 0 && (columns == 0 || rows <= left / columns));
+    value.resize(rows, columns);
+  }
+  through.raw(value.data(), static_cast<std::size_t>(value.size()) * sizeof(typename T::Scalar));
+}
+
+template <class Archive, class T>
+void archive(Archive& through, T& value) {
+  using Plain = std::remove_const_t<T>;
+  // A writer's values are constants by intent: it takes them as they are.
+  auto& own = const_cast<Plain&>(value);
+  if constexpr (std::is_arithmetic_v<Plain> || std::is_enum_v<Plain>) {
+    through.raw(&own, sizeof own);
+  } else if constexpr (std::is_same_v<Plain, std::string> || is_vector<Plain>) {
+    archive_list(through, own);
+  } else if constexpr (std::is_same_v<Plain, std::filesystem::path>) {
+    std::string text = own.string();
+    archive_list(through, text);
+    if constexpr (Archive::reads) own = text;
+  } else if constexpr (requires { own.emplace(), own.has_value(); }) {
+    bool there = own.has_value();
+    through.raw(&there, sizeof there);
+    if constexpr (Archive::reads) {
+      own.reset();
+      if (there) own.emplace();
+    }
+    if (own) archive(through, *own);
+  } else if constexpr (is_variant<Plain>) {
+    archive_alternative(through, own);
+  } else if constexpr (std::is_base_of_v<Eigen::DenseBase<Plain>, Plain>) {
+    archive_field(through, own);
+  } else if constexpr (is_function<Plain> || std::is_same_v<Plain, Communicator>) {
+    // Who is told of the progress and which processes are at work belongs to a call, not to the
+    // value.
+  } else {
+    static_assert(describes_all<Plain>(), "describe every member, in the order of declaration");
+    for_each_member<Plain>([&](auto member) { archive(through, own.*member); });
+  }
+}
+
+template <class... T>
+std::string bytes_of(const T&... values) {
+  ByteWriter writer;
+  (archive(writer, values), ...);
+  return writer.bytes();
+}
+
+/// The first value of bytes_of(). Throws InvalidInput for other bytes as far as their lengths tell.
+template <class T>
+T from_bytes(std::string_view bytes, std::string_view field) {
+  T value;
+  ByteReader reader(bytes, field);
+  archive(reader, value);
+  return value;
+}
+
+}  // namespace salebra::detail
