@@ -218,6 +218,14 @@ void require_one_command(const std::string& command_line, const Communicator& ra
                          "give all processes the same");
 }
 
+/// Commands of earlier revisions: a line each with the command that now does it, and how.
+struct FormerCommand {
+  std::string_view name, now;
+};
+constexpr FormerCommand former_commands[]{
+    {"manual", "help, with the name of a command"},
+};
+
 /// Parses and runs. Throws NotUnderstood, and what the command throws.
 void run(int argc, char** argv, const Launch& launch) {
   require_one_command(join(argc, argv), launch.ranks);
@@ -245,6 +253,9 @@ void run(int argc, char** argv, const Launch& launch) {
   for (const Command& command : program.commands()) names.push_back(command.name());
   const std::string word = words.front();
   if (!word.starts_with('-') && std::ranges::find(names, word) == names.end()) {
+    const auto* former = std::ranges::find(former_commands, word, &FormerCommand::name);
+    if (former != std::end(former_commands))
+      throw InvalidInput(word, fmt::format("is now {}", former->now));
     throw InvalidInput(
         word, fmt::format("is not a command{}; see {} --help", did_you_mean(word, names), name));
   }

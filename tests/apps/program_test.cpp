@@ -177,6 +177,17 @@ TEST_CASE("Wrong usage is refused in one line", "[program]") {
   check_refused(test.run("verify --progress often"), "--progress");
 }
 
+TEST_CASE("A command's former name is answered with the present one", "[program]") {
+  const ProgramTest test;
+  const auto [former, now] = GENERATE(table<std::string, std::string>({
+      {"manual", "help"},
+  }));
+  INFO(former);
+  for (const std::string before : {"", "help "})
+    check_refused(test.run(before + former), former + ": is now " + now + ", ");
+  CHECK(test.run(now + " --help").status == 0);
+}
+
 TEST_CASE("A misspelt choice is answered with the nearest, whatever the option", "[program]") {
   const ProgramTest test;
   test.write("curve.txt", "");
