@@ -35,7 +35,7 @@ std::string in_words(const ExponentialTest& test, const WindowSensitivity& parts
   return fmt::format(
       "{}{}\nOver the window l changes from {} (closest) to {} (farthest), by {:+.0f} %.\n"
       "Fits to parts of the window, of at least half its samples, give l from {} to {}.\n",
-      in_words(law, "this curve"),
+      cli::in_words(law, "this curve"),
       noisy ? fmt::format(" Scatter alone would bend ln F so far with a probability of {:.2g}.",
                           test.significance)
             : "",
@@ -73,7 +73,7 @@ void run(const FitArguments& arguments, Session& session) {
     const ExponentialTest test = test_exponential(curve, window, weights);
     const LawDescription law =
         describe_law(fit.decay_length, test.decay_length_closest, test.decay_length_farthest);
-    answer["test"] = {{"fair", law.fair()},
+    answer["test"] = {{"fair", law.fair},
                       {"decay_length_closest", test.decay_length_closest},
                       {"decay_length_farthest", test.decay_length_farthest}};
     if (noisy) answer["test"]["significance"] = test.significance;

@@ -638,18 +638,17 @@ std::string law_verdict(const StudyResult& result) {
   const auto over_rms_height = [&](const char* length) {
     return result.fitted(std::string(length) + "_over_rms_height").mean;
   };
-  const double l = over_rms_height("decay_length"),
-               closest = over_rms_height("decay_length_closest"),
-               farthest = over_rms_height("decay_length_farthest");
-  if (!(closest > 0)) return "";
+  const std::optional<LawDescription> law = result.law_description();
+  if (!law) return "";
   const EnsembleMean bend = result.fitted("law_bend");
   const bool sample = !std::isnan(bend.low);
   std::string text = fmt::format(
       "  Over the fitted window the local l of boundary elements runs from {:.2f} h_rms (closest) "
       "to {:.2f} h_rms (farthest), a change of {:+.0f} %{}.\n  {}\n",
-      closest, farthest, 100 * bend.mean,
+      over_rms_height("decay_length_closest"), over_rms_height("decay_length_farthest"),
+      100 * bend.mean,
       sample ? fmt::format(" ({:+.0f} to {:+.0f} % at 95 %)", 100 * bend.low, 100 * bend.high) : "",
-      in_words(describe_law(l, closest, farthest), sample ? "these surfaces" : "this surface"));
+      in_words(*law, sample ? "these surfaces" : "this surface"));
   return text +
          fmt::format(
              "  Fits to parts of the window give l from {:.2f} to {:.2f} h_rms; one with all loads "

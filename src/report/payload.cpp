@@ -279,6 +279,9 @@ class Point {
             "decay_length_closest_over_rms_height", "decay_length_farthest_over_rms_height"})
         if (has(std::string("fit/ensemble_") + name + "_mean"))
           json["models"][models_[m]][name] = single(std::string("fit/ensemble_") + name, m);
+    for (const char* name : {"law_off_closest", "law_off_farthest", "fair"})
+      if (const auto values = column(std::string("fit/") + name))
+        json["models"]["bem"][name] = number((*values)[bem()]);
     for (const char* name : {"decay_length", "reference_pressure", "pressure_min", "pressure_max"})
       if (has(std::string("fit/") + name)) json["bem"][name] = list(bem_column(name));
     return json;

@@ -54,17 +54,9 @@ std::string law(const Json& point) {
       "<p>Decay length l of F ∝ exp(−ū/l): {}, {} times the rms height.</p>",
       with_interval(find(*fit, {"decay_length"}), Dimension::length),
       with_interval(find(*fit, {"decay_length_over_rms_height"}), Dimension::dimensionless));
-  const double whole = number(find(*fit, {"decay_length_over_rms_height", "mean"}));
-  const double closest = number(find(*fit, {"decay_length_closest_over_rms_height", "mean"}));
-  const double farthest = number(find(*fit, {"decay_length_farthest_over_rms_height", "mean"}));
-  if (!(closest > 0)) return text;
-  // F/l² has to be within a factor of two of F″ at both ends, as in the page's script and on the
-  // terminal.
-  const auto fair = [&](double local) {
-    const double ratio = local / whole * local / whole;
-    return local > 0 && ratio > 0.5 && ratio < 2;
-  };
-  return text + (fair(closest) && fair(farthest)
+  const double fair = number(find(*fit, {"fair"}));
+  if (std::isnan(fair)) return text;
+  return text + (fair > 0
                      ? "<p><strong>The law is a fair description.</strong></p>"
                      : "<p><strong>The law is a poor description.</strong> Do not use Eq. (16) "
                        "here; use the computed curve.</p>");

@@ -58,7 +58,6 @@ const Quantity others[] = {
     Quantity{"bgt_area_slope", dimensionless, "area slope of Bush, Gibson and Thomas"},
     Quantity{"seconds", Dimension::time, "wall time"},
     Quantity{"decay_length_by_weights", length, "decay length for each way to weight the loads"},
-    Quantity{"fair", dimensionless, "whether one decay length describes the curve fairly"},
     Quantity{"deviation_min", dimensionless, "minimum deviation over the pressures"},
     Quantity{"deviation_max", dimensionless, "maximum deviation over the pressures"},
     Quantity{"frequency", frequency, "frequency"},
@@ -107,13 +106,13 @@ const Quantity* entry_of(std::string_view name) {
       Surface, HeightStatistics, SpectralMoments, Summit, SummitStatistics, SummitEnsemble,
       ArealParameters, PowerSpectrum, RadialSpectrum, ProfilePsd, Correlation, ScaleDependence,
       ReliabilityLimit, HeightHistogram, SelfAffineParameters, Material, ForceCurve, ForceSample,
-      NormalContactState, FirstLoading, ExponentialFit, ExponentialTest, WindowSensitivity,
-      LocalDecayLength, CycleSample, CycleResult, SlipEffect, CouplingEffect, CycleFrame,
-      LevelQuadratureResult, OscillationLoss, ExponentialLoss, SampledMotion, EqualFrequency, Drag,
-      DampingResult, CommonPeriod, ContactFacts, LargestMotion, LossWithSlip, TrajectoryDamping,
-      JointLoss, SteadySliding, Slider, SliderMotion, SliderStability, OscillatorDecay, FrictionMap,
-      StressMap, RegimeMap, PronyTerm, PronySeries, ViscoelasticDamping, SurfaceDamping, Anisotropy,
-      NonGaussianSurface>();
+      NormalContactState, FirstLoading, ExponentialFit, ExponentialTest, LawDescription,
+      WindowSensitivity, LocalDecayLength, CycleSample, CycleResult, SlipEffect, CouplingEffect,
+      CycleFrame, LevelQuadratureResult, OscillationLoss, ExponentialLoss, SampledMotion,
+      EqualFrequency, Drag, DampingResult, CommonPeriod, ContactFacts, LargestMotion, LossWithSlip,
+      TrajectoryDamping, JointLoss, SteadySliding, Slider, SliderMotion, SliderStability,
+      OscillatorDecay, FrictionMap, StressMap, RegimeMap, PronyTerm, PronySeries,
+      ViscoelasticDamping, SurfaceDamping, Anisotropy, NonGaussianSurface>();
   const auto found = std::ranges::find(quantities, name, &Quantity::name);
   return found != quantities.end() ? &*found : nullptr;
 }

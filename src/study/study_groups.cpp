@@ -188,6 +188,14 @@ void write_fits(Table table, const StudyResult& result) {
                                    [&](ContactModel model) { return result.fitted(name, model); });
                 },
                 {"model"});
+  std::vector<std::optional<LawDescription>> laws;
+  for (const StudyModel& model : result.models()) laws.push_back(result.law_description(model.id));
+  for_each_column<LawDescription>([&](const auto& access, const Quantity& quantity) {
+    std::vector<double> values;
+    for (const std::optional<LawDescription>& law : laws)
+      values.push_back(law ? static_cast<double>(access(*law)) : ForceSample::unknown);
+    table.put(quantity, values, {"model"});
+  });
   table.group().attribute("interval_method", result.interval_method());
 }
 

@@ -34,6 +34,16 @@ EnsembleMean StudyResult::fitted(std::string_view column, ContactModel model) co
   return mean(number_of<ModelResult>(column, "column"), model);
 }
 
+std::optional<LawDescription> StudyResult::law_description(ContactModel model) const {
+  const auto over_rms_height = [&](const char* length) {
+    return fitted(std::string(length) + "_over_rms_height", model).mean;
+  };
+  const double closest = over_rms_height("decay_length_closest");
+  if (!(closest > 0)) return {};
+  return describe_law(over_rms_height("decay_length"), closest,
+                      over_rms_height("decay_length_farthest"));
+}
+
 std::vector<EnsembleMean> StudyResult::at_pressures(
     const std::function<double(const Realisation&, std::size_t)>& number) const {
   std::vector<EnsembleMean> means;

@@ -99,6 +99,14 @@ TEST_CASE("A report holds the numbers of its study and needs nothing else", "[re
         Approx(bend.mean).epsilon(1e-6));
   CHECK(point["fit"]["models"]["bem"]["law_bend"]["low"].get<double>() ==
         Approx(bend.low).epsilon(1e-6));
+  // One verdict: that of the file, in the numbers of the page and in its words without a script.
+  const auto law = result.law_description();
+  REQUIRE(law);
+  CHECK(point["fit"]["models"]["bem"]["fair"] == double(law->fair));
+  CHECK(point["fit"]["models"]["bem"]["law_off_closest"].get<double>() ==
+        Approx(law->law_off_closest).epsilon(1e-6));
+  CHECK_THAT(page,
+             Contains(law->fair ? "law is a fair description." : "law is a poor description."));
   const auto curve = result.stated_damping();
   for (std::size_t k = 0; k < curve.size(); ++k) {
     const Json& value = point["damping"]["curve"]["damping_constant"]["bem"]["mean"][k];

@@ -176,6 +176,15 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
   file.interval("fit/ensemble_decay_length", {"model"}, lengths);
   file.interval("fit/ensemble_decay_length_over_rms_height", {"model"}, ratios);
   file.interval("fit/ensemble_area_slope", {"model"}, slopes);
+  std::vector<double> off, fair;
+  for (const StudyModel& model : contact_models()) {
+    const std::optional<LawDescription> law = result.law_description(model.id);
+    off.push_back(law ? law->law_off_closest : ForceSample::unknown);
+    fair.push_back(law ? law->fair : ForceSample::unknown);
+  }
+  REQUIRE(std::ranges::any_of(fair, [](double known) { return known == 0 || known == 1; }));
+  file.values("fit/law_off_closest", {"model"}, off);
+  file.values("fit/fair", {"model"}, fair);
 
   std::vector<double> gaps, local_lengths;
   for (const StudyModel& model : contact_models())

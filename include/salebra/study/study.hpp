@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <salebra/base/communicator.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/study/configuration.hpp>
@@ -65,6 +66,9 @@ struct StudyResult {
   /// mean() of a column of ModelResult, such as "area_slope" or "law_bend". Throws InvalidInput for
   /// another name.
   EnsembleMean fitted(std::string_view column, ContactModel model = ContactModel::bem) const;
+
+  /// The exponential law against the mean curve of a model; none where no local l is known.
+  std::optional<LawDescription> law_description(ContactModel model = ContactModel::bem) const;
 
   /// Means of a quantity of each pressure, in the order of pressures; contacts that did not
   /// converge take no part.

@@ -202,6 +202,19 @@ ExponentialTest test_exponential(const ForceCurve& curve,
   return test;
 }
 
+LawDescription describe_law(double decay_length, double closest, double farthest) {
+  // Where the parabola turns, l has no local value: it is infinite or below 0, and the law is far
+  // off.
+  const auto off = [&](double local) {
+    const double ratio = local / decay_length;
+    return ratio > 0 ? ratio * ratio - 1 : std::numeric_limits<double>::infinity();
+  };
+  const auto within = [](double off) { return off > -0.5 && off < 1; };
+  LawDescription law{.law_off_closest = off(closest), .law_off_farthest = off(farthest)};
+  law.fair = within(law.law_off_closest) && within(law.law_off_farthest);
+  return law;
+}
+
 WindowSensitivity window_sensitivity(const ForceCurve& curve,
                                      const std::optional<PressureWindow>& window,
                                      FitWeights weights) {

@@ -113,6 +113,23 @@ TEST_CASE("Exponential summits obey the law, Gaussian ones bend it", "[fit]") {
   }
 }
 
+TEST_CASE("The law is fair where F/l^2 is within a factor of two of F'' at both ends", "[fit]") {
+  const LawDescription law = describe_law(2, 1.5, 2.5);
+  CHECK(law.law_off_closest == 0.5625 - 1);
+  CHECK(law.law_off_farthest == 1.5625 - 1);
+  CHECK(law.fair);
+  // The squares of 1.41 and 1.42 are on either side of 2, those of 0.71 and 0.70 of 1/2.
+  CHECK(describe_law(1, 0.71, 1.41).fair);
+  CHECK(describe_law(1e-9, 1.41e-9, 0.71e-9).fair);
+  for (const double off : {0.70, 1.42}) {
+    CHECK_FALSE(describe_law(1, off, 1).fair);
+    CHECK_FALSE(describe_law(1, 1, off).fair);
+  }
+  // No l is negative: there the parabola of the fit has turned.
+  CHECK(std::isinf(describe_law(1, 1, -1).law_off_farthest));
+  CHECK_FALSE(describe_law(1, 1, -1).fair);
+}
+
 TEST_CASE("The 95 % interval covers the truth in 95 % of noisy curves, whatever the weights",
           "[fit]") {
   std::mt19937_64 random(5);

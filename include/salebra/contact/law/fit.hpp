@@ -129,6 +129,31 @@ ExponentialTest test_exponential(const ForceCurve& curve,
                                  const std::optional<PressureWindow>& window = {},
                                  FitWeights weights = FitWeights::spacing);
 
+/// How well F ∝ exp(−ū/l) describes a curve: how far F/l², which Eqs (12) and (16) rest on, is off
+/// F'' at the two ends of the window. The residuals of a computed curve are the misfit of the law,
+/// not scatter, so that no probability belongs to them.
+struct LawDescription {
+  double law_off_closest =
+      0;  ///< (l_local/l)² − 1 at the least ū of the window; ∞ where l_local ≤ 0
+  double law_off_farthest = 0;  ///< at the largest
+  bool fair = false;            ///< F/l² is within a factor of two of F'' at both ends
+};
+
+constexpr void describe(auto&& visit, std::type_identity<LawDescription>) {
+  using enum Dimension;
+  using S = LawDescription;
+  visit(&S::law_off_closest, Quantity{"law_off_closest", dimensionless,
+                                      "F/l^2 over F'' at the close end of the window, less 1"});
+  visit(&S::law_off_farthest, Quantity{"law_off_farthest", dimensionless,
+                                       "F/l^2 over F'' at the far end of the window, less 1"});
+  visit(&S::fair,
+        Quantity{"fair", dimensionless, "whether one decay length describes the curve fairly"});
+}
+
+/// l of the fit, and the local l at the closest and the farthest end of its window, in any one
+/// unit.
+LawDescription describe_law(double decay_length, double closest, double farthest);
+
 /// How much the fit owes to its window: the least and the largest decay length of fit_exponential
 /// over every run of consecutive samples in the window that holds at least half of them, and at
 /// least three.
