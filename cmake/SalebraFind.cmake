@@ -4,7 +4,7 @@
 # is missing is listed, by names and versions that a message can print.
 
 # Each library uses some of those before it, and no later one.
-set(salebra_libraries base generators salebra io results study report)
+set(salebra_libraries base generators salebra io results study questions report)
 
 # salebra_need(FOUND WHAT): notes WHAT as missing unless FOUND is true.
 macro(salebra_need found what)

@@ -24,6 +24,7 @@ MODULES = {
     "io": "files and pictures",
     "results": "what each result is called, with unit and meaning; files of curves",
     "study": "the whole path for an ensemble",
+    "questions": "what several faces ask, as data, and the answers",
     "report": "the results of a study as a page",
     "mpi": "MPI as a transport between processes, in builds with it",
 }

@@ -97,7 +97,7 @@ void add_border(Figure& figure, const std::vector<double>& omega,
 
 // Judges each amplitude at the highest frequency: slip does not depend on it, inertia grows with
 // it.
-PremiseReport premises_of_map(const DamperArguments& arguments, const LawOptions::Contact& contact,
+PremiseReport premises_of_map(const DamperArguments& arguments, const ContactAnswer& contact,
                               const std::vector<double>& omega, const DampingOptions& options) {
   const ContactFacts facts = arguments.premises.facts(arguments.material);
   if (arguments.drag_velocity) require_positive(*arguments.drag_velocity, "--drag-velocity");
@@ -115,10 +115,9 @@ PremiseReport premises_of_map(const DamperArguments& arguments, const LawOptions
 
 void run(const DamperArguments& arguments, Session& session) {
   const auto& amplitudes = arguments.normal_amplitude;
-  const LawOptions::Contact contact =
+  const ContactAnswer contact =
       arguments.law.contact(arguments.material, session, arguments.premises.hardness,
                             amplitudes.empty() ? 0 : std::ranges::max(amplitudes));
-  for (const std::string& line : contact.doubts) session.warn(line);
   require(contact.positions.size() == 1, "--normal-force",
           fmt::format("{} positions", contact.positions.size()),
           "are given; damper takes one, salebra damping takes ranges");

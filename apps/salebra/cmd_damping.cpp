@@ -107,7 +107,7 @@ double small_over_exact(const DampingResult& result, const Motion& motion) {
 
 // The normal oscillation of a case whose force is given has the amplitude that its stiffness makes
 // of it.
-Premises premises_of_case(const LawOptions::Contact& contact, const DampingCase& one,
+Premises premises_of_case(const ContactAnswer& contact, const DampingCase& one,
                           const DampingResult& result, const ContactFacts& facts) {
   const ContactLaw& law = *contact.law;
   Motion motion = one.motion;
@@ -123,7 +123,7 @@ Premises premises_of_case(const LawOptions::Contact& contact, const DampingCase&
 // A surface is not interpolated between loads: contacts inside the oscillation give W and its
 // error. Returns the errors of γ.
 std::vector<double> resolve_on_surface(const DampingArguments& arguments,
-                                       const LawOptions::Contact& contact, const Motion& motion,
+                                       const ContactAnswer& contact, const Motion& motion,
                                        const DampingOptions& options, Session& session,
                                        std::vector<DampingResult>& results) {
   const Oscillation one = std::holds_alternative<Drag>(motion)
@@ -172,7 +172,7 @@ std::vector<double> resolve_on_surface(const DampingArguments& arguments,
   return errors;
 }
 
-void follow_motion(const DampingArguments& arguments, const LawOptions::Contact& contact,
+void follow_motion(const DampingArguments& arguments, const ContactAnswer& contact,
                    const DampingCase& one, const DampingOptions& options, Session& session) {
   const ContactLaw& law = *contact.law;
   require(!one.force_amplitude, "--friction", arguments.follow.coefficient(),
@@ -209,7 +209,7 @@ void run(const DampingArguments& arguments, Session& session) {
   if (!arguments.follow.trajectory.empty()) {
     require(!arguments.motion.given() && arguments.force_amplitude.empty(), "--trajectory",
             arguments.follow.trajectory, "is the motion; leave out the options of Motion");
-    follow_file(arguments.follow, *arguments.law.law_alone(arguments.material),
+    follow_file(arguments.follow, *arguments.law.law_alone(arguments.material, session),
                 arguments.premises.facts(arguments.material, arguments.follow.friction_coefficient),
                 session);
     return;
@@ -220,9 +220,8 @@ void run(const DampingArguments& arguments, Session& session) {
   for (const Motion& motion : motions)
     largest =
         std::max(largest, std::visit([](const auto& m) { return m.normal_amplitude; }, motion));
-  const LawOptions::Contact contact =
+  const ContactAnswer contact =
       arguments.law.contact(arguments.material, session, arguments.premises.hardness, largest);
-  for (const std::string& line : contact.doubts) session.warn(line);
   const ContactLaw& law = *contact.law;
   const auto& positions = contact.positions;
   DampingOptions options;

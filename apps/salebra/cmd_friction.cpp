@@ -226,7 +226,7 @@ void run(const FrictionArguments& arguments, Session& session) {
           "are no map; give several velocities and several --excursions");
   const double friction = *arguments.premises.friction_coefficient;
   const double omega = arguments.frequency.angular().front();
-  const LawOptions::Contact contact =
+  const ContactAnswer contact =
       arguments.law.contact(arguments.material, session, arguments.premises.hardness,
                             std::ranges::max(arguments.normal_amplitude, {},
                                              [](double amplitude) { return std::abs(amplitude); }));
@@ -255,7 +255,6 @@ void run(const FrictionArguments& arguments, Session& session) {
   }
   write_tables(session, "friction", answer, tables);
   for (const ResultColumn& column : tables.front().columns) answer[column.name] = column.values;
-  for (const std::string& line : contact.doubts) session.warn(line);
   add_first_loading(answer, contact.first_loading);
   const std::string text = to_text(answer);
   if (tables.size() > 1) {

@@ -56,7 +56,7 @@ Figure joint_figure(const std::vector<JointLoss>& losses, const SampledMotion& p
 }
 
 // Every motion once more, cell by cell, at the same indentation.
-std::vector<JointLoss> simulate(const JointArguments& arguments, const LawOptions::Contact& contact,
+std::vector<JointLoss> simulate(const JointArguments& arguments, const ContactAnswer& contact,
                                 const std::vector<TangentialOscillation>& motions,
                                 double indentation, Session& session) {
   const Material material = arguments.material.material_with_tangential_modulus();
@@ -100,7 +100,7 @@ void run(const JointArguments& arguments, Session& session) {
   if (arguments.nominal_area) require_positive(*arguments.nominal_area, "--nominal-area");
   const double friction = *arguments.premises.friction_coefficient;
   require_positive(friction, "--friction-coefficient");
-  const LawOptions::Contact contact =
+  const ContactAnswer contact =
       arguments.law.contact(arguments.material, session, arguments.premises.hardness,
                             std::abs(arguments.normal_amplitude.value_or(0)));
   require(contact.positions.size() == 1, "--normal-force",
@@ -108,7 +108,6 @@ void run(const JointArguments& arguments, Session& session) {
           "are given; joint takes one, and several tangential forces or amplitudes");
   const Position& position = contact.positions.front();
   const ContactLaw& law = *contact.law;
-  for (const std::string& line : contact.doubts) session.warn(line);
 
   const bool oscillates = arguments.normal_amplitude && *arguments.normal_amplitude != 0;
   const double phase = arguments.phase.value_or(0);

@@ -7,13 +7,13 @@
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/questions/contact.hpp>
 #include <salebra/results/columns.hpp>
 #include <salebra/results/quantity_group.hpp>
 
@@ -25,7 +25,6 @@
 #include "plausibility.hpp"
 #include "premise_options.hpp"
 #include "program.hpp"
-#include "stoppable_law.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -91,7 +90,8 @@ void add_state(Json& object, const IndenterLaw& law, double indentation) {
 void run(const MdrArguments& arguments, Session& session) {
   const Material material = arguments.material.material_with_tangential_modulus();
   const auto profile = arguments.indenter.indenter();
-  const IndenterLaw law(stoppable(profile), material);
+  const auto any_law = law_of(IndenterContact{profile, material, {}}, session.context());
+  const auto& law = static_cast<const IndenterLaw&>(*any_law);
   const ContactFacts facts =
       arguments.premises.facts(arguments.material, arguments.follow.friction_coefficient);
   if (!arguments.follow.trajectory.empty()) {

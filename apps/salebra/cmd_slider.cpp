@@ -99,7 +99,7 @@ void run(const SliderArguments& arguments, Session& session) {
   options.hold = *value_of<Hold>(arguments.hold);
   options.start = *value_of<SliderStart>(arguments.start);
   options.on_progress = session.progress();
-  const LawOptions::Contact contact = arguments.law.contact(
+  const ContactAnswer contact = arguments.law.contact(
       arguments.material, session, arguments.premises.hardness, std::abs(normal.normal_amplitude));
   require(contact.positions.size() == 1, "--normal-force",
           fmt::format("{} positions", contact.positions.size()), "are given; slider takes one");
@@ -149,7 +149,6 @@ void run(const SliderArguments& arguments, Session& session) {
                                       10 * normal.angular_frequency, options),
           2 * std::numbers::pi);
   }
-  for (const std::string& line : contact.doubts) session.warn(line);
   add_first_loading(answer, contact.first_loading);
   write_tables(
       session, "slider", answer,

@@ -10,15 +10,14 @@
 #include <salebra/base/units.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
+#include <salebra/questions/contact.hpp>
 
 #include "figures.hpp"
 #include "indenter_options.hpp"
 #include "options.hpp"
-#include "plausibility.hpp"
 #include "premise_options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
-#include "stoppable_law.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -111,7 +110,8 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   const PronySeries prony = PronySeries::of_body(material, parse_terms(arguments.prony));
   prony.validate();
   const auto profile = arguments.indenter.indenter();
-  const IndenterLaw law(stoppable(profile), material);
+  const auto any_law = law_of(IndenterContact{profile, material, {}}, session.context());
+  const auto& law = static_cast<const IndenterLaw&>(*any_law);
   require_one(arguments.indentation.has_value(), "--indentation", arguments.force.has_value(),
               "--normal-force");
   if (arguments.indentation) require_positive(*arguments.indentation, "--indentation");

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <optional>
-#include <salebra/contact/normal/first_loading.hpp>
-#include <salebra/io/json.hpp>
+#include <salebra/questions/contact.hpp>
+#include <salebra/results/columns.hpp>
 
 /// --hardness of the commands that press a surface.
 namespace salebra::cli {
@@ -14,14 +14,9 @@ inline constexpr const char* hardness_help =
     "up to the hardness, and the results are those of the unloading curve; a law is only judged "
     "by it";
 
-/// Puts the residual surface of the first loading in place of the surface, and returns what flowed;
-/// without a hardness nothing. contact: boundary, tolerance and progress. Throws NotConverged,
-/// Interrupted, and as after_first_loading().
-std::optional<FirstLoading> load_first(Surface& surface, const std::optional<double>& hardness,
-                                       double contact_modulus, double nominal_pressure,
-                                       NormalContactOptions contact, double normal_amplitude = 0);
-
 /// Adds its columns under "first_loading", where there was one.
-void add_first_loading(Json& answer, const std::optional<FirstLoading>& loading);
+inline void add_first_loading(Json& answer, const std::optional<FirstLoading>& loading) {
+  if (loading) answer["first_loading"] = json_of(*loading);
+}
 
 }  // namespace salebra::cli

@@ -3,11 +3,7 @@
 
 #include <memory>
 #include <optional>
-#include <salebra/contact/law/force_curve.hpp>
-#include <salebra/contact/law/law.hpp>
-#include <salebra/contact/normal/first_loading.hpp>
-#include <salebra/damping/dissipation.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/questions/contact.hpp>
 #include <string>
 #include <vector>
 
@@ -22,31 +18,23 @@ struct LawOptions {
   std::vector<double> force, indentation, pressure, mean_gap;
   std::optional<double> decay_length, angle, radius, exponent, coefficient;
 
-  struct Contact {
-    std::unique_ptr<ContactLaw> law;
-    std::vector<Position> positions;
-    std::optional<ForceCurve> curve = {};            ///< that the law was made from
-    std::vector<std::string> doubts = {};            ///< remarks on the options, for people
-    std::optional<Surface> surface = {};             ///< that the curve was computed of
-    std::optional<FirstLoading> first_loading = {};  ///< whose residual surface it is
-
-    /// The facts at an indentation, with what the law, the curve and the first loading say.
-    ContactFacts facts_at(ContactFacts facts, double indentation) const;
-  };
-
   void add_to(Command& command);
-  /// Throws InvalidInput naming the option that is missing or one too many.
+  /// Throws InvalidInput naming the option that is missing or one too many. A surface is read.
+  ContactQuestion question(const MaterialOptions& material, Session& session,
+                           const std::optional<double>& hardness) const;
+  /// The answer, whose doubts are told.
+  ContactAnswer contact(const MaterialOptions& material, Session& session,
+                        const std::optional<double>& hardness, double normal_amplitude) const;
   /// The law alone, for a motion that brings its own indentations. The exponential law's
   /// --normal-force is F at indentation 0.
-  std::unique_ptr<ContactLaw> law_alone(const MaterialOptions& material) const;
-  /// Takes the law of a surface after some ten contacts at pressures about those that were given;
-  /// with a hardness after the first loading to the largest of them and by an oscillation about it.
-  Contact contact(const MaterialOptions& material, Session& session,
-                  const std::optional<double>& hardness, double normal_amplitude) const;
+  std::unique_ptr<const ContactLaw> law_alone(const MaterialOptions& material,
+                                              Session& session) const;
 
  private:
   /// Throws InvalidInput for a parameter of another law than the one that was chosen.
   void require_own_parameters() const;
+  /// The question; without positions, where they are not needed, of what was given as one.
+  ContactQuestion read(const MaterialOptions& material, bool positions) const;
 };
 
 }  // namespace salebra::cli

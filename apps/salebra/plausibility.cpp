@@ -37,21 +37,4 @@ std::vector<std::string> doubts_of_path(double drag_velocity, double angular_fre
       format_quantity(2 * spot_radius, Dimension::length))};
 }
 
-std::vector<std::string> doubts_of_profile(const IndenterProfile& profile, double contact_radius) {
-  constexpr double most_change = 0.05, most_radius = 1;
-  const auto* table = dynamic_cast<const TabulatedProfile*>(&profile);
-  if (table == nullptr) return {};
-  std::vector<std::string> doubts;
-  if (table->largest_radius() > most_radius)
-    doubts.push_back(fmt::format("the table has radii up to {}; check the unit, a table is in m",
-                                 format_quantity(table->largest_radius(), Dimension::length)));
-  const double change = table->image_error(contact_radius);
-  if (change > most_change)
-    doubts.push_back(fmt::format(
-        "the table is coarse: without every other point the indentation at the contact radius {} "
-        "changes by {:.2g} %; sample it more finely",
-        format_quantity(contact_radius, Dimension::length), 100 * change));
-  return doubts;
-}
-
 }  // namespace salebra::cli

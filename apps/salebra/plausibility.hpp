@@ -2,7 +2,6 @@
 #pragma once
 
 #include <salebra/base/grid.hpp>
-#include <salebra/contact/mdr/mdr.hpp>
 #include <string>
 #include <vector>
 
@@ -17,9 +16,5 @@ std::vector<std::string> doubts_of_cells(const Grid2D& grid);
 /// sticks then is no longer the same spot when it opens. A radius that is not known is NaN.
 std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
                                         double spot_radius);
-
-/// A table of radii beyond 1 m, most likely in another unit, or so coarse that the indentation at
-/// this contact radius changes by more than 5 % without every other point.
-std::vector<std::string> doubts_of_profile(const IndenterProfile& profile, double contact_radius);
 
 }  // namespace salebra::cli

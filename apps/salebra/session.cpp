@@ -181,6 +181,8 @@ Progress Session::progress() {
   };
 }
 
+Context Session::context() { return {progress(), interrupted}; }
+
 void Session::note(std::string_view text) {
   if (options_.quiet || !ranks().is_root()) return;
   bar_.clear();

@@ -10,6 +10,7 @@
 #include <salebra/io/output.hpp>
 #include <salebra/io/plot.hpp>
 #include <salebra/io/provenance.hpp>
+#include <salebra/questions/context.hpp>
 #include <set>
 #include <string>
 #include <string_view>
@@ -77,6 +78,8 @@ class Session {
   /// The library reports to it: draws the bar where one is wanted, and returns false after Ctrl-C
   /// of this process.
   Progress progress();
+  /// The same, and Ctrl-C for what reports no progress.
+  Context context();
 
   /// A remark for the person at the terminal, on stderr; --quiet leaves out both, and errors only
   /// remain. The same warning is given once.

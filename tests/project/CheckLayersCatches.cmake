@@ -25,6 +25,7 @@ check("layers only look down" generators/src/spectrum.cpp "#include <salebra/con
 check("layers only look down" src/io/hdf5.cpp "#include \"../study/run.hpp\"")
 check("layers only look down" src/io/hdf5.cpp "#include \"study/run.hpp\"")
 check("layers only look down" src/study/study.cpp "#include <salebra/report/report.hpp>")
+check("layers only look down" src/study/study.cpp "#include <salebra/questions/contact.hpp>")
 check("" apps/salebra/cmd_report.cpp "#include <salebra/report/report.hpp>")
 # MPI stands beside base: it sees nothing else, and the programs alone see it.
 check("" src/mpi/mpi.cpp "#include <salebra/mpi/mpi.hpp>")

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws and profiles that look for signals, of stoppable_law.hpp.
+// Laws and profiles that look whether to stop.
 #include "stoppable_law.hpp"
 
 #include <salebra/base/error.hpp>
+#include <utility>
 
-#include "session.hpp"
-
-namespace salebra::cli {
+namespace salebra {
 namespace {
 
-void look() {
-  if (interrupted()) throw Interrupted("interrupted; nothing was written");
+using Stopped = std::function<bool()>;
+
+void look(const Stopped& stopped) {
+  if (stopped()) throw Interrupted("interrupted; nothing was written");
 }
 
 class StoppableLaw final : public ContactLaw {
  public:
-  explicit StoppableLaw(std::unique_ptr<ContactLaw> law)
-      : ContactLaw(law->modulus_ratio()), law_(std::move(law)) {}
+  StoppableLaw(std::unique_ptr<const ContactLaw> law, Stopped stopped)
+      : ContactLaw(law->modulus_ratio()), law_(std::move(law)), stopped_(std::move(stopped)) {}
   double force(double indentation) const override { return seen().force(indentation); }
   double normal_stiffness(double indentation) const override {
     return seen().normal_stiffness(indentation);
@@ -37,16 +38,17 @@ class StoppableLaw final : public ContactLaw {
 
  private:
   const ContactLaw& seen() const {
-    look();
+    look(stopped_);
     return *law_;
   }
-  std::unique_ptr<ContactLaw> law_;
+  std::unique_ptr<const ContactLaw> law_;
+  Stopped stopped_;
 };
 
 class StoppableProfile final : public IndenterProfile {
  public:
-  explicit StoppableProfile(std::shared_ptr<const IndenterProfile> profile)
-      : profile_(std::move(profile)) {}
+  StoppableProfile(std::shared_ptr<const IndenterProfile> profile, Stopped stopped)
+      : profile_(std::move(profile)), stopped_(std::move(stopped)) {}
   double height(double r) const override { return seen().height(r); }
   double image(double x) const override { return seen().image(x); }
   double image_slope(double x) const override { return seen().image_slope(x); }
@@ -61,20 +63,25 @@ class StoppableProfile final : public IndenterProfile {
 
  private:
   const IndenterProfile& seen() const {
-    look();
+    look(stopped_);
     return *profile_;
   }
   std::shared_ptr<const IndenterProfile> profile_;
+  Stopped stopped_;
 };
 
 }  // namespace
 
-std::unique_ptr<ContactLaw> stoppable(std::unique_ptr<ContactLaw> law) {
-  return std::make_unique<StoppableLaw>(std::move(law));
+std::unique_ptr<const ContactLaw> stoppable(std::unique_ptr<const ContactLaw> law,
+                                            const Context& context) {
+  if (!context.stopped) return law;
+  return std::make_unique<StoppableLaw>(std::move(law), context.stopped);
 }
 
-std::shared_ptr<const IndenterProfile> stoppable(std::shared_ptr<const IndenterProfile> profile) {
-  return std::make_shared<const StoppableProfile>(std::move(profile));
+std::shared_ptr<const IndenterProfile> stoppable(std::shared_ptr<const IndenterProfile> profile,
+                                                 const Context& context) {
+  if (!context.stopped) return profile;
+  return std::make_shared<const StoppableProfile>(std::move(profile), context.stopped);
 }
 
-}  // namespace salebra::cli
+}  // namespace salebra

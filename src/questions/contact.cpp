@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The law of a contact and its positions, from what the caller knows.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/sweep.hpp>
+#include <salebra/questions/contact.hpp>
+#include <utility>
+
+#include "stoppable_law.hpp"
+
+namespace salebra {
+namespace {
+
+Dimension dimension_of(Standing standing) {
+  switch (standing) {
+    case Standing::normal_force:
+      return Dimension::force;
+    case Standing::pressure:
+      return Dimension::pressure;
+    default:
+      return Dimension::length;
+  }
+}
+
+double ForceSample::*column_of(Standing standing) {
+  switch (standing) {
+    case Standing::normal_force:
+      return &ForceSample::force;
+    case Standing::indentation:
+      return &ForceSample::indentation;
+    case Standing::pressure:
+      return &ForceSample::pressure;
+    default:
+      return &ForceSample::mean_gap;
+  }
+}
+
+std::vector<Position> at_forces(const std::vector<double>& values) {
+  std::vector<Position> positions;
+  for (const double value : values) {
+    require_positive(value, word_of(Standing::normal_force));
+    positions.emplace_back(AtForce{value});
+  }
+  return positions;
+}
+
+std::vector<Position> at_indentations(const std::vector<double>& values) {
+  std::vector<Position> positions;
+  for (const double value : values) positions.emplace_back(AtIndentation{value});
+  return positions;
+}
+
+/// Throws InvalidInput in the quantity that was given, before it becomes the force or the
+/// indentation that the law knows.
+void require_on_curve(const Standings& at, const ForceCurve& curve) {
+  const Dimension dimension = dimension_of(at.quantity);
+  const auto [low, high] = std::ranges::minmax(curve.column(column_of(at.quantity)));
+  for (const double value : at.values)
+    require(!(value < low || value > high), word_of(at.quantity), format_quantity(value, dimension),
+            fmt::format("lies outside the curve's range, {} to {}; choose one within it or extend "
+                        "the curve",
+                        format_quantity(low, dimension), format_quantity(high, dimension)));
+}
+
+std::vector<Position> positions_on(const ForceCurve& curve, const Standings& at,
+                                   const std::string& source) {
+  require_on_curve(at, curve);
+  std::vector<double> values = at.values;
+  switch (at.quantity) {
+    case Standing::normal_force:
+      return at_forces(values);
+    case Standing::indentation:
+      return at_indentations(values);
+    case Standing::pressure:
+      require_positive(curve.nominal_area, "nominal_area of " + source);
+      for (double& value : values) value *= curve.nominal_area;
+      return at_forces(values);
+    case Standing::mean_gap:
+      break;
+  }
+  const ForceSample& any = curve.samples.front();
+  require(!std::isnan(any.mean_gap), word_of(at.quantity), source,
+          "has no mean gap; give another position");
+  const double origin = std::isnan(any.indentation) ? 0 : any.indentation + any.mean_gap;
+  for (double& value : values) value = origin - value;
+  return at_indentations(values);
+}
+
+/// Whether the moduli that were given fit the stiffnesses of the curve. K_t/K of a curve is G*/E*
+/// to the last digits, or, where each K_t is a stick solve of its own, to some per cent and nowhere
+/// the same.
+std::vector<std::string> doubts_of_moduli(const ForceCurve& curve, double modulus_ratio) {
+  std::vector<double> ratios;
+  for (const ForceSample& sample : curve.samples) {
+    const double ratio = sample.tangential_stiffness / sample.normal_stiffness;
+    if (std::isfinite(ratio)) ratios.push_back(ratio);
+  }
+  if (ratios.empty()) return {};
+  const auto [low, high] = std::ranges::minmax(ratios);
+  const double tolerance = high - low > 1e-6 * high ? 0.1 : 1e-3;
+  if (modulus_ratio > (1 - tolerance) * low && modulus_ratio < (1 + tolerance) * high) return {};
+  return {
+      fmt::format("G*/E* = {:.4g} of `poisson` or `tangential_modulus`, and K_t/K = {:.4g} in the "
+                  "curve's file; give the material that the curve was computed with",
+                  modulus_ratio, low)};
+}
+
+/// Pressures about those that are asked for, which are among them: from a sixth to six times, close
+/// enough for a smooth law.
+std::vector<double> pressures_about(std::vector<double> asked) {
+  constexpr double factor = 1.35;
+  std::ranges::sort(asked);
+  std::vector<double> all = asked;
+  const auto is_new = [&](double pressure) {
+    return std::ranges::none_of(
+        all, [&](double known) { return std::abs(std::log(pressure / known)) < 0.1; });
+  };
+  for (const double pressure : asked)
+    for (int k = -6; k <= 6; ++k)
+      if (const double one = pressure * std::pow(factor, k); is_new(one)) all.push_back(one);
+  std::ranges::sort(all);
+  return all;
+}
+
+ForceCurve curve_of_surface(const SurfaceContact& body, const Context& context) {
+  SweepOptions options;
+  options.stick = true;
+  options.contact.on_progress = context.on_progress;
+  ForceCurve curve =
+      sweep_pressures(body.surface, body.material, pressures_about(body.pressure), options);
+  if (context.stopped && context.stopped()) throw Interrupted("interrupted; nothing was written");
+  if (const auto lost = std::ranges::count(curve.samples, false, &ForceSample::converged); lost > 0)
+    throw NotConverged(
+        fmt::format("`surface`: {} of {} contacts did not converge", lost, curve.samples.size()));
+  return curve;
+}
+
+std::unique_ptr<const ContactLaw> law(const ExponentialContact& body, const Context& context) {
+  require_positive(body.decay_length, "decay_length");
+  require_that(!body.normal_force.empty(), "normal_force",
+               "not given, but the exponential law needs it");
+  require_positive(body.normal_force.front(), "normal_force");
+  return stoppable(std::make_unique<ExponentialLaw>(body.normal_force.front(), body.decay_length,
+                                                    body.modulus_ratio),
+                   context);
+}
+
+/// The premises know an indenter by its type, hence its profile looks whether to stop.
+std::unique_ptr<const ContactLaw> law(const IndenterContact& body, const Context& context) {
+  return std::make_unique<IndenterLaw>(stoppable(body.profile, context), body.material);
+}
+
+std::unique_ptr<const ContactLaw> law(const CurveContact& body, const Context& context) {
+  return stoppable(std::make_unique<TabulatedLaw>(body.curve, body.modulus_ratio), context);
+}
+
+std::unique_ptr<const ContactLaw> law(const SurfaceContact&, const Context&) {
+  throw InvalidInput("surface",
+                     "has no law for a path of indentations; sweep it and give its "
+                     "`curve`");
+}
+
+ContactAnswer answer(ExponentialContact body, const Context& context) {
+  return {law(body, context), at_forces(body.normal_force)};
+}
+
+ContactAnswer answer(IndenterContact body, const Context& context) {
+  auto force_law = law(body, context);
+  const auto& [quantity, values] = body.at;
+  require_that(quantity == Standing::normal_force || quantity == Standing::indentation,
+               word_of(quantity),
+               "given, but an indenter stands at `normal_force` or `indentation`");
+  for (const double value : values) require_positive(value, word_of(quantity));
+  const bool by_force = quantity == Standing::normal_force;
+  ContactAnswer answer{std::move(force_law),
+                       by_force ? at_forces(values) : at_indentations(values)};
+  const auto& indenter = static_cast<const IndenterLaw&>(*answer.law);
+  for (const double value : values) {
+    const double indentation = by_force ? indenter.indentation_of(value) : value;
+    answer.doubts = doubts_of_profile(*body.profile, indenter.contact_radius(indentation));
+    if (!answer.doubts.empty()) break;
+  }
+  return answer;
+}
+
+ContactAnswer answer(CurveContact body, const Context& context) {
+  std::vector<std::string> doubts = doubts_of_moduli(body.curve, body.modulus_ratio);
+  auto table = law(body, context);
+  auto positions = positions_on(body.curve, body.at, body.source);
+  return {std::move(table), std::move(positions), std::move(body.curve), {}, {}, std::move(doubts)};
+}
+
+ContactAnswer answer(SurfaceContact body, const Context& context) {
+  for (const double value : body.pressure) require_positive(value, "pressure");
+  const double largest = std::ranges::max(body.pressure);
+  std::vector<std::string> doubts;
+  if (const auto doubt = doubt_of_pressure(largest, body.material.contact_modulus))
+    doubts.push_back(*doubt);
+  const std::optional<FirstLoading> first_loading =
+      load_first(body.surface, body.hardness, body.material.contact_modulus, largest,
+                 {.on_progress = context.on_progress}, body.normal_amplitude);
+  CurveContact swept{.curve = curve_of_surface(body, context),
+                     .modulus_ratio = body.material.modulus_ratio(),
+                     .at = {Standing::pressure, body.pressure}};
+  auto table = law(swept, context);
+  auto positions = positions_on(swept.curve, swept.at, "surface");
+  return {std::move(table),        std::move(positions), std::move(swept.curve),
+          std::move(body.surface), first_loading,        std::move(doubts)};
+}
+
+}  // namespace
+
+ContactFacts ContactAnswer::facts_at(ContactFacts facts, double indentation) const {
+  facts = at_state(facts, *law, curve ? &*curve : nullptr, indentation);
+  if (first_loading && first_loading->yielded())
+    facts.first_load = first_loading->pressure * curve->nominal_area;
+  return facts;
+}
+
+ContactAnswer ask(ContactQuestion question, const Context& context) {
+  return std::visit([&](auto&& body) { return answer(std::move(body), context); },
+                    std::move(question));
+}
+
+std::unique_ptr<const ContactLaw> law_of(const ContactQuestion& question, const Context& context) {
+  return std::visit([&](const auto& body) { return law(body, context); }, question);
+}
+
+std::optional<FirstLoading> load_first(Surface& surface, const std::optional<double>& hardness,
+                                       double contact_modulus, double nominal_pressure,
+                                       NormalContactOptions contact, double normal_amplitude) {
+  if (!hardness) return {};
+  require_positive(*hardness, "hardness");
+  contact.hardness = *hardness;
+  ResidualSurface residual = after_first_loading(std::move(surface), contact_modulus,
+                                                 nominal_pressure, contact, normal_amplitude);
+  if (residual.interrupted) throw Interrupted("interrupted; nothing was written");
+  if (!residual.converged) throw NotConverged("`hardness`: the first loading did not converge");
+  surface = std::move(residual.surface);
+  return residual.first_loading;
+}
+
+std::vector<std::string> doubts_of_profile(const IndenterProfile& profile, double contact_radius) {
+  constexpr double most_change = 0.05, most_radius = 1;
+  const auto* table = dynamic_cast<const TabulatedProfile*>(&profile);
+  if (table == nullptr) return {};
+  std::vector<std::string> doubts;
+  if (table->largest_radius() > most_radius)
+    doubts.push_back(fmt::format("the table has radii up to {}; check the unit, a table is in m",
+                                 format_quantity(table->largest_radius(), Dimension::length)));
+  const double change = table->image_error(contact_radius);
+  if (change > most_change)
+    doubts.push_back(fmt::format(
+        "the table is coarse: without every other point the indentation at the contact radius {} "
+        "changes by {:.2g} %; sample it more finely",
+        format_quantity(contact_radius, Dimension::length), 100 * change));
+  return doubts;
+}
+
+}  // namespace salebra

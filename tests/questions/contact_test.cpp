@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/generators/shapes.hpp>
+#include <salebra/questions/contact.hpp>
+#include <utility>
+#include <vector>
+
+using namespace salebra;
+
+namespace {
+
+const Material body = Material::of_contact_modulus(1e9, 0.3);
+
+/// A power law F = F0 (δ/δ0)^{3/2} with stiffnesses, as a model would leave it.
+ForceCurve power_curve() {
+  ForceCurve curve{.model = "power", .nominal_area = 1e-6, .rms_height = 1e-6, .samples = {}};
+  for (int i = 1; i <= 40; ++i) {
+    const double indentation = 1e-8 * i, force = 1e10 * std::pow(indentation, 1.5);
+    const double stiffness = 1.5 * force / indentation;
+    curve.samples.push_back({.indentation = indentation,
+                             .mean_gap = 5e-6 - indentation,
+                             .force = force,
+                             .pressure = force / curve.nominal_area,
+                             .normal_stiffness = stiffness,
+                             .tangential_stiffness = body.modulus_ratio() * stiffness});
+  }
+  return curve;
+}
+
+ContactAnswer on_curve(Standing quantity, double value) {
+  return ask(CurveContact{power_curve(), body.modulus_ratio(), {quantity, {value}}, "curve.h5"});
+}
+
+double indentation_of(const ContactAnswer& contact) {
+  const Position& position = contact.positions.at(0);
+  if (const auto* at = std::get_if<AtIndentation>(&position)) return at->indentation;
+  return contact.law->indentation_of(std::get<AtForce>(position).force);
+}
+
+std::string refusal(auto&& action) {
+  try {
+    action();
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("Force, pressure, indentation and mean gap name the same state of a curve",
+          "[questions]") {
+  const ForceCurve curve = power_curve();
+  const ForceSample& sample = curve.samples[20];
+  // The spline passes through its samples; the inverse is found to some 1e-12.
+  for (const auto& [quantity, value] : {std::pair{Standing::normal_force, sample.force},
+                                        {Standing::indentation, sample.indentation},
+                                        {Standing::pressure, sample.pressure},
+                                        {Standing::mean_gap, sample.mean_gap}})
+    CHECK(indentation_of(on_curve(quantity, value)) == Approx(sample.indentation).epsilon(1e-9));
+  CHECK(on_curve(Standing::pressure, sample.pressure).nominal_area() == 1e-6);
+}
+
+TEST_CASE("A position beyond a curve is refused in the quantity that was given", "[questions]") {
+  CHECK_THAT(refusal([] { on_curve(Standing::pressure, 1e12); }),
+             Catch::StartsWith("pressure: 1 TPa lies outside the curve's range"));
+  CHECK_THAT(refusal([] { on_curve(Standing::mean_gap, 6e-6); }),
+             Catch::StartsWith("mean_gap: 6 µm lies outside"));
+  CHECK_THAT(refusal([] {
+               ask(IndenterContact{paraboloid_profile(1e-2), body, {Standing::pressure, {1e6}}});
+             }),
+             Catch::StartsWith("pressure: given"));
+  CHECK_THAT(refusal([] {
+               ask(ExponentialContact{1e-7, 1, {1, -1}});
+             }),
+             Catch::StartsWith("normal_force: -1"));
+}
+
+TEST_CASE("A curve and moduli that do not fit it are doubted", "[questions]") {
+  CHECK(on_curve(Standing::indentation, 1e-7).doubts.empty());
+  const auto other =
+      ask(CurveContact{power_curve(), 1, {Standing::indentation, {1e-7}}, "curve.h5"});
+  REQUIRE(other.doubts.size() == 1);
+  CHECK_THAT(other.doubts[0], Catch::StartsWith("G*/E* = 1 of `poisson`"));
+}
+
+TEST_CASE("A paraboloid as an indenter and as a surface is one contact", "[questions]") {
+  const Grid2D grid{128, 128, 1e-3, 1e-3};
+  const SurfaceContact surface{
+      .surface = paraboloid_surface(grid, 1e-2), .material = body, .pressure = {1e3}};
+  const ContactAnswer cells = ask(surface);
+  REQUIRE(cells.curve);
+  // Thirteen contacts stand about the pressure, which is one of them.
+  CHECK(cells.curve->samples.size() == 13);
+  const auto hertz = ask(IndenterContact{
+      paraboloid_profile(1e-2), body, {Standing::normal_force, {1e3 * grid.area()}}});
+  const double stiffness = hertz.law->normal_stiffness(indentation_of(hertz));
+  // The radius of contact is a = 20 µm. Contacts that repeat at L = 1 mm are stiffer by some 2.8 a/L
+  // = 6 %, and a is known to a fraction of its 2.5 cells.
+  CHECK(cells.law->normal_stiffness(indentation_of(cells)) == Approx(stiffness).epsilon(0.15));
+  const ContactFacts facts = hertz.facts_at({}, indentation_of(hertz));
+  CHECK(facts.contact_modulus == Approx(1e9).epsilon(1e-12));
+  CHECK(facts.loaded_size == Approx(stiffness / 2e9).epsilon(1e-9));
+}
+
+TEST_CASE("Where a law is evaluated the caller's wish to stop is looked at", "[questions]") {
+  bool stop = false;
+  const Context context{.stopped = [&] { return stop; }};
+  const auto contact = ask(ExponentialContact{1e-7, 1, {1}}, context);
+  CHECK(contact.law->force(0) == 1);
+  stop = true;
+  CHECK_THROWS_AS(contact.law->force(0), Interrupted);
+  CHECK_THROWS_AS(law_of(IndenterContact{paraboloid_profile(1e-2), body, {}}, context)->force(1e-6),
+                  Interrupted);
+}
