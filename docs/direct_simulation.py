@@ -130,7 +130,7 @@ def generated(runs, folder, seed, points):
 
 
 def decay_length(runs, surface, scale, curve):
-    runs.answer("sweep", surface, "--pressures", f"{5e-4 * ROUGH_MODULUS * scale}:{0.2 * ROUGH_MODULUS * scale}:20",
+    runs.answer("contact", surface, "--pressure", f"{5e-4 * ROUGH_MODULUS * scale}:{0.2 * ROUGH_MODULUS * scale}:20",
                 "--contact-modulus", ROUGH_MODULUS, "--poisson", 0.3, "-o", curve)
     return runs.answer("fit", curve)["decay_length"]
 
@@ -270,7 +270,7 @@ def sliding(runs, _):
             law = ["--friction-coefficient", friction, *motion, "--velocities", velocity, *material]
             springs = runs.answer("friction", "--surface", surface[seed, n], "--pressure", pressure, *law)
             curve = f"{folder}/{seed}-{n}-{poisson}-{part}.h5"
-            runs.answer("sweep", surface[seed, n], "--pressures", f"{pressure / 6}:{6 * pressure}:50", "--stick",
+            runs.answer("contact", surface[seed, n], "--pressure", f"{pressure / 6}:{6 * pressure}:50", "--stick",
                         "--stiffness", *material, "-o", curve)
             finer = runs.answer("friction", "--curve", curve, "--pressure", pressure, *law)
             return simulated, springs, finer

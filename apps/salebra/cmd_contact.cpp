@@ -1,64 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `salebra contact`: one contact by boundary elements.
+// `salebra contact`: its options, and one contact by boundary elements.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
-#include <filesystem>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
+#include <salebra/contact/sweep.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <salebra/results/columns.hpp>
 #include <salebra/results/describe.hpp>
 #include <salebra/results/quantity_group.hpp>
+#include <salebra/study/contact_models.hpp>
 
-#include "contact_checkpoint.hpp"
+#include "contact_command.hpp"
 #include "curve_figure.hpp"
-#include "dry_run.hpp"
 #include "first_loading.hpp"
 #include "grid_axes.hpp"
-#include "options.hpp"
 #include "program.hpp"
 
 namespace salebra::cli {
 namespace {
 
-struct ContactArguments {
-  SurfaceOptions surface;
-  MaterialOptions material;
-  PositionOptions position;
-  std::string boundary = "periodic", precision = "mixed";
-  std::optional<double> tolerance, hardness;
-  std::string initial, residual, fields, field_type;
-  ContactCheckpoint checkpoint;
-  bool stiffness = false;
-  DryRunOptions dry_run;
-  int max_iterations = NormalContactOptions().max_iterations;
-};
-
-NormalContactOptions contact_options(const ContactArguments& arguments, Session& session) {
-  NormalContactOptions options;
-  options.boundary = *value_of<Boundary>(arguments.boundary);
-  options.precision = *value_of<Precision>(arguments.precision);
-  if (arguments.tolerance) options.tolerance = *arguments.tolerance;
-  if (arguments.hardness) options.hardness = *arguments.hardness;
-  options.max_iterations = arguments.max_iterations;
-  options.on_progress = session.progress();
-  return options;
-}
-
-NormalContactState solve(const PositionOptions& position, const Surface& surface,
+NormalContactState solve(const ContactArguments& arguments, const Surface& surface,
                          double contact_modulus, const NormalContactOptions& options) {
-  if (position.mean_gap)
-    return press_to_mean_gap(surface, contact_modulus, *position.mean_gap, options);
-  if (position.indentation)
-    return press_to_indentation(surface, contact_modulus, *position.indentation, options);
-  const double pressure =
-      position.pressure ? *position.pressure : *position.force / surface.grid.area();
-  return press_to_pressure(surface, contact_modulus, pressure, options);
+  if (!arguments.mean_gap.empty())
+    return press_to_mean_gap(surface, contact_modulus, arguments.mean_gap.front(), options);
+  if (!arguments.indentation.empty())
+    return press_to_indentation(surface, contact_modulus, arguments.indentation.front(), options);
+  return press_to_pressure(surface, contact_modulus,
+                           arguments.pressures_on(surface.grid.area()).front(), options);
 }
 
 /// Whether the contact of any process reaches the edge.
@@ -118,52 +94,16 @@ void check_residual(const ContactArguments& arguments, const Session& session) {
   require_output(arguments.residual, session.write_options());
 }
 
-void estimate(const ContactArguments& arguments, double contact_modulus, Session& session) {
-  const SurfaceOutline outline = arguments.surface.outline(session);
-  SurfaceWork work = planned(arguments.dry_run, outline.grid, session);
-  // A gap or an indentation does not tell the load: contact on a tenth of the cells is assumed.
-  double load = 0.05;
-  if (const auto& [gap, pressure, indentation, force] = arguments.position; pressure || force)
-    load = pressure.value_or(force.value_or(0) / outline.grid.area()) /
-           (contact_modulus * outline.rms_slope);
-  work.loads = {load};
-  work.normal_stiffness = arguments.stiffness;
-  work.boundary = *value_of<Boundary>(arguments.boundary);
-  answer_dry_run(work, outline.origin, session);
-}
+}  // namespace
 
-void run(const ContactArguments& arguments, Session& session) {
-  for (const auto& [given, option] :
-       {std::pair(arguments.hardness.has_value(), "--hardness"), {session.has_plot(), "--plot"}})
-    if (given) session.require_one_process(option);
-  std::vector<std::string> missing = arguments.material.missing(false);
-  if (arguments.position.count() == 0)
-    missing.insert(missing.begin(), "--pressure (or --mean-gap, --normal-force or --indentation)");
-  if (!arguments.surface.given()) missing.insert(missing.begin(), "SURFACE (or --recipe)");
-  require_options(missing, "a contact");
-  require(arguments.position.count() == 1, "--pressure", arguments.position.count(),
-          "positions are given; give exactly one of --pressure, --mean-gap, --normal-force, "
-          "--indentation");
-  if (arguments.position.force) require_positive(*arguments.position.force, "--normal-force");
-  if (arguments.position.pressure) require_positive(*arguments.position.pressure, "--pressure");
-  if (arguments.position.mean_gap) require_positive(*arguments.position.mean_gap, "--mean-gap");
-  if (arguments.position.indentation)
-    require_positive(*arguments.position.indentation, "--indentation");
-  if (arguments.hardness) require_positive(*arguments.hardness, "--hardness");
-  check_residual(arguments, session);
-  for (const auto& [given, option] : {std::pair(!arguments.fields.empty(), "--fields"),
-                                      {!arguments.field_type.empty(), "--field-type"}})
-    require_that(!given || session.has_output(), option, "given without --output; name the file");
-  arguments.checkpoint.check(session, arguments.initial);
-  const double contact_modulus = arguments.material.material().contact_modulus;
-  if (arguments.material.contact_modulus && !arguments.material.poisson.empty())
-    session.warn(
-        "--poisson: has no effect with --contact-modulus; a contact is pressed by E* alone");
-  if (arguments.dry_run.dry_run) return estimate(arguments, contact_modulus, session);
-  NormalContactOptions options = contact_options(arguments, session);
+void press_once(const ContactArguments& arguments, Session& session) {
+  const Material material = arguments.material.material();
+  const double contact_modulus = material.contact_modulus;
+  NormalContactOptions options = arguments.contact_options(session);
+  if (arguments.hardness) options.hardness = *arguments.hardness;
   const Surface surface = arguments.surface.read(session);
-  if (const auto pressure = arguments.position.nominal_pressure(surface.grid))
-    session.doubt(doubt_of_pressure(*pressure, contact_modulus));
+  for (const double pressure : arguments.pressures_on(surface.grid.area()))
+    session.doubt(doubt_of_pressure(pressure, contact_modulus));
   Field initial;
   if (arguments.checkpoint.starts_anew(session, arguments.initial)) {
     session.note(arguments.initial + " is not there yet: the contact starts anew");
@@ -174,7 +114,7 @@ void run(const ContactArguments& arguments, Session& session) {
   }
   arguments.checkpoint.add_to(options, session, surface.grid);
   const auto start = std::chrono::steady_clock::now();
-  const NormalContactState state = solve(arguments.position, surface, contact_modulus, options);
+  const NormalContactState state = solve(arguments, surface, contact_modulus, options);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const bool kept =
       !state.converged && arguments.checkpoint.write(session, surface.grid, state.contact_pressure);
@@ -205,9 +145,12 @@ void run(const ContactArguments& arguments, Session& session) {
   answer["seconds"] = elapsed.count();
   add_first_loading(answer, first_loading);
   if (arguments.stiffness && state.converged) {
-    const double stiffness = normal_stiffness(state, surface.grid, contact_modulus, options);
-    answer["normal_stiffness"] = stiffness;
-    answer["normal_stiffness_per_area"] = stiffness / surface.grid.area();
+    const ForceSample sample =
+        force_sample(state, surface, material, {.contact = options, .stick = arguments.stick});
+    answer["normal_stiffness"] = sample.normal_stiffness;
+    answer["normal_stiffness_per_area"] = sample.normal_stiffness / surface.grid.area();
+    if (std::isfinite(material.tangential_modulus))
+      answer["tangential_stiffness"] = sample.tangential_stiffness;
     if (session.stopped()) {
       arguments.checkpoint.write(session, surface.grid, state.contact_pressure);
       throw Interrupted("contact: interrupted; the stiffness was not computed");
@@ -224,50 +167,200 @@ void run(const ContactArguments& arguments, Session& session) {
   arguments.checkpoint.remove(session);
 }
 
+std::size_t ContactArguments::positions() const {
+  std::size_t kinds = 0, count = 0;
+  for (const auto& [option, values] : {std::pair("--pressure", &pressure),
+                                       {"--normal-force", &force},
+                                       {"--mean-gap", &mean_gap},
+                                       {"--indentation", &indentation},
+                                       {"--separation", &separation}}) {
+    if (values->empty()) continue;
+    ++kinds;
+    count = values->size();
+    if (values != &separation)
+      for (const double value : *values) require_positive(value, option);
+  }
+  require(kinds <= 1, "--pressure", kinds,
+          "kinds of positions are given; give exactly one of --pressure, --normal-force, "
+          "--mean-gap, --indentation, --separation");
+  return count;
+}
+
+std::vector<double> ContactArguments::pressures_on(double area) const {
+  std::vector<double> pressures = pressure;
+  for (const double newtons : force) pressures.push_back(newtons / area);
+  std::ranges::sort(pressures);
+  return pressures;
+}
+
+NormalContactOptions ContactArguments::contact_options(Session& session) const {
+  NormalContactOptions options;
+  options.boundary = *value_of<Boundary>(boundary);
+  options.precision = *value_of<Precision>(precision);
+  if (tolerance) options.tolerance = *tolerance;
+  options.max_iterations = max_iterations;
+  options.on_progress = session.progress();
+  return options;
+}
+
+namespace {
+
+// Headings of the help, and what belongs together.
+const std::string boundary_elements = "Boundary elements", once = "One position",
+                  often = "Several positions", summits = "Summits",
+                  parameters = "Summits without a surface";
+
+/// What is missing, and what does not go together.
+void check(const ContactArguments& arguments, std::size_t positions, const Session& session) {
+  const Command& command = *arguments.command;
+  const bool bem = arguments.model == "bem";
+  std::vector<std::string> missing = arguments.material.missing(false);
+  if (positions == 0)
+    missing.insert(missing.begin(), "--pressure (or --normal-force, --mean-gap, --indentation)");
+  if (bem && !arguments.surface.given()) missing.insert(missing.begin(), "SURFACE (or --recipe)");
+  require_options(missing, "a contact");
+  if (!bem) {
+    for (const std::string& group : {boundary_elements, once, often})
+      command.require_none_of(
+          group, "is of boundary elements; leave it out with --model " + arguments.model);
+    return;
+  }
+  for (const std::string& group : {summits, parameters})
+    command.require_none_of(group, "is of summits; give --model gw_moments or gw_deterministic");
+  for (const auto& [given, option] :
+       {std::pair(arguments.hardness.has_value(), "--hardness"), {session.has_plot(), "--plot"}})
+    if (given) session.require_one_process(option);
+  if (arguments.hardness) require_positive(*arguments.hardness, "--hardness");
+  require_that(arguments.stiffness || !arguments.stick, "--stick",
+               "given without --stiffness; give both");
+  if (positions > 1) {
+    command.require_none_of(once, fmt::format("is of one position, and {} are given", positions));
+    require(!arguments.pressure.empty() || !arguments.force.empty(),
+            arguments.mean_gap.empty() ? "--indentation" : "--mean-gap", positions,
+            "values are given; several positions are pressures or normal forces");
+    return;
+  }
+  command.require_none_of(often, "is of several positions; give --pressure more than one value");
+  session.require_result_name();
+  check_residual(arguments, session);
+  for (const auto& [given, option] : {std::pair(!arguments.fields.empty(), "--fields"),
+                                      {!arguments.field_type.empty(), "--field-type"}})
+    require_that(!given || session.has_output(), option, "given without --output; name the file");
+  arguments.checkpoint.check(session, arguments.initial);
+}
+
+void run(const ContactArguments& arguments, Session& session) {
+  const std::size_t positions = arguments.positions();
+  check(arguments, positions, session);
+  if (arguments.model != "bem") return press_summits(arguments, session);
+  arguments.material.material();
+  if (!arguments.stiffness && arguments.material.contact_modulus &&
+      !arguments.material.poisson.empty())
+    session.warn("--poisson: has no effect without --stiffness, which K_t needs");
+  if (arguments.dry_run.dry_run) return estimate_contacts(arguments, session);
+  return positions > 1 ? press_often(arguments, session) : press_once(arguments, session);
+}
+
 }  // namespace
 
 void add_contact_command(Program& program) {
   auto arguments = std::make_shared<ContactArguments>();
   Command& command = program.add_command(
-      "contact", "press a surface against an elastic half-space by boundary elements",
+      "contact", "press a surface to one load, or to many: a force-gap curve",
       {"salebra contact rough.h5 --pressure 10MPa --contact-modulus 115GPa",
-       "salebra contact scan.txt --boundary free --indentation 50nm --hardness 3GPa --young 200GPa "
-       "--poisson 0.3 -o "
-       "contact.h5"},
-      [arguments](Session& session) { run(*arguments, session); }, "maps of pressure and gap");
+       "salebra contact rough.h5 --pressure 1:100MPa:16 --contact-modulus 115GPa --poisson 0.3 "
+       "--stiffness -o curve.h5"},
+      [arguments](Session& session) { run(*arguments, session); },
+      "of one position maps of pressure and gap, of several pressure over gap, area, stiffness",
+      OutputCheck::curve);
+  arguments->command = &command;
   arguments->surface.add_to(command, false);
   arguments->surface.add_recipe_to(command);
-  arguments->position.add_to(command, true);
+  std::vector<std::string> models;
+  for (const ContactModel model :
+       {ContactModel::bem, ContactModel::gw_moments, ContactModel::gw_deterministic})
+    models.emplace_back(word_of(model));
+  add_choice(command, "--model", arguments->model, models,
+             "boundary elements, or Greenwood and Williamson's summits, as spectral moments tell "
+             "of them or each by itself; default bem");
+  const std::string position = "Position (several pressures or forces give a curve)";
+  add_values(command, "--pressure", arguments->pressure, Dimension::pressure, "nominal pressure")
+      ->group(position);
+  add_values(command, "--normal-force", arguments->force, Dimension::force, "normal force")
+      ->group(position);
+  add_values(command, "--mean-gap", arguments->mean_gap, Dimension::length,
+             "mean gap of the deformed surfaces")
+      ->group(position);
+  add_values(command, "--indentation", arguments->indentation, Dimension::length,
+             "from first touch")
+      ->group(position);
   arguments->material.add_to(command);
-  add_choice<Boundary>(command, "--boundary", arguments->boundary, "default periodic");
-  add_quantity(command, "--hardness", arguments->hardness, Dimension::pressure,
-               "largest pressure: cells saturate there and sink in; default none");
+
   command
-      .add_option(
-          "--residual", arguments->residual,
-          "with --hardness: write the surface that unloading leaves, whose later contacts up "
-          "to this load are elastic; read it back with --detrend none")
-      ->file(FileUse::output);
-  command.add_flag("--stiffness", arguments->stiffness,
-                   "K of the contact set too, as normal_stiffness in N/m; null in full contact of "
-                   "a periodic surface, where "
-                   "it is infinite");
+      .add_flag("--stiffness", arguments->stiffness,
+                "also K by a linear solve on the contact set, and K_t = (G*/E*)K where G* is "
+                "known; null in full contact of a periodic surface, where both are infinite")
+      ->group(boundary_elements);
+  command
+      .add_flag("--stick", arguments->stick,
+                "with --stiffness: K_t by a stick solve on each contact")
+      ->group(boundary_elements);
+  add_choice<Boundary>(command, "--boundary", arguments->boundary, "default periodic")
+      ->group(boundary_elements);
+  add_quantity(command, "--hardness", arguments->hardness, Dimension::pressure,
+               "of the softer body: cells saturate there and sink in. One position ends the first "
+               "loading; of several, the largest is first loaded to, and the curve is that of "
+               "unloading; default none")
+      ->group(boundary_elements);
+  add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
+               "of the complementarity residual; default 1e-10")
+      ->group(boundary_elements);
+  command.add_option("--max-iterations", arguments->max_iterations, "on the finest grid")
+      ->show_default()
+      ->group(boundary_elements);
+  add_choice<Precision>(command, "--precision", arguments->precision,
+                        "of the iterations; residuals are in double always; default mixed")
+      ->group(boundary_elements);
+
+  command
+      .add_option("--residual", arguments->residual,
+                  "with --hardness: write the surface that unloading leaves, whose later contacts "
+                  "up to this load are elastic; read it back with --detrend none")
+      ->file(FileUse::output)
+      ->group(once);
   command
       .add_option("--initial", arguments->initial,
                   "result of this command to start from, of the same grid; saves iterations and "
                   "changes no result")
-      ->file(FileUse::input);
-  arguments->checkpoint.add_to(command);
+      ->file(FileUse::input)
+      ->group(once);
+  arguments->checkpoint.add_to(command, once);
   add_choice(command, "--fields", arguments->fields, {"none", "pressure", "all"},
-             "of the output: none leaves its numbers; default all");
+             "of the output: none leaves its numbers; default all")
+      ->group(once);
   add_choice(command, "--field-type", arguments->field_type, {"double", "float"},
-             "of the fields of the output; default double");
-  add_choice<Precision>(command, "--precision", arguments->precision,
-                        "of the iterations; residuals are in double always; default mixed");
-  command.add_option("--max-iterations", arguments->max_iterations, "on the finest grid")
-      ->show_default();
-  add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
-               "of the complementarity residual; default 1e-10");
+             "of the fields of the output; default double")
+      ->group(once);
+
+  add_groups(command, arguments->groups,
+             "holds the surface and presses some of the loads; default: with --recipe as many as "
+             "memory holds, else 1")
+      ->group(often);
+
+  add_choice(command, "--distribution", arguments->distribution, {"gaussian", "exponential"},
+             "of summit heights; default gaussian")
+      ->group(summits);
+  add_values(command, "--separation", arguments->separation, Dimension::length,
+             "position of the smooth plane above the mean plane of summits")
+      ->group(summits);
+  add_quantity(command, "--summit-density", arguments->summit_density,
+               Dimension::inverse_length_squared, "summits per area")
+      ->group(parameters);
+  add_quantity(command, "--radius", arguments->radius, Dimension::length, "of the summits")
+      ->group(parameters);
+  add_quantity(command, "--summit-rms", arguments->summit_rms, Dimension::length,
+               "standard deviation of their heights")
+      ->group(parameters);
   arguments->dry_run.add_to(command);
 }
 

@@ -98,7 +98,7 @@ void add_fit_command(Program& program) {
       "pressure over gap with the fitted law, area, stiffness");
   command
       .add_option("CURVE", arguments->curve,
-                  "file of sweep, gw or a study of one surface, or a text table")
+                  "file of contact or a study of one surface, or a text table")
       ->required()
       ->file(FileUse::input);
   add_values(command, "--pressure-window", arguments->window, Dimension::pressure,

@@ -301,7 +301,7 @@ void add_oscillate_command(Program& program) {
   arguments->surface.add_to(command, false, "--surface");
   command.add_option("--points", arguments->points,
                      "cells along x of a shape; default 128, or 64 to begin --relative-error with");
-  arguments->position.add_to(command, true);
+  arguments->position.add_to(command);
   arguments->motion.add_to(command);
   add_quantity(command, "--direction", arguments->direction, Dimension::angle,
                "of the tangential motion against x; default 0");

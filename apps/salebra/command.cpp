@@ -3,6 +3,7 @@
 #include "command.hpp"
 
 #include <algorithm>
+#include <salebra/base/error.hpp>
 
 namespace salebra::cli {
 namespace {
@@ -96,6 +97,12 @@ Command::Command(std::string name, std::string what, std::array<std::string, 2> 
       examples_(std::move(examples)),
       action_(std::move(action)) {
   add("-h,--help", std::monostate(), "Print this help message and exit");
+}
+
+void Command::require_none_of(std::string_view group, std::string_view reason) const {
+  for (const Option& option : options_)
+    require_that(!option.given() || option.group() != group, option.names().back(),
+                 std::string(reason));
 }
 
 Option* Command::add(const std::string& names, Option::Target target, std::string help) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -70,6 +71,9 @@ class Option {
   bool positional() const { return names_.front().front() != '-'; }
   bool required() const { return required_; }
   bool shows_default() const { return shows_default_; }
+  /// Whether the command line has it.
+  bool given() const { return given_; }
+  void note_given() { given_ = true; }
 
  private:
   std::vector<std::string> names_;
@@ -80,7 +84,7 @@ class Option {
   std::optional<std::pair<int, int>> range_;
   Check check_;
   std::optional<char> delimiter_;
-  bool required_ = false, shows_default_ = false;
+  bool required_ = false, shows_default_ = false, given_ = false;
 };
 
 class Command {
@@ -109,6 +113,9 @@ class Command {
   const std::function<void()>& action() const { return action_; }
   /// The options in the order of their declaration, --help first.
   const std::deque<Option>& options() const { return options_; }
+  std::deque<Option>& options() { return options_; }
+  /// Throws InvalidInput with the reason where an option under that heading was given.
+  void require_none_of(std::string_view group, std::string_view reason) const;
 
  private:
   Option* add(const std::string& names, Option::Target target, std::string help);

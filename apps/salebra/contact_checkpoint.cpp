@@ -23,15 +23,17 @@ bool is_there(const Session& session, const std::string& file) {
 
 }  // namespace
 
-void ContactCheckpoint::add_to(Command& command) {
+void ContactCheckpoint::add_to(Command& command, const std::string& group) {
   command
       .add_option(
           "--checkpoint", file,
           "file that keeps the pressure while the contact is solved, for --initial; removed "
           "once it has converged")
-      ->file(FileUse::output, "--initial");
+      ->file(FileUse::output, "--initial")
+      ->group(group);
   add_quantity(command, "--checkpoint-every", every, Dimension::time,
-               "time between checkpoints; default 10 min, 0 for every iteration");
+               "time between checkpoints; default 10 min, 0 for every iteration")
+      ->group(group);
 }
 
 void ContactCheckpoint::check(const Session& session, const std::string& initial) const {

@@ -38,7 +38,7 @@ constexpr std::array descriptions{
         "seed gives one surface on any grid and any number of threads. Reports what was requested, "
         "what the grid holds in the mean, and what came out. Warns where a grid cannot carry the "
         "spectrum.\n\n"
-        "Next: salebra info and statistics measure it, salebra sweep presses it."},
+        "Next: salebra info and statistics measure it, salebra contact presses it."},
     CommandHelp{
         "info", surfaces,
         "Size, roughness, moments, summits and Hurst exponent of a surface in any readable file. "
@@ -56,20 +56,13 @@ constexpr std::array descriptions{
                 "docs/formats.md lists what each format keeps."},
     CommandHelp{
         "contact", contact,
-        "Presses one surface by boundary elements to a pressure, a mean gap, an indentation or a "
-        "force: area, gap, pressure, energy, and the stiffness on request. Periodic surfaces fill "
-        "the plane; --boundary free takes a surface by itself.\n\n"
-        "Next: salebra sweep for a whole force-gap curve."},
-    CommandHelp{
-        "sweep", contact,
-        "The force-gap curve of a surface by boundary elements, over a range of pressures, each "
-        "solved independently. With --stiffness also K and K_t, which damping needs.\n\n"
+        "Presses a surface by boundary elements. One position gives area, gap, pressure, energy, "
+        "and the stiffness on request; several pressures give a force-gap curve, with K and K_t, "
+        "which damping needs, on request. Periodic surfaces fill the plane; --boundary free takes "
+        "a surface by itself. --model gw_moments and gw_deterministic are the fast theory of "
+        "Greenwood and Williamson, good at light loads only: salebra compare shows how good on "
+        "your surface.\n\n"
         "Next: salebra fit for the decay length, salebra damping --curve for the damping."},
-    CommandHelp{
-        "gw", contact,
-        "The force-gap curve of Greenwood and Williamson, of a surface's moments, of its summits, "
-        "or of parameters. Fast, and good at light loads only: salebra compare shows how good on "
-        "your surface."},
     CommandHelp{
         "fit", contact,
         "The decay length l of p = p0 exp(-gap/l) of a curve in a file, with its interval, and "
@@ -142,7 +135,7 @@ std::string_view first_steps() {
          "  you have                you want                           command\n"
          "  a measured surface      its roughness and spectrum         info, statistics\n"
          "                          its contact at one load            contact\n"
-         "                          its force-gap curve, decay length  sweep, fit\n"
+         "                          its force-gap curve, decay length  contact, fit\n"
          "                          everything down to its damping     study --surface\n"
          "  a spectrum, no file     a surface with it                  generate\n"
          "                          the damping of such surfaces,\n"
@@ -156,7 +149,7 @@ std::string_view first_steps() {
          "  an oscillator           its decay under vibration          damper\n"
          "  a joint                 losses in partial slip, W(T)       joint\n"
          "  rubber or a polymer     losses under an indenter           viscoelastic\n"
-         "  several contact models  which one holds for your surface   compare, gw\n"
+         "  several contact models  which one holds for your surface   compare\n"
          "  results of a study      a page to read and send            report\n\n"
          "First steps:\n"
          "  salebra verify                        check this installation\n"

@@ -77,7 +77,7 @@ void LawOptions::add_to(Command& command) {
   add_choice(command, "--law", law, {"exponential", "cone", "parabola", "power"}, "F(indentation)")
       ->group(group);
   command
-      .add_option("--curve", curve, "file of sweep, gw or a study of one surface, instead of --law")
+      .add_option("--curve", curve, "file of contact or a study of one surface, instead of --law")
       ->file(FileUse::input)
       ->group(group);
   surface.add_to(command, false, "--surface");
@@ -154,7 +154,7 @@ ContactAnswer LawOptions::contact(const MaterialOptions& material, Session& sess
 std::unique_ptr<const ContactLaw> LawOptions::law_alone(const MaterialOptions& material,
                                                         Session& session) const {
   require(!surface.given(), "--surface", surface.file,
-          "has no law for a path of indentations; sweep it and give its --curve");
+          "has no law for a path of indentations; press it and give its --curve");
   return law_of(read(material, false), session.context());
 }
 

@@ -250,8 +250,9 @@ SurfaceOutline SurfaceOptions::outline(Session& session) const {
   return {surface.grid, surface_moments(surface).rms_slope(), file};
 }
 
-void add_groups(Command& command, int& groups, const std::string& work) {
-  command.add_option("--groups", groups, "of processes of salebra-mpi, each of which " + work)
+Option* add_groups(Command& command, int& groups, const std::string& work) {
+  return command
+      .add_option("--groups", groups, "of processes of salebra-mpi, each of which " + work)
       ->range(1, 1 << 20);
 }
 
@@ -272,16 +273,14 @@ void DryRunOptions::add_to(Command& command, bool of_processes) {
       ->group(group);
 }
 
-void PositionOptions::add_to(Command& app, bool with_indentation) {
+void PositionOptions::add_to(Command& app) {
   const std::string group = "Position";
   add_quantity(app, "--pressure", pressure, Dimension::pressure, "nominal pressure")->group(group);
   add_quantity(app, "--mean-gap", mean_gap, Dimension::length, "mean gap of the deformed surfaces")
       ->group(group);
   add_quantity(app, "--normal-force", force, Dimension::force, "normal force")->group(group);
-  if (with_indentation) {
-    add_quantity(app, "--indentation", indentation, Dimension::length, "from first touch")
-        ->group(group);
-  }
+  add_quantity(app, "--indentation", indentation, Dimension::length, "from first touch")
+      ->group(group);
 }
 
 int PositionOptions::count() const {

@@ -104,7 +104,7 @@ struct SurfaceOptions {
 };
 
 /// --groups of processes; 0: not given. `work` says what each of them does.
-void add_groups(Command& command, int& groups, const std::string& work);
+Option* add_groups(Command& command, int& groups, const std::string& work);
 
 /// --dry-run, and the processes that it is for.
 struct DryRunOptions {
@@ -119,7 +119,7 @@ struct DryRunOptions {
 struct PositionOptions {
   std::optional<double> mean_gap, pressure, indentation, force;
 
-  void add_to(Command& app, bool with_indentation);
+  void add_to(Command& app);
   /// Number of positions given.
   int count() const;
   /// Pa, where it or the force was given.

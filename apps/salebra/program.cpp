@@ -111,7 +111,7 @@ CLI::Validator validator_of(const std::vector<std::string>& choices, bool shown)
       shown ? fmt::format("{{{}}}", fmt::join(choices, ",")) : "");
 }
 
-void declare(CLI::App& app, const Option& option) {
+CLI::Option* declare(CLI::App& app, const Option& option) {
   const std::string names = fmt::format("{}", fmt::join(option.names(), ","));
   CLI::Option* made = std::visit(
       [&](const auto& target) -> CLI::Option* {
@@ -135,22 +135,27 @@ void declare(CLI::App& app, const Option& option) {
     made->check(validator_of(option.choices(), !option.help_lists_choices()));
   if (option.delimiter()) made->delimiter(*option.delimiter());
   if (option.shows_default()) made->capture_default_str();
+  return made;
 }
 
 /// Commands under the headings of their kinds; what is not described stays under CLI11's own.
-void declare(CLI::App& app, const Command& command) {
+void declare(CLI::App& app, Command& command) {
   CLI::App* made = app.add_subcommand(command.name(), command.what());
   made->footer(
       "Values take units (10um, 20kHz, 115GPa, 90deg); a bare number is SI.\n\nExamples:\n  " +
       command.examples()[0] + "\n  " + command.examples()[1]);
-  for (const Option& option : command.options()) declare(*made, option);
+  std::vector<std::pair<Option*, CLI::Option*>> declared;
+  for (Option& option : command.options()) declared.emplace_back(&option, declare(*made, option));
   if (const CommandHelp* help = find_help(command.name())) made->group(std::string(help->group));
-  made->callback(command.action());
+  made->callback([declared, &command] {
+    for (const auto& [option, parsed] : declared)
+      if (parsed->count() > 0) option->note_given();
+    command.action()();
+  });
 }
 
 /// What several processes compute together; the rest is for one.
-constexpr std::string_view spread_commands[] = {"contact", "generate", "statistics", "study",
-                                                "sweep"};
+constexpr std::string_view spread_commands[] = {"contact", "generate", "statistics", "study"};
 
 }  // namespace
 
@@ -223,7 +228,9 @@ struct FormerCommand {
   std::string_view name, now;
 };
 constexpr FormerCommand former_commands[]{
+    {"gw", "contact, with --model gw_moments or gw_deterministic"},
     {"manual", "help, with the name of a command"},
+    {"sweep", "contact, with several values of --pressure"},
 };
 
 /// Parses and runs. Throws NotUnderstood, and what the command throws.
@@ -240,7 +247,7 @@ void run(int argc, char** argv, const Launch& launch) {
 #define SALEBRA_COMMAND(name) add_##name##_command(program);
 #include "command_list.inc"
 #undef SALEBRA_COMMAND
-  for (const Command& command : program.commands()) declare(app, command);
+  for (Command& command : program.commands()) declare(app, command);
 
   std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) words = {"--help"};

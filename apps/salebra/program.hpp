@@ -36,6 +36,7 @@ class Program {
 
   /// The commands in the order of the help; each keeps its address.
   const std::deque<Command>& commands() const { return commands_; }
+  std::deque<Command>& commands() { return commands_; }
 
  private:
   std::string command_line_;

@@ -58,6 +58,8 @@ class Session {
   bool stopped() const;
   /// Throws as the constructor does. Collective.
   void require_free_output() const;
+  /// Throws InvalidInput unless --output, where it was given, names an HDF5 file.
+  void require_result_name() const;
   /// The files that options name, then others that the command reads or writes, before its work.
   /// Throws InvalidInput where one that is written is read or written under another name too, and
   /// where processes would read different files. Collective.
@@ -96,7 +98,6 @@ class Session {
   Json with_processes(Json object) const;
 
  private:
-  void require_result_name() const;
   void warn_of_few_cores();
 
   const std::string started_ = utc_now();

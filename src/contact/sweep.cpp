@@ -26,8 +26,10 @@ namespace {
 // K_t is a maximum over the tractions: its error is about the square of this.
 constexpr double stick_tolerance = 1e-3;
 
-ForceSample sample_of(const NormalContactState& state, const Surface& surface,
-                      const Material& material, const SweepOptions& options) {
+}  // namespace
+
+ForceSample force_sample(const NormalContactState& state, const Surface& surface,
+                         const Material& material, const SweepOptions& options) {
   ForceSample sample;
   sample.indentation = state.indentation;
   if (options.contact.boundary == Boundary::periodic) sample.mean_gap = state.mean_gap;
@@ -59,6 +61,8 @@ ForceSample sample_of(const NormalContactState& state, const Surface& surface,
   }
   return sample;
 }
+
+namespace {
 
 /// The loads of one group, from the highest, which takes longest, to the lowest: dealt to and fro,
 /// so that groups get alike times.
@@ -158,7 +162,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
         stop = true;
         continue;
       }
-      const ForceSample sample = sample_of(state, surface, material, inner);
+      const ForceSample sample = force_sample(state, surface, material, inner);
       // A stiffness solve that was stopped half-way is not a load that failed.
       if (!surface.ranks.all_agree(!stop || sample.converged)) {
         stop = true;

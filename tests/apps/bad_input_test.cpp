@@ -181,11 +181,27 @@ TEST_CASE("Pressures, gaps and materials that cannot be are refused, and nothing
       {"contact rough.h5 --pressure 1MPa --contact-modulus 0", "--contact-modulus: 0"},
       {"contact rough.h5 --pressure 1MPa --young 1GPa", "--poisson"},
       {"contact rough.h5 --pressure 1MPa --contact-modulus 1GPa --tolerance 2", "tolerance"},
-      {"sweep rough.h5 --pressures 1MPa,0 --contact-modulus 1GPa", "--pressures"},
-      {"sweep rough.h5 --pressures 1MPa:2MPa:1 --contact-modulus 1GPa", "--pressures"},
-      {"gw rough.h5 --pressures -1 --contact-modulus 1GPa", "--pressures"},
-      {"gw --pressures 1MPa --contact-modulus 1GPa", "--summit-density"},
-      {"gw --summit-density 0 --radius 1um --summit-rms 1nm --pressures 1MPa --contact-modulus "
+      {"contact rough.h5 --mean-gap 1nm,2nm --contact-modulus 1GPa",
+       "--mean-gap: 2 values are given"},
+      {"contact rough.h5 --pressure 1MPa,2MPa --contact-modulus 1GPa --fields none",
+       "--fields: is of one position, and 2 are given"},
+      {"contact rough.h5 --pressure 1MPa --contact-modulus 1GPa --groups 2",
+       "--groups: is of several positions"},
+      {"contact rough.h5 --pressure 1MPa --contact-modulus 1GPa --radius 1um",
+       "--radius: is of summits; give --model gw_moments"},
+      {"contact rough.h5 --separation 1nm --contact-modulus 1GPa", "--separation: is of summits"},
+      {"contact rough.h5 --model gw_moments --pressure 1MPa --contact-modulus 1GPa --hardness 1GPa",
+       "--hardness: is of boundary elements; leave it out with --model gw_moments"},
+      {"contact rough.h5 --model gw_moments --pressure 1MPa --contact-modulus 1GPa --radius 1um",
+       "--radius: given together with a surface"},
+      {"contact --model gw_deterministic --pressure 1MPa --contact-modulus 1GPa",
+       "--model: gw_deterministic takes the summits of a surface"},
+      {"contact rough.h5 --pressure 1MPa,0 --contact-modulus 1GPa", "--pressure"},
+      {"contact rough.h5 --pressure 1MPa:2MPa:1 --contact-modulus 1GPa", "--pressure"},
+      {"contact --model gw_moments rough.h5 --pressure -1 --contact-modulus 1GPa", "--pressure"},
+      {"contact --model gw_moments --pressure 1MPa --contact-modulus 1GPa", "--summit-density"},
+      {"contact --model gw_moments --summit-density 0 --radius 1um --summit-rms 1nm --pressure "
+       "1MPa --contact-modulus "
        "1GPa",
        "--summit-density: 0 must"},
   }));
@@ -214,8 +230,8 @@ TEST_CASE("A curve's file that names no format is refused before the surface is 
           "[bad-input]") {
   const ProgramTest test;
   for (const char* command :
-       {"sweep absent.h5 --pressures 1:2MPa:4 --contact-modulus 1GPa -o x.dat",
-        "gw absent.h5 --pressures 1:2MPa:4 --contact-modulus 1GPa -o x.dat"})
+       {"contact absent.h5 --pressure 1:2MPa:4 --contact-modulus 1GPa -o x.dat",
+        "contact --model gw_moments absent.h5 --pressure 1:2MPa:4 --contact-modulus 1GPa -o x.dat"})
     check_refused(test.run(command), "x.dat: has the extension '.dat'");
 }
 
@@ -242,10 +258,9 @@ TEST_CASE("All missing options are named at once", "[bad-input]") {
   for (const char* option :
        {"--tangential-amplitude", "--phase", "--tangential-frequency", "--frequency"})
     check_refused(two, option);
-  const auto sweep = test.run("sweep scan.txt"), contact = test.run("contact scan.txt");
-  check_refused(sweep, "--pressures");
-  check_refused(contact, "--pressure (or");
-  for (const auto& refused : {sweep, contact}) check_refused(refused, "--contact-modulus");
+  const auto contact = test.run("contact");
+  for (const char* option : {"SURFACE (or --recipe)", "--pressure (or", "--contact-modulus"})
+    check_refused(contact, option);
   const auto none = test.run("generate");
   for (const char* option : {"--points", "--size-x"}) check_refused(none, option);
 }
@@ -256,7 +271,7 @@ TEST_CASE("What is called otherwise elsewhere is answered with its name", "[bad-
                 "(did you mean --normal-force or --pressure?)");
   check_refused(test.run("damping --law exponential --load 3N"),
                 "(did you mean --normal-force or --pressure?)");
-  check_refused(test.run("sweep scan.txt --force 10N"), "(did you mean --pressures?)");
+  check_refused(test.run("study --force 10N"), "(did you mean --pressures?)");
   check_refused(test.run("contact scan.txt --E 210GPa"),
                 "(did you mean --contact-modulus or --young?)");
   check_refused(test.run("roughness scan.txt"), "is not a command (did you mean statistics?)");
@@ -316,7 +331,7 @@ TEST_CASE("Input that is allowed and most likely a slip is computed with a warni
   };
   warns("contact s.h5 --pressure 1MPa --contact-modulus 1.15e6",
         "a nominal pressure of 1 MPa is 0.87 times E* = 1.15 MPa");
-  warns("sweep s.h5 --pressures 1MPa,20GPa --contact-modulus 100GPa",
+  warns("contact s.h5 --pressure 1MPa,20GPa --contact-modulus 100GPa",
         "a nominal pressure of 20 GPa is 0.2 times E* = 100 GPa");
   warns("info s.h5 --size-x 2um", "size_x: 2 µm was given, and s.h5 states 1 µm");
   warns("generate --points 16,16 --size-x 1um --size-y 1nm -o thin.h5" + surface,
@@ -342,10 +357,11 @@ TEST_CASE("Input that is allowed and most likely a slip is computed with a warni
   const std::string doubt =
       "um.txt: rms slope 1.04e+05 is above 1: heights in \u00b5m? rms slope would be 0.1; see "
       "--height-unit";
-  for (const std::string command : {"info um.txt", "statistics um.txt", "convert um.txt um.nc",
-                                    "contact um.txt --pressure 1GPa --contact-modulus 115GPa",
-                                    "sweep um.txt --pressures 1GPa,2GPa --contact-modulus 115GPa",
-                                    "gw um.txt --pressures 1MPa,2MPa --contact-modulus 115GPa"})
+  for (const std::string command :
+       {"info um.txt", "statistics um.txt", "convert um.txt um.nc",
+        "contact um.txt --pressure 1GPa --contact-modulus 115GPa",
+        "contact um.txt --pressure 1GPa,2GPa --contact-modulus 115GPa",
+        "contact --model gw_moments um.txt --pressure 1MPa,2MPa --contact-modulus 115GPa"})
     warns(command + size, doubt);
   warns("study --surface um.txt --no-stick --levels 0 " + size + steel + motion, doubt);
   CHECK_THAT(test.run("study --dry-run --surface um.txt" + size + steel + motion).out,
@@ -367,10 +383,10 @@ TEST_CASE("A value of a hundred thousand letters is quoted in part", "[bad-input
   test.write("study.toml", replaced(study, "\"0.1nm\"", "\"" + word + "\""));
   test.write("names.toml", replaced(study, "points", word + " = 1\npoints"));
   for (const std::string& arguments :
-       {"gw --pressures " + values, "damping --law " + word, "damping --" + word + " 1",
-        "generate --size-x 1um --points " + word, "generate --seed " + word, word, "info " + word,
-        "verify --threads " + word, "verify " + word, std::string("study study.toml"),
-        std::string("study names.toml")}) {
+       {"contact --model gw_moments --pressure " + values, "damping --law " + word,
+        "damping --" + word + " 1", "generate --size-x 1um --points " + word,
+        "generate --seed " + word, word, "info " + word, "verify --threads " + word,
+        "verify " + word, std::string("study study.toml"), std::string("study names.toml")}) {
     INFO(arguments.substr(0, 30));
     const auto result = test.run(arguments);
     CHECK(result.status == 2);

@@ -245,6 +245,14 @@ TEST_CASE("The stiffness of full contact is infinite: valid JSON without a numbe
   const std::string press = "contact rough.h5 --contact-modulus 10GPa --json --stiffness ";
   const auto open = test.run(press + "--pressure 20MPa").json();
   CHECK(open["normal_stiffness"] > 0);
+  CHECK_FALSE(open.contains("tangential_stiffness"));
+  const auto sheared = test.run(press + "--pressure 20MPa --poisson 0.3").json();
+  CHECK(sheared["tangential_stiffness"].get<double>() ==
+        Approx(1.4 / 1.7 * open["normal_stiffness"].get<double>()).epsilon(1e-12));
+  // A stick solve finds what it finds for the same contact in a curve.
+  const std::string stuck = press + "--poisson 0.3 --stick --pressure 20MPa";
+  CHECK(test.run(stuck).json()["tangential_stiffness"] ==
+        test.run(stuck + ",40MPa").json()["curve"]["tangential_stiffness"][0]);
   CHECK(open["normal_stiffness_per_area"].get<double>() ==
         Approx(open["normal_stiffness"].get<double>() * open["pressure"].get<double>() /
                open["force"].get<double>()));
@@ -255,8 +263,8 @@ TEST_CASE("The stiffness of full contact is infinite: valid JSON without a numbe
   CHECK(closed.json().contains("normal_stiffness"));
   CHECK(closed.json()["normal_stiffness_per_area"].is_null());
   const auto curve = test.run(
-                             "sweep rough.h5 --contact-modulus 10GPa --poisson 0.3 --json "
-                             "--stiffness --pressures 20MPa,100GPa")
+                             "contact rough.h5 --contact-modulus 10GPa --poisson 0.3 --json "
+                             "--stiffness --pressure 20MPa,100GPa")
                          .json()["curve"];
   CHECK(curve["normal_stiffness"][0] > 0);
   CHECK(curve["normal_stiffness"][1].is_null());
@@ -293,7 +301,7 @@ TEST_CASE("fit answers with the fit, the test and the sensitivity of the window 
           "[fit]") {
   const ProgramTest test;
   make_rough(test);
-  REQUIRE(test.run("sweep rough.h5 --pressures 2:60MPa:10 --contact-modulus 10GPa -o curve.h5")
+  REQUIRE(test.run("contact rough.h5 --pressure 2:60MPa:10 --contact-modulus 10GPa -o curve.h5")
               .status == 0);
   const ForceCurve curve = read_force_curve(test.folder() / "curve.h5");
   const PressureWindow window{3e6, 40e6, 0};
@@ -322,11 +330,11 @@ TEST_CASE("fit answers with the fit, the test and the sensitivity of the window 
   check_refused(test.run("fit curve.h5 --pressure-window 40MPa,3MPa"), "--pressure-window");
 }
 
-TEST_CASE("A sweep leads to a curve, its fit and a damping constant", "[sweep][fit]") {
+TEST_CASE("Several pressures lead to a curve, its fit and a damping constant", "[contact][fit]") {
   const ProgramTest test;
   make_rough(test);
   const auto swept = test.run(
-      "sweep rough.h5 --pressures 2:60MPa:8 --stiffness --contact-modulus 10GPa --poisson 0.3 "
+      "contact rough.h5 --pressure 2:60MPa:8 --stiffness --contact-modulus 10GPa --poisson 0.3 "
       "--json -o curve.h5");
   REQUIRE(swept.status == 0);
   const auto curve = swept.json()["curve"];
@@ -369,7 +377,7 @@ TEST_CASE("A sweep leads to a curve, its fit and a damping constant", "[sweep][f
   CHECK(damping.json()["force"].get<double>() == Approx(20e6 * 16e-12).epsilon(1e-9));
 }
 
-TEST_CASE("Greenwood-Williamson curves come from a surface or from parameters", "[gw]") {
+TEST_CASE("Greenwood-Williamson curves come from a surface or from parameters", "[contact]") {
   const ProgramTest test;
   make_rough(test);
   const std::set<std::string> curve_keys{"separation",
@@ -383,10 +391,10 @@ TEST_CASE("Greenwood-Williamson curves come from a surface or from parameters", 
                                          "normal_stiffness_per_area",
                                          "tangential_stiffness_per_area",
                                          "converged"};
-  for (const std::string summits : {"moments", "deterministic"}) {
+  for (const std::string model : {"gw_moments", "gw_deterministic"}) {
     const auto result =
-        test.run("gw rough.h5 --summits " + summits +
-                 " --pressures 2:60MPa:5 --contact-modulus 10GPa --poisson 0.3 --json");
+        test.run("contact rough.h5 --model " + model +
+                 " --pressure 2:60MPa:5 --contact-modulus 10GPa --poisson 0.3 --json");
     INFO(result.err);
     REQUIRE(result.status == 0);
     const auto answer = result.json();
@@ -394,12 +402,28 @@ TEST_CASE("Greenwood-Williamson curves come from a surface or from parameters", 
     CHECK(keys(answer["curve"]) == curve_keys);
     CHECK(answer["parameters"]["summit_density"] > 0);
     CHECK(answer["curve"]["pressure"][0].get<double>() == Approx(2e6).epsilon(1e-9));
+    // The same state by each kind of position.
+    const auto& curve = answer["curve"];
+    for (const auto& [option, column] : {std::pair("--normal-force", "force"),
+                                         {"--mean-gap", "mean_gap"},
+                                         {"--indentation", "indentation"},
+                                         {"--separation", "separation"}}) {
+      INFO(option);
+      const auto same = test.run(fmt::format(
+          "contact rough.h5 --model {} {}={} --contact-modulus 10GPa --poisson 0.3 --json", model,
+          option, curve[column][2].get<double>()));
+      INFO(same.err);
+      REQUIRE(same.status == 0);
+      CHECK(same.json()["curve"]["pressure"][0].get<double>() ==
+            Approx(curve["pressure"][2].get<double>()).epsilon(1e-8));
+    }
   }
-  const auto answer = test.run(
-                              "gw --summit-density 10/um2 --radius 100nm --summit-rms 10nm "
-                              "--distribution exponential "
-                              "--separations 10nm,30nm --contact-modulus 10GPa --json")
-                          .json();
+  const auto answer =
+      test.run(
+              "contact --model gw_moments --summit-density 10/um2 --radius 100nm --summit-rms 10nm "
+              "--distribution exponential "
+              "--separation 10nm,30nm --contact-modulus 10GPa --json")
+          .json();
   // F ∝ exp(−s/σ), from the lowest force to the highest.
   CHECK(answer["curve"]["pressure"][1].get<double>() /
             answer["curve"]["pressure"][0].get<double>() ==

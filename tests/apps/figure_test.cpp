@@ -273,7 +273,7 @@ TEST_CASE("Pictures of a contact and of its curve draw the numbers of the answer
   // The map has five digits, in MPa.
   CHECK(largest == Approx(1e-6 * press.answer()["max_pressure"].get<double>()).epsilon(1e-4));
 
-  const Drawing sweep(test, "sweep s.h5 --pressures 1:30MPa:6 --stiffness -o curve.h5" + material);
+  const Drawing sweep(test, "contact s.h5 --pressure 1:30MPa:6 --stiffness -o curve.h5" + material);
   const json curve = sweep.answer()["curve"];
   check_parallel(sweep.column(1, 0, 1), logarithms(numbers(curve["pressure"])));
   check_parallel(sweep.column(2, 0, 1), logarithms(numbers(curve["contact_area_fraction"])));

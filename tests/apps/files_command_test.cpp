@@ -206,7 +206,7 @@ TEST_CASE("A file that a command reads is never replaced, by whatever name", "[f
   CHECK(test.read("in.h5") == surface);
   CHECK(test.read("f-mesh.h5") == surface);
 
-  REQUIRE(test.run("sweep in.h5 --contact-modulus 1GPa --pressures "
+  REQUIRE(test.run("contact in.h5 --contact-modulus 1GPa --pressure "
                    "1MPa:9MPa:4 -o curve.h5")
               .status == 0);
   const std::string curve = test.read("curve.h5");

@@ -58,24 +58,24 @@ TEST_CASE("A residual surface without a hardness or a format is refused",
   CHECK(test.files() == std::set<std::string>{"rough.h5"});
 }
 
-TEST_CASE("A sweep with a hardness is the elastic sweep of the residual surface",
+TEST_CASE("A force curve with a hardness is the elastic one of the residual surface",
           "[first_loading]") {
   const ProgramTest test;
   make_rough(test);
-  const std::string loads = " --pressures 0.5MPa,5MPa,20MPa --stiffness --json" + material;
+  const std::string loads = " --pressure 0.5MPa,5MPa,20MPa --stiffness --json" + material;
   REQUIRE(
       test.run("contact rough.h5 --hardness 150MPa --residual flat.h5 --pressure 20MPa" + material)
           .status == 0);
-  const json unloading = test.run("sweep rough.h5 --hardness 150MPa" + loads).json();
-  CHECK(unloading["curve"] == test.run("sweep flat.h5 --detrend none" + loads).json()["curve"]);
+  const json unloading = test.run("contact rough.h5 --hardness 150MPa" + loads).json();
+  CHECK(unloading["curve"] == test.run("contact flat.h5 --detrend none" + loads).json()["curve"]);
   CHECK(number(unloading, "first_loading", "yielded_area_fraction") > 0.01);
   // A hardness that no pressure reaches changes no bit.
-  const json elastic = test.run("sweep rough.h5" + loads).json();
-  const json hard = test.run("sweep rough.h5 --hardness 1TPa" + loads).json();
+  const json elastic = test.run("contact rough.h5" + loads).json();
+  const json hard = test.run("contact rough.h5 --hardness 1TPa" + loads).json();
   CHECK(hard["curve"] == elastic["curve"]);
   CHECK(number(hard, "first_loading", "yielded_area_fraction") == 0);
   CHECK(unloading["curve"] != elastic["curve"]);
-  check_refused(test.run("sweep rough.h5 --hardness 10MPa" + loads + "-o c.h5"),
+  check_refused(test.run("contact rough.h5 --hardness 10MPa" + loads + "-o c.h5"),
                 "--hardness: 10 MPa must exceed the nominal pressure, 20 MPa");
   CHECK(!test.files().contains("c.h5"));
 }

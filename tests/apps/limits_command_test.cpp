@@ -41,7 +41,7 @@ TEST_CASE("A contact that a limit of memory does not hold is refused in one line
   // 43 bytes for each of 2048² cells, 180 MB, of 500 in all, of which the program and its heights
   // take the most.
   for (const std::string command : {"contact s.h5 --contact-modulus 1GPa --pressure 1MPa",
-                                    "sweep s.h5 --contact-modulus 1GPa --pressures 1MPa:2MPa:2"})
+                                    "contact s.h5 --contact-modulus 1GPa --pressure 1MPa:2MPa:2"})
     check_refused(test.run(command + " --threads 1 --quiet", "ulimit -d 200000;"),
                   "points: 2048 x 2048 need 180 MB of memory for a contact and ");
   // What fits is computed.

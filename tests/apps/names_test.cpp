@@ -237,7 +237,7 @@ TEST_CASE("Every column of a sweep has the name and unit of its description", "[
                    "125um --rms-height 1um -o rough.h5")
               .status == 0);
   const auto run = test.run(
-      "sweep rough.h5 --contact-modulus 1GPa --poisson 0.3 --pressures 10kPa:1MPa:4 --stiffness "
+      "contact rough.h5 --contact-modulus 1GPa --poisson 0.3 --pressure 10kPa:1MPa:4 --stiffness "
       "--json -o curve.csv");
   REQUIRE(run.status == 0);
   const Meanings& columns = groups.at("curve");
@@ -275,9 +275,10 @@ TEST_CASE("Every number that the program writes has the name, unit and meaning o
            "info rough.h5 -o info.h5",
            "statistics rough.h5 --tip-radius 10nm -o statistics.h5",
            "contact rough.h5 --pressure 20MPa --stiffness -o contact.h5" + body,
-           "sweep rough.h5 --pressures 2:60MPa:10 --stiffness --stick -o curve.h5" + body,
-           "gw rough.h5 --summits deterministic --pressures 2:60MPa:5 -o gw.h5" + body,
-           "gw --summit-density 10/um2 --radius 100nm --summit-rms 10nm --separations "
+           "contact rough.h5 --pressure 2:60MPa:10 --stiffness --stick -o curve.h5" + body,
+           "contact rough.h5 --model gw_deterministic --pressure 2:60MPa:5 -o gw.h5" + body,
+           "contact --model gw_moments --summit-density 10/um2 --radius 100nm --summit-rms 10nm "
+           "--separation "
            "10nm,20nm,40nm" +
                body,
            "fit curve.h5 -o fit.h5",
@@ -345,9 +346,9 @@ TEST_CASE("Every option that is a quantity has its unit", "[names]") {
   const ProgramTest test;
   const std::regex line("\\n  --([a-z0-9-]+) (VALUES in )?(.+?)(  |\\n)");
   int known = 0;
-  for (const char* command : {"generate", "statistics", "contact", "sweep", "gw", "fit", "damping",
-                              "mdr", "damper", "friction", "slider", "joint", "viscoelastic",
-                              "oscillate", "figure3", "study", "compare"}) {
+  for (const char* command :
+       {"generate", "statistics", "contact", "fit", "damping", "mdr", "damper", "friction",
+        "slider", "joint", "viscoelastic", "oscillate", "figure3", "study", "compare"}) {
     const std::string help = test.run(std::string(command) + " --help").out;
     for (std::sregex_iterator found(help.begin(), help.end(), line), end; found != end; ++found) {
       std::string name = (*found)[1];

@@ -159,7 +159,7 @@ TEST_CASE("A dry run of one surface states memory and time for any number of pro
   CHECK(answer("contact" + pressed + "--pressure 1MPa --ranks 2 --stiffness")["memory_bytes"] >
         answer("contact" + pressed + "--pressure 1MPa --ranks 2")["memory_bytes"]);
 
-  const std::string swept = "sweep" + pressed + "--poisson 0.3 --pressures 1MPa,2MPa,4MPa,8MPa ";
+  const std::string swept = "contact" + pressed + "--poisson 0.3 --pressure 1MPa,2MPa,4MPa,8MPa ";
   const auto sweep = answer(swept + "--ranks 256 --groups 4");
   CHECK(sweep["groups"] == 4);
   CHECK(sweep["contacts"] == 4);
@@ -256,7 +256,7 @@ TEST_CASE("The program's help lists the commands by what they are for", "[help]"
   CHECK(help.find("Start here:") < help.find("Surfaces:"));
   // No command is without a heading of its own.
   CHECK_THAT(help, !Contains("Subcommands:"));
-  CHECK_THAT(ProgramTest().run("sweep --help").out, Contains("salebra fit for the decay length"));
+  CHECK_THAT(ProgramTest().run("contact --help").out, Contains("salebra fit for the decay length"));
 }
 
 TEST_CASE("bash completes commands, options and their choices", "[completion]") {

@@ -279,7 +279,7 @@ TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their qu
       "generate --points 64 --size-x 4um --hurst 0.8 --rolloff 2um --short-cutoff 0.5um "
       "--rms-height 10nm --seed 18446744073709551615 ";
   REQUIRE(test.run(rough + "-o rough.h5").status == 0);
-  REQUIRE(test.run("sweep rough.h5 --pressures 2:60MPa:10 --stiffness --stick -o curve.h5" + body)
+  REQUIRE(test.run("contact rough.h5 --pressure 2:60MPa:10 --stiffness --stick -o curve.h5" + body)
               .status == 0);
   const std::string law = " --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 ";
   const std::string drag = " --drag-velocity 1mm/s --frequency 20kHz ";
@@ -296,8 +296,8 @@ TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their qu
            std::string("info rough.h5"),
            std::string("statistics rough.h5 --tip-radius 10nm"),
            "contact rough.h5 --pressure 20MPa --stiffness" + body,
-           "sweep rough.h5 --pressures 2:60MPa:4 --stiffness --stick" + body,
-           "gw rough.h5 --summits deterministic --pressures 2:60MPa:5" + body,
+           "contact rough.h5 --pressure 2:60MPa:4 --stiffness --stick" + body,
+           "contact rough.h5 --model gw_deterministic --pressure 2:60MPa:5" + body,
            std::string("fit curve.h5"),
            "damping --normal-amplitude 5nm" + law + drag,
            "damping --normal-amplitude 1:50nm:4" + law + drag,

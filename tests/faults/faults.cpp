@@ -47,7 +47,7 @@ const std::string random_surface =
 const std::string surface = random_surface + "1", other = random_surface + "2";
 const std::string material = " --contact-modulus 1GPa --poisson 0.3";
 const std::string moves = " --normal-amplitude 1nm --drag-velocity 1mm/s --frequency 20kHz";
-const std::string sweep = "sweep IN/s.h5 --pressures 1:30MPa:6 --stiffness" + material;
+const std::string curve = "contact IN/s.h5 --pressure 1:30MPa:6 --stiffness" + material;
 const std::string oscillation =
     "oscillate --shape cylinder --points 16 --steps 8 --levels 4 --friction 0.3 "
     "--max-periods 2" +
@@ -90,14 +90,15 @@ std::vector<Case> all_cases() {
       {"contact_checkpoint", in,
        "contact IN/s.h5 --pressure 5MPa -o out.h5 --checkpoint out.state --checkpoint-every 0" +
            material},
-      {"sweep", in, sweep + " -o out.h5"},
-      {"sweep_table", in, sweep + " -o out.csv"},
-      {"gw",
+      {"contact_curve", in, curve + " -o out.h5"},
+      {"contact_curve_table", in, curve + " -o out.csv"},
+      {"contact_summits",
        {},
-       "gw --summit-density 10/um2 --radius 100nm --summit-rms 10nm --separations 10nm,20nm,40nm "
+       "contact --model gw_moments --summit-density 10/um2 --radius 100nm --summit-rms 10nm "
+       "--separation 10nm,20nm,40nm "
        "-o out.h5" +
            material},
-      {"fit", {in[0], sweep + " -o curve.h5"}, "fit IN/curve.h5 -o out.h5"},
+      {"fit", {in[0], curve + " -o curve.h5"}, "fit IN/curve.h5 -o out.h5"},
       {"statistics", in, "statistics IN/s.h5 -o out.h5"},
       {"statistics_tables", in, "statistics IN/s.h5 -o out.csv"},
       {"damping",

@@ -115,14 +115,14 @@ TEST_CASE("A surface that processes generate has the bits of one process", "[mpi
   }
 }
 
-TEST_CASE("A contact and a sweep over processes have the numbers of one process", "[mpi]") {
+TEST_CASE("A contact and a force curve over processes have the numbers of one process", "[mpi]") {
   const ProgramTest test;
   test.write("study.toml", study);
   const std::string pressed =
       "contact --recipe study.toml --seed 5 --pressure 1MPa --contact-modulus 1GPa --stiffness "
       "--json ";
   const std::string swept =
-      "sweep --recipe study.toml --seed 5 --pressures 1MPa,4MPa --contact-modulus 1GPa --poisson "
+      "contact --recipe study.toml --seed 5 --pressure 1MPa,4MPa --contact-modulus 1GPa --poisson "
       "0.3 --stiffness --stick --json ";
   const std::string contact = numbers_of(run_alone(test, pressed + "-o alone.h5 " + quiet));
   const std::string curve = numbers_of(run_alone(test, swept + quiet));
@@ -176,7 +176,7 @@ TEST_CASE("Groups of processes sweep with the numbers of one process", "[mpi]") 
   const ProgramTest test;
   test.write("study.toml", study);
   const std::string swept =
-      "sweep --recipe study.toml --seed 5 --pressures 1MPa,2MPa,4MPa --contact-modulus 1GPa "
+      "contact --recipe study.toml --seed 5 --pressure 1MPa,2MPa,4MPa --contact-modulus 1GPa "
       "--poisson 0.3 --stiffness --json ";
   const std::string curve = numbers_of(run_alone(test, swept + quiet));
   for (const auto& [ranks, given, groups] : {std::tuple(4, "--groups 2 ", 2), {3, "", 3}}) {
@@ -186,7 +186,7 @@ TEST_CASE("Groups of processes sweep with the numbers of one process", "[mpi]") 
   }
   // A file, which each group reads.
   REQUIRE(run_alone(test, "generate " + surface + "-o a.h5 --quiet").status == 0);
-  const std::string read = "sweep a.h5 --pressures 1MPa,4MPa --contact-modulus 1GPa --json ";
+  const std::string read = "contact a.h5 --pressure 1MPa,4MPa --contact-modulus 1GPa --json ";
   CHECK(numbers_of(run(test, 2, read + "--groups 2 " + quiet)) ==
         numbers_of(run_alone(test, read + quiet)));
 }

@@ -146,10 +146,10 @@ def test_a_table_of_the_program_is_read(program: Callable[..., Any], tmp_path: P
     surface, curve = tmp_path / "rough.h5", tmp_path / "curve.h5"
     program("generate", "--points", "32", "--size-x", "1mm", "--hurst", "0.8", "--rolloff", "0.5mm", "--short-cutoff",
             "125um", "--rms-height", "1um", "-o", surface)  # fmt: skip
-    answer = program("sweep", surface, "--contact-modulus", "1GPa", "--poisson", "0.3", "--pressures", "10kPa:1MPa:4", "-o", curve)
+    answer = program("contact", surface, "--contact-modulus", "1GPa", "--poisson", "0.3", "--pressure", "10kPa:1MPa:4", "-o", curve)
     reader = salebra.ResultReader(curve)
     assert reader["curve/mean_gap"].tolist() == answer["curve"]["mean_gap"]
-    assert "salebra sweep" in str(reader.attributes()["command_line"])
+    assert "salebra contact" in str(reader.attributes()["command_line"])
     heights = salebra.ResultReader(surface)
     field = next(name for name in heights.datasets() if heights[name].ndim == 2)
     assert np.array_equal(heights[field], salebra.read_surface(surface).heights)

@@ -33,6 +33,11 @@ struct SweepOptions {
   std::function<void(std::size_t, const NormalContactState&)> on_state = {};
 };
 
+/// What a curve holds of one contact, with the stiffnesses that the options ask for; the concurrent
+/// loads, groups and calls among them are not used. Collective where the surface is spread.
+ForceSample force_sample(const NormalContactState& state, const Surface& surface,
+                         const Material& material, const SweepOptions& options);
+
 /// Force–gap curve of a surface by boundary elements, one independent solve for each pressure, in
 /// parallel over loads: a solve that starts from its own coarse grids is not slower than one that
 /// starts from the neighbouring load. A surface may be spread over several processes: the call is

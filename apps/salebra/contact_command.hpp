@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <salebra/contact/normal/normal.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contact_checkpoint.hpp"
+#include "options.hpp"
+
+/// What `contact` was given, and its answers for one position, for several, and by the theory of
+/// Greenwood and Williamson.
+namespace salebra::cli {
+
+struct ContactArguments {
+  const Command* command = nullptr;
+  SurfaceOptions surface;
+  MaterialOptions material;
+  std::string model = "bem";
+
+  /// Positions; one of them has values.
+  std::vector<double> pressure, force, mean_gap, indentation, separation;
+
+  std::string boundary = "periodic", precision = "mixed";
+  bool stiffness = false, stick = false;
+  std::optional<double> tolerance, hardness;
+  int max_iterations = NormalContactOptions().max_iterations;
+  int groups = 0;  ///< 0: as many as memory holds
+  DryRunOptions dry_run;
+
+  std::string initial, residual, fields, field_type;
+  ContactCheckpoint checkpoint;
+
+  std::optional<double> summit_density, radius, summit_rms;
+  std::string distribution = "gaussian";
+
+  /// The number of positions. Throws InvalidInput unless they are of one kind, and > 0 but for a
+  /// separation.
+  std::size_t positions() const;
+  /// p, Pa, of pressures and forces, from the lowest; empty for other positions.
+  std::vector<double> pressures_on(double area) const;
+  NormalContactOptions contact_options(Session& session) const;
+};
+
+/// The state of the surface at one position, by boundary elements.
+void press_once(const ContactArguments& arguments, Session& session);
+/// The force curve of the surface at several pressures, by boundary elements.
+void press_often(const ContactArguments& arguments, Session& session);
+/// The force curve of summits, those of the surface or of parameters.
+void press_summits(const ContactArguments& arguments, Session& session);
+
+/// Answers --dry-run.
+void estimate_contacts(const ContactArguments& arguments, Session& session);
+/// Groups of processes that share the loads of several positions. Collective.
+int contact_groups(const ContactArguments& arguments, Session& session);
+
+}  // namespace salebra::cli

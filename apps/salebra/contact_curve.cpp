@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Several positions of `salebra contact`: a force curve, the groups of processes that share it, and
+// what contacts would cost.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/memory.hpp>
+#include <salebra/contact/sweep.hpp>
+#include <salebra/results/force_curve_file.hpp>
+
+#include "contact_command.hpp"
+#include "curve_figure.hpp"
+#include "curve_json.hpp"
+#include "dry_run.hpp"
+#include "first_loading.hpp"
+
+namespace salebra::cli {
+namespace {
+
+/// Surfaces that are generated take as many groups as memory holds; a file is read once.
+int groups_of(const ContactArguments& arguments, const SurfaceWork& work, const Session& session) {
+  if (arguments.groups > 0) return arguments.groups;
+  if (arguments.surface.recipe.empty() || work.ranks == 1 || work.loads.size() == 1) return 1;
+  return groups_that_fit(work, [&](double bytes) {
+    if (!arguments.dry_run.dry_run) return memory_of_nodes(bytes, session.ranks()).suffices();
+    const double available = static_cast<double>(available_memory());
+    return available == 0 || bytes * std::ceil(double(work.ranks) / work.nodes) <= available;
+  });
+}
+
+SurfaceWork work_of(const ContactArguments& arguments, const SurfaceOutline& outline,
+                    Session& session) {
+  SurfaceWork work = planned(arguments.dry_run, outline.grid, session);
+  const double unit = arguments.material.material().contact_modulus * outline.rms_slope;
+  for (const double pressure : arguments.pressures_on(outline.grid.area()))
+    work.loads.push_back(pressure / unit);
+  // A gap or an indentation does not tell the load: contact on a tenth of the cells is assumed.
+  if (work.loads.empty()) work.loads = {0.05};
+  work.normal_stiffness = arguments.stiffness;
+  work.tangential_stiffness = arguments.stick;
+  work.boundary = *value_of<Boundary>(arguments.boundary);
+  work.groups = groups_of(arguments, work, session);
+  return work;
+}
+
+}  // namespace
+
+void estimate_contacts(const ContactArguments& arguments, Session& session) {
+  const SurfaceOutline outline = arguments.surface.outline(session);
+  answer_dry_run(work_of(arguments, outline, session), outline.origin, session);
+}
+
+int contact_groups(const ContactArguments& arguments, Session& session) {
+  if (arguments.groups > 0 || arguments.surface.recipe.empty() || session.ranks().alone())
+    return std::max(1, arguments.groups);
+  return work_of(arguments, arguments.surface.outline(session), session).groups;
+}
+
+void press_often(const ContactArguments& arguments, Session& session) {
+  const Material material = arguments.material.material();
+  const int groups = contact_groups(arguments, session);
+  SweepOptions options;
+  options.contact = arguments.contact_options(session);
+  options.stiffness = arguments.stiffness;
+  options.stick = arguments.stick;
+  options.groups = Groups(session.ranks(), groups);
+  Surface surface = arguments.surface.read(session, options.groups->own());
+  const std::vector<double> pressures = arguments.pressures_on(surface.grid.area());
+  session.doubt(doubt_of_pressure(pressures.back(), material.contact_modulus));
+  const std::optional<FirstLoading> first_loading = load_first(
+      surface, arguments.hardness, material.contact_modulus, pressures.back(), options.contact);
+  const ForceCurve curve = sweep_pressures(surface, material, pressures, options);
+  if (session.stopped()) throw Interrupted("contact: interrupted; nothing was written");
+  collectively(session.ranks(), [&] {
+    if (session.has_output() && session.ranks().is_root())
+      write_force_curve(session.output(), curve, session.provenance(), session.write_options());
+  });
+  if (session.has_plot()) session.plot(curve_figure(curve));
+  Json answer = {{"curve", to_json(curve)}};
+  if (!session.ranks().alone()) answer["groups"] = groups;
+  add_first_loading(answer, first_loading);
+  session.answer(answer);
+  const auto lost = std::ranges::count(curve.samples, false, &ForceSample::converged);
+  if (lost > 0)
+    throw NotConverged(
+        fmt::format("contact: {} of {} pressures did not converge; allow a larger --tolerance",
+                    lost, curve.samples.size()));
+}
+
+}  // namespace salebra::cli

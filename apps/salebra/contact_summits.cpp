@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra contact --model gw_…`: Greenwood-Williamson curves of a surface or of given parameters.
+#include <memory>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/results/columns.hpp>
+#include <salebra/results/force_curve_file.hpp>
+#include <salebra/surface/moments.hpp>
+#include <salebra/surface/summits.hpp>
+
+#include "contact_command.hpp"
+#include "curve_figure.hpp"
+#include "curve_json.hpp"
+
+namespace salebra::cli {
+namespace {
+
+/// A model with the ensemble that describes it.
+struct DescribedModel {
+  std::unique_ptr<AsperityModel> model;
+  SummitEnsemble ensemble;
+};
+
+DescribedModel statistical(const SummitEnsemble& ensemble, const Material& material, double area) {
+  return {std::make_unique<StatisticalSummits>(ensemble, material, area), ensemble};
+}
+
+DescribedModel of_surface(const ContactArguments& arguments, const Material& material,
+                          Session& session) {
+  arguments.command->require_none_of(
+      "Summits without a surface",
+      "given together with a surface, which has its own summits; leave out one of them");
+  const Surface surface = arguments.surface.read(session);
+  const HeightStatistics heights = height_statistics(surface);
+  if (arguments.model == "gw_deterministic") {
+    const SummitList list = find_summits(surface);
+    SummitEnsemble ensemble = summit_ensemble(summit_statistics(list), heights.mean);
+    ensemble.rms_height = heights.rms_height;
+    return {std::make_unique<DeterministicSummits>(list.summits, material, list.searched_area,
+                                                   heights.mean, heights.rms_height),
+            ensemble};
+  }
+  surface.require_complete("spectral moments");
+  const SpectralMoments moments = surface_moments(surface);
+  SummitEnsemble ensemble = summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
+  ensemble.distribution = *value_of<SummitDistribution>(arguments.distribution);
+  ensemble.rms_height = heights.rms_height;
+  return statistical(ensemble, material, surface.grid.area());
+}
+
+DescribedModel of_parameters(const ContactArguments& arguments, const Material& material) {
+  constexpr std::string_view reason = "there is no SURFACE to take it from";
+  require_that(arguments.model == "gw_moments", "--model",
+               arguments.model + " takes the summits of a surface; give SURFACE (or --recipe)");
+  SummitEnsemble ensemble;
+  ensemble.summit_density = required(arguments.summit_density, "--summit-density", reason);
+  ensemble.radius = required(arguments.radius, "--radius", reason);
+  ensemble.summit_rms = required(arguments.summit_rms, "--summit-rms", reason);
+  ensemble.distribution = *value_of<SummitDistribution>(arguments.distribution);
+  const double size_x = arguments.surface.size_x.value_or(1);
+  const double size_y = arguments.surface.size_y.value_or(1);
+  require_positive(size_x, "--size-x");
+  require_positive(size_y, "--size-y");
+  return statistical(ensemble, material, size_x * size_y);
+}
+
+ForceCurve curve_of(const ContactArguments& arguments, const AsperityModel& model) {
+  const AsperityModel::Common& common = model.common();
+  const std::vector<double> pressures = arguments.pressures_on(common.nominal_area);
+  if (!pressures.empty()) return curve_at_pressures(model, pressures);
+  std::vector<double> separations = arguments.separation;
+  for (const double gap : arguments.mean_gap) separations.push_back(gap - common.mean_height);
+  for (const double depth : arguments.indentation)
+    separations.push_back(common.first_touch - depth);
+  return curve_at_separations(model, separations);
+}
+
+}  // namespace
+
+void press_summits(const ContactArguments& arguments, Session& session) {
+  session.require_one_process("--model " + arguments.model);
+  const Material material = arguments.material.material();
+  const auto [model, ensemble] = arguments.surface.given()
+                                     ? of_surface(arguments, material, session)
+                                     : of_parameters(arguments, material);
+  const ForceCurve curve = curve_of(arguments, *model);
+  if (session.has_output())
+    write_force_curve(session.output(), curve, session.provenance(), session.write_options());
+  if (session.has_plot()) session.plot(curve_figure(curve));
+  Json parameters = json_of(ensemble);
+  parameters["distribution"] = word_of(ensemble.distribution);
+  session.answer(Json{{"parameters", parameters}, {"curve", to_json(curve)}});
+}
+
+}  // namespace salebra::cli
