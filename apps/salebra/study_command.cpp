@@ -68,10 +68,11 @@ void StudyArguments::add_to(Command& command, bool over_processes) {
                "stop where the means of l and of the area slope are known so well, such as 2%");
   add_quantity(command, "--relative-error", relative_error, Dimension::dimensionless,
                "of each damping constant, such as 5%: halves the cells until it is met");
-  command.add_option("--levels", levels,
-                     "intervals between contacts inside the oscillation, 4, 8, 16 or 32; default "
-                     "8 for one surface, 4 for each of several; 0: none, the loss from the curve "
-                     "between loads, faster and without an error");
+  command.add_option(
+      "--levels", levels,
+      "intervals between contacts inside the oscillation, 4, 8, 16 or 32, half as "
+      "many on finer grids and for each of several surfaces; default 4; 0: none, the "
+      "loss from the curve between loads, faster and without an error");
   add_choice<SeamCheck>(
       command, "--seam-error", seam_error,
       "add the error of the seam of a scan that is continued: from its heights with a "

@@ -65,7 +65,7 @@ surface : Surface
 material : Material
 motion : EqualFrequency or Drag
 curve : ForceCurve
-    Of this surface and material, by sweep_pressures(); its loads are the loads of the answer.
+    Of this surface and material, by sweep_pressures(); its loads are the loads of the answer. Where it has K_t of stick solves, so have the contacts.
 hold : {"indentation", "force"}
 amplitude : {"finite", "small"}
 boundary : {"periodic", "free"}

@@ -16,104 +16,98 @@
 #include <salebra/base/share.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/contact/normal/normal.hpp>
+#include <salebra/contact/tangential/stick.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/refine.hpp>
 
 #include "contact/normal/contact_memory.hpp"
+#include "kriged_stiffness.hpp"
 #include "phase_quadrature.hpp"
-#include "surface/dense_systems.hpp"
 
 namespace salebra {
 namespace {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
+using detail::KrigedStiffness;
+using detail::StiffnessSample;
+using detail::VarianceScales;
 using std::numbers::pi;
+
+// K_t is a maximum over the tractions: its error is about the square of this.
+constexpr double stick_tolerance = 1e-3;
 
 constexpr int most_levels = 32;
 // The finest grid has at least so many: the scatter of W is then a tenth.
 constexpr double enough_cells = 100;
 constexpr double widest_window = 0.25;  // of F/K
-// In standard deviations: 90 % of normal deviates are smaller.
-constexpr double coverage = 1.645;
+// In standard deviations: 93 % of normal deviates are smaller.
+constexpr double coverage = 1.8;
 
-/// ρ = K_t/((G*/E*)K) about one load of the curve, linear in ln F.
-struct StiffnessRatio {
-  double value = 1, slope = 0, force = 0;
-  double error = 0;  // of the relative size of W
+/// ρ = K_t/((G*/E*)K) about one load, a parabola in ln F through three contacts.
+class StiffnessRatio {
+ public:
+  struct Point {
+    double force = 0, ratio = SurfaceDamping::unknown;
+  };
 
-  double at(double other_force) const {
-    // Where the contact opens, F' goes to zero with F, and ρ does not matter.
-    return value + slope * std::clamp(std::log(std::max(other_force, 0.0) / force), -1.0, 1.0);
+  StiffnessRatio(const Point& low, const Point& middle, const Point& high)
+      : low_(known(low) ? std::log(low.force / middle.force) : 0),
+        high_(known(high) ? std::log(high.force / middle.force) : 0),
+        force_(middle.force),
+        value_(middle.ratio) {
+    if (low_ < 0) slope_ = (low.ratio - value_) / low_;
+    if (high_ > 0) {
+      const double other = (high.ratio - value_) / high_;
+      if (low_ < 0) {
+        bend_ = (other - slope_) / (high_ - low_);
+        slope_ -= bend_ * low_;
+      } else {
+        slope_ = other;
+      }
+    }
   }
+
+  /// As at the lowest or the highest of the three beyond them: where the contact opens F' goes to
+  /// zero with F, and ρ does not matter.
+  double at(double force) const {
+    const double way = std::clamp(std::log(std::max(force, 0.0) / force_), low_, high_);
+    return value_ + way * (slope_ + way * bend_);
+  }
+  double middle() const { return value_; }
+  /// The line parallel to the chord from the lowest to the highest, at their distance of least
+  /// squares.
+  StiffnessRatio straight() const {
+    StiffnessRatio line = *this;
+    line.bend_ = 0;
+    line.slope_ = slope_ + bend_ * (low_ + high_);
+    line.value_ = value_ - 2.0 / 3 * bend_ * low_ * high_;
+    return line;
+  }
+
+ private:
+  static bool known(const Point& point) { return std::isfinite(point.ratio) && point.force > 0; }
+  double low_, high_, force_;  // ln F, from that of the middle
+  double value_, slope_ = 0, bend_ = 0;
 };
 
-StiffnessRatio ratio_at(const ForceCurve& curve, std::size_t load, double modulus_ratio) {
-  const auto ratio = [&](const ForceSample& sample) {
-    return sample.tangential_stiffness / (modulus_ratio * sample.normal_stiffness);
-  };
-  const ForceSample& here = curve.samples[load];
-  StiffnessRatio result{.force = here.force};
-  result.value = ratio(here);
-  std::vector<double> slopes;
-  for (const int side : {-1, 1}) {
+StiffnessRatio::Point point_of(const ForceSample& sample, double modulus_ratio) {
+  const double ratio = sample.tangential_stiffness / (modulus_ratio * sample.normal_stiffness);
+  return {sample.force, sample.converged ? ratio : SurfaceDamping::unknown};
+}
+
+/// By the neighbouring loads of the curve that converged.
+StiffnessRatio ratio_on(const ForceCurve& curve, std::size_t load, double modulus_ratio) {
+  StiffnessRatio::Point sides[2];
+  for (const int side : {-1, 1})
     for (auto k = static_cast<std::ptrdiff_t>(load) + side;
          k >= 0 && k < static_cast<std::ptrdiff_t>(curve.samples.size()); k += side) {
-      const ForceSample& other = curve.samples[static_cast<std::size_t>(k)];
-      if (!other.converged || !std::isfinite(ratio(other))) continue;
-      slopes.push_back((ratio(other) - result.value) / std::log(other.force / here.force));
+      const auto point = point_of(curve.samples[static_cast<std::size_t>(k)], modulus_ratio);
+      if (!std::isfinite(point.ratio)) continue;
+      sides[side > 0] = point;
       break;
     }
-  }
-  // K_t' = ρ(G*/E*)F''(1 + d lnρ/d lnK): the slope enters W with its full size.
-  if (slopes.size() == 2) {
-    result.slope = (slopes[0] + slopes[1]) / 2;
-    result.error = std::abs(slopes[0] - slopes[1]) / 2 / result.value;
-  } else if (slopes.size() == 1) {
-    result.slope = slopes[0];
-    result.error = std::abs(slopes[0]) / result.value;
-  }
-  return result;
-}
-
-/// Least squares over Chebyshev–Lobatto points of [−1, 1], from 1 to −1.
-struct Rule {
-  VectorXd points;
-  MatrixXd basis, inverse;  // T_l at the points; coefficients = inverse · values
-
-  Rule(int levels, int degree) : points(levels + 1), basis(levels + 1, degree + 1) {
-    for (int k = 0; k <= levels; ++k) {
-      points(k) = std::cos(pi * k / levels);
-      for (int l = 0; l <= degree; ++l) basis(k, l) = std::cos(pi * k * l / levels);
-    }
-    inverse = detail::pseudo_inverse(basis);
-  }
-  explicit Rule(int levels) : Rule(levels, levels == 4 ? 3 : levels / 2) {}
-};
-
-double value_of(const VectorXd& coefficients, double x) {
-  const double angle = std::acos(std::clamp(x, -1.0, 1.0));
-  double sum = 0;
-  for (Index l = 0; l < coefficients.size(); ++l)
-    sum += coefficients(l) * std::cos(static_cast<double>(l) * angle);
-  return sum;
-}
-
-double slope_of(const VectorXd& coefficients, double x) {
-  const double angle = std::acos(std::clamp(x, -1.0, 1.0));
-  double sum = 0;
-  for (Index l = 1; l < coefficients.size(); ++l)
-    sum += coefficients(l) * detail::chebyshev_slope(l, angle);
-  return sum;
-}
-
-/// The value below which 95 % of all χ² of `freedom` degrees over their mean are (Wilson and
-/// Hilferty).
-double usual_residual(double freedom) {
-  const double variance = 2 / (9 * freedom);
-  return std::pow(1 - variance + 1.645 * std::sqrt(variance), 3);
+  return {sides[0], point_of(curve.samples[load], modulus_ratio), sides[1]};
 }
 
 /// The contacts of one load on one grid.
@@ -128,38 +122,87 @@ class Levels {
     limit_ = heights.maximum - heights.mean;
   }
 
-  struct Contact {
-    double force = 0;
-    double cells = 0, perimeter = 0, spots = 0;  // perimeter in widths of a cell
-  };
-
   bool usable() const { return converged_; }
 
   /// The indentation under a pressure.
   double indentation_at(double pressure) {
     NormalContactState state = press_to_pressure(surface_, contact_modulus_, pressure, options_);
-    known_[state.indentation] = contact_of(state);
-    return take(state);
+    take(state);
+    return last_at_;
   }
 
-  Contact at(double indentation) {
-    if (indentation <= 0) return {};
-    if (const auto found = known_.find(indentation); found != known_.end()) return found->second;
-    if (indentation >= limit_) {
-      converged_ = false;
-      return {};
-    }
+  StiffnessSample without_stiffness_at(double indentation) { return contact(indentation); }
+
+  StiffnessSample at(double indentation) {
+    StiffnessSample& sample = contact(indentation);
+    if (sample.force > 0 && !(sample.stiffness > 0)) stiffen(sample);
+    return sample;
+  }
+
+  /// K_t/((G*/E*)K) by a stick solve; NaN where nothing touches.
+  StiffnessRatio::Point ratio_at(double indentation, const Material& material) {
+    StiffnessSample& sample = contact(indentation);
+    if (!(sample.force > 0)) return {};
+    Field punch_pressure;
+    const NormalContactState state = stiffen(sample, &punch_pressure);
+    if (!converged_) return {};
+    StickOptions stick;
+    stick.tolerance = stick_tolerance;
+    stick.boundary = options_.boundary;
+    stick.on_progress = options_.on_progress;
+    const StickStiffness tangential =
+        stick_stiffness(contact_set(state), surface_.grid, material, stick, true,
+                        punch_pressure * material.modulus_ratio(), surface_.ranks);
+    converged_ = converged_ && tangential.converged;
+    return {sample.force, tangential.xx / (material.modulus_ratio() * sample.stiffness)};
+  }
+
+ private:
+  /// The contact without its stiffness, solved where it is not known.
+  StiffnessSample& contact(double indentation) {
+    if (indentation > 0 && indentation < limit_ && !known_.contains(indentation))
+      press(indentation);
+    converged_ = converged_ && indentation < limit_;
+    StiffnessSample& sample = known_[indentation];
+    sample.indentation = indentation;
+    return sample;
+  }
+
+  /// How many cells a straight piece of the perimeter has: (1 + s)/2s of a ridge at the slope s to
+  /// the grid, and all of its length where it is along the grid.
+  double together(const ContactSpots& spots) const {
+    const Grid2D& grid = surface_.grid;
+    const double along_x = spots.perimeter_along_x / grid.dx();
+    const double along_y = (spots.perimeter - spots.perimeter_along_x) / grid.dy();
+    const double pieces =
+        std::max({2 * std::min(along_x, along_y), 2.0 * double(spots.spots.size()), 1.0});
+    return std::max(1.0, (along_x + along_y) / pieces);
+  }
+
+  /// Adds the stiffness; returns the contact, of which it needs the pressure.
+  NormalContactState stiffen(StiffnessSample& sample, Field* punch_pressure = nullptr) {
+    if (sample.indentation != last_at_ && !(before_ && sample.indentation == before_at_))
+      press(sample.indentation);
+    NormalContactState state;
+    state.contact_pressure = sample.indentation == last_at_ ? *last_ : *before_;
+    state.ranks = surface_.ranks;
+    sample.stiffness =
+        normal_stiffness(state, surface_.grid, contact_modulus_, options_, punch_pressure);
+    converged_ = converged_ && std::isfinite(sample.stiffness);
+    return state;
+  }
+
+  void press(double indentation) {
     NormalContactOptions options = options_;
     const std::optional<Field> start = extrapolated(indentation);
     if (start) options.initial_pressure = &*start;
     NormalContactState state =
         press_to_indentation(surface_, contact_modulus_, indentation, options);
-    known_[indentation] = contact_of(state);
+    // The key is what was asked for, to the last bit.
+    state.indentation = indentation;
     take(state);
-    return known_[indentation];
   }
 
- private:
   /// Pressures are nearly linear over the short way from two contacts to a third.
   std::optional<Field> extrapolated(double indentation) const {
     if (!before_) return last_;
@@ -167,33 +210,34 @@ class Levels {
     if (std::abs(share) > 3) return last_;
     return Field((*last_ + share * (*last_ - *before_)).max(0.0));
   }
-  Contact contact_of(const NormalContactState& state) const {
-    const ContactSpots spots =
-        contact_spots(state.contact_pressure, surface_.grid, options_.boundary, surface_.ranks);
-    return {
-        .force = state.force,
-        .cells =
-            std::round(state.contact_area_fraction * static_cast<double>(surface_.grid.points())),
-        // Along the sides of cells a curve is longer by 4/π in the mean over its directions (Cauchy
-        // and Crofton).
-        .perimeter = pi / 4 * spots.perimeter / std::sqrt(surface_.grid.cell_area()),
-        .spots = static_cast<double>(spots.spots.size())};
-  }
+
   /// The state becomes the start of the next; its pressure is moved away.
-  double take(NormalContactState& state) {
+  void take(NormalContactState& state) {
     if (state.interrupted) throw Interrupted("damping: interrupted");
     converged_ = converged_ && state.converged;
+    StiffnessSample& sample = known_[state.indentation];
+    const ContactSpots spots =
+        contact_spots(state.contact_pressure, surface_.grid, options_.boundary, surface_.ranks);
+    sample.indentation = state.indentation;
+    sample.force = state.force;
+    sample.cells =
+        std::round(state.contact_area_fraction * static_cast<double>(surface_.grid.points()));
+    sample.spots = static_cast<double>(spots.spots.size());
+    // Along the sides of cells a curve is longer by 4/π in the mean over its directions (Cauchy and
+    // Crofton).
+    sample.perimeter = pi / 4 * spots.perimeter / std::sqrt(surface_.grid.cell_area());
+    sample.together = together(spots);
     before_ = std::move(last_);
     before_at_ = last_at_;
     last_ = std::move(state.contact_pressure);
-    return last_at_ = state.indentation;
+    last_at_ = state.indentation;
   }
 
   const Surface& surface_;
   double contact_modulus_;
   NormalContactOptions options_;
   double limit_;
-  std::map<double, Contact> known_;
+  std::map<double, StiffnessSample> known_;
   std::optional<Field> last_, before_;  // whether there are any is the same in all processes
   double last_at_ = 0, before_at_ = 0;
   bool converged_ = true;
@@ -202,9 +246,8 @@ class Levels {
 /// What one grid says of one load.
 struct GridValue {
   double work = SurfaceDamping::unknown;
-  double scatter = std::numeric_limits<double>::infinity();  // one standard deviation of `work`, J
-  double level_error = 0, solver_error = 0;                  // J
-  int levels = 0;
+  double deviation = std::numeric_limits<double>::infinity();  // standard, of `work`, J
+  double ratio_error = 0, solver_error = 0;                    // J
   Index points = 0;
   bool converged = false;
 };
@@ -222,7 +265,7 @@ class Load {
         motion_(motion),
         options_(options),
         sample_(curve.samples[k]),
-        ratio_(ratio_at(curve, k, material.modulus_ratio())),
+        ratio_(ratio_on(curve, k, material.modulus_ratio())),
         amplitude_(detail::normal_amplitude(motion)) {
     levels_ = options.levels;
     half_ = amplitude_;
@@ -230,24 +273,16 @@ class Load {
       // The weight sinks back by u_z²F''/(4K), about u_z²K/(4F).
       half_ += std::min(amplitude_,
                         amplitude_ * amplitude_ * sample_.normal_stiffness / sample_.force / 2);
-    half_ = moved_ = std::min(half_, 2 * amplitude_);
+    half_ = std::min(half_, 2 * amplitude_);
   }
 
   const std::vector<GridValue>& values() const { return values_; }
-  const StiffnessRatio& ratio() const { return ratio_; }
+  double stiffness_ratio() const { return ratio_.middle(); }
   double window() const { return half_; }
-  /// Relative standard deviation of W by the chance at which spots touch within the window and
-  /// outside the oscillation. With n spots of an exponential law, F'' is a sum of their δᵢ^{−1/2};
-  /// the Poisson variance of what a polynomial of degree d makes of it is I/(πn), I = ½ ln(1 +
-  /// 1.6((H/u_z)² − 1)/d²) to a tenth, by quadrature over the place of a spot for H/u_z of 1.5 to
-  /// 40.
-  double spot_chance() const {
-    const double wider = half_ / moved_, degree = Rule(levels_).inverse.rows() - 1.0;
-    const double missed = std::log1p(1.6 * (wider * wider - 1) / (degree * degree)) / 2;
-    return std::sqrt(missed / (pi * spots_));
-  }
+  int levels() const { return levels_; }
+  double level_error() const { return level_error_; }
   bool usable() const {
-    return sample_.converged && sample_.force > 0 && std::isfinite(ratio_.value) &&
+    return sample_.converged && sample_.force > 0 && std::isfinite(ratio_.middle()) &&
            (values_.empty() || values_.back().converged);
   }
 
@@ -259,19 +294,27 @@ class Load {
     const bool first = values_.empty();
     Levels levels(surface, material_.contact_modulus, contact);
     const double center = levels.indentation_at(sample_.pressure);
-    if (first) widen(levels, center);
-    spots_ = levels.at(center).spots;
+    if (first) {
+      widen(levels, center);
+      // Both stiffnesses see the same cells, so that the first grid is fine enough. A curve that
+      // has K_t = (G*/E*)K keeps it.
+      if (states_error() && std::abs(ratio_.middle() - 1) > 1e-9) {
+        const auto high = levels.ratio_at(center + half_, material_);
+        const auto middle = levels.ratio_at(center, material_);
+        ratio_ = {levels.ratio_at(center - half_, material_), middle, high};
+      }
+    }
     values_.push_back(integrate(levels, center));
     values_.back().points = surface.grid.nx;
     values_.back().converged = values_.back().converged && levels.usable();
   }
 
  private:
-  /// The second difference of F over the window is about F(KH/F)², and its tenth of a thousandth is
-  /// lost in nothing else.
+  /// The second difference of F over the window is about F(KH/F)²: its thousandth is lost in the
+  /// scatter.
   double tolerance() const {
     const double strain = half_ * sample_.normal_stiffness / sample_.force;
-    return std::clamp(1e-4 * strain * strain, 1e-13, 1e-6);
+    return std::clamp(1e-3 * strain * strain, 1e-12, 1e-6);
   }
 
   void widen(Levels& levels, double center) {
@@ -279,152 +322,140 @@ class Load {
     const double wanted =
         enough_cells / std::pow(4.0, options_.coarsen ? 1 : std::min(options_.refinements, 1));
     while (half_ < widest && levels.usable()) {
-      const double cells = levels.at(center + half_).cells - levels.at(center - half_).cells;
+      const StiffnessSample high = levels.without_stiffness_at(center + half_),
+                            low = levels.without_stiffness_at(center - half_);
+      // Those that enter together count once.
+      const double cells = (high.cells - low.cells) / std::max(high.together, low.together);
       if (cells >= wanted) break;
       half_ = std::min(widest, half_ * std::clamp(1.2 * wanted / std::max(cells, 1.0), 2.0, 8.0));
     }
   }
 
+  bool states_error() const { return options_.coarsen || options_.refinements > 0; }
+
+  /// The first grid says how many levels are enough: their error is one of the surface, not of the
+  /// cells. With K of each contact half of them say hardly less, and are taken on other grids, and
+  /// where no error is stated.
   GridValue integrate(Levels& levels, double center) {
-    GridValue value;
-    std::vector<Levels::Contact> contacts;
-    for (int n = levels_;; n *= 2) {
-      std::vector<Levels::Contact> finer(static_cast<std::size_t>(n + 1));
+    const bool first = values_.empty();
+    std::vector<StiffnessSample> contacts;
+    const bool chooses = first && (options_.choose_levels || states_error());
+    for (int n = chooses ? levels_ : levels_ / 2;; n *= 2) {
+      std::vector<StiffnessSample> finer(static_cast<std::size_t>(n + 1));
       const bool nested = !contacts.empty();
       for (int k = 0; k <= n; ++k)
         finer[static_cast<std::size_t>(k)] = nested && k % 2 == 0
                                                  ? contacts[static_cast<std::size_t>(k / 2)]
                                                  : levels.at(center + half_ * std::cos(pi * k / n));
       contacts = std::move(finer);
-      if (!levels.usable()) return value;
-      value = evaluate(contacts, n);
-      levels_ = n;
-      double change = 0;
-      if (n > 4) {
-        std::vector<Levels::Contact> half;
+      if (!levels.usable()) return {};
+      // What one grid shows of the variances holds on the others.
+      const KrigedStiffness kriged(contacts, places(center));
+      VarianceScales scales = scales_;
+      scales.add(kriged.log_likelihood());
+      const GridValue value = evaluate(kriged, center, scales);
+      if (chooses) {
+        levels_ = n;
+        std::vector<StiffnessSample> half;
         for (std::size_t k = 0; k < contacts.size(); k += 2) half.push_back(contacts[k]);
-        change = beyond_scatter(value.work - evaluate(half, n / 2).work, value.scatter, 0);
-        value.level_error = change / 3;  // of second order at the least
+        const GridValue by_half = evaluate(KrigedStiffness(half, places(center)), center, scales);
+        level_error_ = std::abs(value.work - by_half.work);
+        if (options_.choose_levels && n < most_levels && level_error_ > value.deviation) continue;
       }
-      if (!options_.choose_levels || n >= most_levels || !(change > 2 * value.scatter))
-        return value;
+      scales_ = scales;
+      return value;
     }
   }
 
-  GridValue evaluate(const std::vector<Levels::Contact>& contacts, int n) const {
-    const Rule rule(n);
-    VectorXd force(n + 1);
-    for (int k = 0; k <= n; ++k) force(k) = contacts[static_cast<std::size_t>(k)].force;
-    const VectorXd series = rule.inverse * force;
+  /// Indentations at which K is kriged: at equal angles of the window and of the oscillation, which
+  /// starts where K is most uncertain.
+  Eigen::VectorXd places(double center) const {
+    constexpr int parts = 64;
+    std::vector<double> all;
+    for (int k = 0; k <= parts; ++k) {
+      all.push_back(half_ * std::cos(pi * k / parts));
+      all.push_back(amplitude_ * std::cos(pi * k / parts));
+    }
+    std::ranges::sort(all, std::greater());
+    const auto repeated = std::ranges::unique(
+        all, [&](double one, double other) { return one - other < 1e-9 * amplitude_; });
+    all.erase(repeated.begin(), repeated.end());
+    return center + Eigen::Map<const Eigen::ArrayXd>(all.data(), static_cast<Index>(all.size()));
+  }
+
+  GridValue evaluate(const KrigedStiffness& kriged, double center,
+                     const VarianceScales& scales) const {
     GridValue value;
-    value.levels = n;
-    const double mean = mean_position(series);
+    const double mean = mean_position(kriged, center);
     if (!std::isfinite(mean)) return value;
-    VectorXd weights(series.size());  // of the coefficients in W
-    for (Index l = 0; l < weights.size(); ++l)
-      weights(l) = work_of(VectorXd::Unit(weights.size(), l), series, mean);
-    const VectorXd node_weights = rule.inverse.transpose() * weights;
-    value.work = weights.dot(series);
-    value.converged = true;
-    value.solver_error = tolerance() * sample_.force * node_weights.lpNorm<1>();
-    value.scatter = scatter(contacts, rule, force, series, node_weights);
+    const Eigen::VectorXd weights = weights_of_work(kriged, ratio_, mean);
+    const auto [work, deviation] = kriged.estimate(weights, scales);
+    value.work = work;
+    value.deviation = deviation;
+    value.converged = std::isfinite(work);
+    const Eigen::VectorXd straight = weights_of_work(kriged, ratio_.straight(), mean);
+    value.ratio_error = std::abs(work - kriged.estimate(straight, scales).value);
+    value.solver_error = tolerance() * sample_.force * kriged.change_by_force(weights);
     return value;
   }
 
-  /// x = (δ − centre)/half of the mean indentation.
-  double mean_position(const VectorXd& series) const {
-    if (options_.hold == Hold::indentation || options_.amplitude == Amplitude::small) return 0;
+  /// The mean indentation of the oscillation.
+  double mean_position(const KrigedStiffness& kriged, double center) const {
+    if (options_.hold == Hold::indentation || options_.amplitude == Amplitude::small) return center;
     constexpr int phases = 64;
-    double x = 0;
+    double position = center;
     for (int iteration = 0; iteration < 20; ++iteration) {
       double mean = 0, slope = 0;
       for (int k = 0; k < phases; ++k) {
-        const double there = x + amplitude_ / half_ * std::cos(pi * (k + 0.5) / phases);
-        mean += value_of(series, there) / phases;
-        slope += slope_of(series, there) / phases;
+        const double there = position + amplitude_ * std::cos(pi * (k + 0.5) / phases);
+        mean += kriged.force(there) / phases;
+        slope += kriged.stiffness(there) / phases;
       }
       const double step = (sample_.force - mean) / slope;
-      x += step;
-      if (std::abs(step) < 1e-12) break;
+      position += step;
+      if (std::abs(step) < 1e-9 * half_) break;
     }
-    return std::abs(x) + amplitude_ / half_ <= 1 + 1e-9 ? x : SurfaceDamping::unknown;
+    return std::abs(position - center) + amplitude_ <= (1 + 1e-9) * half_ ? position
+                                                                          : SurfaceDamping::unknown;
   }
 
-  /// W of a term of the series of F, with ρ at the forces of the whole series.
-  double work_of(const VectorXd& term, const VectorXd& series, double mean) const {
-    const double modulus_ratio = material_.modulus_ratio();
-    const auto stiffness = [&](double x) {
-      return ratio_.at(value_of(series, x)) * modulus_ratio * slope_of(term, x) / half_;
+  /// W = Σ weights × K(places).
+  Eigen::VectorXd weights_of_work(const KrigedStiffness& kriged, const StiffnessRatio& ratio,
+                                  double mean) const {
+    const auto tangential = [&](double indentation) -> Eigen::VectorXd {
+      return material_.modulus_ratio() * ratio.at(kriged.force(indentation)) *
+             kriged.weights_at(indentation);
     };
     if (options_.amplitude == Amplitude::small) {
-      constexpr double step = 1e-3;
-      const double curvature =
-          (stiffness(mean + step) - stiffness(mean - step)) / (2 * step * half_);
-      return std::visit(
-          [&](const auto& m) { return closed_form::work_per_cycle(1.0, curvature, m); }, motion_);
+      // The slope of K over a part of the oscillation: F'' at a point has no limit, since every
+      // spot that touches there makes a pole.
+      const double part = amplitude_ / 4;
+      const double of_curvature = std::visit(
+          [](const auto& m) { return closed_form::work_per_cycle(1.0, 1.0, m); }, motion_);
+      return of_curvature / (2 * part) * (tangential(mean + part) - tangential(mean - part));
     }
-    return detail::loss_of(motion_, [&](double theta) {
-      return stiffness(mean + amplitude_ / half_ * std::cos(theta));
-    });
+    static const std::vector<detail::Node> nodes = detail::gauss_nodes(96);
+    // W is linear in K_t at the nodes and at the end.
+    Eigen::VectorXd weights = detail::loss(
+                                  motion_, nodes, [](std::size_t) { return 0.0; }, 1.0) *
+                              tangential(mean - amplitude_);
+    for (const detail::Node& node : nodes)
+      weights += detail::loss(
+                     motion_, {node}, [](std::size_t) { return 1.0; }, 0.0) *
+                 tangential(mean + amplitude_ * std::cos(node.theta));
+    return weights;
   }
-
-  /// Standard deviation of W from the chance at which whole cells enter, each of which raises K
-  /// alike.
-  double scatter(const std::vector<Levels::Contact>& contacts, const Rule& rule,
-                 const VectorXd& force, const VectorXd& series, const VectorXd& weights) const {
-    const double curvature = 4 * (Rule(rule.points.size() - 1, 2).inverse.row(2).dot(force));
-    const Index intervals = rule.points.size() - 1;
-    constexpr Index parts = 8;
-    // These say after each part how many entered, and what a step of K there adds to the forces.
-    VectorXd entered = VectorXd::Zero(intervals * parts + 1);
-    MatrixXd excess = MatrixXd::Zero(rule.points.size(), entered.size());
-    double edge = contacts.back().perimeter;
-    for (Index j = 0; j < intervals; ++j) {
-      const auto at = static_cast<std::size_t>(j);
-      edge += contacts[at].perimeter;
-      for (Index part = 0; part < parts; ++part) {
-        const Index k = j * parts + part;
-        const double x =
-            rule.points(j) + (rule.points(j + 1) - rule.points(j)) * (double(part) + 0.5) / parts;
-        entered(k + 1) =
-            entered(k) + std::max(0.0, contacts[at].cells - contacts[at + 1].cells) / parts;
-        const VectorXd step = (rule.points.array() - x).max(0.0).matrix();
-        excess.col(k) -= step;
-        excess.col(k + 1) += step;
-      }
-    }
-    const double cells = entered(intervals * parts);
-    if (!(cells > 0) || !(curvature > 0)) return std::numeric_limits<double>::infinity();
-    const double variance = lattice_variance * edge / static_cast<double>(contacts.size());
-    const MatrixXd covariance =
-        MatrixXd::NullaryExpr(entered.size(), entered.size(), [&](Index i, Index k) {
-          return variance * std::exp(-std::abs(entered(i) - entered(k)) / (2 * variance));
-        });
-    const double step = 2 * curvature / cells;  // F'' has the same over the window in the mean
-    const MatrixXd of_forces = step * step * excess * covariance * excess.transpose();
-    const MatrixXd residual_of =
-        MatrixXd::Identity(force.size(), force.size()) - rule.basis * rule.inverse;
-    const double expected = (residual_of * of_forces * residual_of.transpose()).trace();
-    const double found = (force - rule.basis * series).squaredNorm();
-    const auto freedom = static_cast<double>(force.size() - series.size());
-    const double more = std::max(1.0, found / expected / usual_residual(freedom));
-    return std::sqrt(more * weights.dot(of_forces * weights));
-  }
-
-  // Variance of the number of lattice points inside a smooth curve at a random place, for each unit
-  // of its length: Σ|k|⁻³/(4π³) over the reciprocal lattice (D. G. Kendall, Quart. J. Math. 19
-  // (1948) 1, for ovals).
-  static constexpr double lattice_variance = 0.0728;
 
   const Material& material_;
   const Oscillation& motion_;
   const SurfaceDampingOptions& options_;
   const ForceSample sample_;
-  const StiffnessRatio ratio_;
+  StiffnessRatio ratio_;
   const double amplitude_;
-  double half_ = 0, moved_ = 0;  // the window, and what the oscillation needs of it
-  double spots_ = 0;
-  int levels_ = 8;
+  double half_ = 0;  // of the window
+  int levels_ = 4;
+  double level_error_ = 0;  // J
+  VarianceScales scales_;
   std::vector<GridValue> values_;
 };
 
@@ -447,18 +478,18 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   result.converged = true;
   result.work_per_cycle = value.work;
   result.damping_constant = closed_form::damping_constant(value.work, motion);
-  result.level_error = value.level_error;
+  result.level_error = load.level_error();
   result.solver_error = value.solver_error;
-  result.scatter = coverage * std::hypot(value.scatter, value.work * load.spot_chance());
-  result.ratio_error = std::abs(value.work) * load.ratio().error;
-  result.stiffness_ratio = load.ratio().value;
+  result.ratio_error = value.ratio_error;
+  result.scatter = coverage * value.deviation;
+  result.stiffness_ratio = load.stiffness_ratio();
   result.window = load.window();
-  result.levels = value.levels;
+  result.levels = load.levels();
   result.points = value.points;
   if (values.size() < 2) return result;
   const GridValue& other = values[at > 0 ? at - 1 : values.size() - 1];
   // Forces converge at second order: of a halving a third remains on the finer cells.
-  const double change = beyond_scatter(value.work - other.work, value.scatter, other.scatter);
+  const double change = std::abs(value.work - other.work);
   result.cell_error = value.points < other.points ? 4 * change / 3 : change / 3;
   add_up(result);
   return result;
@@ -600,7 +631,7 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
     const GridValue& own =
         values[std::min<std::size_t>(options.coarsen ? 1 : 0, values.size() - 1)];
     result.seam_error =
-        beyond_scatter(unseamed[k].work_per_cycle - own.work, own.scatter, own.scatter);
+        beyond_scatter(unseamed[k].work_per_cycle - own.work, own.deviation, own.deviation);
     add_up(result);
   }
   return results;

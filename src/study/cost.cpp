@@ -55,11 +55,14 @@ double levels_of(const StudyConfiguration& point, const Grid2D& grid) {
   if (point.levels == 0) return 0;
   const auto of = [&](std::uint64_t seed) {
     const SurfaceDampingOptions options = surface_damping_options(point, grid, seed);
-    // One to begin with, and about two to choose the range.
-    const double contacts = options.levels + 2 + (options.choose_levels ? 2 : 0);
-    double grids = options.coarsen ? 1.25 : 1;
-    for (int k = 1; k <= options.refinements; ++k) grids += std::pow(4.6, k);
-    return contacts * (grids + (options.seam ? 1 : 0));
+    // With their stiffnesses, one contact to begin with, and about two to choose the range; on the
+    // first grid of an error three stick solves.
+    const double first = options.levels + 8, others = options.levels / 2.0 + 5;
+    double contacts = options.coarsen           ? first / 4 + others
+                      : options.refinements > 0 ? first
+                                                : others;
+    for (int k = 1; k <= options.refinements; ++k) contacts += others * std::pow(4.6, k);
+    return contacts + (options.seam ? others : 0);
   };
   const std::vector<std::uint64_t> seeds = detail::seeds_of(point);
   const auto count = static_cast<double>(seeds.size());

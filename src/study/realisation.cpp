@@ -275,7 +275,7 @@ SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configur
   SurfaceDampingOptions options;
   options.hold = configuration.damping.hold;
   options.amplitude = configuration.damping.amplitude;
-  options.levels = configuration.levels.value_or(alone || to_error ? 8 : 4);
+  options.levels = configuration.levels.value_or(4);
   options.choose_levels = alone || to_error;
   options.relative_error = configuration.relative_error;
   options.seam = configuration.seam;

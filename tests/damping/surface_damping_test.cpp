@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/law/law.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/generators/filtered_noise.hpp>
@@ -58,6 +60,94 @@ SurfaceDampingOptions converged_options() {
   options.levels = 16;
   options.refinements = 0;
   return options;
+}
+
+// Sums of waves whose numbers, directions and phases are fractions of multiples of irrational
+// numbers: none of the generator's surfaces. Rms height 1.
+Field waves(Index points, int seed, double highest, double direction, double spread) {
+  const auto fraction = [](double value) { return value - std::floor(value); };
+  Field sum = Field::Zero(points, points);
+  for (int i = 41 * seed + 1; i <= 41 * seed + 40; ++i) {
+    const double number = 2 * std::pow(highest / 2, fraction(std::numbers::sqrt2 * i));
+    const double angle = direction + spread * (fraction(std::numbers::sqrt3 * i) - 0.5);
+    const double along_x = std::round(number * std::cos(angle)),
+                 along_y = std::round(number * std::sin(angle));
+    const double phase = fraction(std::numbers::phi * i);
+    sum += Field::NullaryExpr(points, points, [&](Index x, Index y) {
+      return std::pow(number, -1.5) *
+             std::cos(2 * pi *
+                      ((along_x * double(x) + along_y * double(y)) / double(points) + phase));
+    });
+  }
+  return (sum - sum.mean()) / std::sqrt((sum - sum.mean()).square().mean());
+}
+
+// Turned ridges, peaks and pits of a lognormal surface, plateaux, smooth hills, all of an rms slope
+// of 0.1.
+Surface other_surface(int seed) {
+  constexpr Index points = 64;
+  const auto isotropic = [&](double cells, int other = 0) {
+    return waves(points, seed + other, double(points) / cells, 0, 2 * pi);
+  };
+  Surface surface{Grid2D{points, points, 1e-6, 1e-6}, {}, true};
+  switch (seed % 5) {
+    case 0:
+      surface.heights = waves(points, seed, double(points) / 6, 0.5, 0.5);
+      break;
+    case 1:
+      surface.heights = (0.8 * isotropic(8)).exp();
+      break;
+    case 2:
+      surface.heights = -(0.8 * isotropic(8)).exp();
+      break;
+    case 3:
+      surface.heights = isotropic(6).min(0.5) + 0.1 * isotropic(6, 7);
+      break;
+    default:
+      surface.heights = isotropic(20);
+  }
+  const auto square_of_steps = [&](const Field& steps) {
+    return (steps / surface.grid.dx()).square().mean();
+  };
+  const Field& h = surface.heights;
+  const double slope = std::sqrt(square_of_steps(h.bottomRows(points - 1) - h.topRows(points - 1)) +
+                                 square_of_steps(h.rightCols(points - 1) - h.leftCols(points - 1)));
+  surface.heights *= 0.1 / slope;
+  return surface;
+}
+
+// W of K_t = (G*/E*)K: the mean K between 17 contacts by their forces, and K of the last. 33 change
+// it by 0.3 %.
+double work_by_contacts(const Surface& surface, double pressure, const Drag& motion) {
+  constexpr int intervals = 16;
+  NormalContactOptions options;
+  options.tolerance = 1e-9;
+  NormalContactState state =
+      press_to_pressure(surface, material.contact_modulus, pressure, options);
+  const double center = state.indentation;
+  Field start = state.contact_pressure;
+  options.initial_pressure = &start;
+  std::vector<double> forces, indentations;
+  double last = 0;
+  for (int k = 0; k <= intervals; ++k) {
+    indentations.push_back(center + motion.normal_amplitude * std::cos(pi * k / intervals));
+    forces.push_back(0);
+    last = 0;
+    if (!(indentations.back() > 0)) continue;
+    state = press_to_indentation(surface, material.contact_modulus, indentations.back(), options);
+    start = state.contact_pressure;
+    forces.back() = state.force;
+    if (k == intervals)
+      last = normal_stiffness(state, surface.grid, material.contact_modulus, options);
+  }
+  double sum = 0;
+  for (std::size_t k = 0; k < intervals; ++k) {
+    const double from = pi * double(k) / intervals, to = pi * double(k + 1) / intervals;
+    const double mean = (forces[k] - forces[k + 1]) / (indentations[k] - indentations[k + 1]);
+    sum += (to * to - from * from) / 2 * (mean - last);
+  }
+  const double way = motion.drag_velocity / motion.angular_frequency;
+  return 4 * way * way * material.modulus_ratio() * sum;
 }
 
 struct Count {
@@ -141,8 +231,8 @@ TEST_CASE("What holds a mean force shifts the mean indentation of a paraboloid a
 }
 
 TEST_CASE("Stated errors of the damping of rough surfaces hold what it converges to") {
-  // Eighteen losses at three amplitudes. Of 180 with bench/damping/errors.cpp 91 % are held; 12 of
-  // 18 or fewer by chance would be one time in 500.
+  // Eighteen losses at three amplitudes, of which nine in ten at the least are held; 12 of 18 or
+  // fewer by chance would be one time in 500.
   Count count;
   for (const std::uint64_t seed : {11, 12, 13}) {
     const Surface surface = rough(48, seed), fine = refined(surface, 4);
@@ -155,9 +245,37 @@ TEST_CASE("Stated errors of the damping of rough surfaces hold what it converges
   }
   CHECK(count.cases >= 16);
   CHECK(count.held >= count.cases * 2 / 3);
-  // An error that is always held because it is huge says nothing. 3 in the bench; a median of
-  // eighteen varies by a half.
-  CHECK(count.median() < 6);
+  // An error that is always held because it is huge says nothing. The errors are about 4 times as
+  // large as what the losses miss by; a median of eighteen varies by a half.
+  CHECK(count.median() < 8);
+}
+
+TEST_CASE("Surfaces unlike the generator's have errors that hold, and none is missed by far") {
+  // Of the seeds 0 to 119, 99 % hold, and the largest ratio is 1.03. The first six are those in
+  // which forces alone, without the stiffnesses of the contacts, missed by up to 1.6 times.
+  int held = 0;
+  double largest = 0;
+  std::vector<double> stated;
+  for (const int seed : {27, 35, 85, 100, 103, 113, 0, 1}) {
+    const Surface surface = other_surface(seed);
+    const double pressure =
+        std::array{0.004, 0.02, 0.08}[std::size_t(seed % 3)] * 0.1 * material.contact_modulus;
+    const Drag motion = drag(surface, std::array{0.01, 0.03, 0.1, 0.2}[std::size_t(seed % 4)]);
+    const SurfaceDamping result = surface_damping(
+        surface, material, motion, curve_of(surface, {pressure}, Boundary::periodic, false))[0];
+    const double converged = work_by_contacts(refined(surface, 4), pressure, motion);
+    const double ratio = std::abs(result.work_per_cycle - converged) / result.error;
+    INFO(seed << ' ' << result.error / result.work_per_cycle << ' '
+              << converged / result.work_per_cycle - 1);
+    REQUIRE(result.converged);
+    CHECK(ratio < 1.6);
+    held += ratio <= 1;
+    stated.push_back(result.error / result.work_per_cycle);
+  }
+  CHECK(held >= 7);
+  // 12 % for all 120 seeds.
+  std::ranges::sort(stated);
+  CHECK(stated[stated.size() / 2] < 0.2);
 }
 
 TEST_CASE("Ridges along the grid, whose cells touch row by row, have errors that hold too") {
@@ -328,7 +446,7 @@ TEST_CASE("The error of a seam is the change of the loss beyond the scatter of b
     if (!seamed[k].converged || !free[k].converged || seamed[k].window != motion.normal_amplitude)
       continue;
     const double change = free[k].work_per_cycle - seamed[k].work_per_cycle;
-    const double deviation = seamed[k].scatter / 1.645;  // 90 % of cases
+    const double deviation = seamed[k].scatter / 1.8;  // standard deviations that it states
     const double beyond = change * change - 2 * deviation * deviation;
     // Both are the same numbers in another order. A scatter of a thousandth of the change changes
     // the result by 1e-6 of it.

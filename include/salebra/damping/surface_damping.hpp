@@ -40,10 +40,11 @@ struct SurfaceDampingOptions {
   Hold hold = Hold::indentation;
   Amplitude amplitude = Amplitude::finite;
   Boundary boundary = Boundary::periodic;
-  /// Intervals between the indentations at which the contact is solved: 4, 8, 16 or 32.
-  int levels = 8;
-  /// Doubles the levels, up to 32, where the last doubling changed W by more than the scatter of
-  /// whole cells.
+  /// Intervals between the indentations at which the contact is solved: 4, 8, 16 or 32. Half as
+  /// many on all grids but the first, and where neither an error is stated nor levels are chosen.
+  int levels = 4;
+  /// Doubles the levels, up to 32, where the last doubling changed W by more than its standard
+  /// deviation.
   bool choose_levels = true;
   /// Halvings of the cells (refined(), surface/refine.hpp). 0: the error of the cells is not known,
   /// and no error is stated.
@@ -74,13 +75,11 @@ struct SurfaceDamping {
   double damping_constant = unknown;  ///< γ, N s/m
   /// All that follow together: the root of the sum of their squares.
   double error = unknown;
-  double cell_error =
-      unknown;  ///< of the cells: a third of the change of W by their last halving, beyond scatter
-  double scatter =
-      unknown;  ///< of the chance at which whole cells, and spots, touch; holds in 90 % of cases
-  double level_error =
-      unknown;  ///< a third of the change of W by the last doubling of the levels, beyond scatter
-  double ratio_error = unknown;  ///< of K_t/((G*/E*)K) and its slope between the loads of the curve
+  double cell_error = unknown;  ///< of the cells: a third of the change of W by their last halving
+  /// Of the chance at which whole cells, and spots, touch: 1.8 standard deviations.
+  double scatter = unknown;
+  double level_error = unknown;  ///< change of W by the last doubling of the levels
+  double ratio_error = unknown;  ///< of the bend of K_t/((G*/E*)K) over the oscillation
   double seam_error = 0;  ///< change of W without the seam, beyond scatter; 0 where not asked for
   double solver_error = unknown;     ///< tolerance of the forces, as it enters W
   double stiffness_ratio = unknown;  ///< K_t/((G*/E*)K) at the load
@@ -122,38 +121,35 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
 
 /// Relaxation damping of one surface at each load of its curve, from contacts at indentations
 /// inside the oscillation, and no interpolation between loads: W = ½∮ s² dK_t by parts
-/// (docs/theory.md, section 7) with K_t = ρ(G*/E*)F'.
-///     F   least-squares polynomial through the forces of the contacts at Chebyshev–Lobatto points
-///         of δ. Forces are smooth: cells that enter change F at second order only, while K and K_t
-///         jump. Half as many powers as intervals (3 for 4 intervals).
-///     ρ   K_t/((G*/E*)K) of the curve: at the load, with its slope in ln F from the neighbouring
-///         loads.
+/// (docs/theory.md, section 7) with K_t = ρ(G*/E*)K.
+///     K   by universal kriging from the forces and stiffnesses of the contacts at
+///         Chebyshev–Lobatto points of δ, with the covariances of spots that touch at chance, and
+///         of cells that enter at chance (docs/surface_damping.md)
+///     ρ   K_t/((G*/E*)K): by stick solves on the first grid at the load and both ends, where an
+///         error is stated and the curve has not K_t = (G*/E*)K; otherwise of the curve at the
+///         load and its neighbours. A parabola in ln F
 /// The range of δ is that of the oscillation; where too few cells enter within it (fewer than 100
 /// on the finer grid), it is widened until they do, at most to F/(4K), over which F changes by
 /// e^{±1/4}.
 ///
-/// Errors. Of the levels: n against n/2 intervals, nested. Of the solver: its tolerance, relative
-/// to F, times the weights of the forces in W. Of ρ: the difference of its slopes to both sides. Of
-/// whole cells two parts. Scatter: cells that enter do so at chance indentations, and each raises K
-/// by the same step. A number N of them, which is counted, has the variance N as long as N is
-/// small, and no more than 2 × 0.0728 times the perimeter, in cells, where the perimeter moves by
-/// more than a fifth of a cell: that of lattice points inside a smooth curve at a random place.
-/// This makes a covariance of the forces, and W is linear in them. Where the residuals of the
-/// polynomial are larger than in 95 % of cases by this covariance (rows of cells that touch
-/// together), it is multiplied. A window wider than the oscillation adds the chance of the spots
-/// that touch in between, about ln(H/(3u_z))/(πn) of n spots. 1.645 standard deviations are stated,
-/// for 90 %. Bias: the surface is interpolated on cells of half the size, at the same pressure.
-/// Forces converge at second order, so that a third of what W changes by, beyond the scatter of
-/// both, is the error of the finer grid, and four thirds that of the coarser.
+/// Errors. W is linear in the forces and stiffnesses, so that the kriging gives its standard
+/// deviation, with the variances that the contacts of all grids so far show; 1.8 of them are
+/// stated. Of the cells: the surface is interpolated on cells of half the size, at the same
+/// pressure. Forces converge at second order, so that a third of what W changes by is the error of
+/// the finer grid, and four thirds that of the coarser. Of the levels: what W changes by between
+/// n/2 and n, nested, on the first grid. Of ρ: what W changes by where ρ is a straight line. Of the
+/// solver: its tolerance, relative to F, times the weights of the forces in W.
 ///
 /// curve   of this surface and material, by sweep_pressures(); samples that did not converge are
 ///         left out (converged = false)
 /// throws  InvalidInput for a curve without loads, levels that are none of the four, relative_error
 ///         outside [0, 1); Interrupted where on_progress says stop. A surface may be spread over
 ///         processes: the call is then collective, takes one load after the other, and all numbers
-///         have the same bits as in one process
-/// cost    for each load levels + 3 to 9 normal contacts on each grid, in parallel over loads; a
-///         halving of the cells costs five times the grid before it
+///         have the same bits as in one process, but for those of isolated surfaces, as K of
+///         sweep_pressures()
+/// cost    for each load levels + 1 to 5 normal contacts and stiffnesses on the first grid, three
+///         on others, in parallel over loads; a halving of the cells costs five times the grid
+///         before it
 std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Material& material,
                                             const Oscillation& motion, const ForceCurve& curve,
                                             const SurfaceDampingOptions& options = {});

@@ -97,10 +97,10 @@ struct StudyConfiguration {
   /// each surface is first loaded to the largest pressure, after_first_loading(), and the study is
   /// of the residual surface.
   ContactFacts known;
-  /// Intervals between the contacts inside the oscillation, SurfaceDampingOptions::levels; empty: 8
-  /// for one surface, doubled where they do not suffice, 4 for each of several. 0: none, the loss
-  /// of the boundary elements is that of their curve between loads, without an error, as the loss
-  /// of every other model.
+  /// Intervals between the contacts inside the oscillation, SurfaceDampingOptions::levels; empty:
+  /// 4, doubled for one surface where they do not suffice. 0: none, the loss of the boundary
+  /// elements is that of their curve between loads, without an error, as the loss of every other
+  /// model.
   std::optional<int> levels = {};
   double relative_error =
       0;  ///< of each damping constant, for which the cells are halved; 0: does not

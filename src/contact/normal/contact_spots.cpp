@@ -250,8 +250,8 @@ ContactSpots contact_spots(const Field& pressure, const Grid2D& grid, Boundary b
 
   const double points = static_cast<double>(grid.points());
   result.contact_area_fraction = static_cast<double>(cells) / points;
-  result.perimeter = static_cast<double>(edges_across_x) * grid.dy() +
-                     static_cast<double>(edges_across_y) * grid.dx();
+  result.perimeter_along_x = static_cast<double>(edges_across_y) * grid.dx();
+  result.perimeter = static_cast<double>(edges_across_x) * grid.dy() + result.perimeter_along_x;
   // Every edge takes its share of one cell.
   const double excess = (std::numbers::pi - 1 + std::numbers::ln2) / 24 *
                         static_cast<double>(edges_across_x + edges_across_y) / points;

@@ -21,6 +21,7 @@ struct ContactSpots {
   std::vector<ContactSpot> spots;    ///< largest area first
   double contact_area_fraction = 0;  ///< cells with p > 0 over all cells
   double perimeter = 0;              ///< of all spots, along cell edges, m
+  double perimeter_along_x = 0;      ///< the part of it along x, m
   /// A/A0 without the cells that a boundary element solution counts in excess along the edges of
   /// contacts,
   ///     A = A_cells − (π − 1 + ln 2)/24 · Σ (perimeter edges × cell width across them)
@@ -34,6 +35,8 @@ constexpr void describe(auto&& visit, std::type_identity<ContactSpots>) {
   visit(&S::contact_area_fraction,
         Kept{"contact_area_fraction", "cells with p > 0 over all cells"});
   visit(&S::perimeter, Kept{"perimeter", "of all spots, along cell edges", Dimension::length});
+  visit(&S::perimeter_along_x,
+        Kept{"perimeter_along_x", "the part of it along x", Dimension::length});
   visit(&S::corrected_area_fraction,
         Kept{"corrected_area_fraction",
              "contact area over nominal area, without the cells counted in excess along the edges, "
