@@ -7,7 +7,6 @@
 #include <array>
 #include <atomic>
 #include <charconv>
-#include <chrono>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/study/parts.hpp>
@@ -59,41 +58,17 @@ std::filesystem::path created(const std::filesystem::path& folder) {
   return folder;
 }
 
-/// What killed processes left half-written. Only for the one that has the folder alone.
-void remove_abandoned(const std::filesystem::path& folder, const std::string& beginning) {
+/// What killed processes left, half-written files or claims. Only for the one that has the folder
+/// alone.
+void remove_abandoned(const std::filesystem::path& folder, const std::string& beginning,
+                      const char* extension = ".part") {
   std::vector<std::filesystem::path> abandoned;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".part" &&
+    if (entry.path().extension() == extension &&
         entry.path().filename().string().starts_with(beginning))
       abandoned.push_back(entry.path());
   std::error_code ignored;
   for (const std::filesystem::path& file : abandoned) std::filesystem::remove(file, ignored);
-}
-
-constexpr const char* shard_lock = "shard.";
-
-/// A name of its own: two shards of one number are harmless, and one that is started again must not
-/// wait for the lock of a dead host.
-std::string own_lock(const std::string& shard) {
-  std::string name = shard;
-  std::ranges::replace(name, '/', '-');
-  const auto moment = std::chrono::steady_clock::now().time_since_epoch().count();
-  return fmt::format("{}{}.{}-{}-{:x}", shard_lock, name, host(), getpid(), moment);
-}
-
-/// Locks of shards, claims, and what a process that was killed while it took the lock of all has
-/// left.
-std::vector<std::filesystem::path> marks_in(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    // One that is stale is being looked at by a process that may have to put it back.
-    const bool of_all = name.starts_with("lock.") && !name.starts_with("lock.stale.");
-    if (name.starts_with(shard_lock) || of_all ||
-        name.find(detail::claim_suffix) != std::string::npos)
-      files.push_back(entry.path());
-  }
-  return files;
 }
 
 }  // namespace
@@ -103,25 +78,12 @@ struct StudyParts::State {
       : folder(created(where)),
         use(purpose),
         shard(shard_text),
-        lock(std::make_unique<detail::StudyLock>(folder /
-                                                 (use == Use::shard ? own_lock(shard) : alone))) {
-    // Each makes its own lock first and then looks for the other's: of two that start at once, one
-    // at least sees the other.
-    if (use == Use::shard) {
-      detail::StudyLock::require_free(folder / alone, *lock);
-      return;
-    }
-    const std::vector<std::filesystem::path> marks = marks_in(folder);
-    for (const std::filesystem::path& mark : marks)
-      if (mark.filename().string().starts_with(shard_lock))
-        detail::StudyLock::require_free(mark, *lock);
-    std::error_code ignored;
-    for (const std::filesystem::path& mark : marks) std::filesystem::remove(mark, ignored);
-  }
+        lock(std::make_unique<detail::StudyLock>(
+            folder / "lock", use == Use::shard ? detail::StudyLock::Kind::shared
+                                               : detail::StudyLock::Kind::alone)) {}
 
   std::filesystem::path file(std::uint64_t key) const { return folder / name_of(key); }
 
-  static constexpr const char* alone = "lock";
   std::filesystem::path folder;
   Use use;
   std::string shard;
@@ -136,6 +98,7 @@ StudyParts::StudyParts(const std::filesystem::path& folder, Use use, const std::
   // The result beside the folder may have been cut off too, and so may its page.
   const std::filesystem::path parent = folder.parent_path(), result = folder.stem();
   remove_abandoned(folder, ".");
+  remove_abandoned(folder, "", detail::claim_suffix);
   for (const auto& file : {result, std::filesystem::path(result).replace_extension(".html")})
     remove_abandoned(parent.empty() ? "." : parent, "." + file.string() + ".");
 }
@@ -214,8 +177,6 @@ std::optional<Realisation> StudyParts::read(std::uint64_t key) {
 
 void StudyParts::write(std::uint64_t key, const Realisation& realisation) {
   const bool shared = state_->use == Use::shard;
-  if (!shared && !state_->lock->held())
-    throw Interrupted(state_->folder.string() + ": another process took the study over");
   if (shared && !std::filesystem::exists(state_->folder))
     throw IoError(fmt::format(
         "{}: was removed while this shard ran, as when the study is merged or begun anew; if it "

@@ -279,90 +279,46 @@ TEST_CASE("The lock of a dead process is taken over at once", "[parts]") {
   CHECK_NOTHROW(StudyParts(scratch.folder, false));
 }
 
-TEST_CASE("The lock of a dead process is taken over though another has got its number", "[parts]") {
-  const Scratch scratch;
-  fs::create_directory(scratch.folder);
-  const fs::path file = scratch.folder / "lock";
-  std::string own;
-  {
-    const detail::StudyLock lock(file);
-    std::ifstream stream(file);
-    own.assign(std::istreambuf_iterator<char>(stream), {});
-  }
-  std::ofstream(file) << own;  // as this process would leave it, which lives
-  CHECK_THROWS_WITH(detail::StudyLock(file), Contains("in use by process"));
-  // Host, number, and the moment at which the process began: in the first second after boot.
-  std::istringstream lines(own);
-  std::string space, number;
-  std::getline(lines, space);
-  std::getline(lines, number);
-  std::ofstream(file) << space << '\n' << number << "\n1\nword\n";
-  CHECK_NOTHROW(detail::StudyLock(file));
-}
-
 TEST_CASE("A stopped process keeps its lock for as long as it lives", "[parts]") {
   const Scratch scratch;
   fs::create_directory(scratch.folder);
   const fs::path file = scratch.folder / "lock";
-  constexpr auto stale_after = std::chrono::milliseconds(60);
   const pid_t child = fork();
   if (child == 0) {
-    new detail::StudyLock(file, stale_after);
+    new detail::StudyLock(file);
     for (;;) pause();
   }
-  while (!fs::exists(file)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  while (!fs::exists(file) || fs::file_size(file) == 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   kill(child, SIGSTOP);
   waitpid(child, nullptr, WUNTRACED);
-  // Untouched for several times the time after which a lock of another host is taken for abandoned.
-  std::this_thread::sleep_for(5 * stale_after);
-  CHECK_THROWS_WITH(detail::StudyLock(file, stale_after), Contains("in use by process"));
+  CHECK_THROWS_WITH(detail::StudyLock(file), Contains("in use by process"));
   // Killed, it is gone at once, though it stays in the table of processes until its parent looks.
   kill(child, SIGKILL);
   siginfo_t dead = {};
   waitid(P_PID, id_t(child), &dead, WEXITED | WNOWAIT);
-  CHECK_NOTHROW(detail::StudyLock(file, stale_after));
+  CHECK_NOTHROW(detail::StudyLock(file));
   waitpid(child, nullptr, 0);
+  CHECK_FALSE(fs::exists(file));
 }
 
-TEST_CASE("The lock of another host holds as long as it is touched", "[parts]") {
-  const Scratch scratch;
-  fs::create_directory(scratch.folder);
-  const fs::path lock = scratch.folder / "lock";
-  std::ofstream(lock) << "elsewhere boot space\n1\n2\nword\n";
-  CHECK_THROWS_WITH(StudyParts(scratch.folder, false),
-                    Contains("in use by process 1 on elsewhere"));
-  fs::last_write_time(lock, fs::file_time_type::clock::now() - std::chrono::minutes(5));
-  CHECK_NOTHROW(StudyParts(scratch.folder, false));
-}
-
-TEST_CASE("A lock that is dated in the future is stale once nobody touches it", "[parts]") {
+TEST_CASE("A lock that several share is gone with the last of them", "[parts]") {
+  using enum detail::StudyLock::Kind;
   const Scratch scratch;
   fs::create_directory(scratch.folder);
   const fs::path file = scratch.folder / "lock";
-  constexpr auto stale_after = std::chrono::milliseconds(60);
+  auto first = std::make_unique<detail::StudyLock>(file, shared);
+  auto second = std::make_unique<detail::StudyLock>(file, shared);
+  first.reset();
+  CHECK_THROWS_WITH(detail::StudyLock(file), Contains("in use by shards"));
+  second.reset();
+  CHECK_FALSE(fs::exists(file));
+  // A file that a process of any version left is the lock of nobody, whatever its date.
   std::ofstream(file) << "elsewhere boot space\n1\n2\nword\n";
-  const auto next_year = fs::file_time_type::clock::now() + std::chrono::hours(24 * 365);
-  fs::last_write_time(file, next_year);
-  CHECK_THROWS_WITH(detail::StudyLock(file, stale_after), Contains("process 1 on elsewhere"));
-  // Its holder, whose clock is ahead, is alive.
-  fs::last_write_time(file, next_year);
-  std::this_thread::sleep_for(5 * stale_after);
-  CHECK_THROWS_WITH(detail::StudyLock(file, stale_after), Contains("process 1 on elsewhere"));
-  std::this_thread::sleep_for(5 * stale_after);
-  CHECK_NOTHROW(detail::StudyLock(file, stale_after));
-}
-
-TEST_CASE("A lock is touched while it is held, lest others take it for abandoned", "[parts]") {
-  const Scratch scratch;
-  fs::create_directory(scratch.folder);
-  const fs::path file = scratch.folder / "lock";
-  const detail::StudyLock lock(file, std::chrono::milliseconds(60));
-  const auto begun = fs::last_write_time(file);
-  // Every sixth of that time; ten seconds are for a busy machine.
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-  while (fs::last_write_time(file) == begun && std::chrono::steady_clock::now() < deadline)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  CHECK(fs::last_write_time(file) > begun);
+  fs::last_write_time(file, fs::file_time_type::clock::now() + std::chrono::hours(24));
+  const detail::StudyLock taken(file);
+  CHECK_FALSE(detail::StudyLock::take(file));
+  CHECK_THROWS_WITH(detail::StudyLock(file, shared), Contains("in use by process"));
 }
 
 TEST_CASE("A study goes on with its parts and ends with the same bits", "[parts]") {

@@ -29,11 +29,8 @@ constexpr void describe(auto&& visit, std::type_identity<PartOrigin>) {
 
 /// A folder with the finished realisations of a study, so that a study that was stopped, killed or
 /// ran out of disk can go on: one file for each, complete or not there at all, with a checksum and
-/// a key of everything that decides it. While the object lives, the folder is locked: by a file
-/// that link() creates, with host, process and its start time, touched every few seconds. A lock is
-/// taken over when its process is gone, where that is one of this host; that of another host when
-/// it has not been touched for a minute, by the clock of the file system. One process has the
-/// folder alone, or any number of shards share it. Realisations are files that appear whole, and
+/// a key of everything that decides it. While the object lives, the folder is locked by flock(),
+/// which ends with the process. One process has the folder alone, or any number of shards share it. Realisations are files that appear whole, and
 /// the same bits whoever computes them: that several shards compute one is a waste, no fault.
 class StudyParts {
  public:
@@ -69,8 +66,7 @@ class StudyParts {
   /// a study whose surfaces differ in their last digits is no study of either. Shards run where a
   /// scheduler sends them: for them and a merge it counts in origins() only.
   std::optional<Realisation> read(std::uint64_t key);
-  /// On the disk when it returns; may be called by several threads. Throws IoError, and Interrupted
-  /// where another process took the lock over.
+  /// On the disk when it returns; may be called by several threads. Throws IoError.
   void write(std::uint64_t key, const Realisation& realisation);
   int damaged() const;
   /// The origin of every realisation that read() returned.

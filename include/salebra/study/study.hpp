@@ -173,9 +173,8 @@ struct ShardOutcome {
 /// processes may do so at once, on any hosts that see the folder. run.parts is
 /// StudyParts::of_shard(). run_ensembles() with `missing` puts the result together, with the bits
 /// of one process. A precision ends no numbered shard early, as others hold the surfaces between;
-/// Shard::any() heeds it before each surface. Of Shard::any(), a surface is claimed by a file that
-/// is touched every few seconds. A claim is void when its process is gone, where that can be seen,
-/// or has not touched it for a minute by the clock of the file system.
+/// Shard::any() heeds it before each surface. Shard::any() claims a surface by a file that it
+/// locks, and that ends with its process.
 /// throws  InvalidInput for a configuration that cannot be run, and for parts none of which belongs
 ///         to it; NotConverged and IoError as run_ensembles()
 ShardOutcome run_shard(const StudyConfiguration& configuration, const Shard& shard,
