@@ -139,12 +139,13 @@ ShardPlan plan_of(const StudyCost& cost, std::size_t shards) {
 
 /// The load as solves feel it: what the contact touches is taken from the measured range.
 double felt(double load) { return std::clamp(load, 1e-3, 0.5); }
+constexpr double power_of_load = 0.35;  // iterations grow with it
 
 /// The time of one contact on one thread, on the machine of the constants above, with K and K_t
 /// where they are computed. Those of a study are means over its loads, which solves at 0.0165 E*h'
 /// have; the rest of a solve is the stiffness.
 double contact_seconds(const SurfaceWork& work, double load) {
-  constexpr double mean_load = 0.0165, power_of_load = 0.35, without_stiffness = 0.5;
+  constexpr double mean_load = 0.0165, without_stiffness = 0.5;
   const auto cells = static_cast<double>(work.grid.points());
   const double per_cell = contact_models()[std::size_t(ContactModel::bem)].seconds_per_cell *
                               (work.normal_stiffness ? 1.0 : without_stiffness) +
@@ -155,28 +156,20 @@ double contact_seconds(const SurfaceWork& work, double load) {
          std::pow(felt(load) / mean_load, power_of_load);
 }
 
-/// The time of one contact for what its group sends from machine to machine: transforms,
-/// applications of the ladder and sums, counted on one machine, times what each of them sends
-/// (docs/scaling.md).
+/// The time of one contact for what its group sends from machine to machine, counted on one machine
+/// (docs/scaling.md): the transforms' columns and the ladder's messages.
 double network_seconds(const SurfaceWork& work, double load) {
   const double nodes = std::ceil(double(work.nodes) / work.groups),
                ranks = double(work.ranks) / work.groups;
   if (nodes < 2) return 0;
   const auto cells = static_cast<double>(work.grid.points());
-  const double side = std::sqrt(cells);
-  constexpr double pairs = 4, pairs_in_double = 2, stick_pairs = 12, coarse_levels = 1.3;
-  const double applications = 59 * std::sqrt(side / 4096) * std::pow(felt(load) / 0.02, 0.35) *
+  const double bytes = (work.tangential_stiffness ? 580 : 83) * cells;  // of all transforms
+  const double transforms = work.tangential_stiffness ? 24 : 8;
+  const double applications = 77 * std::sqrt(std::sqrt(cells) / 4096) *
+                              std::pow(felt(load) / 0.02, power_of_load) *
                               (work.normal_stiffness ? 1.5 : 1.0);
-  // Bytes for each cell: 8 there and back in float; a stick solve has two components in double.
-  const double transformed =
-      8 * (pairs + 2 * pairs_in_double + (work.tangential_stiffness ? 4 * stick_pairs : 0));
-  const double transforms =
-      transformed * cells / nodes * (1 - 1 / nodes) / SurfaceCost::bandwidth +
-      (pairs + pairs_in_double + (work.tangential_stiffness ? stick_pairs : 0)) * 2 * (ranks - 1) *
-          SurfaceCost::latency;
-  const double levels = 73 * side / SurfaceCost::bandwidth + 30 * SurfaceCost::latency,
-               sums = 3 * (SurfaceCost::latency * std::log2(ranks) + 64e3 / SurfaceCost::bandwidth);
-  return coarse_levels * (transforms + applications * (levels + sums));
+  const double messages = transforms * 2 * (ranks - 1) + applications * (30 + 3 * std::log2(ranks));
+  return bytes / nodes * (1 - 1 / nodes) / SurfaceCost::bandwidth + messages * SurfaceCost::latency;
 }
 
 }  // namespace
@@ -184,26 +177,18 @@ double network_seconds(const SurfaceWork& work, double load) {
 double surface_memory(const SurfaceWork& work) {
   // Bytes for each cell, at loads up to half of E*h'; measured at 1024², 2048² and 4096²
   // (docs/scaling.md).
-  constexpr double of_process = 33e6, heights = 8, whole_ladder = 1.5;
+  constexpr double of_process = 33e6, heights = 8;
   const auto cells = static_cast<double>(work.grid.points());
   const int ranks = std::max(1, work.ranks / work.groups);
-  const bool together = ranks > 1;
+  const bool together = ranks > 1, isolated = work.boundary == Boundary::free;
   const double mine = cells / ranks;
-  // Columns on their way to the rows: some at a time, at the least 16 of them.
-  if (work.loads.empty())
-    return of_process + heights * mine +
-           (together ? std::max(4.5 * mine, 512.0 * static_cast<double>(work.grid.nx)) : 0.0);
-  const double load = felt(std::ranges::max(work.loads)), touched = std::pow(load, 0.7);
-  double contact = 40 + std::min(27.0, 58 * touched);
-  if (work.normal_stiffness && together) contact += 8;
-  if (work.tangential_stiffness)
-    contact = std::max(contact, 64 + 218 * std::pow(load, 0.6) + (together ? 8 : 0));
-  // What each process makes of the whole grid: the coarser levels of the ladder.
-  double whole = together ? whole_ladder * cells : 0;
-  if (work.boundary == Boundary::free) {
-    whole = (together ? 4 : 0) * cells;
-    contact += together ? 45 : 34.5;
-  }
+  // Columns on their way to the rows.
+  if (work.loads.empty()) return of_process + (heights + (together ? 4.5 : 0)) * mine;
+  const double load = felt(std::ranges::max(work.loads));
+  const double contact = (work.tangential_stiffness ? 56 + 196 * std::sqrt(load) : 43 + 62 * load) +
+                         (together && work.normal_stiffness ? 8 : 0) + (isolated ? 36 : 0);
+  // What each process makes of the whole grid: the coarser levels of the ladder, or symbols.
+  const double whole = together ? (isolated ? 4 : 1.5) * cells : 0;
   // A process that is alone presses a load on each thread.
   const double at_once =
       work.ranks > 1 ? 1 : double(std::min(work.loads.size(), std::size_t(work.threads)));
