@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <string_view>
 
 namespace salebra::detail {
@@ -35,6 +36,12 @@ class Checksum {
     whole.word_ = size_;
     whole.take_word();
     return whole.state_;
+  }
+  /// The same as 16 hexadecimal digits.
+  std::string digits() const {
+    std::string text;
+    for (int shift = 60; shift >= 0; shift -= 4) text += "0123456789abcdef"[value() >> shift & 15];
+    return text;
   }
 
  private:

@@ -85,7 +85,7 @@ class Output {
   std::filesystem::path target_;
   Communicator ranks_;
   std::optional<AtomicFile> atomic_;  ///< of the root
-  std::vector<Spread> spread_;  ///< of the root, until commit()
+  std::vector<Spread> spread_;        ///< of the root, until commit()
   struct Rows {
     const Field* values;
     FieldType type;

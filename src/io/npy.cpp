@@ -8,9 +8,9 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "checksum.hpp"
 #include "input_file.hpp"
 #include "loaded_surface.hpp"
-#include "md5.hpp"
 #include "sidecar.hpp"
 
 namespace salebra::detail {
@@ -136,6 +136,12 @@ ElementReader reader_of(std::string_view type) {
   return nullptr;
 }
 
+std::string digits_of(std::string_view content) {
+  Checksum sum;
+  sum.add(content);
+  return sum.digits();
+}
+
 void read_sidecar(const std::filesystem::path& file, std::string_view content,
                   LoadedSurface& surface) {
   const std::filesystem::path sidecar = sidecar_of(file);
@@ -144,10 +150,10 @@ void read_sidecar(const std::filesystem::path& file, std::string_view content,
   const auto json = nlohmann::json::parse(InputFile(sidecar).content(most), nullptr, false);
   try {
     // Half of a pair that a fault or a crash left, or an array that was saved anew.
-    if (json.contains("md5") && json.at("md5").get<std::string>() != md5(content))
+    if (json.contains("checksum") && json.at("checksum").get<std::string>() != digits_of(content))
       refuse(sidecar, "describes another array than that of " + file.filename().string() +
-                          ": its md5 differs; write both again, or remove the entry md5 if the "
-                          "size is right");
+                          ": its checksum differs; write both again, or remove the entry checksum "
+                          "if the size is right");
     if (json.contains("size_x")) surface.size_x = json.at("size_x").get<double>();
     if (json.contains("size_y")) surface.size_y = json.at("size_y").get<double>();
     if (json.contains("periodic")) surface.periodic = json.at("periodic").get<bool>();

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "atomic_file.hpp"
+#include "checksum.hpp"
 #include "hdf5_output.hpp"
-#include "md5.hpp"
 #include "sidecar.hpp"
 #include "surface_format.hpp"
 #include "surface_writers.hpp"
@@ -64,7 +64,10 @@ void write_npy(const std::filesystem::path& file, const Surface& surface,
   array.write(start);
   array.write(heights);
   Json description = description_of(surface, provenance);
-  description["md5"] = md5({start, heights});
+  Checksum sum;
+  sum.add(start);
+  sum.add(heights);
+  description["checksum"] = sum.digits();
   sidecar.write(description.dump(2) + "\n");
   array.finish();
   sidecar.finish();

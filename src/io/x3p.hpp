@@ -9,7 +9,7 @@
 #include "loaded_surface.hpp"
 
 /// X3P, ISO 25178-72: a ZIP archive of main.xml, which describes the axes and names the files of
-/// heights and of valid points, and md5checksum.hex.
+/// heights and of valid points. Its MD5 sums are not read: the archive has sums of its own.
 namespace salebra::detail {
 
 /// A member of the archive by its name: its content, which must be of exactly `bytes` bytes, or of
@@ -21,7 +21,7 @@ using X3pMember = std::function<std::optional<std::string>(const std::string& na
 
 constexpr std::uint64_t max_xml_size = 16u << 20;
 
-/// The surface that main.xml describes, once the checksums agree. Metres; x fastest in the file.
+/// The surface that main.xml describes. Metres; x fastest in the file.
 LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& member);
 
 }  // namespace salebra::detail

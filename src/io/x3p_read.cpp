@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surface from the main.xml and the binary members of an X3P file, with their checksums.
-#include <algorithm>
+// Surface from the main.xml and the binary members of an X3P file.
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -8,7 +7,6 @@
 #include <limits>
 #include <pugixml.hpp>
 
-#include "md5.hpp"
 #include "text_numbers.hpp"
 #include "x3p.hpp"
 
@@ -23,13 +21,6 @@ std::string_view text_of(const pugi::xml_node& node) {
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
   return text;
-}
-
-bool same_digits(std::string_view a, std::string_view b) {
-  const auto lower = [](char symbol) {
-    return symbol >= 'A' && symbol <= 'F' ? static_cast<char>(symbol - 'A' + 'a') : symbol;
-  };
-  return std::ranges::equal(a, b, {}, lower, lower);
 }
 
 /// main.xml with what all its uses need: the file for messages, and entries by their path below the
@@ -110,33 +101,6 @@ HeightType height_type(const Description& description) {
   description.wrong("Record1/Axes/CZ/DataType");
 }
 
-/// Lines "<32 digits> *<name>" of md5checksum.hex. The standard asks for main.xml; some programs
-/// state a data file instead.
-void check_checksum_file(const std::filesystem::path& file, const Description& description,
-                         const std::string& xml, const X3pMember& member) {
-  const std::string_view name = description.words("Record4/ChecksumFile");
-  const auto sums = member(name.empty() ? "md5checksum.hex" : std::string(name), {});
-  if (!sums) return;
-  Lines lines(*sums);
-  for (std::string_view line; lines.next(line);) {
-    constexpr std::size_t digits = 32;
-    if (line.size() < digits) continue;
-    const std::string_view sum = line.substr(0, digits);
-    std::string_view of = trimmed(line.substr(digits));
-    if (of.starts_with('*')) of.remove_prefix(1);
-    if ((of.empty() || of == "main.xml") && !same_digits(sum, md5(xml)))
-      refuse(file, "has a main.xml that does not match its checksum; it was damaged or edited");
-  }
-}
-
-void check_sum(const std::filesystem::path& file, const Description& description, const char* path,
-               const std::string& content, std::string_view name) {
-  const std::string_view sum = description.words(path);
-  if (!sum.empty() && !same_digits(sum, md5(content)))
-    refuse(file, "has a member " + std::string(name) +
-                     " that does not match its checksum; it was damaged or edited");
-}
-
 void require_height_map(const std::filesystem::path& file, const Description& description) {
   if (description.words("Record1/FeatureType") != "SUR")
     refuse(file, "holds a feature of type '" +
@@ -163,7 +127,6 @@ LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& me
   const auto xml = member("main.xml", {});
   if (!xml) refuse(file, "is a ZIP archive without main.xml; name an X3P file");
   const Description description(file, *xml);
-  check_checksum_file(file, description, *xml, member);
   require_height_map(file, description);
 
   const Index nx = description.count("Record3/MatrixDimension/SizeX"),
@@ -177,7 +140,6 @@ LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& me
   const std::string data_name(description.required("Record3/DataLink/PointDataLink"));
   const auto data = member(data_name, bytes);
   if (!data) refuse(file, "lacks its member " + data_name + " of heights; it is damaged");
-  check_sum(file, description, "Record3/DataLink/MD5ChecksumPointData", *data, data_name);
 
   const double step_x = description.number("Record1/Axes/CX/Increment"),
                step_y = description.number("Record1/Axes/CY/Increment");
@@ -205,7 +167,6 @@ LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& me
       !mask_name.empty()) {
     const auto valid = member(mask_name, (points + 7) / 8);
     if (!valid) refuse(file, "lacks its member " + mask_name + " of valid points; it is damaged");
-    check_sum(file, description, "Record3/DataLink/MD5ChecksumValidPoints", *valid, mask_name);
     for (Index row = 0; row < ny; ++row) {
       for (Index column = 0; column < nx; ++column) {
         const auto place = static_cast<std::size_t>(row * nx + column);

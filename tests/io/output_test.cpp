@@ -99,10 +99,10 @@ TEST_CASE("An array and a sidecar that are not of one pair are refused", "[outpu
   CHECK_NOTHROW(read_surface(array));
   const auto options = std::filesystem::copy_options::overwrite_existing;
   std::filesystem::copy_file(scratch / "old.json", sidecar, options);
-  CHECK_THROWS_WITH(read_surface(array), Contains("a.npy.json") && Contains("md5"));
+  CHECK_THROWS_WITH(read_surface(array), Contains("a.npy.json") && Contains("checksum"));
   write_surface(array, other, {}, {.overwrite = true});
   std::filesystem::copy_file(scratch / "old.npy", array, options);
-  CHECK_THROWS_WITH(read_surface(array), Contains("a.npy.json") && Contains("md5"));
+  CHECK_THROWS_WITH(read_surface(array), Contains("a.npy.json") && Contains("checksum"));
 }
 
 TEST_CASE("A result file that is not committed leaves nothing", "[output]") {

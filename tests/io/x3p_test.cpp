@@ -9,7 +9,6 @@
 #include <salebra/base/error.hpp>
 #include <salebra/io/read_surface.hpp>
 
-#include "../../src/io/md5.hpp"
 #include "scratch.hpp"
 
 using namespace salebra;
@@ -68,19 +67,6 @@ const std::string main_xml = R"(<?xml version="1.0"?>
 const std::string heights = bytes_of<std::int16_t>({0, 10, 20, 100, -200, 32767});
 
 }  // namespace
-
-TEST_CASE("MD5 gives the sums of RFC 1321", "[x3p]") {
-  CHECK(detail::md5("") == "d41d8cd98f00b204e9800998ecf8427e");
-  CHECK(detail::md5("message digest") == "f96b697d7cb7938d525a2f31aaf161d0");
-  // 62 and 80 bytes: the length takes a block of its own, and a second block.
-  CHECK(detail::md5("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789") ==
-        "d174ab98d277d9f5a5611c2c9f419d9f");
-  CHECK(detail::md5(
-            "12345678901234567890123456789012345678901234567890123456789012345678901234567890") ==
-        "57edf4a22be3c955ac49da2e2107b67a");
-  CHECK(detail::md5(std::string(55, 'a')) == "ef1772b6dff9a122358552954ad0df65");
-  CHECK(detail::md5(std::string(64, 'a')) == "014842d480b571495a4a0363793f7367");
-}
 
 TEST_CASE("X3P keeps x fastest, scale and offset of integer heights", "[x3p]") {
   const Scratch scratch;
@@ -150,34 +136,6 @@ TEST_CASE("X3P masks points by bits, the least first", "[x3p]") {
                                                    {"data.bin", heights},
                                                    {"valid.bin", std::string(2, '\xff')}})),
                     Contains("valid.bin") && Contains("asks for 1"));
-}
-
-TEST_CASE("X3P whose checksums disagree is refused", "[x3p]") {
-  const Scratch scratch;
-  const auto with_sum = [&](const std::string& sum) {
-    return replaced(main_xml, "</DataLink>",
-                    "<MD5ChecksumPointData>" + sum + "</MD5ChecksumPointData></DataLink>");
-  };
-  const std::string right = detail::md5(heights), wrong = detail::md5("other");
-  std::string capitals = right;
-  for (char& digit : capitals)
-    if (digit >= 'a') digit = static_cast<char>(digit - 'a' + 'A');
-  for (const std::string& sum : {right, capitals})
-    CHECK_NOTHROW(
-        read_surface(archive(scratch, {{"main.xml", with_sum(sum)}, {"data.bin", heights}})));
-  CHECK_THROWS_WITH(
-      read_surface(archive(scratch, {{"main.xml", with_sum(wrong)}, {"data.bin", heights}})),
-      Contains("data.bin") && Contains("checksum"));
-
-  const auto with_file = [&](const std::string& sums) {
-    return archive(scratch,
-                   {{"main.xml", main_xml}, {"data.bin", heights}, {"md5checksum.hex", sums}});
-  };
-  CHECK_NOTHROW(read_surface(with_file(detail::md5(main_xml) + " *main.xml\r\n")));
-  // SurfaceTopography writes it so.
-  CHECK_NOTHROW(read_surface(with_file(right + " *data.bin\n")));
-  CHECK_THROWS_WITH(read_surface(with_file(wrong + " *main.xml\n")),
-                    Contains("main.xml") && Contains("checksum"));
 }
 
 TEST_CASE("X3P that is no height map, or damaged, says what it lacks", "[x3p]") {

@@ -28,8 +28,7 @@ struct ReadOptions {
 ///           order; size and unit from the sidecar FILE.json where there is one
 ///   NetCDF  classic (CDF-1, 2, 5) in SurfaceTopography's layout: heights(x, y) with unit, x and y
 ///           with length, periodic, unit; a mask
-///   X3P     ISO 25178-72, one surface on a grid, its checksums compared; scales, directions of
-///           axes and mask
+///   X3P     ISO 25178-72, one surface on a grid; scales, directions of axes and mask
 ///   GWY     Gwyddion: the first channel whose unit is a length, less the points of its mask
 ///   GSF     Gwyddion Simple Field
 ///   GXYZF   Gwyddion XYZ Field of one channel whose points form a regular grid

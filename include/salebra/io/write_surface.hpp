@@ -12,7 +12,7 @@ namespace salebra {
 ///   .h5 .hdf5   dataset heights (nx, ny) with dimension scales x, y and attributes size_x, size_y,
 ///               periodic, units, origin; provenance at the root
 ///   .npy        float64 [nx, ny], little-endian, and beside it FILE.json with size_x, size_y,
-///               periodic, units, md5, provenance
+///               periodic, units, checksum, provenance
 ///   .nc         NetCDF CDF-2 in SurfaceTopography's layout, with size_x, …, provenance in the
 ///               attribute json; up to 4 GiB
 ///   .gwy        Gwyddion: one channel, undefined points as its mask, provenance in /0/meta; up to
