@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "task_pool.hpp"
+
 namespace salebra::parallel {
 namespace {
 
@@ -20,6 +22,9 @@ constexpr Index slabs_per_thread = 8;
 
 // Fewer points than this are done before a second thread is awake.
 constexpr Index least_parallel_work = 20000;
+
+// The same for a thread of a pool of tasks, which was asleep.
+constexpr Index least_shared_work = 200000;
 
 int chosen_threads = 0;
 
@@ -46,8 +51,10 @@ Index block_count(Index rows) { return (rows + block_rows(rows) - 1) / block_row
 
 void for_slabs(Index rows, const std::function<void(Index, Index)>& body, Index work) {
   if (rows == 0) return;
-  if (work < least_parallel_work || threads() == 1 || omp_in_parallel()) {
-    body(0, rows);
+  if (work < least_parallel_work || threads() == 1) return body(0, rows);
+  if (omp_in_parallel()) {
+    if (work < least_shared_work || !detail::share_slabs(rows, slabs_per_thread, body))
+      body(0, rows);
     return;
   }
   const Index slabs = std::min(rows, slabs_per_thread * threads());

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Force curve of a surface: contacts at a list of pressures, several at a time, with stiffnesses.
-#include <omp.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstring>
-#include <exception>
-#include <mutex>
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
@@ -18,6 +14,7 @@
 #include <string>
 #include <type_traits>
 
+#include "base/task_pool.hpp"
 #include "normal/contact_memory.hpp"
 
 namespace salebra {
@@ -133,54 +130,31 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                                       : "a contact",
                  groups.all());
   Samples samples(pressures.size());
-  std::atomic<bool> stop = false, failed = false;
-  std::atomic<int> finished = 0;
-  std::exception_ptr failure;
-  std::mutex failure_guard;
   SweepOptions inner = options;
-  if (options.contact.on_progress)
+  const Progress& on_progress = options.contact.on_progress;
+  std::atomic<double> residual = 0;  // of the contact that was heard of last
+  detail::TaskLoop loop(
+      {.at_once = concurrent, .ranks = surface.ranks, .talk = [&] {
+         const int done = loop.finished();
+         return !on_progress || on_progress({"sweep", double(done) / loads, done, residual});
+       }});
+  // Processes that solve a contact together all ask, or none.
+  if (on_progress || surface.ranks.alone())
     inner.contact.on_progress = [&](const ProgressReport& report) {
-      // Only the calling thread may talk to its caller.
-      if (omp_get_thread_num() == 0 &&
-          !options.contact.on_progress(
-              {"sweep", double(finished) / loads, finished, report.residual}))
-        stop = true;
-      return !stop.load();
+      residual = report.residual;
+      return loop.going_on();
     };
-
-#pragma omp parallel for schedule(dynamic, 1) num_threads(concurrent) if (concurrent > 1)
-  for (int turn = 0; turn < loads; ++turn) {
-    // One process may have been told to stop where the others were not. One that failed calls them
-    // no more.
-    if (failed || !surface.ranks.all_agree(!stop)) stop = true;
-    if (stop) continue;
+  loop.run(loads, [&](Index turn) {
     const std::size_t k = mine[static_cast<std::size_t>(turn)];
-    try {
-      const auto state =
-          press_to_pressure(surface, material.contact_modulus, pressures[k], inner.contact);
-      if (state.interrupted) {
-        stop = true;
-        continue;
-      }
-      const ForceSample sample = force_sample(state, surface, material, inner);
-      // A stiffness solve that was stopped half-way is not a load that failed.
-      if (!surface.ranks.all_agree(!stop || sample.converged)) {
-        stop = true;
-        continue;
-      }
-      samples[k] = sample;
-      if (options.on_state && state.converged) options.on_state(k, state);
-      const int done = ++finished;
-      if (omp_get_thread_num() == 0 && options.contact.on_progress &&
-          !options.contact.on_progress({"sweep", double(done) / loads, done, state.residual}))
-        stop = true;
-    } catch (...) {
-      failed = stop = true;
-      const std::scoped_lock lock(failure_guard);
-      if (!failure) failure = std::current_exception();
-    }
-  }
-  if (failure) std::rethrow_exception(failure);
+    const auto state =
+        press_to_pressure(surface, material.contact_modulus, pressures[k], inner.contact);
+    if (state.interrupted) return loop.stop();
+    const ForceSample sample = force_sample(state, surface, material, inner);
+    // A stiffness solve that was stopped half-way is not a load that failed.
+    if (!surface.ranks.all_agree(!loop.stopped() || sample.converged)) return loop.stop();
+    samples[k] = sample;
+    if (options.on_state && state.converged) options.on_state(k, state);
+  });
   if (groups.count() > 1) gather(groups, samples);
 
   ForceCurve curve;

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Damping of one surface from contacts inside the oscillation, with the errors of levels, cells and
 // solver.
-#include <omp.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <exception>
 #include <map>
-#include <mutex>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/memory.hpp>
@@ -22,6 +18,7 @@
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/refine.hpp>
 
+#include "base/task_pool.hpp"
 #include "contact/normal/contact_memory.hpp"
 #include "kriged_stiffness.hpp"
 #include "phase_quadrature.hpp"
@@ -581,36 +578,23 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
     require_memory(fine.grid, wanted * detail::contact_memory(fine, {.boundary = options.boundary}),
                    wanted > 1 ? "contacts on all threads (fewer `threads` need less)" : "a contact",
                    ranks);
-    std::atomic<bool> stop = false, failed = false;
-    std::atomic<int> finished = 0;
-    std::exception_ptr failure;
-    std::mutex failure_guard;
+    std::atomic<double> residual = 0;  // of the contact that was heard of last
+    detail::TaskLoop loop({.at_once = wanted, .ranks = ranks, .talk = [&] {
+                             const int done = loop.finished();
+                             return !options.on_progress ||
+                                    options.on_progress({"damping",
+                                                         double(done) / double(open.size()), done,
+                                                         residual});
+                           }});
     const Progress progress = [&](const ProgressReport& report) {
-      // Only the calling thread may talk to its caller.
-      if (options.on_progress && omp_get_thread_num() == 0 &&
-          !options.on_progress(
-              {"damping", double(finished) / double(open.size()), finished, report.residual}))
-        stop = true;
-      return !stop.load();
+      residual = report.residual;
+      return loop.going_on();
     };
     // The highest loads take longest and go first.
-#pragma omp parallel for schedule(dynamic, 1) num_threads(wanted) if (wanted > 1)
-    for (int back = 0; back < static_cast<int>(open.size()); ++back) {
-      // One process may have been told to stop where the others were not. One that failed calls
-      // them no more.
-      if (failed || !ranks.all_agree(!stop)) stop = true;
-      if (stop) continue;
-      try {
-        open[open.size() - 1 - static_cast<std::size_t>(back)]->solve(fine, progress);
-        ++finished;
-      } catch (...) {
-        failed = stop = true;
-        const std::scoped_lock lock(failure_guard);
-        if (!failure) failure = std::current_exception();
-      }
-    }
-    if (failure) std::rethrow_exception(failure);
-    if (!ranks.all_agree(!stop)) throw Interrupted("damping: interrupted");
+    loop.run(static_cast<Index>(open.size()), [&](Index turn) {
+      open[open.size() - 1 - static_cast<std::size_t>(turn)]->solve(fine, progress);
+    });
+    if (!ranks.all_agree(!loop.stopped())) throw Interrupted("damping: interrupted");
   }
   std::vector<SurfaceDamping> results;
   for (const Load& load : loads) results.push_back(result_of(load, motion, options));

@@ -3,7 +3,6 @@
 #include "case_run.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <atomic>
@@ -14,10 +13,9 @@
 #include <mutex>
 #include <optional>
 #include <salebra/base/error.hpp>
-#include <salebra/base/parallel.hpp>
 #include <string>
-#include <thread>
 
+#include "base/task_pool.hpp"
 #include "realisation_record.hpp"
 
 namespace salebra::detail {
@@ -38,23 +36,14 @@ class CaseRun {
 
   void go() {
     restore();
-    talk();
     if (run_.missing) {
+      talk();
       note_missing();
-    } else if (!run_.groups.all().alone()) {
-      compute_together();
+    } else if (run_.groups.all().alone()) {
+      loop_.run(Index(seeds_.size()), [this](Index i) { compute(std::size_t(i)); });
     } else {
-      std::atomic<std::size_t> next = 0;
-      const auto do_next = [&](bool on_calling_thread) {
-        const std::size_t i = next++;
-        if (i >= seeds_.size() || !going_on(i)) return false;
-        compute(i, on_calling_thread);
-        return true;
-      };
-      const auto workers = std::size_t(parallel::threads());
-      // Few surfaces: all threads work on each.
-      const bool few = workers == 1 || seeds_.size() - finished_ < workers;
-      side_by_side(few ? 0 : int(workers), do_next, [this] { talk(); });
+      talk();
+      compute_together();
     }
     collectively(run_.groups.all(), [this] {
       if (failure_) std::rethrow_exception(failure_);
@@ -120,7 +109,7 @@ class CaseRun {
       std::size_t next = 0;
       for (std::size_t& place : turn) {
         while (next < seeds_.size() && realisations_[next]) ++next;
-        place = next < seeds_.size() && going_on(next) ? next++ : none;
+        place = next < seeds_.size() && !stop_ && is_wanted(next) ? next++ : none;
       }
       all.broadcast(turn.data(), turn.size() * sizeof(std::size_t));
       if (turn.front() == none) break;
@@ -175,17 +164,16 @@ class CaseRun {
       if (!realisations_[i]) run_.missing->push_back(report_.finished + i);
   }
 
-  bool going_on(std::size_t i) const { return !stop_ && i < limit_; }
+  bool is_wanted(std::size_t i) const { return i < limit_; }
 
-  void compute(std::size_t i, bool on_calling_thread) {
-    if (restored(i)) return;
+  void compute(std::size_t i) {
+    if (!is_wanted(i) || restored(i)) return;
     const auto start = Clock::now();
     try {
       Realisation realisation = analyse_realisation(
           result_.configuration, seeds_[i], result_.pressures, [&](const ProgressReport& sweep) {
             fractions_[i] = sweep.fraction;
-            if (on_calling_thread) talk();
-            return going_on(i);
+            return loop_.going_on() && is_wanted(i);
           });
       if (run_.parts)
         run_.parts->write(StudyParts::key(result_.configuration, seeds_[i]), realisation);
@@ -194,12 +182,7 @@ class CaseRun {
       note(i, std::chrono::duration<double>(Clock::now() - start).count(), false);
     } catch (const Interrupted&) {
       // Stopped, or not wanted any more.
-    } catch (...) {
-      const std::scoped_lock lock(guard_);
-      if (!failure_) failure_ = std::current_exception();
-      stop_ = true;
     }
-    if (on_calling_thread) talk();
   }
 
   bool restored(std::size_t i) {
@@ -221,19 +204,17 @@ class CaseRun {
     news_.push_back(item);
   }
 
-  /// Reports on the calling thread only. What the caller throws ends the run; it must not leave a
-  /// parallel region.
+  /// Of several processes, each goes on to where all end together.
   void talk() {
     try {
-      report();
+      if (!report()) stop_ = true;
     } catch (...) {
-      const std::scoped_lock lock(guard_);
       if (!failure_) failure_ = std::current_exception();
       stop_ = true;
     }
   }
 
-  void report() {
+  bool report() {
     std::vector<RealisationReport> news;
     {
       const std::scoped_lock lock(guard_);
@@ -241,16 +222,15 @@ class CaseRun {
     }
     if (run_.on_realisation)
       for (const RealisationReport& item : news) run_.on_realisation(item);
-    if (!run_.on_progress || stop_) return;
+    if (!run_.on_progress || stop_) return true;
     double sum = 0;
     for (const std::atomic<double>& fraction : fractions_) sum += fraction;
     const double wanted = double(report_.wanted);
     const std::size_t finished = report_.finished + finished_;
     const std::string stage = fmt::format("study {}/{}", finished, report_.wanted);
-    if (!run_.on_progress({.stage = stage,
-                           .fraction = (double(report_.finished) + sum) / wanted,
-                           .step = int(finished)}))
-      stop_ = true;
+    return run_.on_progress({.stage = stage,
+                             .fraction = (double(report_.finished) + sum) / wanted,
+                             .step = int(finished)});
   }
 
   StudyResult& result_;
@@ -264,9 +244,10 @@ class CaseRun {
   PrecisionRule precision_;
   std::size_t prefix_ = 0;  ///< so many from the first on are there
   std::atomic<std::size_t> limit_ = std::numeric_limits<std::size_t>::max();
-  std::atomic<bool> stop_ = false;
-  std::exception_ptr failure_;
   std::mutex guard_;
+  TaskLoop loop_{{.at_once = 0, .ranks = {}, .talk = [this] { return report(); }}};
+  bool stop_ = false;  // of several processes, as failure_
+  std::exception_ptr failure_;
 };
 
 }  // namespace
@@ -310,32 +291,6 @@ bool PrecisionRule::met_with(const Realisation& realisation) {
            estimate.relative_precision() <= configuration_.target_precision;
   };
   return precise(lengths_) && precise(slopes_);
-}
-
-void side_by_side(int workers, const std::function<bool(bool)>& do_next,
-                  const std::function<void()>& talk) {
-  if (workers > 0) {
-    // One thread more than there is work for: it sleeps, and talks to the caller.
-    std::atomic<int> working = 0;
-#pragma omp parallel num_threads(workers + 1)
-    {
-#pragma omp single
-      working = omp_get_num_threads() - 1;  // a team may have fewer threads than were asked for
-      if (omp_get_thread_num() == 0) {
-        while (working > 0) {
-          talk();
-          std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        }
-      } else {
-        while (do_next(false)) {
-        }
-        --working;
-      }
-    }
-  }
-  while (do_next(true)) {
-  }
-  talk();
 }
 
 void run_case(StudyResult& result, const StudyRun& run, const RealisationReport& start) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <salebra/study/study.hpp>
 #include <vector>
 
@@ -32,12 +31,6 @@ class PrecisionRule {
   const Bootstrap bootstrap_;
   std::vector<double> lengths_, slopes_;
 };
-
-/// Calls do_next(false) on that many threads until it answers false, and meanwhile talk() on the
-/// calling thread. Where fewer threads are to be had, the calling thread goes on with
-/// do_next(true).
-void side_by_side(int workers, const std::function<bool(bool on_calling_thread)>& do_next,
-                  const std::function<void()>& talk);
 
 /// The realisations of one point of the parameter grid, computed side by side and looked at in the
 /// order of their seeds. result has configuration and pressures, and receives the rest. start: what

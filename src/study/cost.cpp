@@ -27,7 +27,7 @@ constexpr double growth = 0.15;                  // iterations grow with this po
 constexpr double level_per_cell = 0.15e-6;       // s, a contact that starts from its neighbour
 constexpr double memory_per_cell = 80;           // bytes
 constexpr double memory_per_cell_stick = 155;    // bytes
-constexpr double refined_surface_per_cell = 24;  // bytes, with its transforms
+constexpr double surface_per_cell = 24;          // bytes, with its transforms
 constexpr double memory_of_program = 22e6;       // bytes
 constexpr double reference_transform = 0.39e-3;  // s, a pair of 256² in double there
 constexpr double gain_of_a_thread = 0.75;        // where threads share one surface
@@ -106,16 +106,16 @@ double kept_bytes(const StudyConfiguration& point, const Grid2D& grid) {
                   sizeof(SpotStatistics) + sizes * sizeof(double));
 }
 
-/// The gain of threads over one, where a process has this many surfaces: one on each thread, or all
-/// threads on each.
-double gain_of(int threads, std::size_t surfaces) {
-  const bool side_by_side = surfaces >= static_cast<std::size_t>(threads);
-  return side_by_side ? threads : 1 + gain_of_a_thread * (threads - 1);
+/// The gain of threads over one with so many contacts to compute side by side: where they are fewer,
+/// threads share them.
+double gain_of(int threads, std::size_t contacts) {
+  const double at_once = std::min(static_cast<double>(contacts), static_cast<double>(threads));
+  return at_once + gain_of_a_thread * (threads - at_once);
 }
 
 ShardPlan plan_of(const StudyCost& cost, std::size_t shards) {
   struct Load {
-    std::size_t surfaces = 0;
+    std::size_t surfaces = 0, contacts = 0;
     double seconds = 0;
   };
   std::vector<Load> loads(shards);
@@ -124,12 +124,13 @@ ShardPlan plan_of(const StudyCost& cost, std::size_t shards) {
     for (std::size_t i = 0; i < point.surfaces; ++i) {
       Load& load = loads[place++ % shards];
       ++load.surfaces;
+      load.contacts += point.pressures.size();
       load.seconds += point.seconds / static_cast<double>(point.surfaces);
     }
   ShardPlan plan{.shards = shards};
   for (const Load& load : loads) {
     plan.surfaces = std::max(plan.surfaces, load.surfaces);
-    plan.seconds = std::max(plan.seconds, load.seconds / gain_of(cost.threads, load.surfaces));
+    plan.seconds = std::max(plan.seconds, load.seconds / gain_of(cost.threads, load.contacts));
   }
   for (const PointCost& point : cost.points)
     plan.memory = std::max(
@@ -238,21 +239,21 @@ double study_memory(const StudyConfiguration& point, const Grid2D& grid, int thr
                     std::optional<std::size_t> in_one_process) {
   const auto surfaces =
       static_cast<double>(in_one_process.value_or(detail::seeds_of(point).size()));
-  // As run_ensembles() does: one surface on each thread where there are enough, else all threads on
-  // each.
-  const double side_by_side = surfaces >= threads ? threads : 1;
-  const double per_cell = stick_solves(point) ? memory_per_cell_stick : memory_per_cell;
+  // As run_ensembles() does: no more surfaces than threads are open, and each thread has a contact
+  // of one of them.
+  const double open = std::min(surfaces, static_cast<double>(threads));
+  const double contacts =
+      std::min(surfaces * static_cast<double>(point.pressures.size()), double(threads));
+  const double per_contact =
+      (stick_solves(point) ? memory_per_cell_stick : memory_per_cell) - surface_per_cell;
   const auto cells = static_cast<double>(grid.points());
-  // The refined surface with the contacts of its loads: of one surface on all threads, of several
-  // the first on its own.
   const int halvings =
       surface_damping_options(point, grid, detail::seeds_of(point).front()).refinements;
-  const double refined =
-      halvings == 0
-          ? 0
-          : std::pow(4.0, halvings) * cells *
-                (refined_surface_per_cell + memory_per_cell * (side_by_side > 1 ? 1 : threads));
-  return memory_of_program + std::max(side_by_side * per_cell * cells, refined) +
+  const double refined = halvings == 0 ? 0
+                                       : std::pow(4.0, halvings) *
+                                             (open * surface_per_cell + contacts * memory_per_cell);
+  return memory_of_program +
+         cells * std::max(open * surface_per_cell + contacts * per_contact, refined) +
          surfaces * kept_bytes(point, grid);
 }
 
@@ -321,7 +322,7 @@ StudyCost estimate_cost(const StudyConfiguration& configuration, const StudyProc
     if (processes.ranks > 1) {
       add_point(cost, own);
     } else {
-      cost.seconds += own.seconds / gain_of(cost.threads, own.surfaces);
+      cost.seconds += own.seconds / gain_of(cost.threads, own.surfaces * own.pressures.size());
       cost.memory = std::max(cost.memory, study_memory(point, own.grid, cost.threads));
     }
     cost.points.push_back(std::move(own));

@@ -7,7 +7,6 @@
 #include <charconv>
 #include <chrono>
 #include <deque>
-#include <exception>
 #include <limits>
 #include <list>
 #include <memory>
@@ -19,6 +18,7 @@
 #include <salebra/study/cost.hpp>
 #include <salebra/study/study.hpp>
 
+#include "base/task_pool.hpp"
 #include "case_run.hpp"
 #include "study_lock.hpp"
 
@@ -77,19 +77,14 @@ class ShardRun {
   ShardOutcome go() {
     drop_present();
     require_room();
-    talk();
-    const auto do_next = [this](bool on_calling_thread) {
-      const std::optional<Taken> taken = take();
-      if (taken) compute(*taken, on_calling_thread);
-      return taken.has_value();
-    };
-    const auto workers = std::size_t(parallel::threads());
-    // Few surfaces: all threads work on each.
-    const bool few = workers == 1 || pending_.size() < workers;
-    detail::side_by_side(few ? 0 : int(workers), do_next, [this] { talk(); });
-    if (failure_) std::rethrow_exception(failure_);
-    outcome_.interrupted = stop_;
-    outcome_.elsewhere = stop_ ? 0 : pending_.size();
+    // A claim that holds now may be void when a thread has ended its surface: each looks for
+    // another until there is none.
+    loop_.run(std::max(Index(pending_.size()), Index(1)), [this](Index) {
+      while (const std::optional<Taken> taken = take()) compute(*taken);
+      loop_.close();
+    });
+    outcome_.interrupted = loop_.stopped();
+    outcome_.elsewhere = loop_.stopped() ? 0 : pending_.size();
     outcome_.damaged = parts_.damaged();
     return outcome_;
   }
@@ -121,7 +116,7 @@ class ShardRun {
   /// The next surface, from the first on each time: a claim that held before may be void by now.
   std::optional<Taken> take() {
     const std::scoped_lock lock(guard_);
-    for (auto item = pending_.begin(); !stop_ && item != pending_.end();) {
+    for (auto item = pending_.begin(); !loop_.stopped() && item != pending_.end();) {
       const bool present = parts_.holds(item->key);
       if (present) note_present(*item);
       if (present || is_superfluous(*item)) {
@@ -157,15 +152,14 @@ class ShardRun {
     return item.index >= point.limit;
   }
 
-  void compute(const Taken& taken, bool on_calling_thread) {
+  void compute(const Taken& taken) {
     const auto start = Clock::now();
     const Point& point = points_[taken.item.point];
     try {
       const Realisation realisation = analyse_realisation(
           point.configuration, taken.item.seed, point.pressures, [&](const ProgressReport& sweep) {
             fractions_[taken.slot] = sweep.fraction;
-            if (on_calling_thread) talk();
-            return !stop_;
+            return loop_.going_on();
           });
       parts_.write(taken.item.key, realisation);
       const std::scoped_lock lock(guard_);
@@ -174,12 +168,7 @@ class ShardRun {
       note(taken.item, std::chrono::duration<double>(Clock::now() - start).count(), false);
     } catch (const Interrupted&) {
       // Stopped.
-    } catch (...) {
-      const std::scoped_lock lock(guard_);
-      if (!failure_) failure_ = std::current_exception();
-      stop_ = true;
     }
-    if (on_calling_thread) talk();
   }
 
   void note_present(const Item& item) {
@@ -199,19 +188,7 @@ class ShardRun {
                      .restored = restored});
   }
 
-  /// Reports on the calling thread only. What the caller throws ends the run; it must not leave a
-  /// parallel region.
-  void talk() {
-    try {
-      report();
-    } catch (...) {
-      const std::scoped_lock lock(guard_);
-      if (!failure_) failure_ = std::current_exception();
-      stop_ = true;
-    }
-  }
-
-  void report() {
+  bool report() {
     std::vector<RealisationReport> news;
     std::size_t finished = 0, wanted = 0;
     {
@@ -222,14 +199,12 @@ class ShardRun {
     }
     if (run_.on_realisation)
       for (const RealisationReport& item : news) run_.on_realisation(item);
-    if (!run_.on_progress || stop_) return;
+    if (!run_.on_progress) return true;
     double sum = 0;
     for (const std::atomic<double>& fraction : fractions_) sum += fraction;
     const std::string stage = fmt::format("shard {} {}/{}", to_text(shard_), finished, wanted);
-    if (!run_.on_progress({.stage = stage,
-                           .fraction = std::min(sum / double(wanted), 1.0),
-                           .step = int(finished)}))
-      stop_ = true;
+    return run_.on_progress(
+        {.stage = stage, .fraction = std::min(sum / double(wanted), 1.0), .step = int(finished)});
   }
 
   const Shard shard_;
@@ -241,9 +216,8 @@ class ShardRun {
   std::size_t slots_ = 0;
   std::vector<std::atomic<double>> fractions_;
   std::vector<RealisationReport> news_;
-  std::atomic<bool> stop_ = false;
-  std::exception_ptr failure_;
   std::mutex guard_;
+  detail::TaskLoop loop_{{.at_once = 0, .ranks = {}, .talk = [this] { return report(); }}};
 };
 
 }  // namespace

@@ -287,6 +287,7 @@ TEST_CASE("The number of shards follows from the time that one may take", "[shar
   PointCost point;
   point.configuration = one_point();
   point.grid = {64, 64, 4e-6, 4e-6};
+  point.pressures = {1e6};
   point.surfaces = 40;
   point.seconds = 4000;
   cost.points = {point};
@@ -296,7 +297,7 @@ TEST_CASE("The number of shards follows from the time that one may take", "[shar
   CHECK(plan.shards == 4);
   CHECK(plan.surfaces == 10);
   CHECK(plan.seconds == Approx(250));
-  // One surface on all threads takes 100/(1 + 0.75·3) s: no number of shards is faster.
+  // One contact on all threads takes 100/(1 + 0.75·3) s: no number of shards is faster.
   const ShardPlan most = plan_shards(cost, 1);
   CHECK(most.shards == 40);
   CHECK(most.surfaces == 1);

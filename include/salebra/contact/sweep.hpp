@@ -21,8 +21,9 @@ struct SweepOptions {
   /// Solves for K_t along x by a stick solve on each contact set instead of (G*/E*)K; needs
   /// stiffness, and the bodies or Poisson's ratio.
   bool stick = false;
-  /// Loads solved at the same time, each on one thread and with 50 to 60 bytes a cell of its own; 1
-  /// gives all threads to one load after the other; 0: as many as there are threads.
+  /// Loads solved at the same time, each with 50 to 60 bytes a cell of its own and on one thread
+  /// while there are others that wait; 1 gives all threads to one load after the other; 0: as many
+  /// as there are threads.
   int concurrent_loads = 0;
   /// Groups of processes, each of which holds the surface, spread over the group (`ranks` of the
   /// surface is groups->own()). Each group solves some of the loads, one after the other; all

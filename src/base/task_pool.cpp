@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Threads of a loop of tasks, of the loops inside its tasks, and of their slabs.
+#include "task_pool.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <vector>
+
+namespace salebra::detail {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// So deep are slabs, inside of all loops.
+constexpr int depth_of_slabs = 1 << 20;
+
+struct Here {
+  TaskPool* pool = nullptr;
+  TaskLoop* loop = nullptr;  // that this thread called last
+  int depth = 0;             // of the next loop that it calls
+};
+thread_local Here here;
+
+class Within {
+ public:
+  explicit Within(const Here& now) : before_(here) { here = now; }
+  ~Within() { here = before_; }
+  Within(const Within&) = delete;
+  Within& operator=(const Within&) = delete;
+
+ private:
+  const Here before_;
+};
+
+}  // namespace
+
+/// The threads of an outermost loop, on its caller's stack. They are those of OpenMP, which binds
+/// them as it was told to. One lock guards who does what; tasks run without it. What a task wrote is
+/// seen by the caller of its loop, which takes the lock after the task's thread has released it. A
+/// thread that waits is in free_, and is taken out by whoever wakes it: no wake is lost or given to
+/// a thread that may not take what there is.
+class TaskPool {
+ public:
+  TaskPool() {
+    // A thread calls at most one loop in each of three depths; nothing may throw below.
+    const auto most = 4 * static_cast<std::size_t>(parallel::most_threads());
+    open_.reserve(most);
+    free_.reserve(most);
+  }
+
+  /// A thread without a task, until end().
+  void serve() {
+    std::unique_lock lock(guard_);
+    Waiter waiter{.least_depth = 0};
+    while (!over_)
+      if (TaskLoop* loop = pick(0))
+        take_part(*loop, lock);
+      else
+        wait(waiter, lock, false);
+  }
+
+  void end() {
+    const std::scoped_lock lock(guard_);
+    over_ = true;
+    for (Waiter* waiter : free_) awake(*waiter);
+    free_.clear();
+  }
+
+  /// run() of a loop, by the thread that called it.
+  void run(TaskLoop& loop) {
+    loop.tell();
+    std::unique_lock lock(guard_);
+    open_.push_back(&loop);
+    Waiter waiter{.least_depth = loop.depth_ + 1, .own = &loop};
+    // The calling thread takes the first task itself.
+    call(loop, loop.count_ - 1);
+    for (;;) {
+      if (loop.has_room()) {
+        take_part(loop, lock);
+      } else if (loop.running_ == 0) {
+        break;
+      } else if (TaskLoop* inner = pick(waiter.least_depth)) {
+        take_part(*inner, lock);
+      } else {
+        wait(waiter, lock, true);
+      }
+      if (!loop.options_.talk) continue;
+      lock.unlock();
+      loop.tell();
+      lock.lock();
+    }
+    std::erase(open_, &loop);
+  }
+
+  int free_threads() const { return free_count_; }
+
+ private:
+  struct Waiter {
+    int least_depth = 0;  // of the loops that it may take part in
+    const TaskLoop* own = nullptr;
+    bool woken = false;
+    std::condition_variable changed = {};
+  };
+
+  /// The loop that the next free thread takes a task of: the inner before the outer, slabs last,
+  /// and of like ones that which began first.
+  TaskLoop* pick(int least_depth) const {
+    const auto rank = [](const TaskLoop& loop) {
+      return loop.depth_ == depth_of_slabs ? -1 : loop.depth_;
+    };
+    TaskLoop* best = nullptr;
+    for (TaskLoop* loop : open_)
+      if (loop->depth_ >= least_depth && loop->has_room() && (!best || rank(*loop) > rank(*best)))
+        best = loop;
+    return best;
+  }
+
+  void take_part(TaskLoop& loop, std::unique_lock<std::mutex>& lock) {
+    const Index task = loop.next_++;
+    ++loop.running_;
+    lock.unlock();
+    {
+      // A thread that helps while its own loop waits goes on talking for that one.
+      const Within the_task({here.pool, here.loop, loop.depth_ + 1});
+      loop.perform(task);
+    }
+    lock.lock();
+    --loop.running_;
+    // Its caller may have to be told, or takes the task that there is room for now.
+    for (std::size_t k = 0; k < free_.size(); ++k)
+      if (free_[k]->own == &loop) return release(k);
+    if (loop.has_room()) call(loop, 1);
+  }
+
+  /// Wakes so many free threads for a loop.
+  void call(const TaskLoop& loop, Index wanted) {
+    for (std::size_t k = free_.size(); k-- > 0 && wanted > 0;)
+      if (free_[k]->least_depth <= loop.depth_) {
+        release(k);
+        --wanted;
+      }
+  }
+
+  void release(std::size_t k) {
+    awake(*free_[k]);
+    free_.erase(free_.begin() + static_cast<std::ptrdiff_t>(k));
+    free_count_ = static_cast<int>(free_.size());
+  }
+
+  static void awake(Waiter& waiter) {
+    waiter.woken = true;
+    waiter.changed.notify_one();
+  }
+
+  void wait(Waiter& waiter, std::unique_lock<std::mutex>& lock, bool talks) {
+    waiter.woken = false;
+    free_.push_back(&waiter);
+    free_count_ = static_cast<int>(free_.size());
+    const auto woken = [&] { return waiter.woken; };
+    if (!talks)
+      waiter.changed.wait(lock, woken);
+    else if (!waiter.changed.wait_for(lock, std::chrono::milliseconds(20), woken))
+      std::erase(free_, &waiter);
+    free_count_ = static_cast<int>(free_.size());
+  }
+
+  std::mutex guard_;
+  std::vector<TaskLoop*> open_;  // in the order of their beginnings
+  std::vector<Waiter*> free_;    // the last to wait is the first to be woken
+  std::atomic<int> free_count_ = 0;
+  bool over_ = false;
+};
+
+void TaskLoop::run(Index count, const std::function<void(Index)>& body) {
+  const int threads = parallel::threads();
+  count_ = count;
+  body_ = &body;
+  around_ = here.loop;
+  depth_ = here.depth;
+  most_ = options_.at_once > 0 ? std::min(options_.at_once, threads) : threads;
+  const bool single = count <= 1 || most_ <= 1 || !options_.ranks.alone();
+  if (single || (!here.pool && omp_in_parallel())) {
+    const Within this_loop({here.pool, this, here.depth});
+    tell();
+    one_by_one();
+  } else if (here.pool) {
+    const Within this_loop({here.pool, this, here.depth});
+    here.pool->run(*this);
+  } else {
+    TaskPool pool;
+    const Here caller{&pool, this, depth_};
+#pragma omp parallel num_threads(threads)
+    if (omp_get_thread_num() == 0) {
+      const Within this_loop(caller);
+      pool.run(*this);
+      pool.end();
+    } else {
+      const Within no_loop({&pool, nullptr, 0});
+      pool.serve();
+    }
+  }
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+bool TaskLoop::going_on() {
+  TaskLoop* loop = here.loop;
+  while (loop && !loop->options_.talk) loop = loop->around_;
+  if (loop && Clock::now() - loop->told_ >= std::chrono::milliseconds(1)) loop->tell();
+  return !stopped_;
+}
+
+void TaskLoop::one_by_one() {
+  for (Index task = 0; task < count_; ++task) {
+    // One process may have been told to stop where the others were not. One that failed calls them
+    // no more.
+    if (failure_ || !options_.ranks.all_agree(!stopped_)) stopped_ = true;
+    if (stopped_ || closed_) return;
+    perform(task);
+    tell();
+  }
+}
+
+void TaskLoop::perform(Index task) {
+  try {
+    (*body_)(task);
+    ++finished_;
+  } catch (...) {
+    keep_failure();
+  }
+}
+
+void TaskLoop::keep_failure() {
+  const std::scoped_lock lock(failure_guard_);
+  if (!failure_) failure_ = std::current_exception();
+  stopped_ = true;
+}
+
+void TaskLoop::tell() {
+  if (stopped_ || !options_.talk) return;
+  const Within outside({here.pool, around_, here.depth});
+  try {
+    if (!options_.talk()) stop();
+  } catch (...) {
+    keep_failure();
+  }
+  told_ = Clock::now();
+}
+
+bool share_slabs(Index rows, Index slabs_per_thread,
+                 const std::function<void(Index, Index)>& body) {
+  if (!here.pool || here.depth > depth_of_slabs) return false;
+  const Index threads = 1 + here.pool->free_threads(),
+              slabs = std::min(rows, slabs_per_thread * threads);
+  if (threads == 1) return false;
+  std::atomic<Index> next = 0;
+  const Within behind_tasks({here.pool, here.loop, depth_of_slabs});
+  TaskLoop loop({});
+  loop.run(threads, [&](Index) {
+    for (Index slab = next++; slab < slabs; slab = next++)
+      body(rows * slab / slabs, rows * (slab + 1) / slabs);
+    loop.close();  // a thread that wakes now has come too late
+  });
+  return true;
+}
+
+}  // namespace salebra::detail
