@@ -86,15 +86,14 @@ constexpr std::array descriptions{
         "The contact as a damper that one tunes by its amplitude: decay of an oscillator, and an "
         "estimate of the amplitude that keeps a slider from stick-slip."},
     CommandHelp{
-        "friction", damping,
-        "A contact that slides at constant velocity while it oscillates in the normal direction. "
-        "Reports mean friction over velocity, the velocity from which nothing sticks, and two "
-        "damping constants: of slow sliding, and of relaxation without slip."},
-    CommandHelp{
-        "slider", damping,
-        "A mass that a spring drags over a contact: stick-slip or steady sliding, by the full "
-        "equation of motion and by its average over a normal oscillation. Reports the amplitude "
-        "and frequency from which the oscillation keeps sliding stable."},
+        "sliding", damping,
+        "A contact that slides while it oscillates in the normal direction. Reports mean friction "
+        "over velocity, the velocity from which nothing sticks, and two damping constants: of slow "
+        "sliding, and of relaxation without slip. With --mass and --spring-stiffness a spring "
+        "drags "
+        "a mass over the contact: stick-slip or steady sliding, by the full equation of motion and "
+        "by its average over a normal oscillation, and the amplitude and frequency from which the "
+        "oscillation keeps sliding stable."},
     CommandHelp{
         "joint", damping,
         "A contact under a tangential force or displacement that oscillates: what partial slip "
@@ -144,8 +143,8 @@ std::string_view first_steps() {
          "                          its damping for any motion         damping --curve\n"
          "  a sphere, cone, profile force, stresses, losses, slip      mdr\n"
          "                          the same in three dimensions       oscillate, figure3\n"
-         "  a slider on a spring    stick-slip, and what stops it      slider\n"
-         "                          its friction under vibration       friction\n"
+         "  a sliding contact       its friction under vibration,\n"
+         "                          stick-slip, and what stops it      sliding\n"
          "  an oscillator           its decay under vibration          damper\n"
          "  a joint                 losses in partial slip, W(T)       joint\n"
          "  rubber or a polymer     losses under an indenter           viscoelastic\n"

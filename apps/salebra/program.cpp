@@ -228,8 +228,10 @@ struct FormerCommand {
   std::string_view name, now;
 };
 constexpr FormerCommand former_commands[]{
+    {"friction", "sliding, with the same options"},
     {"gw", "contact, with --model gw_moments or gw_deterministic"},
     {"manual", "help, with the name of a command"},
+    {"slider", "sliding, with --velocities for --velocity"},
     {"sweep", "contact, with several values of --pressure"},
 };
 

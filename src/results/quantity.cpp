@@ -76,15 +76,7 @@ const Quantity others[] = {
     Quantity{"loss_modulus", pressure, "imaginary part of the complex shear modulus"},
     Quantity{"stabilising_amplitude", length,
              "minimum normal amplitude that stabilises the slider"},
-    Quantity{"stable", dimensionless, "steady sliding is stable"},
     Quantity{"transverse", length, "displacement along y"},
-    Quantity{"velocity_ratio", dimensionless, "velocity over critical velocity"},
-    Quantity{"regime", dimensionless, "0 no slip, 1 partial slip, 2 sliding, 3 unknown"},
-    Quantity{"no_slip_excursion", length,
-             "largest excursion without slip; 0: none, n/a: all excursions"},
-    Quantity{"threshold_amplitude", length, "minimum normal amplitude at which sliding is stable"},
-    Quantity{"threshold_frequency", frequency,
-             "minimum frequency of the normal oscillation at which sliding is stable"},
     Quantity{"limit_5_percent", dimensionless, "value at which the loss changes by 5 %"},
     Quantity{"limit_20_percent", dimensionless, "value at which the loss changes by 20 %"},
 };
@@ -110,9 +102,10 @@ const Quantity* entry_of(std::string_view name) {
       WindowSensitivity, LocalDecayLength, CycleSample, CycleResult, SlipEffect, CouplingEffect,
       CycleFrame, LevelQuadratureResult, OscillationLoss, ExponentialLoss, SampledMotion,
       EqualFrequency, Drag, DampingResult, CommonPeriod, ContactFacts, LargestMotion, LossWithSlip,
-      TrajectoryDamping, JointLoss, SteadySliding, Slider, SliderMotion, SliderStability,
-      OscillatorDecay, FrictionMap, StressMap, RegimeMap, PronyTerm, PronySeries,
-      ViscoelasticDamping, SurfaceDamping, Anisotropy, NonGaussianSurface>();
+      TrajectoryDamping, JointLoss, SteadySliding, SlidingPoint, RegimePoint, Slider, SliderMotion,
+      SliderStability, SliderThresholds, OscillatorDecay, FrictionMap, StressMap, RegimeMap,
+      PronyTerm, PronySeries, ViscoelasticDamping, SurfaceDamping, Anisotropy,
+      NonGaussianSurface>();
   const auto found = std::ranges::find(quantities, name, &Quantity::name);
   return found != quantities.end() ? &*found : nullptr;
 }

@@ -280,7 +280,7 @@ TEST_CASE("A drag far too short for sliding to begin has its steady state all th
   const auto followed =
       test.run("damping " + law + "--drag-velocity 10um/s --friction 100 --steps 2000").json();
   const auto slid =
-      test.run("friction " + law + "--velocities 10um/s --friction-coefficient 100").json();
+      test.run("sliding " + law + "--velocities 10um/s --friction-coefficient 100").json();
   // 2000 straight steps, and slip from v/v_c = 3e-5 of a radian on, which is less than one of them.
   CHECK(followed["work_per_cycle"].get<double>() ==
         Approx(slid["relaxation_work"][0].get<double>() + slid["slip_work"][0].get<double>())

@@ -13,13 +13,13 @@
 namespace {
 
 const std::string law =
-    "friction --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 ";
+    "sliding --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 ";
 const std::string motion =
     "--friction-coefficient 0.3 --normal-amplitude 30nm --angular-frequency 1e5 ";
 
 }  // namespace
 
-TEST_CASE("friction gives the friction of a sliding contact over velocity", "[sliding]") {
+TEST_CASE("sliding gives the friction of a sliding contact over velocity", "[sliding]") {
   const ProgramTest test;
   const auto answer = test.run(law + motion + "--velocities 1nm/s,1mm/s,1m/s --json").json();
   CHECK(keys(answer) == std::set<std::string>{"premises", "largest_motion", "mean_force",
@@ -50,7 +50,7 @@ TEST_CASE("friction gives the friction of a sliding contact over velocity", "[sl
         Approx(stuck.json()["damping_constant"].get<double>()).epsilon(1e-10));
 }
 
-TEST_CASE("friction maps amplitudes and ratios of velocities", "[sliding]") {
+TEST_CASE("sliding maps amplitudes and ratios of velocities", "[sliding]") {
   const ProgramTest test;
   const std::string several = law + "--friction-coefficient 0.3 --angular-frequency 1e5 ";
   const auto run = test.run(several +
@@ -73,7 +73,7 @@ TEST_CASE("friction maps amplitudes and ratios of velocities", "[sliding]") {
   CHECK(test.files() == std::set<std::string>{"map.csv", "map.sliding.csv", "map.svg"});
 }
 
-TEST_CASE("friction says in which regime a slow motion is, as mdr with friction does",
+TEST_CASE("sliding says in which regime a slow motion is, as mdr with friction does",
           "[sliding][regimes]") {
   const ProgramTest test;
   const std::string contact =
@@ -100,7 +100,7 @@ TEST_CASE("friction says in which regime a slow motion is, as mdr with friction 
     const auto rough = test.run(mdr + "--friction 0.3").json(), stuck = test.run(mdr).json();
     const std::string case_of_it =
         fmt::format("--velocities {} --excursions {} ", velocity, cycles * way);
-    const auto run = test.run("friction --law parabola --radius 10mm " + contact + case_of_it +
+    const auto run = test.run("sliding --law parabola --radius 10mm " + contact + case_of_it +
                               "--json -o map.h5 --overwrite");
     INFO(run.err);
     REQUIRE(run.status == 0);
@@ -120,7 +120,7 @@ TEST_CASE("friction says in which regime a slow motion is, as mdr with friction 
   }
 }
 
-TEST_CASE("Bad input of friction is refused by its option", "[sliding][input]") {
+TEST_CASE("Bad input of sliding is refused by its option", "[sliding][input]") {
   const ProgramTest test;
   for (const auto& [command, message] : std::initializer_list<std::pair<std::string, const char*>>{
            {law + motion + "--velocities 0", "--velocities: 0"},

@@ -305,16 +305,17 @@ TEST_CASE("Every number that the program writes has the name, unit and meaning o
                law,
            "damper --normal-amplitude 1nm,2nm --frequency 10kHz,20kHz --falling-slope 5 -o map.h5" +
                law,
-           "friction --friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz "
+           "sliding --friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz "
            "--velocities 1um/s,1mm/s -o friction_over_velocity.h5" +
                law,
-           "friction --friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz "
+           "sliding --friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz "
            "--velocities 1um/s,1mm/s --excursions 1nm,1um -o regimes.h5" +
                law,
-           "friction --friction-coefficient 0.3 --normal-amplitude 10nm,20nm --frequency 20kHz "
+           "sliding --friction-coefficient 0.3 --normal-amplitude 10nm,20nm --frequency 20kHz "
            "--velocity-ratios 0.1,1 -o amplitudes.h5" +
                law,
-           "slider --friction-coefficient 0.3 --mass 1kg --spring-stiffness 1MN/m --velocity 1mm/s "
+           "sliding --friction-coefficient 0.3 --mass 1kg --spring-stiffness 1MN/m --velocities "
+           "1mm/s "
            "--falling-slope 10 --normal-amplitude 10nm --frequency 20kHz -o slider.h5" +
                law,
            "joint --friction-coefficient 0.3 --tangential-amplitudes 5nm,10nm --nominal-area 1mm2 "
@@ -347,8 +348,8 @@ TEST_CASE("Every option that is a quantity has its unit", "[names]") {
   const std::regex line("\\n  --([a-z0-9-]+) (VALUES in )?(.+?)(  |\\n)");
   int known = 0;
   for (const char* command :
-       {"generate", "statistics", "contact", "fit", "damping", "mdr", "damper", "friction",
-        "slider", "joint", "viscoelastic", "oscillate", "figure3", "study", "compare"}) {
+       {"generate", "statistics", "contact", "fit", "damping", "mdr", "damper", "sliding", "joint",
+        "viscoelastic", "oscillate", "figure3", "study", "compare"}) {
     const std::string help = test.run(std::string(command) + " --help").out;
     for (std::sregex_iterator found(help.begin(), help.end(), line), end; found != end; ++found) {
       std::string name = (*found)[1];

@@ -21,7 +21,7 @@ TEST_CASE("Help of every command ends with two examples of that command", "[prog
   const ProgramTest test;
   const auto command =
       GENERATE(as<std::string>(), "generate", "info", "convert", "contact", "fit", "damping", "mdr",
-               "damper", "friction", "slider", "joint", "viscoelastic", "study", "verify", "init",
+               "damper", "sliding", "joint", "viscoelastic", "study", "verify", "init",
                "statistics", "compare", "oscillate", "figure3", "completion");
   CHECK_THAT(test.run("--help").out, Contains("  " + command));
   const auto help = test.run(command + " --help");
@@ -180,8 +180,10 @@ TEST_CASE("Wrong usage is refused in one line", "[program]") {
 TEST_CASE("A command's former name is answered with the present one", "[program]") {
   const ProgramTest test;
   const auto [former, now] = GENERATE(table<std::string, std::string>({
+      {"friction", "sliding"},
       {"gw", "contact"},
       {"manual", "help"},
+      {"slider", "sliding"},
       {"sweep", "contact"},
   }));
   INFO(former);
@@ -259,16 +261,16 @@ TEST_CASE("SIGINT stops every command that computes for long, and nothing is wri
   // Each takes seconds to minutes; the slider because 1 kHz leaves it unstable, so that its
   // slow cycles are followed.
   for (const std::string& command :
-       {"slider " + law +
+       {"sliding " + law +
             "--normal-amplitude 2nm --frequency 1kHz --mass 10g --spring-stiffness 1kN/m "
-            "--velocity 3um/s --falling-slope 1 --friction-coefficient 0.3 --tolerance 1e-6",
+            "--velocities 3um/s --falling-slope 1 --friction-coefficient 0.3 --tolerance 1e-6",
         "viscoelastic " + sphere + motion + "--prony 3MPa:1ms --steps 20000 --springs 20000",
         "mdr " + sphere + motion + "--friction 0.3 --steps 10000000",
         "damping " + law + normal + "--drag-velocity 1mm/s --friction 0.3 --steps 10000000",
         "joint " + law +
             "--friction-coefficient 0.3 --normal-amplitude 2nm --tangential-forces 3mN "
             "--steps 400000",
-        "friction " + law +
+        "sliding " + law +
             "--friction-coefficient 0.3 --frequency 20kHz --normal-amplitude 1:20nm:40 "
             "--velocity-ratios 0.001:0.9:4000",
         "damper " + law + "--normal-amplitude 1:20nm:2000 --frequency 1:100kHz:2000"}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests of `salebra slider`.
+// Tests of `salebra sliding` with a slider on a spring.
 #include <catch2/catch.hpp>
 #include <string>
 
@@ -8,13 +8,13 @@
 namespace {
 
 const std::string contact =
-    "slider --law exponential --normal-force 20mN --decay-length 30nm --poisson 0.3 ";
+    "sliding --law exponential --normal-force 20mN --decay-length 30nm --poisson 0.3 ";
 const std::string body = "--mass 10g --spring-stiffness 1kN/m ";
-const std::string slider = contact + body + "--friction-coefficient 0.3 --velocity 50um/s ";
+const std::string slider = contact + body + "--friction-coefficient 0.3 --velocities 50um/s ";
 
 }  // namespace
 
-TEST_CASE("slider sticks and slips without an oscillation, and slides with one", "[slider]") {
+TEST_CASE("A slider sticks and slips without an oscillation, and slides with one", "[slider]") {
   const ProgramTest test;
   const auto jerks = test.run(slider + "--falling-slope 1 --json").json();
   CHECK(jerks["state"] == "stick_slip");
@@ -29,15 +29,17 @@ TEST_CASE("slider sticks and slips without an oscillation, and slides with one",
       test.run(slider + "--falling-slope 1 --normal-amplitude 2nm --frequency 20kHz --json").json();
   CHECK(slides["state"] == "steady");
   CHECK(slides["stable"] == true);
+  CHECK(keys(slides["premises"]) == keys(jerks["premises"]));
+  CHECK(slides["premises"]["amplitude"]["verdict"] == "holds");
   CHECK(slides["slider_period"].is_null());
   const auto& threshold = slides["threshold_amplitude"];
   CHECK(threshold["value"].get<double>() ==
         Approx(threshold["linear_estimate"].get<double>())
             .margin(threshold["linear_estimate_error"].get<double>() + 2e-12));
-  // The slope and the mean are those of `friction`.
+  // The slope and the mean are those of steady sliding.
   const auto friction =
       test.run(
-              "friction --law exponential --normal-force 20mN --decay-length 30nm --poisson 0.3 "
+              "sliding --law exponential --normal-force 20mN --decay-length 30nm --poisson 0.3 "
               "--friction-coefficient 0.3 --normal-amplitude 2nm --frequency 20kHz --velocities "
               "50um/s --json")
           .json();
@@ -57,19 +59,26 @@ TEST_CASE("The path of a slider is written with its means", "[slider]") {
   CHECK_THAT(test.read("path.csv"), Catch::Contains("slider_amplitude"));
 }
 
-TEST_CASE("Bad input of slider is refused by its option", "[slider][input]") {
+TEST_CASE("Bad input of a slider is refused by its option", "[slider][input]") {
   const ProgramTest test;
-  const std::string rest = "--friction-coefficient 0.3 --velocity 50um/s ";
+  const std::string rest = "--friction-coefficient 0.3 --velocities 50um/s ";
   for (const auto& [command, message] : std::initializer_list<std::pair<std::string, const char*>>{
-           {contact + rest, "--mass, --spring-stiffness"},
+           {contact + rest + "--falling-slope 1", "--mass, --spring-stiffness"},
+           {contact + rest + "--steps 64", "--mass, --spring-stiffness"},
+           {contact + body + "--friction-coefficient 0.3", "--velocities"},
+           {contact + body + "--friction-coefficient 0.3 --velocities 50um/s,1mm/s",
+            "--velocities: 2 are given; a slider takes one"},
+           {slider + "--excursions 1nm", "--excursions: 1 map steady sliding"},
+           {slider + "--velocity-ratios 0.1", "--velocity-ratios: given"},
            {slider + "--normal-amplitude 1nm", "--frequency"},
            {contact + rest + "--mass 0 --spring-stiffness 1kN/m", "--mass: 0"},
            {contact + rest + "--mass -1g --spring-stiffness 1kN/m", "--mass: -0.001"},
-           {contact + body + "--friction-coefficient 0.3 --velocity 0", "--velocity: 0"},
-           {contact + body + "--friction-coefficient 0.3 --velocity -1mm/s", "--velocity: -0.001"},
-           {contact + body + "--friction-coefficient 0 --velocity 1mm/s",
+           {contact + body + "--friction-coefficient 0.3 --velocities 0", "--velocities: 0"},
+           {contact + body + "--friction-coefficient 0.3 --velocities -1mm/s",
+            "--velocities: -0.001"},
+           {contact + body + "--friction-coefficient 0 --velocities 1mm/s",
             "--friction-coefficient: 0"},
-           {contact + body + "--friction-coefficient inf --velocity 1mm/s",
+           {contact + body + "--friction-coefficient inf --velocities 1mm/s",
             "--friction-coefficient"},
            {slider + "--normal-amplitude -1nm --frequency 20kHz", "--normal-amplitude: -1e-09"},
            {slider + "--normal-amplitude 1nm --frequency 50Hz", "must be above 4 times"},

@@ -119,15 +119,15 @@ std::vector<Case> all_cases() {
        {},
        "damper --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--normal-amplitude 10nm,20nm --frequency 20kHz,30kHz -o out.h5"},
-      {"friction",
+      {"sliding",
        {},
-       "friction --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+       "sliding --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz --velocities "
        "1um/s,1mm/s -o out.h5"},
       {"slider",
        {},
-       "slider --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
-       "--friction-coefficient 0.3 --mass 1kg --spring-stiffness 1MN/m --velocity 1mm/s "
+       "sliding --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+       "--friction-coefficient 0.3 --mass 1kg --spring-stiffness 1MN/m --velocities 1mm/s "
        "--support-damping 300 -o out.csv"},
       {"joint",
        {},
@@ -154,9 +154,9 @@ std::vector<Case> all_cases() {
       {"init", {}, "init out.toml"},
       {"completion", {}, "completion bash -o out.bash"},
       {"plot", in, "info IN/s.h5 --plot out.svg"},
-      {"plot_friction",
+      {"plot_sliding",
        {},
-       "friction --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+       "sliding --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz --velocities "
        "1um/s,1mm/s --plot out.svg"},
       {"plot_damping",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <salebra/base/describe.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/base/words.hpp>
@@ -181,6 +182,11 @@ struct SliderStability {
                                           ///< out
   bool converged =
       false;  ///< false: no steady sliding without turning back was found; growth_rate is NaN
+
+  /// Whether small disturbances die out; empty where growth_rate is not known.
+  std::optional<bool> stable() const {
+    return converged ? std::optional(growth_rate < 0) : std::nullopt;
+  }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<SliderStability>) {
@@ -196,6 +202,7 @@ constexpr void describe(auto&& visit, std::type_identity<SliderStability>) {
   visit(&S::averaged_growth_rate,
         Kept{"averaged_growth_rate", "growth of a disturbance by the averaged equation, 1/s"});
   visit(&S::converged, Kept{"converged", "false: no sliding without turning back was found"});
+  visit(&S::stable, Quantity{"stable", dimensionless, "steady sliding is stable"});
 }
 
 /// While the slider never turns back, all levels that touch are at the limit of their stretch
@@ -228,6 +235,21 @@ constexpr void describe(auto&& visit, std::type_identity<SliderThreshold>) {
   visit(&S::linear_estimate, Kept{"linear_estimate", "threshold where dT/dv + c = b"});
   visit(&S::linear_estimate_error,
         Kept{"linear_estimate_error", "error of linear_estimate by the slider's mass"});
+}
+
+/// Thresholds that were looked for.
+struct SliderThresholds {
+  std::optional<SliderThreshold> amplitude;  ///< of the normal oscillation at its frequency, m
+  std::optional<SliderThreshold> frequency;  ///< at its amplitude, Hz
+};
+
+constexpr void describe(auto&& visit, std::type_identity<SliderThresholds>) {
+  using S = SliderThresholds;
+  visit(&S::amplitude, Quantity{"threshold_amplitude", Dimension::length,
+                                "minimum normal amplitude at which sliding is stable"});
+  visit(&S::frequency,
+        Quantity{"threshold_frequency", Dimension::frequency,
+                 "minimum frequency of the normal oscillation at which sliding is stable"});
 }
 
 /// Both look upwards from where v_c = V, below which nothing sticks, in ratios of 1.05. The

@@ -55,6 +55,48 @@ constexpr void describe(auto&& visit, std::type_identity<SteadySliding>) {
   visit(&S::converged, Kept{"converged", "false: do not use the numbers"});
 }
 
+/// Steady sliding at one amplitude and velocity of several.
+struct SlidingPoint {
+  double normal_amplitude = 0;                     ///< u_z, m
+  double velocity = 0;                             ///< v, m/s
+  double velocity_ratio = SteadySliding::unknown;  ///< v/v_c, where the velocity is given by it
+  SteadySliding state = {};
+  /// As RegimeMap has it; unknown too where no regimes are mapped.
+  double no_slip_excursion = SteadySliding::unknown;
+};
+
+constexpr void describe(auto&& visit, std::type_identity<SlidingPoint>) {
+  using enum Dimension;
+  using S = SlidingPoint;
+  visit(&S::normal_amplitude, quantity::normal_amplitude);
+  visit(&S::velocity, Quantity{"velocity", Dimension::velocity, "sliding velocity"});
+  visit(&S::velocity_ratio,
+        Quantity{"velocity_ratio", dimensionless, "velocity over critical velocity"});
+  visit(&S::state, Part{"state", "steady sliding"});
+  visit(&S::no_slip_excursion,
+        Quantity{"no_slip_excursion", length,
+                 "largest excursion without slip; 0: none, n/a: all excursions"});
+}
+
+/// An entry of a RegimeMap, as a row of a table.
+struct RegimePoint {
+  double velocity = 0, excursion = 0;  ///< m/s, m
+  double loss_ratio = 0, slip_ratio = 0;
+  int regime = 0;  ///< a Regime
+};
+
+constexpr void describe(auto&& visit, std::type_identity<RegimePoint>) {
+  using enum Dimension;
+  using S = RegimePoint;
+  visit(&S::velocity, Quantity{"velocity", Dimension::velocity, "sliding velocity"});
+  visit(&S::excursion, quantity::excursion);
+  visit(&S::loss_ratio, Quantity{"loss_ratio", dimensionless, "W(mu)/W(infinity)"});
+  visit(&S::slip_ratio,
+        Quantity{"slip_ratio", dimensionless, "part of it from slip in permanent contact"});
+  visit(&S::regime,
+        Quantity{"regime", dimensionless, "0 no slip, 1 partial slip, 2 sliding, 3 unknown"});
+}
+
 /// Mean tangential force of steady sliding with Coulomb's friction under a normal oscillation δ =
 /// δ0 − u_z cosφ. A level ζ of indentation sticks or slips at the stretch limit (μK/K_t)(δ − ζ).
 /// While v > 0 every closed level is at its limit when δ is least, so that one period from there is

@@ -43,8 +43,9 @@ Json json_value(const Value& value) {
 }
 
 template <class Value>
-constexpr bool has_json =
-    std::is_enum_v<Value> || is_optional<Value> || std::is_convertible_v<const Value&, Json>;
+constexpr bool has_json = std::is_enum_v<Value> || std::is_convertible_v<const Value&, Json>;
+template <class Value>
+constexpr bool has_json<std::optional<Value>> = has_json<Value>;
 
 template <class Value>
 constexpr bool is_list = false;

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra sliding`: friction under a normal oscillation, in steady sliding or of a slider on a
+// spring.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <salebra/base/error.hpp>
+#include <salebra/questions/sliding.hpp>
+
+#include "first_loading.hpp"
+#include "law_options.hpp"
+#include "options.hpp"
+#include "premise_options.hpp"
+#include "program.hpp"
+#include "result_tables.hpp"
+#include "sliding_figure.hpp"
+#include "text.hpp"
+
+namespace salebra::cli {
+namespace {
+
+struct SlidingArguments {
+  LawOptions law;
+  MaterialOptions material;
+  SlidingQuestion sliding;
+  FrequencyOptions frequency;
+  std::string hold = "indentation", start = "rest";
+  std::optional<double> mass, spring_stiffness, support_damping, falling_slope, largest_amplitude,
+      tolerance;
+  std::optional<int> steps, most_cycles;
+  PremiseOptions premises;
+
+  bool of_slider() const {
+    return mass || spring_stiffness || support_damping || falling_slope || largest_amplitude ||
+           tolerance || steps || most_cycles || start != "rest";
+  }
+};
+
+// Columns of the amplitude alone; the others depend on the velocity too.
+constexpr std::string_view of_amplitude[]{"mean_force", "critical_velocity",
+                                          "static_friction_coefficient", "low_speed_damping",
+                                          "relaxation_damping"};
+
+void check(const SlidingArguments& arguments) {
+  const SlidingQuestion& sliding = arguments.sliding;
+  const bool slider = arguments.of_slider();
+  std::vector<std::string> missing;
+  if (!arguments.premises.friction_coefficient) missing.emplace_back("--friction-coefficient");
+  if (slider && !arguments.mass) missing.emplace_back("--mass");
+  if (slider && !arguments.spring_stiffness) missing.emplace_back("--spring-stiffness");
+  if (!slider && sliding.normal_amplitude.empty()) missing.emplace_back("--normal-amplitude");
+  const bool oscillates =
+      std::ranges::any_of(sliding.normal_amplitude, [](double u) { return u != 0; });
+  if ((oscillates || !slider) && !arguments.frequency.given()) missing.emplace_back("--frequency");
+  if (sliding.velocities.empty() && (slider || sliding.velocity_ratios.empty()))
+    missing.emplace_back(slider ? "--velocities" : "--velocities (or --velocity-ratios)");
+  require_options(missing, slider ? "a slider" : "sliding under an oscillation");
+  require_that(sliding.velocities.empty() || sliding.velocity_ratios.empty(), "--velocity-ratios",
+               "given together with --velocities; give one of them");
+  require_positive(*arguments.premises.friction_coefficient, "--friction-coefficient");
+  for (const auto& [option, values] : {std::pair{"--velocities", &sliding.velocities},
+                                       {"--velocity-ratios", &sliding.velocity_ratios},
+                                       {"--excursions", &sliding.excursions}})
+    for (const double value : *values) require_positive(value, option);
+  for (const auto& [option, values] : {std::pair{"--velocities", &sliding.velocities},
+                                       {"--normal-amplitude", &sliding.normal_amplitude}})
+    require(!slider || values->size() <= 1, option, values->size(),
+            "are given; a slider takes one");
+  require(!slider || sliding.excursions.empty(), "--excursions", sliding.excursions.size(),
+          "map steady sliding; leave out the options of the slider");
+  require(sliding.excursions.empty() || sliding.normal_amplitude.size() == 1, "--excursions",
+          sliding.excursions.size(),
+          "are a second axis in addition to the velocities; give one --normal-amplitude");
+}
+
+ContactAnswer contact_of(const SlidingArguments& arguments, Session& session) {
+  double largest = 0;
+  for (const double amplitude : arguments.sliding.normal_amplitude)
+    largest = std::max(largest, std::abs(amplitude));
+  ContactAnswer contact =
+      arguments.law.contact(arguments.material, session, arguments.premises.hardness, largest);
+  require(contact.positions.size() == 1, "--normal-force",
+          fmt::format("{} positions", contact.positions.size()),
+          "are given; sliding takes one, and several --velocities");
+  return contact;
+}
+
+// A row for each velocity and excursion.
+std::vector<RegimePoint> rows_of(const RegimeMap& map) {
+  std::vector<RegimePoint> rows;
+  for (std::size_t i = 0; i < map.velocity.size(); ++i)
+    for (std::size_t j = 0; j < map.excursion.size(); ++j)
+      rows.push_back({map.velocity[i], map.excursion[j], map.loss_ratio(Index(i), Index(j)),
+                      map.slip_ratio(Index(i), Index(j)), static_cast<int>(map.regime[i][j])});
+  return rows;
+}
+
+PremiseReport premises_of(const SlidingAnswer& found, const SlidingQuestion& question,
+                          const ContactAnswer& contact, const ContactFacts& known) {
+  const std::size_t count = question.normal_amplitude.size(),
+                    velocities = found.points.size() / count;
+  PremiseReport premises{.list = count > 1};
+  for (std::size_t k = 0; k < count; ++k) {
+    const SlidingPoint& last = found.points[(k + 1) * velocities - 1];
+    const double indentation = last.state.indentation;
+    const Drag motion{last.normal_amplitude, last.velocity, question.angular_frequency};
+    premises.cases.push_back(premises_beside_slip(*contact.law, indentation, motion,
+                                                  contact.facts_at(known, indentation))
+                                 .cases.front());
+  }
+  return premises;
+}
+
+void slide(const SlidingArguments& arguments, Session& session) {
+  require_tables(session, {"sliding", "regime_map"});
+  SlidingQuestion question = arguments.sliding;
+  const bool single = question.normal_amplitude.size() == 1, maps = !question.excursions.empty();
+  const std::size_t velocities = question.velocities.size() + question.velocity_ratios.size();
+  require(!session.has_plot() || !maps || (velocities > 1 && question.excursions.size() > 1),
+          "--plot", fmt::format("{} by {} values", velocities, question.excursions.size()),
+          "are no map; give several velocities and several --excursions");
+  question.friction_coefficient = *arguments.premises.friction_coefficient;
+  question.angular_frequency = arguments.frequency.angular().front();
+  question.hold = *value_of<Hold>(arguments.hold);
+  const ContactAnswer contact = contact_of(arguments, session);
+  const SlidingAnswer found = ask(question, *contact.law, contact.positions.front());
+
+  Json answer = Json::object(), columns = json_of(found.points);
+  if (single) {
+    columns.erase("normal_amplitude");
+    for (const std::string_view name : of_amplitude) {
+      answer[name] = columns[name][0];
+      columns.erase(std::string(name));
+    }
+  }
+  std::vector<ResultTable> tables{table_of("sliding", columns)};
+  if (maps) {
+    answer.add(json_of(*found.regimes));
+    tables.push_back(table_of("regime_map", rows_of(*found.regimes)));
+  }
+  write_tables(session, "friction", answer, tables);
+  for (const ResultColumn& column : tables.front().columns) answer[column.name] = column.values;
+  add_first_loading(answer, contact.first_loading);
+  const std::string text = to_text(answer);
+  if (maps) {
+    answer = with_tables(answer, {tables.back()});
+    Json& regimes = answer["regime_map"]["regime"] = Json::array();
+    for (const std::vector<Regime>& row : found.regimes->regime)
+      for (const Regime regime : row) regimes.push_back(std::string(word_of(regime)));
+  }
+  if (session.has_plot())
+    session.plot(maps      ? regime_figure(*found.regimes, question.angular_frequency)
+                 : !single ? amplitude_figure(found.points, question)
+                           : sliding_figure(found.points, question.friction_coefficient));
+  premises_of(found, question, contact, arguments.premises.facts(arguments.material))
+      .answer(session, answer, text);
+}
+
+SliderQuestion slider_of(const SlidingArguments& arguments, Session& session) {
+  const SlidingQuestion& sliding = arguments.sliding;
+  SliderQuestion question{
+      .slider = {.mass = *arguments.mass,
+                 .spring_stiffness = *arguments.spring_stiffness,
+                 .velocity = sliding.velocities.front(),
+                 .support_damping = arguments.support_damping.value_or(0),
+                 .falling_slope = arguments.falling_slope.value_or(0)},
+      .normal = {sliding.normal_amplitude.empty() ? 0 : sliding.normal_amplitude.front(),
+                 arguments.frequency.given() ? arguments.frequency.angular().front() : 0},
+      .friction_coefficient = *arguments.premises.friction_coefficient,
+      .largest_amplitude = arguments.largest_amplitude};
+  SliderOptions& options = question.options;
+  options.hold = *value_of<Hold>(arguments.hold);
+  options.start = *value_of<SliderStart>(arguments.start);
+  options.steps = arguments.steps.value_or(options.steps);
+  options.tolerance = arguments.tolerance.value_or(options.tolerance);
+  options.most_cycles = arguments.most_cycles.value_or(options.most_cycles);
+  options.on_progress = session.progress();
+  return question;
+}
+
+Json to_json(const SliderThreshold& threshold) {
+  return {{"value", threshold.value},
+          {"linear_estimate", threshold.linear_estimate},
+          {"linear_estimate_error", threshold.linear_estimate_error}};
+}
+
+void drag_slider(const SlidingArguments& arguments, Session& session) {
+  require_tables(session, {"motion", "averaged_motion"});
+  const SliderQuestion question = slider_of(arguments, session);
+  const ContactAnswer contact = contact_of(arguments, session);
+  const SliderAnswer found = ask(question, *contact.law, contact.positions.front());
+
+  Json answer = json_of(found.motion);
+  answer["averaged"] = json_of(found.averaged);
+  answer["mean_force"] = found.sliding.mean_force;
+  const Json stability = json_of(found.stability);
+  if (question.normal.normal_amplitude > 0) {
+    answer["critical_velocity"] = found.sliding.critical_velocity;
+    answer.add(stability);
+  } else {
+    answer["stable"] = stability["stable"];
+  }
+  for (const auto& [name, threshold] :
+       {std::pair{"threshold_amplitude", &found.thresholds.amplitude},
+        {"threshold_frequency", &found.thresholds.frequency}})
+    if (*threshold) answer[name] = to_json(**threshold);
+  add_first_loading(answer, contact.first_loading);
+  write_tables(session, "slider", answer,
+               {table_of("motion", lists_of(found.motion)),
+                table_of("averaged_motion", lists_of(found.averaged))});
+  if (session.has_plot())
+    session.plot(slider_figure(found.motion, found.averaged, question.slider.spring_stiffness));
+  const double indentation = found.sliding.indentation;
+  premises_beside_slip(*contact.law, indentation, found.judged,
+                       contact.facts_at(arguments.premises.facts(arguments.material), indentation))
+      .answer(session, answer);
+}
+
+void run(const SlidingArguments& arguments, Session& session) {
+  check(arguments);
+  if (arguments.of_slider())
+    drag_slider(arguments, session);
+  else
+    slide(arguments, session);
+}
+
+}  // namespace
+
+void add_sliding_command(Program& program) {
+  auto arguments = std::make_shared<SlidingArguments>();
+  Command& command = program.add_command(
+      "sliding", "friction under a normal oscillation, and stick–slip of a slider",
+      {"salebra sliding --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+       "--friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz --velocities "
+       "1nm/s:10mm/s:60 --excursions 1pm:1um:60 -o regimes.csv --plot regimes.png",
+       "salebra sliding --law exponential --normal-force 20mN --decay-length 30nm --poisson 0.3 "
+       "--friction-coefficient 0.3 --normal-amplitude 2nm --frequency 20kHz --velocities 50um/s "
+       "--mass 10g --spring-stiffness 1kN/m --falling-slope 1 --plot slider.png"},
+      [arguments](Session& session) { run(*arguments, session); },
+      "friction over velocity, or over velocity and amplitude; regimes with --excursions; velocity "
+      "and spring force over time with --mass",
+      OutputCheck::any_name);
+  arguments->law.add_to(command);
+  arguments->material.add_to(command);
+  const std::string motion = "Motion";
+  SlidingQuestion& sliding = arguments->sliding;
+  add_values(command, "--velocities", sliding.velocities, Dimension::velocity,
+             "of sliding, > 0: one, a list or a range; of the drive of a slider")
+      ->group(motion);
+  add_values(command, "--velocity-ratios", sliding.velocity_ratios, Dimension::dimensionless,
+             "v/v_c, instead of --velocities")
+      ->group(motion);
+  add_values(command, "--excursions", sliding.excursions, Dimension::length,
+             "X of slow oscillations between turning points, to map no slip, partial slip and "
+             "sliding over the velocities")
+      ->group(motion);
+  add_values(command, "--normal-amplitude", sliding.normal_amplitude, Dimension::length,
+             "u_z; a map over amplitudes where it is a list or a range; of a slider 0 by default")
+      ->group(motion);
+  arguments->frequency.add_to(command, motion, true);
+  add_choice<Hold>(command, "--hold", arguments->hold,
+                   "what stays in the mean; default indentation")
+      ->group(motion);
+  const std::string body = "Slider on a spring";
+  add_quantity(command, "--mass", arguments->mass, Dimension::mass,
+               "m of a slider that a spring drags, in place of steady sliding")
+      ->group(body);
+  add_quantity(command, "--spring-stiffness", arguments->spring_stiffness, Dimension::stiffness,
+               "k of the spring that drags it")
+      ->group(body);
+  add_quantity(command, "--support-damping", arguments->support_damping, Dimension::damping,
+               "c of a dashpot in parallel with the spring; default 0")
+      ->group(body);
+  add_quantity(command, "--falling-slope", arguments->falling_slope, Dimension::damping,
+               "b of a friction force that falls by b per velocity; default 0")
+      ->group(body);
+  add_choice<SliderStart>(command, "--start", arguments->start,
+                          "where the motion begins: at rest, on the point of slipping, or sliding "
+                          "with a small disturbance; default rest")
+      ->group(body);
+  add_quantity(command, "--largest-amplitude", arguments->largest_amplitude, Dimension::length,
+               "to look for the threshold in; default 10 times that of the smallest effect")
+      ->group(body);
+  command
+      .add_option("--steps", arguments->steps,
+                  "in a period of the oscillation, doubled until the tolerance is met; default 32")
+      ->range(16, 100000)
+      ->group(body);
+  command
+      .add_option("--most-cycles", arguments->most_cycles,
+                  "slow cycles after which the motion is given up; default 200")
+      ->range(1, 1000000)
+      ->group(body);
+  add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
+               "of the amplitude of a slow cycle; default 0.01")
+      ->group(body);
+  arguments->premises.add_to(command, false);
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <salebra/damping/premises.hpp>
+#include <salebra/damping/slider.hpp>
+#include <salebra/damping/steady_sliding.hpp>
+#include <vector>
+
+/// Friction of a contact that slides while it oscillates in the normal direction, and the motion of
+/// a slider that a spring drags over it.
+namespace salebra {
+
+/// Steady sliding over velocities, at one or several amplitudes.
+struct SlidingQuestion {
+  std::vector<double> normal_amplitude;      ///< u_z, m
+  double angular_frequency = 0;              ///< rad/s
+  double friction_coefficient = 0;           ///< μ
+  std::vector<double> velocities;            ///< m/s
+  std::vector<double> velocity_ratios = {};  ///< in place of velocities: v/v_c of each amplitude
+  /// X of slow motions between turning points, m, whose regimes are mapped; with one amplitude.
+  std::vector<double> excursions = {};
+  Hold hold = Hold::indentation;
+};
+
+struct SlidingAnswer {
+  std::vector<SlidingPoint> points;  ///< amplitude by amplitude
+  std::optional<RegimeMap> regimes;
+};
+
+/// throws  InvalidInput as steady_sliding() and regime_map(), and for ratios without an amplitude;
+///         NotConverged where a quadrature did not reach its tolerance
+SlidingAnswer ask(const SlidingQuestion& question, const ContactLaw& law, const Position& position);
+
+/// The motion in which a slider ends, whether it slides stably, and from which oscillation on.
+struct SliderQuestion {
+  Slider slider;
+  NormalOscillation normal;         ///< amplitude 0: none; frequency 0: no thresholds
+  double friction_coefficient = 0;  ///< μ
+  /// End of the search for the threshold, m; empty: 10 times that of the least effect.
+  std::optional<double> largest_amplitude = {};
+  SliderOptions options = {};
+};
+
+struct SliderAnswer {
+  SliderMotion motion, averaged;
+  SteadySliding sliding;  ///< at the velocity of the drive
+  SliderStability stability;
+  SliderThresholds thresholds;  ///< where friction falls by more than the support damps
+  Drag judged;                  ///< the motion by which premises are judged
+};
+
+/// throws  InvalidInput as slider_motion(); NotConverged where a motion does not repeat; Interrupted
+SliderAnswer ask(const SliderQuestion& question, const ContactLaw& law, const Position& position);
+
+}  // namespace salebra
