@@ -41,7 +41,7 @@ const std::map<std::string, Meanings> groups{
     {"surface", columns_of<Realisation>()},
     {"curve", columns_of<ForceSample>()},
     {"local", columns_of<LocalDecayLength>()},
-    {"fit", columns_of<ModelResult>()},
+    {"fit", columns_of<ModelResult, LawDescription>()},
     {"damping", columns_of<DampingPoint>()},
     {"spots", columns_of<SpotStatistics>()},
     {"convergence", columns_of<ModelResult>()},
