@@ -136,12 +136,6 @@ ElementReader reader_of(std::string_view type) {
   return nullptr;
 }
 
-std::string digits_of(std::string_view content) {
-  Checksum sum;
-  sum.add(content);
-  return sum.digits();
-}
-
 void read_sidecar(const std::filesystem::path& file, std::string_view content,
                   LoadedSurface& surface) {
   const std::filesystem::path sidecar = sidecar_of(file);
@@ -150,7 +144,8 @@ void read_sidecar(const std::filesystem::path& file, std::string_view content,
   const auto json = nlohmann::json::parse(InputFile(sidecar).content(most), nullptr, false);
   try {
     // Half of a pair that a fault or a crash left, or an array that was saved anew.
-    if (json.contains("checksum") && json.at("checksum").get<std::string>() != digits_of(content))
+    if (json.contains("checksum") &&
+        json.at("checksum").get<std::string>() != Checksum(content).digits())
       refuse(sidecar, "describes another array than that of " + file.filename().string() +
                           ": its checksum differs; write both again, or remove the entry checksum "
                           "if the size is right");

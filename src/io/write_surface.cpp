@@ -64,8 +64,7 @@ void write_npy(const std::filesystem::path& file, const Surface& surface,
   array.write(start);
   array.write(heights);
   Json description = description_of(surface, provenance);
-  Checksum sum;
-  sum.add(start);
+  Checksum sum(start);
   sum.add(heights);
   description["checksum"] = sum.digits();
   sidecar.write(description.dump(2) + "\n");

@@ -167,7 +167,7 @@ struct StateSum {
 std::string checksum_of(std::span<const CycleState> states) {
   StateSum bytes;
   for (const CycleState& state : states) detail::archive(bytes, state);
-  return fmt::format("{:016x}", bytes.sum.value());
+  return bytes.sum.digits();
 }
 
 // Names in the order of CycleState::body.
@@ -214,10 +214,9 @@ CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
 }
 
 std::string fingerprint(const Field& values) {
-  detail::Checksum sum;
-  sum.add({reinterpret_cast<const char*>(values.data()),
-           static_cast<std::size_t>(values.size()) * sizeof(double)});
-  return fmt::format("{:016x}", sum.value());
+  return detail::Checksum({reinterpret_cast<const char*>(values.data()),
+                           static_cast<std::size_t>(values.size()) * sizeof(double)})
+      .digits();
 }
 
 void write_cycle_checkpoint(const std::filesystem::path& file, std::span<const CycleState> states,

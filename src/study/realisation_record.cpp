@@ -17,12 +17,6 @@ namespace {
 
 constexpr std::string_view magic = "salebra realisation 8\n";
 
-std::uint64_t checksum(std::string_view bytes) {
-  Checksum sum;
-  sum.add(bytes);
-  return sum.value();
-}
-
 /// Checksum of a file; 0 where there is none.
 std::uint64_t checksum_of(const std::filesystem::path& file) {
   return std::filesystem::exists(file) ? InputFile(file).checksum() : 0;
@@ -50,7 +44,7 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
                     point.damping.hold, point.damping.amplitude, point.damping.tolerance,
                     point.levels, point.relative_error, point.seam, seeds_of(point).size() == 1,
                     seed == seeds_of(point).front());
-  return checksum(bytes);
+  return Checksum(bytes).value();
 }
 
 std::uint64_t study_key(const std::vector<StudyConfiguration>& points) {
@@ -62,19 +56,19 @@ std::uint64_t study_key(const std::vector<StudyConfiguration>& points) {
     bytes += bytes_of(point.target_precision, point.min_realisations, known.friction_coefficient,
                       known.density, known.excursion);
   }
-  return checksum(bytes);
+  return Checksum(bytes).value();
 }
 
 std::string encode(const Record& record, std::uint64_t key) {
   const std::string payload = bytes_of(record.origin, record.realisation);
-  return header(key, payload.size(), checksum(payload)) + payload;
+  return header(key, payload.size(), Checksum(payload).value()) + payload;
 }
 
 Record decode(std::string_view bytes, std::uint64_t key) {
   const std::string_view payload = bytes.substr(std::min(bytes.size(), header(0, 0, 0).size()));
   ByteReader reader(payload, "realisation");
   reader.require(bytes.substr(0, bytes.size() - payload.size()) ==
-                 header(key, payload.size(), checksum(payload)));
+                 header(key, payload.size(), Checksum(payload).value()));
   Record record;
   archive(reader, record.origin);
   archive(reader, record.realisation);
