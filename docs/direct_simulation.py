@@ -268,11 +268,11 @@ def sliding(runs, _):
                                         *motion, "--mode", "drag", "--drag-velocity", velocity, "--friction", friction,
                                         "--steps", k, "--levels", 4)["friction"] for k in (32, 64)}
             law = ["--friction-coefficient", friction, *motion, "--velocities", velocity, *material]
-            springs = runs.answer("friction", "--surface", surface[seed, n], "--pressure", pressure, *law)
+            springs = runs.answer("sliding", "--surface", surface[seed, n], "--pressure", pressure, *law)
             curve = f"{folder}/{seed}-{n}-{poisson}-{part}.h5"
             runs.answer("contact", surface[seed, n], "--pressure", f"{pressure / 6}:{6 * pressure}:50", "--stick",
                         "--stiffness", *material, "-o", curve)
-            finer = runs.answer("friction", "--curve", curve, "--pressure", pressure, *law)
+            finer = runs.answer("sliding", "--curve", curve, "--pressure", pressure, *law)
             return simulated, springs, finer
 
         rows = []

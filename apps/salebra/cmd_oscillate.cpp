@@ -8,24 +8,24 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/contact/law/law.hpp>
-#include <salebra/damping/closed_form.hpp>
-#include <salebra/damping/dissipation.hpp>
+#include <salebra/questions/oscillation.hpp>
 #include <salebra/results/columns.hpp>
+#include <salebra/results/cycle_recorder.hpp>
 
-#include "first_loading.hpp"
-#include "friction_run.hpp"
+#include "friction_options.hpp"
 #include "options.hpp"
-#include "oscillation_case.hpp"
+#include "oscillation_answer.hpp"
 #include "premise_options.hpp"
 #include "program.hpp"
 #include "record_options.hpp"
+#include "text.hpp"
 
 namespace salebra::cli {
 namespace {
 
 struct OscillateArguments {
-  std::string shape, method = "both", boundary, lateral = "held";
+  std::vector<std::string> shapes;
+  std::string method = "both", boundary, lateral = "held";
   SurfaceOptions surface;
   PositionOptions position;
   MaterialOptions material;
@@ -40,7 +40,7 @@ struct OscillateArguments {
 
 constexpr double default_size = 1e-3;  // m
 
-Body shape_of(const OscillateArguments& arguments) {
+OscillatingBody shape_of(const OscillateArguments& arguments, const std::string& shape) {
   // An automatic choice begins with few cells.
   const int points = arguments.points.value_or(arguments.relative_error ? 64 : 128);
   require(points >= 16, "--points", points, "must be >= 16");
@@ -50,11 +50,11 @@ Body shape_of(const OscillateArguments& arguments) {
                     std::max<Index>(1, static_cast<Index>(std::lround(points * width / size))),
                     size, width};
   grid.validate();
-  return shape_body(arguments.shape, grid);
+  return oscillating_shape(shape, grid);
 }
 
-Body file_of(const OscillateArguments& arguments, Session& session) {
-  Body body;
+OscillatingBody file_of(const OscillateArguments& arguments, Session& session) {
+  OscillatingBody body;
   body.surface = arguments.surface.read(session);
   body.boundary = body.surface.periodic ? Boundary::periodic : Boundary::free;
   require_that(arguments.position.count() == 1, "--indentation",
@@ -62,73 +62,30 @@ Body file_of(const OscillateArguments& arguments, Session& session) {
   return body;
 }
 
-/// By the position that was given, or at the indentation.
-NormalContactState contact_at(const PositionOptions& position, const Body& body,
-                              double contact_modulus, double indentation,
-                              const NormalContactOptions& options) {
-  NormalContactState state;
-  if (position.mean_gap)
-    state = press_to_mean_gap(body.surface, contact_modulus, *position.mean_gap, options);
-  else if (const auto pressure = position.nominal_pressure(body.surface.grid))
-    state = press_to_pressure(body.surface, contact_modulus, *pressure, options);
-  else
-    state = press_to_indentation(body.surface, contact_modulus, indentation, options);
-  if (!state.converged)
-    throw NotConverged("oscillate: the contact at the mean position did not converge");
-  return state;
-}
-
-double indentation_of(const OscillateArguments& arguments, const Body& body,
-                      const Material& material, const NormalContactOptions& options) {
-  const PositionOptions& position = arguments.position;
-  require_that(position.count() <= 1, "--indentation",
+OscillationPosition position_of(const PositionOptions& options, const Grid2D& grid) {
+  require_that(options.count() <= 1, "--indentation",
                "given together with another position; give one");
-  if (position.count() == 0) return body.indentation;
-  if (position.indentation) return *position.indentation;
-  return contact_at(position, body, material.contact_modulus, body.indentation, options)
-      .indentation;
+  return {.mean_gap = options.mean_gap,
+          .pressure = options.nominal_pressure(grid),
+          .indentation = options.indentation};
 }
 
-/// First loading to the mean position with --hardness. Where it flows, the contact stands on the
-/// residual surface, at the same load.
-void load_plastically(const OscillateArguments& arguments, OscillationCase& contact,
-                      Session& session) {
-  const std::optional<double>& hardness = arguments.premises.hardness;
-  if (!hardness) return;
-  const double modulus = contact.material.contact_modulus;
-  const NormalContactOptions elastic{.boundary = contact.body.boundary,
-                                     .on_progress = session.progress()};
-  std::optional<double> pressure = arguments.position.nominal_pressure(contact.body.surface.grid);
-  if (!pressure) {
-    NormalContactOptions plastic = elastic;
-    plastic.hardness = *hardness;
-    pressure = contact_at(arguments.position, contact.body, modulus, contact.indentation, plastic)
-                   .mean_pressure;
-  }
-  Body residual = contact.body;
-  contact.first_loading = load_first(
-      residual.surface, hardness, modulus, *pressure, elastic,
-      std::visit([](const auto& motion) { return motion.normal_amplitude; }, contact.motion));
-  if (!contact.first_loading->yielded()) return;
-  require(arguments.shape.empty() || !arguments.relative_error, "--hardness",
-          format_quantity(*hardness, Dimension::pressure),
-          "is reached, and a shape that flowed has no finer cells; leave out --relative-error");
-  contact.body = std::move(residual);
-  PositionOptions same_load;
-  same_load.pressure = *pressure;
-  contact.indentation = contact_at(same_load, contact.body, modulus, 0, elastic).indentation;
-}
-
-Oscillation motion_of(MotionOptions motion, const Body& body, double indentation) {
+Oscillation motion_of(MotionOptions motion, const OscillatingBody& body, double indentation) {
   const auto fill = [](std::vector<double>& values, double value) {
     if (values.empty()) values = {value};
   };
-  // A shape by its name alone is the paper's experiment: everything moves, at 90 degrees.
+  // A shape by its name alone is the paper's experiment: everything moves, at 90 degrees; a drag
+  // by u_z in a radian.
   if (body.normal_amplitude > 0) {
+    const bool drags = motion.mode == "drag" && motion.normal_amplitude.empty() &&
+                       motion.drag_velocity.empty() && !motion.frequency.given();
     fill(motion.normal_amplitude, body.normal_amplitude / body.indentation * indentation);
     if (motion.mode == "equal-frequency") {
       fill(motion.tangential_amplitude, motion.normal_amplitude.front());
       fill(motion.phase, std::numbers::pi / 2);
+    } else if (drags) {
+      motion.drag_velocity = motion.normal_amplitude;
+      motion.frequency.angular_frequency = {1};
     }
   }
   require_that(motion.varied().second.empty(), motion.varied().first,
@@ -137,7 +94,7 @@ Oscillation motion_of(MotionOptions motion, const Body& body, double indentation
 }
 
 void check(const OscillateArguments& arguments, Session& session) {
-  require_one(!arguments.shape.empty(), "--shape", arguments.surface.given(), "--surface");
+  require_one(!arguments.shapes.empty(), "--shape", arguments.surface.given(), "--surface");
   const bool simulate = arguments.method != "levels";
   arguments.record.check(arguments.steps, arguments.friction.cycles(), session);
   require(simulate || (arguments.record.checkpoint.empty() && arguments.record.fields.empty()),
@@ -149,137 +106,186 @@ void check(const OscillateArguments& arguments, Session& session) {
   friction.check();
   require(simulate || !friction.given(), "--method", arguments.method,
           "steps through no cycle: leave out " + friction.name());
+  for (auto shape = arguments.shapes.begin(); shape != arguments.shapes.end(); ++shape)
+    require(std::find(arguments.shapes.begin(), shape, *shape) == shape, "--shape", *shape,
+            "is given twice");
+  for (const auto& [option, file] : {std::pair{"--checkpoint", &arguments.record.checkpoint},
+                                     {"--fields", &arguments.record.fields}})
+    require(file->empty() || arguments.shapes.size() < 2, option, *file,
+            "is of one simulation; give one --shape");
   require(!arguments.relative_error || arguments.levels == 0, "--levels", arguments.levels,
           "cannot be combined with --relative-error, which chooses them; give one");
 }
 
-// Eq. (16), or Eq. (12) with F'' = F/l², and the exponential law at this amplitude, beside what the
-// contact itself does.
-void add_exponential_law(Json& object, const OscillationOutcome& outcome, double decay_length) {
-  require_positive(decay_length, "--decay-length");
-  const double modulus_ratio = outcome.run.material.modulus_ratio(), force = outcome.levels.force;
-  const double small = std::visit(
-      [&](const auto& motion) {
-        return closed_form::work_per_cycle(modulus_ratio, force / (decay_length * decay_length),
-                                           motion);
-      },
-      outcome.run.motion);
-  const ExponentialLaw law(force, decay_length, modulus_ratio);
-  const double finite = relaxation_damping(law, AtForce{force}, outcome.run.motion).work_per_cycle;
-  object.add(json_of(ExponentialLoss{.decay_length = decay_length,
-                                     .predicted_exponential = small,
-                                     .ratio_exponential = outcome.over(small),
-                                     .predicted_exponential_finite = finite,
-                                     .ratio_exponential_finite = outcome.over(finite)}));
+// shape: empty for a surface.
+OscillationCase case_of(const OscillateArguments& arguments, const std::string& shape,
+                        Session& session) {
+  OscillationCase contact;
+  contact.material = arguments.material.material_with_tangential_modulus();
+  contact.body = shape.empty() ? file_of(arguments, session) : shape_of(arguments, shape);
+  OscillatingBody& body = contact.body;
+  body.boundary = value_of<Boundary>(arguments.boundary).value_or(body.boundary);
+  const double modulus = contact.material.contact_modulus;
+  const OscillationPosition position = position_of(arguments.position, body.surface.grid);
+  if (position.pressure) session.doubt(doubt_of_pressure(*position.pressure, modulus));
+  contact.indentation = mean_indentation(body, modulus, position);
+  contact.motion = motion_of(arguments.motion, body, contact.indentation);
+  arguments.friction.check(contact.motion, contact.indentation);
+  const std::optional<double>& hardness = arguments.premises.hardness;
+  if (!hardness) return contact;
+  load_plastically(contact, position, *hardness, session.progress());
+  require(shape.empty() || !arguments.relative_error || !contact.first_loading->yielded(),
+          "--hardness", format_quantity(*hardness, Dimension::pressure),
+          "is reached, and a shape that flowed has no finer cells; leave out --relative-error");
+  return contact;
 }
 
-void finish(const OscillationOutcome& outcome, const CycleOptions& cycle,
-            const OscillateArguments& arguments, Session& session) {
-  PremiseReport premises{
-      {premises_of(outcome, arguments.premises.facts(arguments.material,
-                                                     arguments.friction.friction_coefficient))}};
-  // The coupling that was computed, not one of other contacts.
-  if (outcome.coupled && outcome.frictional && !std::holds_alternative<Drag>(outcome.run.motion)) {
-    Premise& coupling = premises.cases.front().coupling;
-    coupling.value =
-        std::abs(outcome.coupled->work_per_cycle / outcome.frictional->work_per_cycle - 1);
-    coupling.verdict = std::isnan(coupling.value)                   ? Verdict::unknown
-                       : coupling.value > coupling.limit_20_percent ? Verdict::broken
-                       : coupling.value > coupling.limit_5_percent  ? Verdict::doubtful
-                                                                    : Verdict::holds;
+OscillationRoutes routes_of(const OscillateArguments& arguments, const OscillationCase& contact,
+                            const std::string& shape, const Progress& progress) {
+  OscillationRoutes routes;
+  routes.levels.levels = arguments.levels;
+  routes.levels.direction = arguments.direction.value_or(0);
+  routes.levels.stick.boundary = contact.body.boundary;
+  routes.levels.stick.hold_lateral = arguments.lateral == "held";
+  routes.levels.on_progress = progress;
+  routes.relative_error = arguments.relative_error;
+  routes.shape = shape;
+  routes.cycle.steps = arguments.steps;
+  routes.cycle.direction = routes.levels.direction;
+  routes.cycle.stick.boundary = contact.body.boundary;
+  routes.cycle.stick.hold_lateral = routes.levels.stick.hold_lateral;
+  routes.cycle.on_progress = progress;
+  arguments.friction.apply(routes.cycle, arguments.material, contact.material);
+  routes.frictional = arguments.friction.given();
+  routes.coupled = arguments.friction.coupled;
+  return routes;
+}
+
+CycleRecorder recorder_of(const OscillateArguments& arguments, const OscillationCase& contact,
+                          const CycleOptions& cycle, Session& session) {
+  const Surface& surface = contact.body.surface;
+  CycleSettings settings =
+      cycle_settings(surface.grid, contact.material, contact.motion, contact.indentation, cycle);
+  settings.emplace_back("surface", fingerprint(surface.heights));
+  return {arguments.record.options(arguments.steps, session),
+          std::move(settings),
+          session.provenance(),
+          {surface,
+           [&surface, modulus = contact.material.contact_modulus,
+            normal = NormalContactOptions{.boundary = contact.body.boundary}](double indentation) {
+             return press_to_indentation(surface, modulus, indentation, normal);
+           }},
+          arguments.friction.cycles()};
+}
+
+// Of simulation `done` of `count`, each of levels and steps that take about as long.
+Progress part_of(const Progress& bar, std::size_t done, std::size_t count) {
+  if (count == 1) return bar;
+  return [=](const ProgressReport& report) {
+    ProgressReport whole = report;
+    const double half = report.stage == "cycle" ? 0.5 : 0;
+    whole.fraction =
+        (static_cast<double>(done) + half + report.fraction / 2) / static_cast<double>(count);
+    return !bar || bar(whole);
+  };
+}
+
+Figure figure_of(const std::vector<OscillationOutcome>& outcomes,
+                 const std::vector<std::string>& shapes) {
+  Figure figure;
+  const bool single = outcomes.size() == 1;
+  if (!single) {
+    figure.title = "Contact regions and work over a cycle";
+    figure.columns = static_cast<int>(outcomes.size());
   }
-  const bool friction = outcome.frictional.has_value();
+  for (std::size_t k = 0; k < outcomes.size(); ++k)
+    figure.panels.push_back(contact_panel(outcomes[k], single ? "contact" : shapes[k]));
+  for (const OscillationOutcome& outcome : outcomes)
+    figure.panels.push_back(work_panel(outcome, single ? "work" : ""));
+  for (const OscillationOutcome& outcome : outcomes)
+    if (outcome.frictional) figure.panels.push_back(loop_panel(outcome));
+  return figure;
+}
+
+// A line for each shape.
+std::string table_of(const std::vector<OscillationOutcome>& outcomes,
+                     const std::vector<std::string>& shapes) {
+  std::vector<std::vector<std::string>> rows{{"shape", "W", "W over Eq. (12) or (15)",
+                                              "W over finite amplitude", "W over elastic energy"}};
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const OscillationOutcome& outcome = outcomes[k];
+    const auto text = [&](double reference) {
+      const std::optional<double> ratio = outcome.over(reference);
+      return ratio ? fmt::format("{:.4f}", *ratio) : std::string("no loss");
+    };
+    rows.push_back({shapes[k], format_quantity(outcome.work_per_cycle(), Dimension::energy),
+                    text(outcome.levels.small_amplitude_work), text(outcome.levels.work_by_force),
+                    fmt::format("{:.1e}", outcome.work_per_cycle() / outcome.elastic_energy())});
+  }
+  return to_table(rows, 2, true);
+}
+
+// shapes: of each outcome; empty for a surface.
+void finish(const std::vector<OscillationOutcome>& outcomes, const OscillateArguments& arguments,
+            Session& session) {
+  const std::vector<std::string>& shapes = arguments.shapes;
+  const bool single = outcomes.size() == 1;
   if (session.has_output()) {
     ResultFile file(session.output(), session.provenance(), session.write_options());
-    write_outcome(file, "", outcome);
-    if (friction) write_friction(file, cycle, outcome);
+    for (std::size_t k = 0; k < outcomes.size(); ++k)
+      write_outcome(file, single ? "" : shapes[k] + "/", outcomes[k]);
     file.commit();
   }
-  if (session.has_plot()) {
-    Figure figure{.panels = {contact_panel(outcome, "contact"), work_panel(outcome, "work")}};
-    if (friction) figure.panels.push_back(loop_panel(arguments.friction, outcome));
-    session.plot(figure);
+  if (session.has_plot()) session.plot(figure_of(outcomes, shapes));
+  const ContactFacts facts =
+      arguments.premises.facts(arguments.material, arguments.friction.friction_coefficient);
+  Json all;
+  for (std::size_t k = 0; k < outcomes.size(); ++k) {
+    const OscillationOutcome& outcome = outcomes[k];
+    Json object = to_json(outcome);
+    if (arguments.decay_length)
+      object.add(json_of(exponential_loss(outcome, *arguments.decay_length)));
+    const PremiseReport premises{{premises_of(outcome, facts)}};
+    if (single) {
+      premises.answer(session, object);
+    } else {
+      premises.add_to(object);
+      all[shapes[k]] = std::move(object);
+    }
   }
-  Json object = to_json(outcome);
-  if (arguments.decay_length) add_exponential_law(object, outcome, *arguments.decay_length);
-  if (friction) add_friction(object, arguments.friction, cycle, outcome);
-  premises.answer(session, object);
-  if (!outcome.converged())
+  if (!single) session.answer(all, table_of(outcomes, shapes));
+  if (!std::ranges::all_of(outcomes, &OscillationOutcome::converged))
     throw NotConverged("oscillate: a contact or a tangential solve did not reach its tolerance");
-  if (friction) warn_of_friction(cycle, outcome, session);
-  if (outcome.choice && !outcome.choice->reached)
-    session.warn(
-        fmt::format("the relative error asked for was not reached: {:.2g} is left at {} x {} cells "
-                    "and {} levels",
-                    outcome.choice->error_estimate / std::abs(outcome.levels.work_per_cycle),
-                    outcome.choice->grid.nx, outcome.choice->grid.ny, outcome.choice->levels));
+  for (const OscillationOutcome& outcome : outcomes) warn_of(outcome, session);
 }
 
 void run(const OscillateArguments& arguments, Session& session) {
   check(arguments, session);
   // Bad input is refused before the work.
   arguments.premises.facts(arguments.material, arguments.friction.friction_coefficient);
-  OscillationCase contact;
-  contact.material = arguments.material.material_with_tangential_modulus();
-  contact.body = arguments.shape.empty() ? file_of(arguments, session) : shape_of(arguments);
-  Body& body = contact.body;
-  body.boundary = value_of<Boundary>(arguments.boundary).value_or(body.boundary);
-  if (const auto pressure = arguments.position.nominal_pressure(body.surface.grid))
-    session.doubt(doubt_of_pressure(*pressure, contact.material.contact_modulus));
-  contact.indentation =
-      indentation_of(arguments, body, contact.material, {.boundary = body.boundary});
-  contact.motion = motion_of(arguments.motion, body, contact.indentation);
-  arguments.friction.check(contact.motion, contact.indentation);
-  load_plastically(arguments, contact, session);
-
-  OscillationRoutes routes;
-  routes.levels.levels = arguments.levels;
-  routes.levels.direction = arguments.direction.value_or(0);
-  routes.levels.stick.boundary = body.boundary;
-  routes.levels.stick.hold_lateral = arguments.lateral == "held";
-  routes.levels.on_progress = session.progress();
-  routes.relative_error = arguments.relative_error;
-  routes.shape = arguments.shape;
-  routes.cycle.steps = arguments.steps;
-  routes.cycle.direction = routes.levels.direction;
-  routes.cycle.stick.boundary = body.boundary;
-  routes.cycle.stick.hold_lateral = routes.levels.stick.hold_lateral;
-  routes.cycle.on_progress = session.progress();
-  routes.simulate = false;
-  OscillationOutcome outcome = run_routes(std::move(contact), routes);
-  if (arguments.method == "levels") {
-    finish(outcome, routes.cycle, arguments, session);
-    return;
+  const std::vector<std::string> shapes =
+      arguments.shapes.empty() ? std::vector<std::string>{""} : arguments.shapes;
+  std::vector<OscillationOutcome> outcomes;
+  outcomes.reserve(shapes.size());  // a recorder refers to a surface in it
+  std::optional<CycleRecorder> recorder;
+  for (const std::string& shape : shapes) {
+    OscillationCase contact = case_of(arguments, shape, session);
+    const OscillationRoutes routes = routes_of(
+        arguments, contact, shape, part_of(session.progress(), outcomes.size(), shapes.size()));
+    OscillationOutcome& outcome =
+        outcomes.emplace_back(oscillation_by_levels(std::move(contact), routes));
+    if (arguments.method == "levels") continue;
+    recorder.emplace(recorder_of(arguments, outcome.run, routes.cycle, session));
+    simulate_cycles(outcome, routes, [&](const CycleOptions& cycle, const auto& simulate) {
+      return recorder->run(cycle, simulate);
+    });
+    if (outcome.interrupted())
+      throw Interrupted(arguments.record.checkpoint.empty()
+                            ? "oscillate: interrupted; nothing was written"
+                            : "oscillate: interrupted; the same command with --resume continues");
   }
-
-  const OscillationCase& chosen = outcome.run;
-  const Surface& surface = chosen.body.surface;
-  const double modulus = chosen.material.contact_modulus;
-  arguments.friction.apply(routes.cycle, arguments.material, chosen.material);
-  CycleSettings settings = cycle_settings(surface.grid, chosen.material, chosen.motion,
-                                          chosen.indentation, routes.cycle);
-  settings.emplace_back("surface", fingerprint(surface.heights));
-  const NormalContactOptions normal{.boundary = chosen.body.boundary};
-  CycleRecorder recorder(arguments.record.options(arguments.steps, session), std::move(settings),
-                         session.provenance(),
-                         {surface,
-                          [&](double indentation) {
-                            return press_to_indentation(surface, modulus, indentation, normal);
-                          }},
-                         arguments.friction.cycles());
-  outcome.cycle = recorder.run(
-      routes.cycle, [&](const CycleOptions& options) { return simulate(chosen, options); });
-  if (arguments.friction.given() && !outcome.cycle->interrupted)
-    run_with_friction(arguments.friction, routes.cycle, recorder, outcome);
-  const auto stopped = [](const std::optional<CycleResult>& cycle) {
-    return cycle && cycle->interrupted;
-  };
-  if (stopped(outcome.cycle) || stopped(outcome.frictional) || stopped(outcome.coupled))
-    throw Interrupted(arguments.record.checkpoint.empty()
-                          ? "oscillate: interrupted; nothing was written"
-                          : "oscillate: interrupted; the same command with --resume continues");
-  finish(outcome, routes.cycle, arguments, session);
-  recorder.done();
+  finish(outcomes, arguments, session);
+  if (recorder) recorder->done();
 }
 
 }  // namespace
@@ -289,15 +295,21 @@ void add_oscillate_command(Program& program) {
   arguments->motion.mode = "equal-frequency";
   Command& command = program.add_command(
       "oscillate", "three-dimensional simulation of an oscillating contact",
-      {"salebra oscillate --shape pyramids --contact-modulus 1GPa --poisson 0.3 --phase 45deg "
-       "--json",
+      {"salebra oscillate --shape cylinder,parabola,pyramids,sinusoids --contact-modulus 1GPa "
+       "--poisson 0.3 --plot figure3.png",
        "salebra oscillate --surface rough.h5 --pressure 10MPa --contact-modulus 115GPa --poisson "
        "0.3 "
        "--mode drag --normal-amplitude 5nm --drag-velocity 1um/s --frequency 20kHz -o cycle.h5"},
       [arguments](Session& session) { run(*arguments, session); },
-      "contact regions and the work over a cycle; with friction the loop too");
-  add_choice(command, "--shape", arguments->shape, shape_names(),
-             "the rigid body; with defaults for everything but the material");
+      "contact regions and the work over a cycle, a column for each shape; with friction the loop "
+      "too");
+  command
+      .add_option("--shape", arguments->shapes,
+                  "the rigid body, with defaults for everything but the material; or several, such "
+                  "as those of the paper's Fig. 3")
+      ->delimiter(',')
+      ->type_name("NAMES")
+      ->choices(oscillating_shapes());
   arguments->surface.add_to(command, false, "--surface");
   command.add_option("--points", arguments->points,
                      "cells along x of a shape; default 128, or 64 to begin --relative-error with");

@@ -180,7 +180,7 @@ SliderQuestion slider_of(const SlidingArguments& arguments, Session& session) {
   return question;
 }
 
-Json to_json(const SliderThreshold& threshold) {
+Json threshold_json(const SliderThreshold& threshold) {
   return {{"value", threshold.value},
           {"linear_estimate", threshold.linear_estimate},
           {"linear_estimate_error", threshold.linear_estimate_error}};
@@ -205,7 +205,7 @@ void drag_slider(const SlidingArguments& arguments, Session& session) {
   for (const auto& [name, threshold] :
        {std::pair{"threshold_amplitude", &found.thresholds.amplitude},
         {"threshold_frequency", &found.thresholds.frequency}})
-    if (*threshold) answer[name] = to_json(**threshold);
+    if (*threshold) answer[name] = threshold_json(**threshold);
   add_first_loading(answer, contact.first_loading);
   write_tables(session, "slider", answer,
                {table_of("motion", lists_of(found.motion)),

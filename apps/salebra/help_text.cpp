@@ -109,10 +109,8 @@ constexpr std::array descriptions{
         "oscillate", damping,
         "The direct experiment in three dimensions: a contact is moved through its cycle and the "
         "work is counted, by time steps or by contact levels. Friction may be finite, and normal "
-        "and tangential directions coupled. Minutes, not seconds."},
-    CommandHelp{"figure3", damping,
-                "The paper's Fig. 3 in one run: the direct simulation of four shapes, compared "
-                "with Eq. (12)."},
+        "and tangential directions coupled. Several shapes stand side by side, as in the paper's "
+        "Fig. 3. Minutes, not seconds."},
     CommandHelp{
         "completion", shell,
         "Prints the script that lets a shell complete commands, options, and their choices with "
@@ -142,7 +140,7 @@ std::string_view first_steps() {
          "  a force-gap curve       its decay length                   fit\n"
          "                          its damping for any motion         damping --curve\n"
          "  a sphere, cone, profile force, stresses, losses, slip      mdr\n"
-         "                          the same in three dimensions       oscillate, figure3\n"
+         "                          the same in three dimensions       oscillate\n"
          "  a sliding contact       its friction under vibration,\n"
          "                          stick-slip, and what stops it      sliding\n"
          "  an oscillator           its decay under vibration          damper\n"

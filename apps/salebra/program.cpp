@@ -228,6 +228,7 @@ struct FormerCommand {
   std::string_view name, now;
 };
 constexpr FormerCommand former_commands[]{
+    {"figure3", "oscillate, with --shape cylinder,parabola,pyramids,sinusoids"},
     {"friction", "sliding, with the same options"},
     {"gw", "contact, with --model gw_moments or gw_deterministic"},
     {"manual", "help, with the name of a command"},

@@ -349,7 +349,7 @@ TEST_CASE("Every option that is a quantity has its unit", "[names]") {
   int known = 0;
   for (const char* command :
        {"generate", "statistics", "contact", "fit", "damping", "mdr", "damper", "sliding", "joint",
-        "viscoelastic", "oscillate", "figure3", "study", "compare"}) {
+        "viscoelastic", "oscillate", "study", "compare"}) {
     const std::string help = test.run(std::string(command) + " --help").out;
     for (std::sregex_iterator found(help.begin(), help.end(), line), end; found != end; ++found) {
       std::string name = (*found)[1];

@@ -371,17 +371,29 @@ TEST_CASE("oscillate writes fields for ParaView at the steps asked for", "[oscil
   check_refused(test.run(command + "f --field-steps 2"), "f.xdmf");
 }
 
-TEST_CASE("figure3 shows the paper's four shapes", "[oscillate]") {
+TEST_CASE("Several shapes stand side by side, as in the paper's Fig. 3", "[oscillate]") {
   const ProgramTest test;
-  const auto answer = test.run(
-                              "figure3 --points 48 --steps 16 --contact-modulus 1GPa --poisson 0.3 "
-                              "--json -o f.h5")
-                          .json();
+  const auto answer =
+      test.run(
+              "oscillate --shape cylinder,parabola,pyramids,sinusoids --points 48 --steps 16 "
+              "--contact-modulus 1GPa --poisson 0.3 "
+              "--json -o f.h5")
+          .json();
   CHECK(keys(answer) == std::set<std::string>{"cylinder", "parabola", "pyramids", "sinusoids"});
   CHECK(std::abs(answer["cylinder"]["work_over_elastic_energy"].get<double>()) < 1e-9);
   CHECK(answer["cylinder"]["ratio"].is_null());
   CHECK(answer["parabola"]["ratio_finite"].get<double>() == Approx(1).epsilon(0.02));
+  for (const auto& [shape, object] : answer.items()) CHECK(object["premises"].size() == 7);
   CHECK(test.files().count("f.h5") == 1);
+  // One of them by itself gives the same, and its group of the file.
+  const auto alone = test.run(
+                             "oscillate --shape parabola --points 48 --steps 16 "
+                             "--contact-modulus 1GPa --poisson 0.3 --json")
+                         .json();
+  CHECK(answer["parabola"] == alone);
+  const salebra::ResultReader file(test.folder() / "f.h5");
+  CHECK(file.numbers("parabola/cycle/work") == alone["work"].get<std::vector<double>>());
+  CHECK(file.has("sinusoids/levels/force"));
 }
 
 TEST_CASE("oscillate says what it needs", "[oscillate]") {
@@ -390,6 +402,11 @@ TEST_CASE("oscillate says what it needs", "[oscillate]") {
   check_refused(test.run("oscillate" + material), "--shape");
   check_refused(test.run("oscillate --shape cone --contact-modulus 1GPa"), "--tangential-modulus");
   check_refused(test.run("oscillate --shape cone --points 4" + material), "--points");
+  check_refused(test.run("oscillate --shape cone,ball" + material), "--shape: 'ball'");
+  check_refused(test.run("oscillate --shape cone,cylinder,cone" + material),
+                "--shape: cone is given twice");
+  check_refused(test.run("oscillate --shape cone,cylinder --checkpoint c" + material),
+                "--checkpoint: c is of one simulation");
   check_refused(test.run("oscillate --shape cone --mode drag --normal-amplitude 1um" + material),
                 "--drag-velocity");
   check_refused(test.run("oscillate --shape cone --steps 2 --points 16" + material), "steps");

@@ -237,9 +237,10 @@ TEST_CASE("oscillate warns of a loss that is not steady and of steps that are to
   CHECK(number("mean_tangential_force") < 0.4 * number("mean_force"));
 }
 
-TEST_CASE("figure3 moves as it is told", "[oscillate]") {
+TEST_CASE("Several shapes move as they are told", "[oscillate]") {
   const ProgramTest test;
-  const std::string command = "figure3 --points 24 --steps 8" + material;
+  const std::string command =
+      "oscillate --shape parabola,pyramids,sinusoids --points 24 --steps 8" + material;
   const auto quarter = test.run(command).json(),
              eighth = test.run(command + "--phase 45deg").json();
   const auto drag = test.run(command + "--mode drag").json();

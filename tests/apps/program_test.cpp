@@ -22,7 +22,7 @@ TEST_CASE("Help of every command ends with two examples of that command", "[prog
   const auto command =
       GENERATE(as<std::string>(), "generate", "info", "convert", "contact", "fit", "damping", "mdr",
                "damper", "sliding", "joint", "viscoelastic", "study", "verify", "init",
-               "statistics", "compare", "oscillate", "figure3", "completion");
+               "statistics", "compare", "oscillate", "completion");
   CHECK_THAT(test.run("--help").out, Contains("  " + command));
   const auto help = test.run(command + " --help");
   CHECK(help.status == 0);
@@ -180,6 +180,7 @@ TEST_CASE("Wrong usage is refused in one line", "[program]") {
 TEST_CASE("A command's former name is answered with the present one", "[program]") {
   const ProgramTest test;
   const auto [former, now] = GENERATE(table<std::string, std::string>({
+      {"figure3", "oscillate"},
       {"friction", "sliding"},
       {"gw", "contact"},
       {"manual", "help"},

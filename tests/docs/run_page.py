@@ -78,7 +78,7 @@ def smaller(text):
             added += " --points 32"
         return f"{found[1]}{added}{given[len(found[1]):]}"
 
-    return re.sub(r"(salebra (?:oscillate|figure3)\b)(?:[^\n\\]|\\\n)*", direct, text)
+    return re.sub(r"(salebra oscillate\b)(?:[^\n\\]|\\\n)*", direct, text)
 
 
 NUMBER = re.compile(r"[-+−]?\d+(\.\d+)?([eE][-+]?\d+)?")

@@ -139,7 +139,7 @@ std::vector<Case> all_cases() {
        "--normal-amplitude 0.1um --drag-velocity 1um/s --frequency 100 --steps 32 --springs 16 -o "
        "out.csv" +
            material},
-      {"figure3", {}, "figure3 --points 16 --steps 8 -o out.h5" + material},
+      {"shapes", {}, "oscillate --shape cylinder,cone --points 16 --steps 8 -o out.h5" + material},
       // Resumable from the start: the file holds its command line.
       {"study", {}, study + " --no-report --resume", {}, study + " --no-report --resume"},
       {"study_page", {}, study + " --resume", {}, study + " --resume"},

@@ -239,8 +239,8 @@ constexpr void describe(auto&& visit, std::type_identity<SliderThreshold>) {
 
 /// Thresholds that were looked for.
 struct SliderThresholds {
-  std::optional<SliderThreshold> amplitude;  ///< of the normal oscillation at its frequency, m
-  std::optional<SliderThreshold> frequency;  ///< at its amplitude, Hz
+  std::optional<SliderThreshold> amplitude = {};  ///< of the normal oscillation at its frequency, m
+  std::optional<SliderThreshold> frequency = {};  ///< at its amplitude, Hz
 };
 
 constexpr void describe(auto&& visit, std::type_identity<SliderThresholds>) {

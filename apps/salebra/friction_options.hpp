@@ -2,14 +2,12 @@
 #pragma once
 
 #include <optional>
-#include <salebra/io/result_file.hpp>
-#include <salebra/results/cycle_recorder.hpp>
+#include <salebra/damping/cycle.hpp>
+#include <salebra/damping/oscillation.hpp>
 #include <string>
 #include <vector>
 
 #include "options.hpp"
-#include "oscillation_case.hpp"
-#include "session.hpp"
 
 /// What `oscillate` adds with --friction and --coupled: the same cycle with Coulomb's law, and with
 /// Dundurs' coupling.
@@ -34,21 +32,5 @@ struct FrictionOptions {
   /// Names of the recorded cycles in the order of their runs, the one without slip first.
   std::vector<std::string> cycles() const;
 };
-
-/// The cycle of `outcome` once more, from first contact, with friction and, with --coupled, with
-/// coupling too. A stopped cycle comes back as it is.
-void run_with_friction(const FrictionOptions& options, const CycleOptions& cycle,
-                       CycleRecorder& recorder, OscillationOutcome& outcome);
-
-/// The objects "friction" and, of a coupled cycle, "coupling".
-void add_friction(Json& object, const FrictionOptions& options, const CycleOptions& cycle,
-                  const OscillationOutcome& outcome);
-/// The loops F_x over x of a cycle with friction, of the coupled one, and without slip.
-PlotPanel loop_panel(const FrictionOptions& options, const OscillationOutcome& outcome);
-/// Groups `friction` and `coupling`: the loop and, on x and y, where it is lost.
-void write_friction(ResultFile& file, const CycleOptions& cycle, const OscillationOutcome& outcome);
-/// Warns of a loss that is not steady yet, and of two sums of it that differ.
-void warn_of_friction(const CycleOptions& cycle, const OscillationOutcome& outcome,
-                      Session& session);
 
 }  // namespace salebra::cli

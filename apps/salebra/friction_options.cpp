@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Options of frictional and coupled cycles of `oscillate`.
+#include "friction_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/half_space/coupling.hpp>
+
+namespace salebra::cli {
+
+void FrictionOptions::add_to(Command& app) {
+  const std::string group = "Friction";
+  add_quantity(app, "--friction", friction_coefficient, Dimension::dimensionless,
+               "Coulomb's coefficient: steps through the cycle once more, with slip where the "
+               "traction would exceed it; without it nothing slips")
+      ->group(group);
+  app.add_flag("--coupled", coupled,
+               "steps once more with pressures and tractions coupled by Dundurs' beta")
+      ->group(group);
+  add_quantity(app, "--dundurs", dundurs, Dimension::dimensionless,
+               "Dundurs' beta, with --coupled; default: that of the material")
+      ->group(group);
+  app.add_option("--max-periods", max_periods,
+                 "periods with friction, at most, until two lose the same; default 6")
+      ->group(group);
+}
+
+void FrictionOptions::check() const {
+  if (friction_coefficient) require_positive(*friction_coefficient, "--friction");
+  require(max_periods >= 2, "--max-periods", max_periods,
+          "must be >= 2: a loss is steady where two periods agree");
+  require(max_periods == 6 || given(), "--max-periods", max_periods,
+          "is of a cycle with friction; add --friction or --coupled");
+  if (!dundurs) return;
+  require(coupled, "--dundurs", *dundurs, "means nothing by itself; add --coupled");
+  require(std::abs(*dundurs) <= 0.5, "--dundurs", *dundurs, "must be -0.5 ... 0.5");
+}
+
+void FrictionOptions::check(const Oscillation& motion, double indentation) const {
+  if (!coupled) return;
+  const double amplitude =
+      std::visit([](const auto& kind) { return kind.normal_amplitude; }, motion);
+  require_that(
+      indentation >= amplitude, "--coupled",
+      fmt::format("given, but the body leaves the surface ({:g} m < amplitude {:g} m); the coupled "
+                  "cycle needs a contact that stays",
+                  indentation, amplitude));
+}
+
+void FrictionOptions::apply(CycleOptions& cycle, const MaterialOptions& bodies,
+                            const Material& material) const {
+  if (friction_coefficient) cycle.friction_coefficient = *friction_coefficient;
+  cycle.max_periods = max_periods;
+  if (!coupled) return;
+  if (dundurs)
+    cycle.coupling_constant = *dundurs / (std::numbers::pi * material.contact_modulus);
+  else if (bodies.young.size() == 2)
+    cycle.coupling_constant = coupling_constant(ElasticBody{bodies.young[0], bodies.poisson[0]},
+                                                ElasticBody{bodies.young[1], bodies.poisson[1]});
+  else
+    cycle.coupling_constant = coupling_constant(material);
+}
+
+std::vector<std::string> FrictionOptions::cycles() const {
+  std::vector<std::string> names{""};
+  if (given()) names.emplace_back("-friction");
+  if (coupled) names.emplace_back("-coupled");
+  return names;
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// JSON, HDF5, panels and warnings of an oscillating contact.
+#include "oscillation_answer.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <salebra/results/columns.hpp>
+#include <salebra/results/quantity_group.hpp>
+
+#include "first_loading.hpp"
+#include "grid_axes.hpp"
+
+namespace salebra::cli {
+namespace {
+
+/// The numbers of a cycle; no balance where it loses no more than what the solvers leave.
+Json cycle_json(const OscillationOutcome& outcome, const CycleResult& cycle) {
+  Json object = json_of(cycle);
+  object["balance"] = outcome.balance(cycle);
+  return object;
+}
+
+void add_friction(Json& object, const OscillationOutcome& outcome) {
+  if (outcome.frictional) {
+    const CycleResult& cycle = *outcome.frictional;
+    Json& friction = object["friction"];
+    friction["friction_coefficient"] = outcome.friction_coefficient;
+    friction.add(cycle_json(outcome, cycle));
+    friction.add(json_of(slip_effect(outcome)));
+    friction["tangential"] = column(cycle, &CycleSample::tangential);
+    friction["tangential_force"] = column(cycle, &CycleSample::tangential_force);
+  }
+  if (outcome.coupled) {
+    Json& coupling = object["coupling"];
+    coupling["dundurs"] = outcome.dundurs;
+    coupling.add(cycle_json(outcome, *outcome.coupled));
+    coupling.add(json_of(coupling_effect(outcome)));
+  }
+}
+
+/// Axes, columns over time, where the contact is and where energy is lost.
+void write_cycle(QuantityGroup& group, const CycleResult& cycle, const Grid2D& grid) {
+  write_axes(group, grid);
+  group.dataset("contact_map", cycle.contact_map());
+  if (cycle.loss.size() > 0) group.dataset("loss", cycle.loss);
+  describe(
+      [&](double CycleSample::*member, const Quantity& quantity) {
+        const std::string name(quantity.name);
+        if (member == &CycleSample::t)
+          group.coordinate(name, column(cycle, member));
+        else
+          group.dataset(name, column(cycle, member), {"time_in_periods"});
+      },
+      std::type_identity<CycleSample>{});
+  group.attribute("work_per_cycle", cycle.work_per_cycle);
+  group.attribute("relaxation_work", cycle.relaxation_work);
+  group.attribute("slip_work", cycle.slip_work);
+}
+
+void warn_of_cycle(const char* which, const CycleResult& cycle, double uncertain,
+                   Session& session) {
+  if (!cycle.converged || std::abs(cycle.work_per_cycle) <= uncertain) return;
+  if (!cycle.steady)
+    session.warn(fmt::format(
+        "{}: after {} periods the loss still differs from that of the period before by more than "
+        "1e-5 of it; raise --max-periods",
+        which, cycle.periods));
+  if (std::abs(cycle.balance()) > 0.01)
+    session.warn(
+        fmt::format("{}: work and dissipation of a period, which should be equal, differ by "
+                    "{:.2g} %; more --steps may help",
+                    which, 100 * cycle.balance()));
+  const double gaps = cycle.gap_work / cycle.work_per_cycle;
+  if (std::abs(gaps) > 0.01)
+    session.warn(
+        fmt::format("{}: {:.2g} % of the loss is work across gaps that close and open within a "
+                    "step; more --steps help",
+                    which, 100 * gaps));
+}
+
+}  // namespace
+
+Json to_json(const OscillationOutcome& outcome) {
+  const LevelQuadratureResult& levels = outcome.levels;
+  const Grid2D& grid = outcome.run.body.surface.grid;
+  Json object = json_of(loss_of(outcome));
+  object["error_contains"] = outcome.error_contains();
+  object.add(json_of(grid));
+  if (outcome.choice) {
+    object["error_reached"] = outcome.choice->reached;
+    for (const QuadratureTrial& trial : outcome.choice->trials)
+      object["trials"].push_back(json_of(trial));
+  }
+  object["converged"] = outcome.converged();
+  if (outcome.cycle) {
+    const CycleResult& cycle = *outcome.cycle;
+    object["routes_agree"] = outcome.routes_agree();
+    object.add(cycle_json(outcome, cycle));
+    object["fft_count"] = cycle.fft_count + levels.fft_count;
+    std::vector<double> time = column(cycle, &CycleSample::t);
+    object["time_in_periods"] = time;
+    const double omega =
+        std::visit([](const auto& motion) { return motion.angular_frequency; }, outcome.run.motion);
+    // Unknown without a frequency.
+    for (double& moment : time)
+      moment = omega > 0 ? moment * 2 * std::numbers::pi / omega
+                         : std::numeric_limits<double>::quiet_NaN();
+    object["time"] = time;
+    object["work"] = column(cycle, &CycleSample::work);
+  } else {
+    const auto& samples = levels.curve.samples;
+    object["contact_area_min"] = samples.front().contact_area_fraction * grid.area();
+    object["contact_area_max"] = samples.back().contact_area_fraction * grid.area();
+    object["fft_count"] = levels.fft_count;
+  }
+  add_first_loading(object, outcome.run.first_loading);
+  add_friction(object, outcome);
+  return object;
+}
+
+void write_outcome(ResultFile& file, const std::string& prefix, const OscillationOutcome& outcome) {
+  if (outcome.cycle) {
+    QuantityGroup group(file.group(prefix + "cycle"));
+    write_cycle(group, *outcome.cycle, outcome.run.body.surface.grid);
+    group.dataset("heights", outcome.run.body.surface.heights);
+    group.attribute("error_estimate", outcome.cycle->step_error);
+    group.attribute("small_amplitude_work", outcome.levels.small_amplitude_work);
+    group.attribute("work_by_force", outcome.levels.work_by_force);
+  }
+  if (outcome.frictional) {
+    QuantityGroup friction(file.group(prefix + "friction"));
+    friction.attribute("friction_coefficient", outcome.friction_coefficient);
+    write_cycle(friction, *outcome.frictional, outcome.run.body.surface.grid);
+  }
+  if (outcome.coupled) {
+    QuantityGroup coupling(file.group(prefix + "coupling"));
+    coupling.attribute("dundurs", outcome.dundurs);
+    coupling.attribute("normal_work", outcome.coupled->normal_work);
+    write_cycle(coupling, *outcome.coupled, outcome.run.body.surface.grid);
+  }
+  QuantityGroup group(file.group(prefix + "levels"));
+  const ForceCurve& curve = outcome.levels.curve;
+  group.coordinate("indentation", curve.column(&ForceSample::indentation));
+  for (const auto& [name, quantity] :
+       {std::pair{"force", &ForceSample::force},
+        {"normal_stiffness", &ForceSample::normal_stiffness},
+        {"tangential_stiffness", &ForceSample::tangential_stiffness},
+        {"contact_area_fraction", &ForceSample::contact_area_fraction}})
+    group.dataset(name, curve.column(quantity), {"indentation"});
+  group.attribute("work_per_cycle", outcome.levels.work_per_cycle);
+  group.attribute("error_estimate", outcome.levels.error_estimate);
+  group.attribute("work_by_whole_cells", outcome.levels.work_by_levels);
+}
+
+PlotPanel contact_panel(const OscillationOutcome& outcome, const std::string& title) {
+  const Grid2D& grid = outcome.run.body.surface.grid;
+  PlotPanel panel;
+  panel.title = title;
+  panel.x = {.label = "x", .unit = "m"};
+  panel.y = {.label = "y", .unit = "m"};
+  panel.equal_scales = true;
+  panel.image = PlotImage{.x = positions(grid.nx, grid.dx()),
+                          .y = positions(grid.ny, grid.dy()),
+                          .values = outcome.cycle->contact_map(),
+                          .scale = {.low = 0, .high = 2},
+                          .palette = PlotPalette::grey,
+                          .color_bar = false};
+  return panel;
+}
+
+PlotPanel work_panel(const OscillationOutcome& outcome, const std::string& title) {
+  const bool drag = std::holds_alternative<Drag>(outcome.run.motion);
+  const CycleResult& cycle = *outcome.cycle;
+  const double predicted = outcome.levels.small_amplitude_work;
+  const bool lossless = !outcome.over(predicted);
+  std::vector<double> values = column(cycle, drag ? &CycleSample::dissipated : &CycleSample::work);
+  const double reference = lossless ? outcome.elastic_energy() : predicted;
+  for (double& value : values) value /= reference;
+  PlotPanel panel;
+  panel.title = title;
+  panel.x = {.label = "time in periods", .low = 0, .high = 1};
+  const std::string work = drag ? "energy released" : "W(t)";
+  panel.y = {.label = lossless ? work + " / (K_x u_x^2/2)"
+                               : work + (drag ? " / W_{Eq. 15}" : " / W_{Eq. 12}")};
+  panel.curves.push_back({.x = column(cycle, &CycleSample::t), .y = std::move(values), .color = 0});
+  panel.lines.push_back({.at = lossless ? 0.0 : 1.0});
+  return panel;
+}
+
+PlotPanel loop_panel(const OscillationOutcome& outcome) {
+  PlotPanel panel;
+  panel.title = "loop";
+  panel.x = {.label = "x", .unit = "m"};
+  panel.y = {.label = "F_x", .unit = "N"};
+  const auto add = [&](const char* name, const CycleResult& cycle) {
+    panel.curves.push_back({.name = name,
+                            .x = column(cycle, &CycleSample::tangential),
+                            .y = column(cycle, &CycleSample::tangential_force)});
+  };
+  add("no slip", *outcome.cycle);
+  if (std::isfinite(outcome.friction_coefficient)) add("friction", *outcome.frictional);
+  if (outcome.coupled) add("coupled", *outcome.coupled);
+  panel.legend = PlotLegend::top_left;
+  return panel;
+}
+
+void warn_of(const OscillationOutcome& outcome, Session& session) {
+  if (outcome.frictional)
+    warn_of_cycle("friction", *outcome.frictional, outcome.uncertain_loss(), session);
+  if (outcome.coupled) {
+    warn_of_cycle("coupling", *outcome.coupled, outcome.uncertain_loss(), session);
+    if (outcome.dundurs == 0) session.note("Dundurs' beta is 0: nothing is coupled");
+  }
+  if (outcome.choice && !outcome.choice->reached)
+    session.warn(
+        fmt::format("the relative error asked for was not reached: {:.2g} is left at {} x {} cells "
+                    "and {} levels",
+                    outcome.choice->error_estimate / std::abs(outcome.levels.work_per_cycle),
+                    outcome.choice->grid.nx, outcome.choice->grid.ny, outcome.choice->levels));
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One oscillating contact by theorem and by direct simulation: bodies, routes and what they give.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/half_space/coupling.hpp>
+#include <salebra/contact/law/law.hpp>
+#include <salebra/damping/closed_form.hpp>
+#include <salebra/damping/dissipation.hpp>
+#include <salebra/generators/shapes.hpp>
+#include <salebra/questions/contact.hpp>
+#include <salebra/questions/oscillation.hpp>
+
+namespace salebra {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+double greatest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
+
+// Largest |a − b| over a cycle over the largest |b|.
+double change(const CycleResult& a, const CycleResult& b, double CycleSample::*quantity) {
+  std::vector<double> values = column(a, quantity);
+  const std::vector<double> reference = column(b, quantity);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] -= reference[i];
+  const double scale = greatest(reference);
+  return scale > 0 ? greatest(values) / scale : unknown;
+}
+
+// The last sample is the first of the next period.
+double mean_over_period(const CycleResult& cycle, double CycleSample::*quantity) {
+  const std::vector<double> values = column(cycle, quantity);
+  return std::accumulate(values.begin() + 1, values.end(), 0.0) /
+         static_cast<double>(values.size() - 1);
+}
+
+double tangential_scale(const Oscillation& motion) {
+  if (const auto* drag = std::get_if<Drag>(&motion))
+    return drag->drag_velocity / drag->angular_frequency;
+  return std::get<EqualFrequency>(motion).tangential_amplitude;
+}
+
+ContactLevels levels_of(const OscillatingBody& body, const Material& material) {
+  return boundary_element_levels(body.surface, material.contact_modulus,
+                                 {.boundary = body.boundary});
+}
+
+/// By the position that was given, or at the indentation.
+NormalContactState contact_at(const OscillationPosition& position, const OscillatingBody& body,
+                              double contact_modulus, double indentation,
+                              const NormalContactOptions& options) {
+  const Surface& surface = body.surface;
+  const NormalContactState state =
+      position.mean_gap   ? press_to_mean_gap(surface, contact_modulus, *position.mean_gap, options)
+      : position.pressure ? press_to_pressure(surface, contact_modulus, *position.pressure, options)
+                          : press_to_indentation(surface, contact_modulus, indentation, options);
+  if (!state.converged)
+    throw NotConverged("oscillate: the contact at the mean position did not converge");
+  return state;
+}
+
+/// NaN where the reference is not larger than what the solvers leave of a loss.
+double ratio(const OscillationOutcome& outcome, double value, double reference) {
+  return std::abs(reference) > outcome.uncertain_loss() ? value / reference : unknown;
+}
+
+}  // namespace
+
+const std::vector<std::string>& oscillating_shapes() {
+  static const std::vector<std::string> names{"cylinder",  "parabola", "pyramids",
+                                              "sinusoids", "cone",     "elliptic-paraboloid"};
+  return names;
+}
+
+OscillatingBody oscillating_shape(const std::string& shape, const Grid2D& grid) {
+  const double size = grid.lx;
+  const PlanePoint center = off_grid_center(grid);
+  const PlanePoint shift{0.31 * grid.dx(), 0.17 * grid.dy()};
+  // u_z = 0.3 of the indentation.
+  if (shape == "cylinder")
+    return {flat_punch_surface(grid, 0.3 * size, size, center), Boundary::free, 0.02 * size,
+            0.006 * size};
+  if (shape == "parabola")
+    return {paraboloid_surface(grid, 4 * size, center), Boundary::free, 0.02 * size, 0.006 * size};
+  if (shape == "cone")
+    return {cone_surface(grid, 0.05, center), Boundary::free, 0.02 * size, 0.006 * size};
+  if (shape == "elliptic-paraboloid")
+    return {elliptic_paraboloid_surface(grid, 6 * size, 2 * size, center), Boundary::free,
+            0.02 * size, 0.006 * size};
+  if (shape == "pyramids")
+    return {pyramids_surface(grid, 4, 4, 0.1, shift), Boundary::free, 0.006 * size, 0.0018 * size};
+  require(shape == "sinusoids", "shape", shape,
+          fmt::format("is none of {}", fmt::join(oscillating_shapes(), ", ")));
+  return {sinusoid_surface(grid, 0.01 * size, 1, 4, shift), Boundary::periodic, 0.0045 * size,
+          0.00135 * size};
+}
+
+double OscillationOutcome::work_per_cycle() const {
+  return cycle ? cycle->work_per_cycle : levels.work_per_cycle;
+}
+
+double OscillationOutcome::error_estimate() const {
+  if (!cycle) return levels.error_estimate;
+  return cycle->step_error + (choice ? choice->cell_error : 0);
+}
+
+std::vector<std::string> OscillationOutcome::error_contains() const {
+  std::vector<std::string> parts{cycle ? "steps" : "levels"};
+  if (choice && choice->cell_error > 0) parts.emplace_back("cells");
+  return parts;
+}
+
+double OscillationOutcome::elastic_energy() const {
+  double stiffness = 0;
+  for (const ForceSample& sample : levels.curve.samples)
+    if (std::isfinite(sample.tangential_stiffness))
+      stiffness = std::max(stiffness, sample.tangential_stiffness);
+  const double scale = tangential_scale(run.motion);
+  return stiffness * scale * scale / 2;
+}
+
+double OscillationOutcome::uncertain_loss() const { return 1e-7 * elastic_energy(); }
+
+std::optional<double> OscillationOutcome::over(double reference) const {
+  // The quadrature of a contact whose cells do not change sums what its solvers leave.
+  if (std::abs(reference) <= std::max(levels.error_estimate, uncertain_loss())) return {};
+  return work_per_cycle() / reference;
+}
+
+bool OscillationOutcome::bends_down() const {
+  // A flat punch has F'' = 0 but for the noise of its force.
+  return levels.small_amplitude_work < -1e-3 * elastic_energy();
+}
+
+bool OscillationOutcome::converged() const {
+  const auto done = [](const std::optional<CycleResult>& one) { return !one || one->converged; };
+  return levels.converged && done(cycle) && done(frictional) && done(coupled);
+}
+
+bool OscillationOutcome::interrupted() const {
+  const auto stopped = [](const std::optional<CycleResult>& one) {
+    return one && one->interrupted;
+  };
+  return stopped(cycle) || stopped(frictional) || stopped(coupled);
+}
+
+bool OscillationOutcome::routes_agree() const {
+  return std::abs(levels.work_per_cycle - cycle->work_per_cycle) <=
+         levels.error_estimate + cycle->step_error + uncertain_loss();
+}
+
+double OscillationOutcome::balance(const CycleResult& one) const {
+  return std::abs(one.work_per_cycle) > uncertain_loss() ? one.balance() : unknown;
+}
+
+double mean_indentation(const OscillatingBody& body, double contact_modulus,
+                        const OscillationPosition& position) {
+  if (position.indentation) return *position.indentation;
+  if (!position.mean_gap && !position.pressure) return body.indentation;
+  return contact_at(position, body, contact_modulus, 0, {.boundary = body.boundary}).indentation;
+}
+
+void load_plastically(OscillationCase& contact, const OscillationPosition& position,
+                      double hardness, const Progress& on_progress) {
+  const double modulus = contact.material.contact_modulus;
+  const NormalContactOptions elastic{.boundary = contact.body.boundary, .on_progress = on_progress};
+  NormalContactOptions plastic = elastic;
+  plastic.hardness = hardness;
+  const double pressure =
+      position.pressure
+          ? *position.pressure
+          : contact_at(position, contact.body, modulus, contact.indentation, plastic).mean_pressure;
+  OscillatingBody residual = contact.body;
+  contact.first_loading = load_first(
+      residual.surface, hardness, modulus, pressure, elastic,
+      std::visit([](const auto& motion) { return motion.normal_amplitude; }, contact.motion));
+  if (!contact.first_loading->yielded()) return;
+  contact.body = std::move(residual);
+  contact.indentation =
+      contact_at({.pressure = pressure}, contact.body, modulus, 0, elastic).indentation;
+}
+
+OscillationOutcome oscillation_by_levels(OscillationCase run, const OscillationRoutes& routes) {
+  OscillationOutcome outcome;
+  outcome.run = std::move(run);
+  OscillationCase& contact = outcome.run;
+  const Grid2D& grid = contact.body.surface.grid;
+  if (routes.relative_error) {
+    AdaptiveQuadratureOptions options;
+    options.relative_error = *routes.relative_error;
+    options.most_points = routes.most_points;
+    options.quadrature = routes.levels;
+    const auto choose = [&](const auto& levels) {
+      return adaptive_level_quadrature(levels, grid, contact.material, contact.motion,
+                                       contact.indentation, options);
+    };
+    if (routes.shape.empty()) {
+      outcome.choice = choose(levels_of(contact.body, contact.material));
+    } else {
+      const auto shape_on = [&, boundary = contact.body.boundary](const Grid2D& finer) {
+        OscillatingBody body = oscillating_shape(routes.shape, finer);
+        body.boundary = boundary;
+        return body;
+      };
+      outcome.choice = choose(LevelsOnGrid(
+          [&](const Grid2D& finer) { return levels_of(shape_on(finer), contact.material); }));
+      contact.body = shape_on(outcome.choice->grid);
+    }
+    outcome.levels = outcome.choice->quadrature;
+  } else {
+    outcome.levels =
+        level_quadrature(levels_of(contact.body, contact.material), grid, contact.material,
+                         contact.motion, contact.indentation, routes.levels);
+  }
+  if (outcome.levels.interrupted) throw Interrupted("interrupted; nothing was written");
+  return outcome;
+}
+
+void simulate_cycles(OscillationOutcome& outcome, const OscillationRoutes& routes,
+                     const CycleRunner& run) {
+  const OscillationCase& contact = outcome.run;
+  const Surface& surface = contact.body.surface;
+  const Material& material = contact.material;
+  const NormalContactOptions normal{.boundary = contact.body.boundary};
+  outcome.friction_coefficient = routes.cycle.friction_coefficient;
+  if (routes.coupled)
+    outcome.dundurs = dundurs_constant(material.contact_modulus, *routes.cycle.coupling_constant);
+  const Trajectory trajectory = trajectory_of(contact.motion, contact.indentation);
+  outcome.cycle = run(routes.cycle, [&](const CycleOptions& options) {
+    return simulate_cycle(levels_of(contact.body, material), surface.grid, material, trajectory,
+                          options);
+  });
+  if (!routes.frictional || outcome.interrupted()) return;
+  const PressureLevels levels =
+      boundary_element_pressures(surface, material.contact_modulus, normal);
+  outcome.frictional = run(routes.cycle, [&](const CycleOptions& options) {
+    return simulate_frictional_cycle(levels, surface.grid, material, trajectory, options);
+  });
+  if (!routes.coupled || outcome.interrupted()) return;
+  outcome.coupled = run(routes.cycle, [&](const CycleOptions& options) {
+    return simulate_coupled_cycle(surface, material, trajectory, options, normal);
+  });
+}
+
+OscillationLoss loss_of(const OscillationOutcome& outcome) {
+  const LevelQuadratureResult& levels = outcome.levels;
+  OscillationLoss loss{
+      .work_per_cycle = outcome.work_per_cycle(),
+      .error_estimate = outcome.error_estimate(),
+      .work_by_levels = levels.work_per_cycle,
+      .work_by_levels_error = levels.error_estimate,
+      .work_by_whole_cells = levels.work_by_levels,
+      .work_by_force = levels.work_by_force,
+      .ratio_finite = outcome.over(levels.work_by_force),
+      .work_over_elastic_energy = outcome.work_per_cycle() / outcome.elastic_energy(),
+      .indentation = outcome.run.indentation,
+      .force = levels.force,
+      // The ends of the sweep are levels without a tangential solve, but for the last of a drag.
+      .levels = levels.curve.samples.size() - 2};
+  if (!outcome.bends_down()) {
+    loss.small_amplitude_work = levels.small_amplitude_work;
+    loss.ratio = outcome.over(levels.small_amplitude_work);
+    loss.force_curvature = levels.force_curvature;
+  }
+  return loss;
+}
+
+ExponentialLoss exponential_loss(const OscillationOutcome& outcome, double decay_length) {
+  require_positive(decay_length, "decay_length");
+  const double modulus_ratio = outcome.run.material.modulus_ratio(), force = outcome.levels.force;
+  const double small = std::visit(
+      [&](const auto& motion) {
+        return closed_form::work_per_cycle(modulus_ratio, force / (decay_length * decay_length),
+                                           motion);
+      },
+      outcome.run.motion);
+  const ExponentialLaw law(force, decay_length, modulus_ratio);
+  const double finite = relaxation_damping(law, AtForce{force}, outcome.run.motion).work_per_cycle;
+  return {.decay_length = decay_length,
+          .predicted_exponential = small,
+          .ratio_exponential = outcome.over(small),
+          .predicted_exponential_finite = finite,
+          .ratio_exponential_finite = outcome.over(finite)};
+}
+
+SlipEffect slip_effect(const OscillationOutcome& outcome) {
+  const CycleResult& frictional = *outcome.frictional;
+  SlipEffect effect{
+      .over_stick = ratio(outcome, frictional.work_per_cycle, outcome.work_per_cycle()),
+      .mean_tangential_force = unknown,
+      .mean_force = mean_over_period(frictional, &CycleSample::normal_force)};
+  if (std::holds_alternative<Drag>(outcome.run.motion))
+    effect.mean_tangential_force =
+        frictional.work_per_cycle / std::abs(frictional.samples.back().tangential);
+  return effect;
+}
+
+CouplingEffect coupling_effect(const OscillationOutcome& outcome) {
+  const CycleResult &coupled = *outcome.coupled, &frictional = *outcome.frictional;
+  return {.work_change = ratio(outcome, coupled.work_per_cycle - frictional.work_per_cycle,
+                               frictional.work_per_cycle),
+          .force_change = change(coupled, frictional, &CycleSample::normal_force),
+          .tangential_force_change = change(coupled, frictional, &CycleSample::tangential_force)};
+}
+
+Premises premises_of(const OscillationOutcome& outcome, ContactFacts facts) {
+  const OscillationCase& run = outcome.run;
+  const ForceCurve& curve = outcome.levels.curve;
+  const Grid2D& grid = run.body.surface.grid;
+  const double contact = curve.samples.back().contact_area_fraction * grid.area();
+  const bool spot = run.body.boundary == Boundary::free;
+  facts.contact_modulus = run.material.contact_modulus;
+  facts.mean_contact_pressure = curve.samples.back().force / contact;
+  facts.loaded_size = spot ? std::sqrt(contact / std::numbers::pi) : grid.lx;
+  facts.nominal_pressure = outcome.levels.force / (spot ? contact : grid.area());
+  if (run.first_loading && run.first_loading->yielded())
+    facts.first_load = run.first_loading->pressure * grid.area();
+  const auto touching = std::ranges::count_if(curve.samples, [](const ForceSample& sample) {
+    return sample.converged && sample.force > 0;
+  });
+  Premises premises;
+  if (touching >= 4)
+    premises = premises_of(TabulatedLaw(curve, run.material.modulus_ratio()), run.indentation,
+                           run.motion, facts);
+  // The coupling that was computed, not one of other contacts.
+  if (outcome.coupled && !std::holds_alternative<Drag>(run.motion)) {
+    Premise& coupling = premises.coupling;
+    coupling.value =
+        std::abs(outcome.coupled->work_per_cycle / outcome.frictional->work_per_cycle - 1);
+    coupling.verdict = std::isnan(coupling.value)                   ? Verdict::unknown
+                       : coupling.value > coupling.limit_20_percent ? Verdict::broken
+                       : coupling.value > coupling.limit_5_percent  ? Verdict::doubtful
+                                                                    : Verdict::holds;
+  }
+  return premises;
+}
+
+}  // namespace salebra
